@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isojam {
+
+enum class SolidKind { tetrahedron, cube, octahedron, dodecahedron, icosahedron };
+
+inline constexpr std::array all_solids{SolidKind::tetrahedron, SolidKind::cube, SolidKind::octahedron,
+                                       SolidKind::dodecahedron, SolidKind::icosahedron};
+
+/// A face: outward unit normal n, n·y = offset on its plane, vertices counter-clockwise seen from outside.
+struct Face {
+  Eigen::Vector3d normal;
+  double offset = 0;
+  std::vector<int> vertices;
+};
+
+/// An edge tail → head; `left` is the face that runs along it in this direction, `right` the one that runs back.
+struct Edge {
+  int tail = 0, head = 0;
+  int left = 0, right = 0;
+};
+
+/// An immutable convex polyhedron of unit volume and unit mass (V_p = 1, ρ = 1), centred on its centroid.
+/// Lengths in V_p^(1/3). At most 32 vertices, faces and edges each, so that sets of them are 32-bit masks.
+class ConvexSolid {
+ public:
+  static constexpr int max_features = 32;
+
+  /// Hull of `vertices` (all of them extreme), moved and scaled to unit volume and centroid 0.
+  /// Throws std::invalid_argument if a vertex is not extreme or the limits are exceeded.
+  ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vertices);
+
+  const std::string& name() const { return name_; }
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
+  const std::vector<Face>& faces() const { return faces_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  double inradius() const { return inradius_; }          ///< least distance of a face from the centroid
+  double circumradius() const { return circumradius_; }  ///< greatest distance of a vertex from the centroid
+  double diameter() const { return diameter_; }          ///< greatest distance between two vertices
+  /// R = sqrt(I/m), I the mean principal moment of inertia (they are equal for the Platonic solids).
+  double gyration_radius() const { return gyration_radius_; }
+
+ private:
+  std::string name_;
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Face> faces_;
+  std::vector<Edge> edges_;
+  double inradius_ = 0, circumradius_ = 0, diameter_ = 0, gyration_radius_ = 0;
+};
+
+/// The shared immutable instance of a Platonic solid.
+const ConvexSolid& platonic(SolidKind kind);
+
+std::string_view to_string(SolidKind kind);
+std::optional<SolidKind> solid_kind(std::string_view name);
+
+}  // namespace isojam

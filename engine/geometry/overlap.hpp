@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/pose.hpp"
+
+namespace isojam {
+
+/// Which way an overlap was found. `clip` is the slow, exact-minded path for degenerate pairs.
+enum class OverlapPath : std::uint8_t { separated, loop, clip };
+
+/// Intersection of solids A and B. Vectors in A's body frame, taken about A's centre.
+///   volume  V
+///   area    S_A = ½ Σ_C v×w = ∂V/∂x_A                  (force on A: F_A = −(V/2) S_A)
+///   moment  M_A = ∫ r×n dS over A's part = ∂V/∂θ_A       (torque on A: T_A = −(V/2) M_A)
+/// B: S_B = −S_A about its own centre M_B = −M_A + r×S_A, r = x_B − x_A.
+/// Bit i of faces_a: face i of A bounds the intersection. Bit e of edges_a: edge e of A has a segment inside B.
+struct Overlap {
+  double volume = 0;
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  std::uint32_t faces_a = 0, faces_b = 0;
+  std::uint32_t edges_a = 0, edges_b = 0;
+  OverlapPath path = OverlapPath::separated;
+
+  bool touching() const { return volume > 0; }
+};
+
+/// Intersection of A with B by the closed loop where their surfaces cross (PHYSICS: S, M, V formulae in the
+/// README's references). If the loop does not close, or a vertex lies on a face plane to within rounding, the
+/// answer comes from clipped_overlap. Never silently wrong; never throws.
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+
+/// The slow path and oracle: A cut by the face planes of B one after another in quadruple precision.
+Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+
+}  // namespace isojam

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/pose.hpp"
+
+namespace isojam {
+
+/// A candidate separating axis of two solids, remembered by the features that make it, so that it turns with them.
+struct SeparatingAxis {
+  enum class Kind : std::uint8_t { none, face_a, face_b, edge_edge };
+  Kind kind = Kind::none;
+  std::uint8_t a = 0;  ///< face of A, or edge of A
+  std::uint8_t b = 0;  ///< face of B, or edge of B
+};
+
+/// Gap between A and B along the axis (negative: they overlap along it; −infinity for Kind::none).
+double gap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, const SeparatingAxis& axis);
+
+/// The axis with the largest gap among all face normals and edge-edge products (the separating axis theorem:
+/// two convex polyhedra are disjoint exactly if this gap is positive).
+SeparatingAxis best_axis(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+
+/// A gap larger than this proves separation in spite of rounding: a multiple of ulp(|pose| + circumradii).
+double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+
+}  // namespace isojam

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/packing/pair_loop.hpp"
+
+namespace isojam {
+
+/// E = Σ_pairs V²/4 and what follows from the same overlaps (energies in Y·V_p, lengths in V_p^(1/3)).
+struct Equilibrium {
+  double energy = 0;
+  Eigen::VectorXd gradient;  ///< 6N: per particle (−F, −T/R), lab frame; R the radius of gyration
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
+  double pressure = 0;       ///< −dE/dV_cell = −tr(stress)/3
+  double mean_force = 0;     ///< mean of |F| over touching pairs; 0 without contacts
+  /// max over particles and both kinds of |F_i|, |T_i|/R, divided by mean_force. Infinity if mean_force is 0 and
+  /// some force is not; 0 if all are.
+  double residual = 0;
+  long contacts = 0;
+};
+
+/// A touching pair. `overlap` as in Overlap: area and moment in A's body frame.
+struct Contact {
+  NeighbourPair pair;
+  Eigen::Vector3d displacement;  ///< x_b − x_a, the touching image, lab frame
+  RelativePose pose;             ///< B in A's body frame
+  Overlap overlap;
+};
+
+/// Evaluates packings of one solid. Holds caches only (neighbour list with a skin, separating axes): the same
+/// packing gives the same bits whatever was evaluated before and whatever the number of threads.
+class PackingEnergy {
+ public:
+  /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
+  Equilibrium evaluate(const Packing& packing);
+  /// Touching pairs in order of (a, b, shift).
+  std::vector<Contact> contacts(const Packing& packing);
+
+  long evaluations() const { return evaluations_; }
+  const PairCounts& counts() const { return totals_; }  ///< summed over all evaluations
+
+ private:
+  void refresh(const Packing& packing);
+  void overlap_all(const Packing& packing);
+
+  std::vector<NeighbourPair> pairs_;
+  std::vector<SeparatingAxis> axes_;
+  std::vector<Overlap> overlaps_;
+  std::vector<Eigen::Vector3d> list_positions_;
+  double list_side_ = 0, skin_ = 0;
+  const ConvexSolid* list_solid_ = nullptr;
+  long evaluations_ = 0;
+  PairCounts totals_;
+};
+
+}  // namespace isojam

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/packing/packing.hpp"
+
+namespace isojam {
+
+/// Particles a < b whose centres may be within reach; x_b − x_a + L·shift is their displacement.
+/// a == b never occurs in a legal cell; the same (a, b) may occur with several shifts.
+struct NeighbourPair {
+  int a = 0, b = 0;
+  Eigen::Vector3i shift = Eigen::Vector3i::Zero();
+};
+
+Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair);
+
+/// All pairs and images with centre distance < reach, in order of (a, b, shift). O(N) by cells of side ≥ reach,
+/// or brute force where the cell has fewer than 3 of them a side.
+std::vector<NeighbourPair> find_neighbours(const Packing& packing, double reach);
+
+/// The same list from all N(N−1)/2 pairs: the oracle.
+std::vector<NeighbourPair> find_neighbours_brute_force(const Packing& packing, double reach);
+
+}  // namespace isojam

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+
+#include "engine/geometry/overlap.hpp"
+#include "engine/geometry/separating_axis.hpp"
+#include "engine/packing/neighbours.hpp"
+
+namespace isojam {
+
+/// What the broad and narrow phases did in one evaluation.
+struct PairCounts {
+  long listed = 0;       ///< pairs in the neighbour list
+  long out_of_reach = 0; ///< circumspheres apart
+  long by_axis = 0;      ///< rejected by the axis cached from an earlier evaluation
+  long overlapped = 0;   ///< handed to the overlap kernel
+  long clipped = 0;      ///< of these, answered by the slow path
+  long touching = 0;     ///< V > 0
+};
+
+/// Overlap of every listed pair into its own slot (area and moment in A's body frame), parallel over pairs on
+/// oneTBB where there are enough of them. Slots of pairs that do not touch are left with volume 0.
+/// axes[k] is read and updated: a cache that changes the cost and never the result.
+/// All spans have the size of `pairs`.
+PairCounts overlap_pairs(const Packing& packing, std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes,
+                         std::span<Overlap> out);
+
+}  // namespace isojam

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <random>
+
+namespace isojam {
+
+/// A reproducible stream of random bits, a function of its key alone: (manifest seed, sweep point, replicate,
+/// purpose). The 64-bit Mersenne twister and std::seed_seq are fixed bit by bit by the C++ standard; the
+/// distributions of the standard library are not, so the mapping to uniforms is our own.
+class RandomStream {
+ public:
+  explicit RandomStream(std::initializer_list<std::uint64_t> key);
+
+  std::uint64_t bits() { return engine_(); }
+  /// Uniform in [0, 1), all 2^53 multiples of 2^-53 equally likely.
+  double uniform();
+  /// Standard normal (Box–Muller).
+  double normal();
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// 64-bit FNV-1a of a text, to make a key out of a canonical description.
+std::uint64_t hash_text(const char* begin, const char* end);
+
+}  // namespace isojam

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <stop_token>
+#include <string_view>
+
+#include "engine/packing/energy.hpp"
+#include "engine/packing/packing.hpp"
+#include "engine/solve/minimise/summary.hpp"
+
+namespace isojam {
+
+enum class Method { conjugate_gradient, lbfgs };
+std::string_view to_string(Method method);
+
+struct MinimiseOptions {
+  Method method = Method::lbfgs;
+  /// Stop when forces balance to this fraction of the mean contact force.
+  double residual = 1e-6;
+  /// Stop when an iteration changes the energy by less than this fraction of it; 0 switches the rule off. The
+  /// paper uses 1e-12 and nothing else; it is not a sign of equilibrium near jamming.
+  double energy_change = 0;
+  /// Energy per particle (Y·V_p) below which a state that is still losing energy counts as unjammed. A state with
+  /// balanced forces is never called unjammed, however low its energy.
+  double unjammed_energy = 1e-20;
+  long max_evaluations = 20000;
+  int history = 20;  ///< pairs that L-BFGS keeps
+};
+
+/// Moves `packing` to a local minimum of the energy at fixed cell. On return it is the best state seen.
+MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options,
+                         std::stop_token stop = {});
+
+}  // namespace isojam

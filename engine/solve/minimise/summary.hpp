@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string_view>
+
+namespace isojam {
+
+enum class StopReason {
+  not_called,           ///< nothing was minimised
+  residual_reached,     ///< forces balance to the residual asked for
+  energy_change,        ///< relative energy change below the tolerance asked for (the paper's rule); not an equilibrium by itself
+  unjammed,             ///< energy and forces fell to the floor of the unjammed verdict
+  precision_floor,      ///< no lower residual can be resolved in double precision
+  budget,               ///< evaluations spent
+  line_search_failed,   ///< no lower energy found along any direction tried
+  not_finite,           ///< energy or gradient was not finite
+  interrupted           ///< stop requested from outside
+};
+
+std::string_view to_string(StopReason reason);
+
+/// Outcome of one minimisation; the default says that none was run.
+struct MinimiseSummary {
+  StopReason reason = StopReason::not_called;
+  double energy = 0;
+  double residual = 0;  ///< as Equilibrium::residual
+  long evaluations = 0;
+  long iterations = 0;
+
+  bool converged() const { return reason == StopReason::residual_reached; }
+};
+
+}  // namespace isojam
