@@ -1,6 +1,6 @@
 // Facts proved:
 //   1. the fit is the minimum: its error is the integral computed another way, no change of a coefficient and no other
-//      α (each with its own independent least-squares solution) has less;
+//      α (each with its own independent least-squares solution) has less, and α is an angle or stationary;
 //   2. angles drawn as a jump and a cubic give back that cubic, the closer the more angles;
 //   3. a fraction f of face-face angles beside uniform ones is recovered within the standard error that the fit gives,
 //      and the angles below the cut-off are the fraction a_0 to within half an angle;
@@ -80,11 +80,12 @@ class Oracle {
     constant_ += height * height * (to - from);
     from = std::max(from, alpha);
     if (to <= from) return;
-    const auto power = [&](int n) { return (std::pow(to - alpha, n + 1) - std::pow(from - alpha, n + 1)) / (n + 1); };
+    long double power[7], high = to - alpha, low = from - alpha;  // ∫ (θ − α)^n
+    for (int n = 0; n < 7; ++n, high *= to - alpha, low *= from - alpha) power[n] = (high - low) / (n + 1);
     for (int i = 0; i < 4; ++i) {
       const int sign_i = i == 0 ? 1 : -1;
-      linear_[i] += sign_i * height * power(i);
-      for (int j = 0; j < 4; ++j) quadratic_(i, j) += sign_i * (j == 0 ? 1 : -1) * power(i + j);
+      linear_[i] += sign_i * height * power[i];
+      for (int j = 0; j < 4; ++j) quadratic_(i, j) += sign_i * (j == 0 ? 1 : -1) * power[i + j];
     }
   }
 
@@ -132,6 +133,26 @@ TEST(CdfFit, NoOtherAlphaIsBetter) {
           << "α " << alpha << " beats " << fit.alpha << ", " << angles.size() << " angles";
     }
   }
+}
+
+TEST(CdfFit, AlphaBetweenAnglesIsStationary) {
+  RandomStream random{22};
+  int between = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const double bend = std::exp(3 * random.uniform() - 1.5);
+    std::vector<double> angles(static_cast<int>(12 * random.uniform()), 1.0);
+    const int inside = 5 + static_cast<int>(12 * random.uniform());
+    for (int k = 0; k < inside; ++k) angles.push_back(upper * std::pow(random.uniform(), bend));
+    const CdfFit fit = fit_cdf(angles, upper);
+    if (fit.alpha == 0 || std::find(angles.begin(), angles.end(), fit.alpha) != angles.end()) continue;
+    ++between;
+    const auto below = std::count_if(angles.begin(), angles.end(), [&](double angle) { return angle < fit.alpha; });
+    const double c = static_cast<double>(below) / static_cast<double>(angles.size());
+    // dE/dα = a_0 (2c − a_0)
+    const double distance = std::min(std::abs(fit.a[0]), std::abs(2 * c - fit.a[0]));
+    EXPECT_LT(distance, 1e-9) << "a_0 " << fit.a[0] << ", c " << c << ", " << inside << " angles";
+  }
+  EXPECT_GT(between, 50);
 }
 
 TEST(CdfFit, CubicBehindTheAnglesComesBack) {
@@ -287,9 +308,9 @@ TEST(CdfFit, EqualAnglesAtTheJumpFallBelowTheCutoff) {
   }
 }
 
-TEST(CdfFit, HeightOfTheJumpStaysBelowTheCdf) {
+TEST(CdfFit, HeightOfTheJumpIsBetweenOneAngleAndTheCdf) {
   RandomStream random{21};
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < 10000; ++trial) {
     // Angles crowd at the end of the window or at its start, or both.
     const double crowding = 4 * random.uniform(), share = random.uniform();
     const int inside = 5 + static_cast<int>(20 * random.uniform());
@@ -304,6 +325,9 @@ TEST(CdfFit, HeightOfTheJumpStaysBelowTheCdf) {
     EXPECT_LE(fit.a[0], reached * (1 + 1e-12)) << "crowding " << crowding;
     EXPECT_LT(fit.alpha, upper);
     EXPECT_LE(fit.cutoff, upper);
+    if (fit.verdict != FitVerdict::fitted) continue;
+    EXPECT_GE(fit.a[0] * static_cast<double>(angles.size()), 1) << "less than one angle";
+    EXPECT_GE(fit.a[0], 2 * fit.a0_error);
   }
 }
 

@@ -4,7 +4,8 @@
 //      cut-offs never lower C (as in column 2 of Table III of Smith, Fisher and Alam 2011);
 //   3. contacts of all four topologies, put together at random and overlapped by the kernel, are recognised, for every
 //      Platonic solid, in whatever order they come;
-//   4. a fit that collapses or has too few angles leaves its class empty.
+//   4. both angles are fitted on [0, θ_c,min/2], each its own;
+//   5. a fit that collapses or has too few angles leaves its class empty.
 
 #include "engine/analysis/contacts.hpp"
 
@@ -166,6 +167,18 @@ TEST_P(ContactsOf, TopologiesAreRecognised) {
   EXPECT_EQ(analysis.numbers.Z, Z);
   EXPECT_NEAR(analysis.numbers.Z_ff, 0.1 * Z, ff_noise * Z);
   EXPECT_NEAR(analysis.numbers.C, 1.4 * Z, (2 * ff_noise + ef_noise) * Z);
+}
+
+TEST_P(ContactsOf, EachAngleIsFittedOnHalfOfItsOwnCriticalAngle) {
+  const std::vector<Alignment> all = alignments(solid, mixture(300));
+  std::vector<double> face_face, edge_face;
+  for (const Alignment& alignment : all) {
+    face_face.push_back(alignment.face_face);
+    edge_face.push_back(alignment.edge_face);
+  }
+  const ContactAnalysis analysis = analyse_contacts(solid, 50, all);
+  EXPECT_EQ(analysis.face_face.error, fit_cdf(face_face, critical.ff_min() / 2).error);
+  EXPECT_EQ(analysis.edge_face.error, fit_cdf(edge_face, critical.ef_min() / 2).error);
 }
 
 TEST_P(ContactsOf, OrderDoesNotMatter) {
