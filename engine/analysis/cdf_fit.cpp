@@ -176,14 +176,10 @@ double fit_error(const CdfFit& fit, const Window& window) {
 
 std::string_view to_string(FitVerdict verdict) {
   switch (verdict) {
-    case FitVerdict::not_called:
-      return "not_called";
-    case FitVerdict::fitted:
-      return "fitted";
-    case FitVerdict::collapsed:
-      return "collapsed";
-    case FitVerdict::too_few:
-      return "too_few";
+    case FitVerdict::not_called: return "not_called";
+    case FitVerdict::fitted: return "fitted";
+    case FitVerdict::collapsed: return "collapsed";
+    case FitVerdict::too_few: return "too_few";
   }
   throw std::invalid_argument("not a verdict of a fit");
 }
