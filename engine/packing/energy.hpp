@@ -8,7 +8,7 @@
 namespace isojam {
 
 /// E = Σ_pairs V²/4 and what follows from the same overlaps (energies in Y·V_p, lengths in V_p^(1/3)).
-struct Equilibrium {
+struct Evaluation {
   double energy = 0;
   Eigen::VectorXd gradient;  ///< 6N: per particle (−F, −T/R), lab frame; R the radius of gyration
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
@@ -17,8 +17,25 @@ struct Equilibrium {
   /// max over particles and both kinds of |F_i|, |T_i|/R, divided by mean_force. Infinity if mean_force is 0 and
   /// some force is not; 0 if all are.
   double residual = 0;
+  /// The residual that rounding of the coordinates alone causes: λ_max·ulp(L)/mean_force, with λ_max bounded by the
+  /// stiffest particle. No minimiser can be trusted below it in double precision.
+  double residual_floor = 0;
   long contacts = 0;
 };
+
+/// Symmetric matrix of 6×6 blocks, one per particle and one per pair of particles that touch.
+struct BlockMatrix {
+  struct Block {
+    int row = 0, column = 0;  ///< row < column; the block below the diagonal is its transpose
+    Matrix6d value;
+  };
+  std::vector<Matrix6d> diagonal;
+  std::vector<Block> off_diagonal;  ///< in order of (row, column), each at most once
+
+  int size() const { return static_cast<int>(diagonal.size()); }  ///< in blocks
+};
+
+Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x);
 
 /// A touching pair. `overlap` as in Overlap: area and moment in A's body frame.
 struct Contact {
@@ -33,7 +50,10 @@ struct Contact {
 class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
-  Equilibrium evaluate(const Packing& packing);
+  Evaluation evaluate(const Packing& packing);
+  /// ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient. Analytic; where two images of a particle touch, their
+  /// blocks are summed.
+  BlockMatrix hessian(const Packing& packing);
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
 
@@ -47,6 +67,7 @@ class PackingEnergy {
   std::vector<NeighbourPair> pairs_;
   std::vector<SeparatingAxis> axes_;
   std::vector<Overlap> overlaps_;
+  std::vector<PairHessian> hessians_;
   std::vector<Eigen::Vector3d> list_positions_;
   double list_side_ = 0, skin_ = 0;
   const ConvexSolid* list_solid_ = nullptr;

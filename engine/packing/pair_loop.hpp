@@ -16,6 +16,8 @@ struct PairCounts {
   long overlapped = 0;   ///< handed to the overlap kernel
   long clipped = 0;      ///< of these, answered by the slow path
   long touching = 0;     ///< V > 0
+
+  PairCounts& operator+=(const PairCounts& term);
 };
 
 /// Overlap of every listed pair into its own slot (area and moment in A's body frame), parallel over pairs on
@@ -24,5 +26,15 @@ struct PairCounts {
 /// All spans have the size of `pairs`.
 PairCounts overlap_pairs(const Packing& packing, std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes,
                          std::span<Overlap> out);
+
+/// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
+/// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
+struct PairHessian {
+  Matrix6d aa, ab, bb;
+};
+
+/// Of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left them.
+void pair_hessians(const Packing& packing, std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps,
+                   std::span<PairHessian> out);
 
 }  // namespace isojam
