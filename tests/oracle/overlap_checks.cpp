@@ -31,15 +31,15 @@ OverlapErrors errors(const Overlap& measured, const ExactOverlap& exact, SolidKi
 OverlapTolerance tolerance(PairClass pair_class, SolidKind a, SolidKind b) {
   const double floor = plane_rounding(a, b) * std::min(surface(a), surface(b));
   switch (pair_class) {
-    case PairClass::random_contact: return {5e-12, 0, 1e-10};
+    case PairClass::random_contact: return {5e-12, 0, 1e-10, false};
     case PairClass::near_parallel_faces:
     case PairClass::edge_in_face:
     case PairClass::parallel_edges:
-    case PairClass::vertex_vertex: return {1e-10, 0, 1e-10};
+    case PairClass::vertex_vertex: return {1e-10, 0, 1e-10, false};
     case PairClass::same_orientation:
     case PairClass::coplanar_faces:
     case PairClass::coincident:
-    case PairClass::near_coincident: return {1e-6, floor, 1e-10};
+    case PairClass::near_coincident: return {1e-6, floor, 1e-10, true};
   }
   return {};
 }
@@ -51,10 +51,15 @@ double gradient_noise(const ExactOverlap& exact, SolidKind a) {
   return lever * exact.contested_area / static_cast<double>(exact.area.norm());
 }
 
+double gradient_limit(const ExactOverlap& exact, SolidKind a, const OverlapTolerance& tolerance) {
+  const bool relaxed = tolerance.contested || !exact.single_valued;
+  return relaxed ? std::max(tolerance.gradient, gradient_noise(exact, a)) : tolerance.gradient;
+}
+
 std::string disagreement(const Overlap& measured, const ExactOverlap& exact, SolidKind a,
                          const OverlapTolerance& tolerance) {
   const OverlapErrors error = errors(measured, exact, a);
-  const double gradient = std::max(tolerance.gradient, gradient_noise(exact, a));
+  const double gradient = gradient_limit(exact, a, tolerance);
   std::ostringstream wrong;
   wrong << std::setprecision(17);
   // Written so that a NaN is a disagreement.

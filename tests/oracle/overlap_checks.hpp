@@ -23,6 +23,8 @@ struct OverlapTolerance {
   /// Absolute: what a shift by plane_rounding() can add to V, hence the limit where V itself is that small.
   double volume_floor = 0;
   double gradient = 0;  ///< for area and moment, where they are single-valued
+  /// Whether faces may nearly coincide, so that rounding of the pose limits S and M: they get gradient_noise() then.
+  bool contested = false;
 };
 
 OverlapTolerance tolerance(PairClass pair_class, SolidKind a, SolidKind b);
@@ -31,6 +33,9 @@ OverlapTolerance tolerance(PairClass pair_class, SolidKind a, SolidKind b);
 /// longest lever besides. Where this exceeds the tolerance, a double does not determine the gradient to it. Infinite
 /// where the gradient is not single-valued.
 double gradient_noise(const ExactOverlap& exact, SolidKind a);
+
+/// The limit on S and M that a pair is held to: the tolerance, or gradient_noise() where that is allowed and larger.
+double gradient_limit(const ExactOverlap& exact, SolidKind a, const OverlapTolerance& tolerance);
 
 /// What is wrong with `measured`, in words with the figures; empty if it agrees with the oracle.
 std::string disagreement(const Overlap& measured, const ExactOverlap& exact, SolidKind a,
