@@ -28,20 +28,32 @@ struct Edge {
   int left = 0, right = 0;
 };
 
+/// The same solid as flat arrays for the kernels, padded with copies of the first entry to a multiple of 4.
+struct SolidArrays {
+  static constexpr int capacity = 32;
+  int vertices = 0, faces = 0, edges = 0;
+  alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
+  alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
+  Edge edge[capacity];
+};
+
 /// An immutable convex polyhedron of unit volume and unit mass (V_p = 1, ρ = 1), centred on its centroid.
 /// Lengths in V_p^(1/3). At most 32 vertices, faces and edges each, so that sets of them are 32-bit masks.
 class ConvexSolid {
  public:
-  static constexpr int max_features = 32;
+  static constexpr int max_features = SolidArrays::capacity;
 
   /// Hull of `vertices` (all of them extreme), moved and scaled to unit volume and centroid 0.
   /// Throws std::invalid_argument if a vertex is not extreme or the limits are exceeded.
   ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vertices);
+  /// The same from vertices in extended precision, so that every constant is correct to the last bit or two.
+  ConvexSolid(std::string name, std::span<const Eigen::Matrix<long double, 3, 1>> vertices);
 
   const std::string& name() const { return name_; }
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<Edge>& edges() const { return edges_; }
+  const SolidArrays& arrays() const { return arrays_; }
   double inradius() const { return inradius_; }          ///< least distance of a face from the centroid
   double circumradius() const { return circumradius_; }  ///< greatest distance of a vertex from the centroid
   double diameter() const { return diameter_; }          ///< greatest distance between two vertices
@@ -53,6 +65,7 @@ class ConvexSolid {
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
+  SolidArrays arrays_;
   double inradius_ = 0, circumradius_ = 0, diameter_ = 0, gyration_radius_ = 0;
 };
 

@@ -1,0 +1,42 @@
+#include "engine/random/stream.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace isojam {
+
+namespace {
+
+std::mt19937_64 seeded(std::initializer_list<std::uint64_t> key) {
+  // seed_seq mixes 32-bit words, so each key word is handed over in two halves.
+  std::vector<std::uint32_t> words;
+  for (const std::uint64_t word : key) {
+    words.push_back(static_cast<std::uint32_t>(word));
+    words.push_back(static_cast<std::uint32_t>(word >> 32));
+  }
+  std::seed_seq sequence(words.begin(), words.end());
+  return std::mt19937_64(sequence);
+}
+
+}  // namespace
+
+RandomStream::RandomStream(std::initializer_list<std::uint64_t> key) : engine_(seeded(key)) {}
+
+double RandomStream::uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+
+double RandomStream::normal() {
+  const double radius = std::sqrt(-2 * std::log1p(-uniform()));
+  return radius * std::cos(2 * std::numbers::pi * uniform());
+}
+
+std::uint64_t hash_text(const char* begin, const char* end) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char* c = begin; c != end; ++c) {
+    hash ^= static_cast<unsigned char>(*c);
+    hash *= 0x100000001b3U;
+  }
+  return hash;
+}
+
+}  // namespace isojam
