@@ -84,10 +84,11 @@ lint:
 lint-sources: $(STAMPS)
 
 # A stamp says that this source passed with these headers and this configuration.
-$(STAMPS): $(BUILD)/lint/%: % $(HEADERS) .clang-tidy
+$(STAMPS): $(BUILD)/lint/%: % $(HEADERS) $(wildcard .clang-tidy tests/.clang-tidy)
+	@mkdir -p $(@D)
 	@echo "clang-tidy $<"
-	@clang-tidy --quiet -p $(BUILD) $< 2>$(BUILD)/lint.log || { cat $(BUILD)/lint.log >&2; exit 1; }
-	@mkdir -p $(@D) && touch $@
+	@clang-tidy --quiet -p $(BUILD) $< >$@.log 2>&1 || { cat $@.log; exit 1; }
+	@touch $@
 
 format:
 	$(call install,clang-format)
