@@ -5,6 +5,7 @@
 
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/pose.hpp"
+#include "engine/geometry/separating_axis.hpp"
 
 namespace isojam {
 
@@ -28,10 +29,18 @@ struct Overlap {
   bool touching() const { return volume > 0; }
 };
 
-/// Intersection of A with B by the closed loop where their surfaces cross (PHYSICS: S, M, V formulae in the
-/// README's references). If the loop does not close, or a vertex lies on a face plane to within rounding, the
+/// Intersection of A with B by the closed loop where their surfaces cross. Notation: v → w is a segment of
+/// the loop C, on face i of A (outward unit normal n_i) and face j of B, oriented counter-clockwise seen from outside
+/// A; d_f is the distance of face plane f from the origin, which is put on a vertex of the intersection so that
+/// nothing large cancels:
+///   S_A = ½ Σ_C v×w,  M_A = −½ Σ_C (w−v)(|v|² + v·w + |w|²)/3,
+///   V = (1/6) Σ over all edges of the intersection of (d_L n_L − d_R n_R)·(v×w), L and R the faces left and right.
+/// If the loop does not close, or a vertex lies on a face plane to within rounding, the
 /// answer comes from clipped_overlap. Never silently wrong; never throws.
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+
+/// The same; if a face of A or B separates the solids, `axis` is set to it, for later use with gap().
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
 
 /// The slow path and oracle: A cut by the face planes of B one after another in quadruple precision.
 Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);

@@ -8,7 +8,7 @@
 namespace isojam {
 
 /// E = Σ_pairs V²/4 and what follows from the same overlaps (energies in Y·V_p, lengths in V_p^(1/3)).
-struct Equilibrium {
+struct Evaluation {
   double energy = 0;
   Eigen::VectorXd gradient;  ///< 6N: per particle (−F, −T/R), lab frame; R the radius of gyration
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
@@ -33,7 +33,7 @@ struct Contact {
 class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
-  Equilibrium evaluate(const Packing& packing);
+  Evaluation evaluate(const Packing& packing);
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
 

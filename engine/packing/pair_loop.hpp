@@ -16,6 +16,8 @@ struct PairCounts {
   long overlapped = 0;   ///< handed to the overlap kernel
   long clipped = 0;      ///< of these, answered by the slow path
   long touching = 0;     ///< V > 0
+
+  PairCounts& operator+=(const PairCounts& term);
 };
 
 /// Overlap of every listed pair into its own slot (area and moment in A's body frame), parallel over pairs on

@@ -22,7 +22,7 @@ std::string_view to_string(StopReason reason);
 struct MinimiseSummary {
   StopReason reason = StopReason::not_called;
   double energy = 0;
-  double residual = 0;  ///< as Equilibrium::residual
+  double residual = 0;  ///< as Evaluation::residual
   long evaluations = 0;
   long iterations = 0;
 

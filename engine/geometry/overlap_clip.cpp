@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "engine/geometry/overlap.hpp"
+
+// A is cut by the face planes of B one after another. In quadruple precision every pose that doubles can express is
+// resolved: a vertex is on a plane exactly, or off it by far more than the rounding of this arithmetic. What lies on a
+// plane counts as inside, so that a face of A that coincides with one of B is kept once, as A's.
+
+namespace isojam {
+
+namespace {
+
+__extension__ using Quad = __float128;
+using Quad3 = std::array<Quad, 3>;
+
+Quad3 operator-(const Quad3& p, const Quad3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+Quad dot(const Quad3& p, const Quad3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+Quad3 cross(const Quad3& p, const Quad3& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
+Quad3 widened(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+struct Plane {
+  Quad3 normal;
+  Quad offset;
+};
+
+/// A face polygon, counter-clockwise seen from outside, on face `face` of A or of B.
+struct CutFace {
+  std::vector<int> loop;
+  int face = 0;
+  bool of_a = true;
+};
+
+struct CutSolid {
+  std::vector<Quad3> points;
+  std::vector<CutFace> faces;
+};
+
+CutSolid whole(const ConvexSolid& a) {
+  CutSolid solid;
+  for (const Eigen::Vector3d& v : a.vertices()) solid.points.push_back(widened(v));
+  for (std::size_t f = 0; f < a.faces().size(); ++f)
+    solid.faces.push_back({a.faces()[f].vertices, static_cast<int>(f), true});
+  return solid;
+}
+
+/// Face plane of B in A's frame, through the face's first vertex.
+Plane placed_plane(const ConvexSolid& b, int face, const RelativePose& pose) {
+  const Face& f = b.faces()[static_cast<std::size_t>(face)];
+  const Quad3 n = widened(f.normal), v = widened(b.vertices()[static_cast<std::size_t>(f.vertices.front())]);
+  Plane plane{};
+  Quad3 point{};
+  for (int r = 0; r < 3; ++r) {
+    point[r] = pose.displacement[r];
+    for (int c = 0; c < 3; ++c) {
+      plane.normal[r] += Quad(pose.rotation(r, c)) * n[c];
+      point[r] += Quad(pose.rotation(r, c)) * v[c];
+    }
+  }
+  plane.offset = dot(plane.normal, point);
+  return plane;
+}
+
+class PlaneCut {
+ public:
+  PlaneCut(CutSolid& solid, const Plane& plane, Quad tolerance) : solid_(solid), tolerance_(tolerance) {
+    for (const Quad3& point : solid.points) distance_.push_back(dot(plane.normal, point) - plane.offset);
+  }
+
+  /// Cuts, and closes the hole by face `face` of B.
+  void apply(int face) {
+    std::vector<CutFace> kept;
+    for (CutFace& f : solid_.faces) {
+      trim(f);
+      if (f.loop.size() >= 3) kept.push_back(std::move(f));
+    }
+    if (CutFace cap{cap_loop(), face, false}; cap.loop.size() >= 3) kept.push_back(std::move(cap));
+    solid_.faces = std::move(kept);
+  }
+
+ private:
+  bool outside(int p) const { return distance_[static_cast<std::size_t>(p)] > tolerance_; }
+
+  /// The point where the edge from a kept vertex to a cut one meets the plane.
+  int crossing(int kept, int cut) {
+    const Quad d = distance_[static_cast<std::size_t>(kept)], e = distance_[static_cast<std::size_t>(cut)];
+    if (d >= -tolerance_) return kept;
+    const auto [slot, is_new] = crossings_.try_emplace({kept, cut}, static_cast<int>(solid_.points.size()));
+    if (is_new) {
+      const Quad3 p = solid_.points[static_cast<std::size_t>(kept)], q = solid_.points[static_cast<std::size_t>(cut)];
+      const Quad s = d / (d - e);
+      solid_.points.push_back({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1]), p[2] + s * (q[2] - p[2])});
+      distance_.push_back(0);
+    }
+    return slot->second;
+  }
+
+  void trim(CutFace& face) {
+    std::vector<int> loop;
+    int left = -1, entered = -1;
+    const auto append = [&loop](int p) {
+      if (loop.empty() || loop.back() != p) loop.push_back(p);
+    };
+    const std::size_t n = face.loop.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const int p = face.loop[k], q = face.loop[(k + 1) % n];
+      if (!outside(p)) append(p);
+      if (!outside(p) && outside(q)) append(left = crossing(p, q));
+      if (outside(p) && !outside(q)) append(entered = crossing(q, p));
+    }
+    while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+    // The cap runs along the same edge the other way.
+    if (left >= 0 && entered >= 0 && left != entered) cap_next_[entered] = left;
+    face.loop = std::move(loop);
+  }
+
+  std::vector<int> cap_loop() const {
+    std::vector<int> loop;
+    if (cap_next_.empty()) return loop;
+    const int start = cap_next_.begin()->first;
+    int p = start;
+    do {
+      loop.push_back(p);
+      const auto next = cap_next_.find(p);
+      if (next == cap_next_.end()) break;
+      p = next->second;
+    } while (p != start && loop.size() <= cap_next_.size());
+    assert(p == start && loop.size() == cap_next_.size());
+    return loop;
+  }
+
+  CutSolid& solid_;
+  Quad tolerance_;
+  std::vector<Quad> distance_;
+  std::map<std::pair<int, int>, int> crossings_;
+  std::map<int, int> cap_next_;
+};
+
+struct Integrals {
+  Quad six_volume = 0;
+  Quad3 area{};    ///< of the faces on B
+  Quad3 moment{};  ///< ∫ r×n dS over the faces on B
+};
+
+Integrals integrate(const CutSolid& solid) {
+  Integrals sum;
+  if (solid.faces.empty()) return sum;
+  const Quad3 origin = solid.points[static_cast<std::size_t>(solid.faces.front().loop.front())];
+  for (const CutFace& face : solid.faces) {
+    const Quad3 p = solid.points[static_cast<std::size_t>(face.loop[0])];
+    for (std::size_t k = 1; k + 1 < face.loop.size(); ++k) {
+      const Quad3 q = solid.points[static_cast<std::size_t>(face.loop[k])];
+      const Quad3 s = solid.points[static_cast<std::size_t>(face.loop[k + 1])];
+      const Quad3 twice_area = cross(q - p, s - p);
+      sum.six_volume += dot(p - origin, twice_area);
+      if (face.of_a) continue;
+      const Quad3 centroid{(p[0] + q[0] + s[0]) / 3, (p[1] + q[1] + s[1]) / 3, (p[2] + q[2] + s[2]) / 3};
+      const Quad3 turn = cross(centroid, twice_area);
+      for (int c = 0; c < 3; ++c) {
+        sum.area[c] += twice_area[c] / 2;
+        sum.moment[c] += turn[c] / 2;
+      }
+    }
+  }
+  return sum;
+}
+
+std::uint32_t edges_between(const ConvexSolid& solid, const std::vector<std::pair<int, int>>& face_pairs) {
+  std::uint32_t mask = 0;
+  for (std::size_t e = 0; e < solid.edges().size(); ++e) {
+    const std::pair<int, int> faces{solid.edges()[e].left, solid.edges()[e].right};
+    if (std::find(face_pairs.begin(), face_pairs.end(), faces) != face_pairs.end()) mask |= std::uint32_t{1} << e;
+  }
+  return mask;
+}
+
+void mark_features(const ConvexSolid& a, const ConvexSolid& b, const CutSolid& solid, Overlap& result) {
+  std::map<std::pair<int, int>, const CutFace*> face_of;
+  for (const CutFace& face : solid.faces) {
+    (face.of_a ? result.faces_a : result.faces_b) |= std::uint32_t{1} << face.face;
+    for (std::size_t k = 0; k < face.loop.size(); ++k)
+      face_of[{face.loop[k], face.loop[(k + 1) % face.loop.size()]}] = &face;
+  }
+  std::vector<std::pair<int, int>> pairs_a, pairs_b;
+  for (const auto& [ends, face] : face_of) {
+    const auto back = face_of.find({ends.second, ends.first});
+    if (back == face_of.end() || back->second->of_a != face->of_a) continue;
+    (face->of_a ? pairs_a : pairs_b).emplace_back(face->face, back->second->face);
+  }
+  result.edges_a = edges_between(a, pairs_a);
+  result.edges_b = edges_between(b, pairs_b);
+}
+
+}  // namespace
+
+Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  // Between the rounding of quadruple precision (1e-34 of a coordinate) and the least distance that the rounding of
+  // doubles leaves between planes that do not coincide.
+  const Quad tolerance = Quad(a.circumradius()) * Quad(1e-28);
+  CutSolid solid = whole(a);
+  for (int f = 0; f < b.arrays().faces && !solid.faces.empty(); ++f)
+    PlaneCut(solid, placed_plane(b, f, pose), tolerance).apply(f);
+
+  Overlap result;
+  const Integrals sum = integrate(solid);
+  if (!(sum.six_volume > 0)) return result;
+  result.path = OverlapPath::clip;
+  result.volume = static_cast<double>(sum.six_volume / 6);
+  for (int c = 0; c < 3; ++c) {
+    result.area[c] = -static_cast<double>(sum.area[c]);
+    result.moment[c] = -static_cast<double>(sum.moment[c]);
+  }
+  mark_features(a, b, solid, result);
+  return result;
+}
+
+}  // namespace isojam

@@ -1,0 +1,119 @@
+#include "engine/packing/energy.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+namespace isojam {
+
+namespace {
+
+/// Skin of the neighbour list in circumradii: wide enough that a minimisation rebuilds it seldom, narrow enough that
+/// few listed pairs are out of reach.
+constexpr double skin_in_circumradii = 0.15;
+
+auto canonical_key(const NeighbourPair& p) {
+  return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]);
+}
+
+/// Axes of the pairs that stay, by a merge of two lists in canonical order.
+std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_pairs,
+                                         const std::vector<SeparatingAxis>& old_axes,
+                                         const std::vector<NeighbourPair>& pairs) {
+  std::vector<SeparatingAxis> axes(pairs.size());
+  std::size_t old = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    while (old < old_pairs.size() && canonical_key(old_pairs[old]) < canonical_key(pairs[k])) ++old;
+    if (old < old_pairs.size() && canonical_key(old_pairs[old]) == canonical_key(pairs[k])) axes[k] = old_axes[old];
+  }
+  return axes;
+}
+
+/// Adds one contact, lab frame. ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
+void add_contact(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap, Evaluation& sum,
+                 double& force_sum) {
+  const Eigen::Vector3d r = displacement(packing, pair);
+  const Eigen::Quaterniond& q = packing.poses[static_cast<std::size_t>(pair.a)].orientation;
+  const double radius = packing.solid->gyration_radius();
+  const Eigen::Vector3d dx = overlap.volume / 2 * (q * overlap.area);
+  const Eigen::Vector3d dtheta = overlap.volume / 2 * (q * overlap.moment);
+  sum.energy += overlap.volume * overlap.volume / 4;
+  sum.gradient.segment<3>(6 * pair.a) += dx;
+  sum.gradient.segment<3>(6 * pair.a + 3) += dtheta / radius;
+  sum.gradient.segment<3>(6 * pair.b) -= dx;
+  sum.gradient.segment<3>(6 * pair.b + 3) += (r.cross(dx) - dtheta) / radius;
+  sum.stress -= dx * r.transpose();
+  force_sum += dx.norm();
+  ++sum.contacts;
+}
+
+double largest_imbalance(const Eigen::VectorXd& gradient) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < gradient.size(); k += 3) largest = std::max(largest, gradient.segment<3>(k).norm());
+  return largest;
+}
+
+}  // namespace
+
+void PackingEnergy::refresh(const Packing& packing) {
+  const std::size_t n = packing.poses.size();
+  bool valid = list_solid_ == packing.solid && list_side_ == packing.cell.side() && list_positions_.size() == n;
+  for (std::size_t i = 0; valid && i < n; ++i)
+    valid = (packing.poses[i].position - list_positions_[i]).squaredNorm() < skin_ * skin_ / 4;
+  if (valid) return;
+  if (!(packing.cell.side() > least_side(*packing.solid)))
+    throw std::invalid_argument("the cell is so small that a particle can touch two images of another");
+  const bool same_system = list_solid_ == packing.solid && list_positions_.size() == n;
+  skin_ = skin_in_circumradii * packing.solid->circumradius();
+  std::vector<NeighbourPair> pairs = find_neighbours(packing, 2 * packing.solid->circumradius() + skin_);
+  axes_ = same_system ? carried_over(pairs_, axes_, pairs) : std::vector<SeparatingAxis>(pairs.size());
+  pairs_ = std::move(pairs);
+  overlaps_.resize(pairs_.size());
+  list_positions_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) list_positions_[i] = packing.poses[i].position;
+  list_side_ = packing.cell.side();
+  list_solid_ = packing.solid;
+}
+
+void PackingEnergy::overlap_all(const Packing& packing) {
+  refresh(packing);
+  totals_ += overlap_pairs(packing, pairs_, axes_, overlaps_);
+  ++evaluations_;
+}
+
+Evaluation PackingEnergy::evaluate(const Packing& packing) {
+  overlap_all(packing);
+  Evaluation result;
+  result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
+  double force_sum = 0;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (overlaps_[k].touching()) add_contact(packing, pairs_[k], overlaps_[k], result, force_sum);
+  }
+  result.stress /= packing.cell.volume();
+  result.pressure = -result.stress.trace() / 3;
+  const double imbalance = largest_imbalance(result.gradient);
+  if (result.contacts > 0) result.mean_force = force_sum / static_cast<double>(result.contacts);
+  if (imbalance > 0)
+    result.residual = result.mean_force > 0 ? imbalance / result.mean_force : std::numeric_limits<double>::infinity();
+  return result;
+}
+
+std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
+  overlap_all(packing);
+  std::vector<Contact> result;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (!overlaps_[k].touching()) continue;
+    const NeighbourPair& pair = pairs_[k];
+    const Eigen::Vector3d d = displacement(packing, pair);
+    result.push_back({pair, d,
+                      relative_pose(packing.poses[static_cast<std::size_t>(pair.a)].orientation,
+                                    packing.poses[static_cast<std::size_t>(pair.b)].orientation, d),
+                      overlaps_[k]});
+  }
+  return result;
+}
+
+}  // namespace isojam

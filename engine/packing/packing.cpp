@@ -1,0 +1,57 @@
+#include "engine/packing/packing.hpp"
+
+#include <cassert>
+#include <stdexcept>
+
+namespace isojam {
+
+namespace {
+
+/// Four normals, normalised, are uniform on the unit quaternions and so on SO(3).
+Eigen::Quaterniond random_orientation(RandomStream& random) {
+  Eigen::Quaterniond q;
+  do {
+    q.w() = random.normal();
+    for (int c = 0; c < 3; ++c) q.vec()[c] = random.normal();
+  } while (q.squaredNorm() == 0);
+  return q.normalized();
+}
+
+}  // namespace
+
+Packing random_packing(const ConvexSolid& solid, int n, double density, RandomStream& random) {
+  if (n < 1) throw std::invalid_argument("a packing has at least one particle");
+  if (!(density > 0 && density <= 1)) throw std::invalid_argument("a density lies in (0, 1]");
+  Packing packing{&solid, PeriodicCell(side_at(n, density)), {}};
+  const double side = packing.cell.side();
+  if (side <= least_side(solid))
+    throw std::invalid_argument("the cell is so small that a particle can touch two images of another");
+  packing.poses.resize(static_cast<std::size_t>(n));
+  for (Pose& pose : packing.poses) {
+    for (int c = 0; c < 3; ++c) pose.position[c] = side * random.uniform();
+    pose.orientation = random_orientation(random);
+  }
+  return packing;
+}
+
+Packing strained_to(const Packing& packing, double density) {
+  Packing strained = packing;
+  strained.cell = PeriodicCell(side_at(packing.size(), density));
+  const double stretch = strained.cell.side() / packing.cell.side();
+  for (Pose& pose : strained.poses) pose.position *= stretch;
+  return strained;
+}
+
+Packing moved(const Packing& packing, const Eigen::VectorXd& step) {
+  assert(step.size() == 6 * packing.size());
+  Packing result = packing;
+  const double radius = packing.solid->gyration_radius();
+  for (int i = 0; i < packing.size(); ++i) {
+    Pose& pose = result.poses[static_cast<std::size_t>(i)];
+    pose.position += step.segment<3>(6 * i);
+    pose.orientation = rotated(pose.orientation, step.segment<3>(6 * i + 3) / radius);
+  }
+  return result;
+}
+
+}  // namespace isojam
