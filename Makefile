@@ -5,14 +5,14 @@ BUILD ?= build
 JOBS ?= $(shell nproc)
 OPTIONS ?=
 EXAMPLE ?= examples/01-four-solids
-RESULTS ?= results/$(notdir $(EXAMPLE))
 
 # ---- Packages, one list per need ----------------------------------------------------------------------------
 PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev \
-                    nlohmann-json3-dev libfmt-dev libcli11-dev libvalijson-dev libboost-dev
+                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
-TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libcgal-dev libgmp-dev libmpfr-dev voro++-dev
+TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
+                    libmpfr-dev voro++-dev
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
 
 # $(call install,packages): the network is touched only if one of them is missing.
@@ -50,7 +50,7 @@ build:
 	cmake --build $(BUILD) -j $(JOBS) --target isojam
 
 run: build
-	$(BUILD)/isojam run $(EXAMPLE)/manifest.json -o $(RESULTS)
+	$(BUILD)/isojam run $(EXAMPLE)/manifest.json
 
 test:
 	$(call install,$(TEST_PACKAGES))
@@ -70,7 +70,6 @@ clean:
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.
 FILES   := $(shell find engine tasks tests -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
-HEADERS := $(filter %.hpp,$(FILES))
 LINT    ?= $(filter %.cpp,$(FILES))
 STAMPS   = $(LINT:%=$(BUILD)/lint/%)
 
@@ -83,12 +82,15 @@ lint:
 .PHONY: lint-sources
 lint-sources: $(STAMPS)
 
-# A stamp says that this source passed with these headers and this configuration.
-$(STAMPS): $(BUILD)/lint/%: % $(HEADERS) $(wildcard .clang-tidy tests/.clang-tidy)
+# A stamp says that this source passed, with the headers it includes and this configuration.
+$(STAMPS): $(BUILD)/lint/%: % $(wildcard .clang-tidy tests/.clang-tidy)
 	@mkdir -p $(@D)
-	@echo "clang-tidy $<"
+	@echo 'clang-tidy $<'
 	@clang-tidy --quiet -p $(BUILD) $< >$@.log 2>&1 || { cat $@.log; exit 1; }
+	@$(CXX) -std=c++20 -MM -MP -MT $@ -MF $@.d -I. -isystem /usr/include/eigen3 $<
 	@touch $@
+
+-include $(wildcard $(STAMPS:=.d))
 
 format:
 	$(call install,clang-format)
