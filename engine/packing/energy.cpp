@@ -32,9 +32,15 @@ std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_p
   return axes;
 }
 
+/// Sums that an evaluation needs on the way.
+struct Accumulator {
+  double force = 0;
+  std::vector<double> stiffness;  ///< per particle, Σ ½ |∇V|² over its contacts
+};
+
 /// Adds one contact, lab frame. ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
 void add_contact(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap, Evaluation& sum,
-                 double& force_sum) {
+                 Accumulator& on_the_way) {
   const Eigen::Vector3d r = displacement(packing, pair);
   const Eigen::Quaterniond& q = packing.poses[static_cast<std::size_t>(pair.a)].orientation;
   const double radius = packing.solid->gyration_radius();
@@ -46,7 +52,11 @@ void add_contact(const Packing& packing, const NeighbourPair& pair, const Overla
   sum.gradient.segment<3>(6 * pair.b) -= dx;
   sum.gradient.segment<3>(6 * pair.b + 3) += (r.cross(dx) - dtheta) / radius;
   sum.stress -= dx * r.transpose();
-  force_sum += dx.norm();
+  on_the_way.force += dx.norm();
+  const double square = overlap.area.squaredNorm();
+  const Eigen::Vector3d moment_b = r.cross(q * overlap.area) - q * overlap.moment;
+  on_the_way.stiffness[pair.a] += (square + overlap.moment.squaredNorm() / (radius * radius)) / 2;
+  on_the_way.stiffness[pair.b] += (square + moment_b.squaredNorm() / (radius * radius)) / 2;
   ++sum.contacts;
 }
 
@@ -88,16 +98,21 @@ Evaluation PackingEnergy::evaluate(const Packing& packing) {
   overlap_all(packing);
   Evaluation result;
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
-  double force_sum = 0;
+  Accumulator on_the_way{0, std::vector<double>(packing.poses.size(), 0.0)};
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (overlaps_[k].touching()) add_contact(packing, pairs_[k], overlaps_[k], result, force_sum);
+    if (overlaps_[k].touching()) add_contact(packing, pairs_[k], overlaps_[k], result, on_the_way);
   }
   result.stress /= packing.cell.volume();
   result.pressure = -result.stress.trace() / 3;
   const double imbalance = largest_imbalance(result.gradient);
-  if (result.contacts > 0) result.mean_force = force_sum / static_cast<double>(result.contacts);
+  if (result.contacts > 0) result.mean_force = on_the_way.force / static_cast<double>(result.contacts);
   if (imbalance > 0)
     result.residual = result.mean_force > 0 ? imbalance / result.mean_force : std::numeric_limits<double>::infinity();
+  if (result.mean_force > 0) {
+    // H ≤ Σ ½ ∇V ∇Vᵀ: its largest eigenvalue is at most twice the stiffest diagonal block.
+    const double lambda = 2 * *std::max_element(on_the_way.stiffness.begin(), on_the_way.stiffness.end());
+    result.residual_floor = lambda * std::numeric_limits<double>::epsilon() * packing.cell.side() / result.mean_force;
+  }
   return result;
 }
 

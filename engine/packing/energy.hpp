@@ -17,6 +17,9 @@ struct Evaluation {
   /// max over particles and both kinds of |F_i|, |T_i|/R, divided by mean_force. Infinity if mean_force is 0 and
   /// some force is not; 0 if all are.
   double residual = 0;
+  /// The residual that rounding of the coordinates alone causes: λ_max·ulp(L)/mean_force, with λ_max bounded by the
+  /// stiffest particle. No minimiser can be trusted below it in double precision.
+  double residual_floor = 0;
   long contacts = 0;
 };
 

@@ -45,16 +45,26 @@ struct JamStep {
   MinimiseSummary summary;
 };
 
-enum class JamStatus { not_called, jammed, not_jammed, density_limit, step_limit, not_finite, interrupted };
+enum class JamStatus {
+  not_called,
+  jammed,         ///< φ_J was bracketed by equilibria down to final_distance
+  short_of_goal,  ///< fewer or farther equilibria than asked for, yet enough for φ_J
+  not_jammed,     ///< fewer than two equilibria above jamming
+  density_limit,  ///< max_density reached without the target energy
+  step_limit,     ///< max_steps spent
+  not_finite,
+  interrupted
+};
 std::string_view to_string(JamStatus status);
 
 struct JamResult {
   JamStatus status = JamStatus::not_called;
   std::vector<JamStep> path;
   std::vector<Packing> states;         ///< minimised packings of the expansion, in the order of expansion
-  std::vector<int> state_steps;        ///< index in `path` of each
+  std::vector<int> state_steps;        ///< index in `path` of each, all of them equilibria
   std::optional<JammingPoint> phi_j;
   long evaluations = 0;
+  PairCounts counts;                   ///< work of the pair loop, summed over all evaluations
 };
 
 /// Runs the protocol from `start`. `on_step` is called after every minimised step.

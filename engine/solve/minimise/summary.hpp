@@ -23,10 +23,16 @@ struct MinimiseSummary {
   StopReason reason = StopReason::not_called;
   double energy = 0;
   double residual = 0;  ///< as Evaluation::residual
+  double residual_floor = 0;  ///< as Evaluation::residual_floor, in the same state
   long evaluations = 0;
   long iterations = 0;
 
   bool converged() const { return reason == StopReason::residual_reached; }
 };
+
+/// Forces balance to the residual asked for, or as well as double precision can tell.
+inline bool is_equilibrium(const MinimiseSummary& summary) {
+  return summary.converged() || summary.reason == StopReason::precision_floor;
+}
 
 }  // namespace isojam

@@ -1,0 +1,103 @@
+#include "engine/solve/minimise/descent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace isojam {
+
+namespace {
+
+/// No particle moves farther than this fraction of the inradius in one trial: the energy's model of a step knows
+/// nothing of pairs that are farther apart.
+constexpr double trust_in_inradii = 0.4;
+
+}  // namespace
+
+double largest_displacement(const Eigen::VectorXd& step) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < step.size(); k += 3) largest = std::max(largest, step.segment<3>(k).norm());
+  return largest;
+}
+
+Descent::Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop)
+    : packing_(packing),
+      energy_(energy),
+      options_(options),
+      stop_(std::move(stop)),
+      here_(energy.evaluate(packing)),
+      previous_energy_(std::numeric_limits<double>::infinity()),
+      evaluations_(1) {}
+
+std::optional<StopReason> Descent::verdict() const {
+  if (!std::isfinite(here_.energy) || !here_.gradient.allFinite()) return StopReason::not_finite;
+  if (here_.contacts == 0) return StopReason::unjammed;
+  if (here_.residual <= options_.residual) return StopReason::residual_reached;
+  if (here_.residual <= here_.residual_floor) return StopReason::precision_floor;
+  if (here_.energy < options_.unjammed_energy * packing_.size()) return StopReason::unjammed;
+  const bool settled = previous_energy_ - here_.energy < options_.energy_change * here_.energy;
+  if (options_.energy_change > 0 && settled) return StopReason::energy_change;
+  if (stop_.stop_requested()) return StopReason::interrupted;
+  if (evaluations_ >= options_.max_evaluations) return StopReason::budget;
+  return std::nullopt;
+}
+
+Evaluation Descent::probe(const Eigen::VectorXd& step, Packing& there) {
+  there = moved(packing_, step);
+  ++evaluations_;
+  return energy_.evaluate(there);
+}
+
+void Descent::accept(Packing there, Evaluation value) {
+  previous_energy_ = here_.energy;
+  packing_ = std::move(there);
+  here_ = std::move(value);
+  ++iterations_;
+}
+
+bool Descent::advance(const Eigen::VectorXd& direction, double first_step, double curvature) {
+  const double reach = largest_displacement(direction);
+  const LinePoint start{0, here_.energy, here_.gradient.dot(direction)};
+  if (!(start.slope < 0) || !std::isfinite(reach)) return false;
+  LineSearchOptions search;
+  search.curvature = curvature;
+  search.longest_step = trust_in_inradii * packing_.solid->inradius() / reach;
+
+  Packing lowest = packing_, trial = packing_;
+  Evaluation at_lowest, at_trial;
+  double step_of_lowest = 0;
+  const auto at = [&](double step) {
+    at_trial = probe(step * direction, trial);
+    const LinePoint point{step, at_trial.energy, at_trial.gradient.dot(direction)};
+    // The search ends either at the last point or at the lowest one.
+    if (step_of_lowest == 0 || point.value < at_lowest.energy) {
+      lowest = trial;
+      at_lowest = at_trial;
+      step_of_lowest = step;
+    }
+    return point;
+  };
+  const LineSearchResult result = line_search(at, start, first_step, search);
+  if (!result.found) return false;
+  last_step_ = result.point.step;
+  if (result.point.step == step_of_lowest) {
+    accept(std::move(lowest), std::move(at_lowest));
+  } else {
+    accept(std::move(trial), std::move(at_trial));
+  }
+  return true;
+}
+
+MinimiseSummary Descent::finish(StopReason reason) const {
+  MinimiseSummary summary;
+  summary.reason = reason;
+  summary.energy = here_.energy;
+  summary.residual = here_.residual;
+  summary.residual_floor = here_.residual_floor;
+  summary.evaluations = evaluations_;
+  summary.iterations = iterations_;
+  return summary;
+}
+
+}  // namespace isojam

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <stop_token>
+
+#include "engine/solve/minimise/line_search.hpp"
+#include "engine/solve/minimise/minimise.hpp"
+
+namespace isojam {
+
+/// What every minimiser shares: the current state, the best one seen, the evaluations spent and the reasons to stop.
+/// Steps are accepted only downhill, so the current state is the best one.
+class Descent {
+ public:
+  Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop);
+
+  const Packing& packing() const { return packing_; }
+  const Evaluation& here() const { return here_; }
+  const MinimiseOptions& options() const { return options_; }
+  long evaluations() const { return evaluations_; }
+
+  /// Why to stop in this state, if there is a reason.
+  std::optional<StopReason> verdict() const;
+  /// Moves along `direction` (a descent direction) by a line search from `first_step` times it; false if no lower
+  /// energy was found. The step taken, as a multiple of `direction`, is in last_step().
+  bool advance(const Eigen::VectorXd& direction, double first_step, double curvature);
+  double last_step() const { return last_step_; }
+  /// Evaluates the state at `step` from here without moving to it.
+  Evaluation probe(const Eigen::VectorXd& step, Packing& there);
+  /// Moves to a probed state.
+  void accept(Packing there, Evaluation value);
+
+  MinimiseSummary finish(StopReason reason) const;
+
+ private:
+  Packing& packing_;
+  PackingEnergy& energy_;
+  const MinimiseOptions& options_;
+  std::stop_token stop_;
+  Evaluation here_;
+  double previous_energy_;
+  double last_step_ = 0;
+  long evaluations_ = 0, iterations_ = 0;
+};
+
+/// Largest particle displacement |dx| or R|dθ| in a step of 6N entries.
+double largest_displacement(const Eigen::VectorXd& step);
+
+MinimiseSummary minimise_conjugate_gradient(Descent& descent);
+MinimiseSummary minimise_lbfgs(Descent& descent);
+
+}  // namespace isojam

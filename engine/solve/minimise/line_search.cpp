@@ -1,0 +1,103 @@
+#include "engine/solve/minimise/line_search.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace isojam {
+
+namespace {
+
+/// Minimum of the cubic through two points with slopes; kept off the ends of the interval so that it shrinks.
+double cubic_minimum(const LinePoint& p, const LinePoint& q) {
+  const double width = q.step - p.step;
+  const double d1 = p.slope + q.slope - 3 * (q.value - p.value) / width;
+  const double square = d1 * d1 - p.slope * q.slope;
+  double t = p.step + width / 2;
+  if (square >= 0) {
+    const double d2 = std::copysign(std::sqrt(square), width);
+    const double candidate = q.step - width * (q.slope + d2 - d1) / (q.slope - p.slope + 2 * d2);
+    if (std::isfinite(candidate)) t = candidate;
+  }
+  const double low = std::min(p.step, q.step), high = std::max(p.step, q.step);
+  const double margin = 0.05 * (high - low);
+  return std::clamp(t, low + margin, high - margin);
+}
+
+class Search {
+ public:
+  Search(const LinePoint& start, const LineSearchOptions& options)
+      : start_(start), options_(options), noise_(4 * std::numeric_limits<double>::epsilon() * std::abs(start.value)) {}
+
+  bool decreases(const LinePoint& p) const {
+    if (p.value <= start_.value + options_.decrease * p.step * start_.slope) return true;
+    return p.value <= start_.value + noise_ && p.slope <= (2 * options_.decrease - 1) * start_.slope;
+  }
+  bool flat_enough(const LinePoint& p) const { return std::abs(p.slope) <= -options_.curvature * start_.slope; }
+  /// Higher than the best point by more than rounding.
+  bool higher(const LinePoint& p, const LinePoint& best) const { return p.value > best.value + noise_; }
+
+ private:
+  LinePoint start_;
+  LineSearchOptions options_;
+  double noise_;
+};
+
+}  // namespace
+
+LineSearchResult line_search(const std::function<LinePoint(double)>& at, const LinePoint& start, double first_step,
+                             const LineSearchOptions& options) {
+  assert(start.slope < 0 && first_step > 0);
+  const Search search(start, options);
+  LineSearchResult result;
+  result.point = start;
+  // `low` is the best point with sufficient decrease; the minimum lies between it and `high` once bracketed.
+  LinePoint low = start, high;
+  bool bracketed = false;
+  double step = std::min(first_step, options.longest_step);
+  while (result.evaluations < options.max_evaluations) {
+    const LinePoint p = at(step);
+    ++result.evaluations;
+    const bool finite = std::isfinite(p.value) && std::isfinite(p.slope);
+    if (finite && search.decreases(p)) {
+      if (p.value <= result.point.value || search.flat_enough(p)) result.point = p;
+      if (search.flat_enough(p)) {
+        result.found = true;
+        return result;
+      }
+    }
+    if (!finite || !search.decreases(p) || search.higher(p, low)) {
+      high = p;
+      bracketed = true;
+      if (!finite) {
+        step = low.step + (p.step - low.step) / 4;
+        high.value = std::numeric_limits<double>::infinity();
+        high.slope = 1;
+        continue;
+      }
+    } else {
+      if (p.slope * ((bracketed ? high.step : std::numeric_limits<double>::infinity()) - p.step) >= 0) {
+        high = low;
+        bracketed = true;
+      }
+      low = p;
+      if (!bracketed && p.step >= options.longest_step) {
+        result.found = true;  // still descending at the longest step allowed: as good as it gets
+        return result;
+      }
+    }
+    if (!bracketed) {
+      step = std::min({3 * p.step, options.longest_step});
+    } else if (std::isfinite(high.value)) {
+      step = cubic_minimum(low, high);
+    } else {
+      step = (low.step + high.step) / 2;
+    }
+    if (step == low.step || (bracketed && step == high.step)) break;
+  }
+  result.found = result.point.step > 0 && result.point.value < start.value;
+  return result;
+}
+
+}  // namespace isojam

@@ -1,0 +1,26 @@
+#include "engine/solve/minimise/minimise.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "engine/solve/minimise/descent.hpp"
+
+namespace isojam {
+
+std::string_view to_string(Method method) {
+  static constexpr std::array<std::string_view, 2> names{"conjugate_gradient", "lbfgs"};
+  return names[static_cast<std::size_t>(method)];
+}
+
+MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options,
+                         std::stop_token stop) {
+  Descent descent(packing, energy, options, std::move(stop));
+  switch (options.method) {
+    case Method::conjugate_gradient: return minimise_conjugate_gradient(descent);
+    case Method::lbfgs: return minimise_lbfgs(descent);
+  }
+  return {};
+}
+
+}  // namespace isojam
