@@ -9,14 +9,15 @@ namespace isojam {
 
 /// Alignment angles of a contact (radians) and the features that give them.
 struct Alignment {
-  double face_face = 0;  ///< θ_ff = π − arccos(min n_i·n_j) over intersecting faces, by cross products
-  double edge_face = 0;  ///< θ_ef = arcsin(min |e·n|), the smaller of the two directions
+  double face_face = 0;          ///< θ_ff = π − arccos(min n_i·n_j) over intersecting faces, by cross products
+  double edge_face = 0;          ///< θ_ef = arcsin(min |e·n|), the smaller of the two directions
   int face_a = -1, face_b = -1;  ///< the faces of θ_ff
   int edge = -1, face = -1;      ///< the edge and face of θ_ef; −1 if no edge has a segment inside the other body
   bool edge_of_a = true;         ///< the edge belongs to A, the face to B, or the other way round
 };
 
-/// θ_ef = π/2 if no edge of either body has a segment inside the other.
+/// θ_ef = π/2 if no edge of either body has a segment inside the other, θ_ff = π if a body has no face in the
+/// contact (one inside the other).
 Alignment alignment(const ConvexSolid& solid, const Contact& contact);
 
 /// Of all contacts, in their order.

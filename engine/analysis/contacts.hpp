@@ -31,6 +31,7 @@ ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::s
 
 /// Classes for given cut-offs (radians).
 std::vector<ContactClass> classify(std::span<const Alignment> alignments, double ff_cutoff, double ef_cutoff);
+/// Each contact counts for two particles. Throws std::invalid_argument if particles < 1.
 ContactNumbers contact_numbers(int particles, std::span<const ContactClass> classes);
 
 }  // namespace isojam
