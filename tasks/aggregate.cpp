@@ -42,10 +42,11 @@ void add(Point& point, const RecordSummary& record) {
 
 Row make_row(const Point& point) {
   const auto& first = *point.begin()->second;
-  Row row{first.solid, first.particles, first.parameters, static_cast<int>(point.size()), 0, {}, {}};
+  Row row{first.solid, first.particles, first.parameters, static_cast<int>(point.size()), 0, 0, {}, {}};
   std::array<std::vector<double>, columns.size()> values;
   for (const auto& [key, record] : point) {
-    if (record->failed) ++row.failed;
+    row.failed += record->failed;
+    row.flagged += record->flagged;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (record->values[i]) values[i].push_back(*record->values[i]);
     }

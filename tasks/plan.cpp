@@ -34,7 +34,7 @@ std::vector<ReplicateSpec> make_plan(const Manifest& manifest) {
 }
 
 std::string replicate_name(const ReplicateSpec& spec) {
-  const auto hash = spec.parameters.empty() ? std::string() : "-" + hex_hash(point_text(spec));
+  const auto hash = spec.parameters.empty() ? std::string() : fmt::format("-{}", hex_hash(point_text(spec)));
   return fmt::format("{}-N{}{}-r{:04}", to_string(spec.solid), spec.particles, hash, spec.replicate);
 }
 

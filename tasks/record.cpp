@@ -10,17 +10,6 @@
 namespace isojam {
 namespace {
 
-std::string_view name_of(FitVerdict verdict) {
-  switch (verdict) {
-    case FitVerdict::not_called: return "not_called";
-    case FitVerdict::fitted: return "fitted";
-    case FitVerdict::collapsed: return "collapsed";
-    case FitVerdict::too_few: return "too_few";
-  }
-  assert(false);
-  return "";
-}
-
 void put_distance(Json& json, double density, const JamResult& jam) {
   if (jam.phi_j) {
     put_number(json, "delta_phi", density - jam.phi_j->density);
@@ -37,6 +26,7 @@ Json step_record(const JamStep& step, const JamResult& jam) {
   put_number(json, "energy_per_particle", step.energy_per_particle);
   put_number(json, "pressure", step.pressure);
   put_number(json, "residual", step.summary.residual);
+  put_number(json, "residual_floor", step.summary.residual_floor);
   json["stopped"] = to_string(step.summary.reason);
   json["evaluations"] = step.summary.evaluations;
   json["iterations"] = step.summary.iterations;
@@ -45,11 +35,12 @@ Json step_record(const JamStep& step, const JamResult& jam) {
 
 Json fit_record(const CdfFit& fit) {
   Json json;
-  json["verdict"] = name_of(fit.verdict);
+  json["verdict"] = to_string(fit.verdict);
   if (fit.verdict != FitVerdict::fitted) return json;
   put_number(json, "cutoff", fit.cutoff);
   put_number(json, "alpha", fit.alpha);
   put_number(json, "a_0", fit.a[0]);
+  put_number(json, "a_0_error", fit.a0_error);
   put_number(json, "error", fit.error);
   return json;
 }
@@ -126,6 +117,17 @@ Json provenance(const ReplicateSpec& spec) {
   return json;
 }
 
+Json pair_record(const PairCounts& counts) {
+  Json json;
+  json["listed"] = counts.listed;
+  json["out_of_reach"] = counts.out_of_reach;
+  json["by_axis"] = counts.by_axis;
+  json["overlapped"] = counts.overlapped;
+  json["clipped"] = counts.clipped;
+  json["touching"] = counts.touching;
+  return json;
+}
+
 std::optional<double> number_or_null(const JsonPlace& place) {
   if (place.value().is_null()) return std::nullopt;
   return place.number({-1e300, 1e300});
@@ -151,9 +153,14 @@ Json make_record(const Outcome& outcome) {
   json["provenance"] = provenance(outcome.spec);
   json["spec"] = to_json(outcome.spec);
   json["status"] = outcome.failure ? "failed" : "done";
-  if (outcome.failure) json["failure"] = {{"where", outcome.failure->where}, {"why", outcome.failure->why}};
+  if (outcome.failure) {
+    json["failure"] = {{"where", outcome.failure->where}, {"why", outcome.failure->why}};
+  } else {
+    json["flags"] = flags_of(outcome);
+  }
   json["timing"] = {{"wall_seconds", outcome.timing.wall_seconds}, {"cpu_seconds", outcome.timing.cpu_seconds}};
   json["evaluations"] = jam.evaluations;
+  json["pairs"] = pair_record(jam.counts);
   if (!outcome.failure) {
     json["phi_j"] = jamming_record(jam);
     json["nearest"] = state_record(outcome, nearest_state(jam));
@@ -205,6 +212,7 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
     root.at("failure").at("why").text();
   } else {
     read_values(root, summary);
+    summary.flagged = root.at("flags").expect_list("a list of flags") > 0;
   }
   summary.result = record;
   summary.result.erase("timing");

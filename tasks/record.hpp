@@ -42,7 +42,7 @@ struct RecordSummary {
   std::string manifest_digest;
   Json settings;      ///< protocol, minimiser and measure
   Json result;        ///< all but timing and provenance: equal for two runs of the same replicate
-  bool failed = false;
+  bool failed = false, flagged = false;
   std::array<std::optional<double>, columns.size()> values;  ///< nullopt: not measured, or not decided
   std::optional<double> residual;                            ///< worst of the states behind φ_J
 };

@@ -35,7 +35,7 @@ std::vector<ContactAnalysis> analyse_states(const ReplicateSpec&, const JamResul
 Stages engine_stages() { return {place, run_jam, analyse_states}; }
 
 std::optional<Failure> failure_of(const JamResult& jam) {
-  if (jam.status == JamStatus::jammed) {
+  if (jam.status == JamStatus::jammed || jam.status == JamStatus::short_of_goal) {
     if (jam.phi_j && !jam.states.empty()) return std::nullopt;
     return Failure{"jam", "too few states of positive energy to find the jamming point"};
   }
@@ -47,6 +47,19 @@ std::optional<Failure> failure_of(const JamResult& jam) {
                        last.summary.residual, to_string(last.summary.reason));
   }
   return Failure{"jam", why};
+}
+
+std::vector<std::string_view> flags_of(const Outcome& outcome) {
+  assert(!outcome.failure);
+  std::vector<std::string_view> flags;
+  if (outcome.jam.status == JamStatus::short_of_goal) flags.push_back("short_of_goal");
+  if (!outcome.contacts.empty()) {
+    const auto& analysis = outcome.contacts[nearest_state(outcome.jam)];
+    const bool decided =
+        analysis.face_face.verdict == FitVerdict::fitted && analysis.edge_face.verdict == FitVerdict::fitted;
+    if (!decided) flags.push_back("classes_undecided");
+  }
+  return flags;
 }
 
 std::size_t nearest_state(const JamResult& jam) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/analysis/contacts.hpp"
@@ -47,6 +48,10 @@ Stages engine_stages();
 
 /// Why a result of jam is no jamming point; nullopt if it is one.
 std::optional<Failure> failure_of(const JamResult& jam);
+
+/// Reservations about an outcome without failure, in a fixed order: short_of_goal (expansion did not come as near to
+/// jamming as asked), classes_undecided (a CDF fit in the nearest state gave no cut-off).
+std::vector<std::string_view> flags_of(const Outcome& outcome);
 
 /// Index in jam.states of the state nearest jamming: the one of lowest density among those of positive energy.
 /// Requires a result without failure.

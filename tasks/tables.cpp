@@ -69,6 +69,7 @@ Cells row_cells(const Row& row, const std::vector<std::string>& parameters, std:
   for (const auto& name : parameters) cells.push_back(parameter_text(row, name));
   cells.push_back(std::to_string(row.replicates));
   cells.push_back(std::to_string(row.failed));
+  cells.push_back(std::to_string(row.flagged));
   for (const auto& estimate : row.estimates) {
     cells.push_back(estimate_text(estimate, plus_minus, row.replicates - row.failed));
   }
@@ -91,7 +92,7 @@ std::string aligned(const std::vector<Cells>& lines) {
     for (std::size_t i = 0; i < line.size(); ++i) {
       const std::string padding(widths[i] - width(line[i]), ' ');
       // Names to the left, numbers to the right.
-      text += i == 0 ? line[i] + padding : "   " + padding + line[i];
+      text += i == 0 ? fmt::format("{}{}", line[i], padding) : fmt::format("   {}{}", padding, line[i]);
     }
     text += '\n';
   }
@@ -99,7 +100,12 @@ std::string aligned(const std::vector<Cells>& lines) {
 }
 
 std::string joined(const Cells& cells, std::string_view separator) {
-  return fmt::format("{}", fmt::join(cells, separator));
+  std::string text;
+  for (const auto& cell : cells) {
+    if (!text.empty()) text += separator;
+    text += cell;
+  }
+  return text;
 }
 
 void append_csv(const Estimate& estimate, Cells& cells) {
@@ -116,7 +122,7 @@ void append_csv(const Estimate& estimate, Cells& cells) {
 }
 
 std::string escaped_latex(std::string text) {
-  for (auto at = text.find('_'); at != std::string::npos; at = text.find('_', at + 2)) text.insert(at, "\\");
+  for (auto at = text.find('_'); at != std::string::npos; at = text.find('_', at + 2)) text.insert(at, 1, '\\');
   return text;
 }
 
@@ -133,6 +139,7 @@ Json to_json(const Table& table) {
     entry["parameters"] = row.parameters;
     entry["replicates"] = row.replicates;
     entry["failed"] = row.failed;
+    entry["flagged"] = row.flagged;
     for (std::size_t i = 0; i < columns.size(); ++i) entry[std::string(columns[i].name)] = to_json(row.estimates[i]);
     entry["residual"] = row.residual ? Json(*row.residual) : Json(nullptr);
     json["rows"].push_back(std::move(entry));
@@ -144,7 +151,7 @@ std::string to_text(const Table& table) {
   const auto parameters = parameter_names(table);
   Cells head{"solid", "N"};
   head.insert(head.end(), parameters.begin(), parameters.end());
-  head.insert(head.end(), {"replicates", "failed"});
+  head.insert(head.end(), {"replicates", "failed", "flagged"});
   for (const auto& column : columns) head.emplace_back(column.name);
   head.emplace_back("residual");
   std::vector<Cells> lines{head};
@@ -156,7 +163,7 @@ std::string to_csv(const Table& table) {
   const auto parameters = parameter_names(table);
   Cells head{"solid", "particles"};
   head.insert(head.end(), parameters.begin(), parameters.end());
-  head.insert(head.end(), {"replicates", "failed"});
+  head.insert(head.end(), {"replicates", "failed", "flagged"});
   for (const auto& column : columns) {
     for (const auto part : {"mean", "low", "high", "sd", "n", "bootstrap_low", "bootstrap_high"}) {
       head.push_back(fmt::format("{}_{}", column.name, part));
@@ -167,7 +174,7 @@ std::string to_csv(const Table& table) {
   for (const auto& row : table.rows) {
     Cells cells{std::string(to_string(row.solid)), std::to_string(row.particles)};
     for (const auto& name : parameters) cells.push_back(parameter_text(row, name));
-    cells.insert(cells.end(), {std::to_string(row.replicates), std::to_string(row.failed)});
+    cells.insert(cells.end(), {std::to_string(row.replicates), std::to_string(row.failed), std::to_string(row.flagged)});
     for (const auto& estimate : row.estimates) append_csv(estimate, cells);
     cells.push_back(row.residual ? Json(*row.residual).dump() : "");
     text += joined(cells, ",") + '\n';
@@ -179,7 +186,7 @@ std::string to_latex(const Table& table) {
   const auto parameters = parameter_names(table);
   Cells head{"solid", "$N$"};
   for (const auto& name : parameters) head.push_back(escaped_latex(name));
-  head.insert(head.end(), {"replicates", "failed"});
+  head.insert(head.end(), {"replicates", "failed", "flagged"});
   for (const auto& column : columns) head.push_back(fmt::format("${}$", column.latex));
   head.emplace_back("residual");
   auto text = fmt::format("\\begin{{tabular}}{{l{}}}\n\\hline\n{} \\\\\n\\hline\n", std::string(head.size() - 1, 'r'),
