@@ -32,13 +32,12 @@ std::string step_text(const ReplicateSpec& spec, const JamStep& step) {
 }
 
 /// Runs and stores; returns how many outcomes were stored.
-std::size_t run_missing(const std::vector<ReplicateSpec>& missing, const Store& store, int threads, Console& console) {
+std::size_t run_missing(const std::vector<ReplicateSpec>& missing, const Store& store, GraphOptions options,
+                        Console& console) {
   double work = 0;
   for (const auto& spec : missing) work += work_of(spec);
   console.begin(static_cast<int>(missing.size()), work);
   std::size_t stored = 0;
-  const InterruptWatcher watcher;
-  GraphOptions options{threads, watcher.token(), {}};
   options.on_step = [&](const ReplicateSpec& spec, const JamStep& step) { console.tick(step_text(spec, step)); };
   run_graph(missing, engine_stages(), options, [&](const Outcome& outcome) {
     if (outcome.interrupted) return;
@@ -73,6 +72,7 @@ std::string formatted(const Table& table, TableFormat format) {
 }  // namespace
 
 ExitCode run(const RunCommand& command, Console& console) {
+  const InterruptWatcher watcher;
   const auto manifest = read_manifest(command.manifest);
   const auto plan = make_plan(manifest);
   const auto directory = command.directory.empty() ? "results/" + manifest.name : command.directory;
@@ -81,7 +81,7 @@ ExitCode run(const RunCommand& command, Console& console) {
   console.info(fmt::format("{}: {} replicates, {} recorded already, results in {}", manifest.name, plan.size(),
                            plan.size() - missing.size(), directory));
 
-  const auto stored = run_missing(missing, store, command.threads, console);
+  const auto stored = run_missing(missing, store, {command.threads, watcher.token(), {}}, console);
   if (stored < missing.size()) {
     console.warn(fmt::format("interrupted; {} of {} replicates are recorded, and the same command continues",
                              plan.size() - missing.size() + stored, plan.size()));
