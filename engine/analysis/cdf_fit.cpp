@@ -131,6 +131,7 @@ double best_alpha(const Window& window) {
 
 /// a_0 = Σ β_j = c(α) + (1/n) Σ K(y_k) over the angles above α. Those of the jump, up to c = a_0, have K ≈ 1 as if
 /// they were below α, and are no noise; the variance of the others' sum is Σ K²/n² if they are independent.
+/// As K ≤ 1, a_0 never exceeds c(upper).
 double standard_error(const Window& window, const CdfFit& fit) {
   double sum = 0;
   for (long k = window.count_at(fit.alpha); k < window.inside(); ++k) {
@@ -175,14 +176,10 @@ double fit_error(const CdfFit& fit, const Window& window) {
 
 std::string_view to_string(FitVerdict verdict) {
   switch (verdict) {
-    case FitVerdict::not_called:
-      return "not_called";
-    case FitVerdict::fitted:
-      return "fitted";
-    case FitVerdict::collapsed:
-      return "collapsed";
-    case FitVerdict::too_few:
-      return "too_few";
+    case FitVerdict::not_called: return "not_called";
+    case FitVerdict::fitted: return "fitted";
+    case FitVerdict::collapsed: return "collapsed";
+    case FitVerdict::too_few: return "too_few";
   }
   throw std::invalid_argument("not a verdict of a fit");
 }
@@ -208,10 +205,8 @@ CdfFit fit_cdf(std::span<const double> angles, double upper) {
   fit.a0_error = standard_error(window, fit);
   fit.error = fit_error(fit, window);
 
-  // A fit to a CDF without a jump finds one of the size of the noise. A jump that c does not reach in the window was
-  // never seen there.
-  const double one = window.height(1), highest = window.height(window.inside());
-  if (fit.a[0] < std::max(one, 2 * fit.a0_error) || fit.a[0] > highest + one / 2) {
+  // A fit to a CDF without a jump finds one of the size of the noise.
+  if (fit.a[0] < std::max(window.height(1), 2 * fit.a0_error)) {
     fit.verdict = FitVerdict::collapsed;
   } else {
     fit.verdict = FitVerdict::fitted;

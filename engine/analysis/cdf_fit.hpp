@@ -8,7 +8,7 @@ namespace isojam {
 enum class FitVerdict {
   not_called,
   fitted,
-  collapsed,  ///< c shows no jump: a_0 is within 2 standard errors of 0, worth less than one angle, or above c(upper)
+  collapsed,  ///< c shows no jump: a_0 is within 2 standard errors of 0, or worth less than one angle
   too_few     ///< fewer angles below `upper` than the five free parameters α, a_0..a_3
 };
 std::string_view to_string(FitVerdict verdict);
@@ -16,10 +16,10 @@ std::string_view to_string(FitVerdict verdict);
 /// Least-squares fit of c_f(θ) = H(θ−α)[a_0 − Σ_{n=1..3} a_n (θ−α)^n] to an empirical CDF on [0, upper].
 struct CdfFit {
   FitVerdict verdict = FitVerdict::not_called;
-  double alpha = 0;  ///< radians
-  double a[4] = {0, 0, 0, 0};
-  double a0_error = 0;  ///< standard error of a_0 from the angles above the jump, taken as independent
-  double error = 0;     ///< ∫ (c_f − c)² dθ
+  double alpha = 0;            ///< radians
+  double a[4] = {0, 0, 0, 0};  ///< a_0 ≤ c(upper)
+  double a0_error = 0;         ///< standard error of a_0 from the angles above the jump, taken as independent
+  double error = 0;            ///< ∫ (c_f − c)² dθ
   /// θ_cut: c = a_0. As c has steps, the end of the step nearest to a_0, at most `upper`: the fraction of angles
   /// below θ_cut is a_0 to within half a step. 0 unless fitted.
   double cutoff = 0;

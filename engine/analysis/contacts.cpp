@@ -6,12 +6,9 @@ namespace isojam {
 
 std::string_view to_string(ContactClass contact_class) {
   switch (contact_class) {
-    case ContactClass::face_face:
-      return "face_face";
-    case ContactClass::edge_face:
-      return "edge_face";
-    case ContactClass::lower_order:
-      return "lower_order";
+    case ContactClass::face_face: return "face_face";
+    case ContactClass::edge_face: return "edge_face";
+    case ContactClass::lower_order: return "lower_order";
   }
   throw std::invalid_argument("not a contact class");
 }

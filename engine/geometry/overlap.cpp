@@ -1,6 +1,7 @@
 #include "engine/geometry/overlap.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "engine/geometry/contact_loop.hpp"
 
@@ -50,6 +51,12 @@ Overlap integrate(const SolidArrays& a, const ContactLoop& loop) {
   return result;
 }
 
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
 }  // namespace
 
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
@@ -70,6 +77,38 @@ Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& 
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis unused;
   return overlap(a, b, pose, unused);
+}
+
+Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  ContactLoop loop;
+  find_contact_loop(a, b, pose, loop);
+  Matrix6d hessian = Matrix6d::Zero();
+  if (loop.verdict != LoopVerdict::closed) return hessian;
+  const double gauss = 0.5 / std::sqrt(3.0);
+  for (int k = 0; k < loop.segments; ++k) {
+    const LoopSegment& s = loop.segment[k];
+    const Eigen::Vector3d n = a.faces()[s.face_a].normal;
+    const Eigen::Vector3d m = loop.b.normal(s.face_b);
+    const double sine = n.cross(m).norm();
+    const Eigen::Vector3d along = s.to - s.from;
+    if (!(sine > 0)) continue;
+    const double weight = along.norm() / (2 * sine);
+    for (const double t : {0.5 - gauss, 0.5 + gauss}) {
+      const Eigen::Vector3d y = loop.origin + s.from + t * along;
+      const Vector6d ua = joined(n, y.cross(n));
+      const Vector6d ub = joined(m, (y - pose.displacement).cross(m));
+      hessian.noalias() += (weight * ua) * ub.transpose();
+    }
+  }
+  return hessian;
+}
+
+Matrix6d overlap_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r) {
+  Matrix6d own = -cross;
+  // θ×r = −[r]×θ: a turn of A about its centre carries B along.
+  own.rightCols<3>() += cross.leftCols<3>() * skew(r);
+  own.topRightCorner<3, 3>() -= skew(area);
+  return (own + own.transpose()) / 2;
 }
 
 }  // namespace isojam

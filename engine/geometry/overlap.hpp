@@ -42,6 +42,27 @@ Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& 
 /// The same; if a face of A or B separates the solids, `axis` is set to it, for later use with gap().
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
 
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// (translation, rotation) in one vector.
+inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d& rotation) {
+  Vector6d both;
+  both.head<3>() = translation;
+  both.tail<3>() = rotation;
+  return both;
+}
+
+/// ∂²V/∂(x_A, θ_A)∂(x_B, θ_B), A's frame, rotations about each body's own centre:
+///   H_AB = Σ_C ∫ u_A u_Bᵀ dl / |n_i×n_j|,  u_A = (n_i, (y−x_A)×n_i),  u_B = (n_j, (y−x_B)×n_j)
+/// by 2-point Gauss quadrature, exact since the integrand is quadratic. The other blocks follow from it by rigid
+/// motion of both bodies. Zero where the loop does not close (a degenerate pair has no second derivative).
+Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+
+/// ∂²V/∂(x_A, θ_A)² from H_AB: −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised, Tr: (a, θ) → (a + θ×r, θ);
+/// r = x_B − x_A. For B exchange the bodies: H_BAᵀ, S_B = −S_A, −r.
+Matrix6d overlap_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r);
+
 /// The slow path and oracle: A cut by the face planes of B one after another in quadruple precision.
 Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 

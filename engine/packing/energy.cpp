@@ -116,6 +116,37 @@ Evaluation PackingEnergy::evaluate(const Packing& packing) {
   return result;
 }
 
+BlockMatrix PackingEnergy::hessian(const Packing& packing) {
+  overlap_all(packing);
+  hessians_.resize(pairs_.size());
+  pair_hessians(packing, pairs_, overlaps_, hessians_);
+  BlockMatrix matrix;
+  matrix.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (!overlaps_[k].touching()) continue;
+    const NeighbourPair& pair = pairs_[k];
+    matrix.diagonal[pair.a] += hessians_[k].aa;
+    matrix.diagonal[pair.b] += hessians_[k].bb;
+    std::vector<BlockMatrix::Block>& blocks = matrix.off_diagonal;
+    if (!blocks.empty() && blocks.back().row == pair.a && blocks.back().column == pair.b) {
+      blocks.back().value += hessians_[k].ab;
+    } else {
+      blocks.push_back({pair.a, pair.b, hessians_[k].ab});
+    }
+  }
+  return matrix;
+}
+
+Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y(x.size());
+  for (int i = 0; i < matrix.size(); ++i) y.segment<6>(6 * i) = matrix.diagonal[i] * x.segment<6>(6 * i);
+  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
+    y.segment<6>(6 * block.row) += block.value * x.segment<6>(6 * block.column);
+    y.segment<6>(6 * block.column) += block.value.transpose() * x.segment<6>(6 * block.row);
+  }
+  return y;
+}
+
 std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
   overlap_all(packing);
   std::vector<Contact> result;

@@ -23,6 +23,20 @@ struct Evaluation {
   long contacts = 0;
 };
 
+/// Symmetric matrix of 6×6 blocks, one per particle and one per pair of particles that touch.
+struct BlockMatrix {
+  struct Block {
+    int row = 0, column = 0;  ///< row < column; the block below the diagonal is its transpose
+    Matrix6d value;
+  };
+  std::vector<Matrix6d> diagonal;
+  std::vector<Block> off_diagonal;  ///< in order of (row, column), each at most once
+
+  int size() const { return static_cast<int>(diagonal.size()); }  ///< in blocks
+};
+
+Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x);
+
 /// A touching pair. `overlap` as in Overlap: area and moment in A's body frame.
 struct Contact {
   NeighbourPair pair;
@@ -37,6 +51,9 @@ class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
   Evaluation evaluate(const Packing& packing);
+  /// ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient. Analytic; where two images of a particle touch, their
+  /// blocks are summed.
+  BlockMatrix hessian(const Packing& packing);
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
 
@@ -50,6 +67,7 @@ class PackingEnergy {
   std::vector<NeighbourPair> pairs_;
   std::vector<SeparatingAxis> axes_;
   std::vector<Overlap> overlaps_;
+  std::vector<PairHessian> hessians_;
   std::vector<Eigen::Vector3d> list_positions_;
   double list_side_ = 0, skin_ = 0;
   const ConvexSolid* list_solid_ = nullptr;

@@ -27,4 +27,14 @@ struct PairCounts {
 PairCounts overlap_pairs(const Packing& packing, std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes,
                          std::span<Overlap> out);
 
+/// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
+/// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
+struct PairHessian {
+  Matrix6d aa, ab, bb;
+};
+
+/// Of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left them.
+void pair_hessians(const Packing& packing, std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps,
+                   std::span<PairHessian> out);
+
 }  // namespace isojam

@@ -33,9 +33,13 @@ class JamRun {
 
  private:
   /// Minimises `packing` and appends the step to the path.
-  const JamStep& relax(Packing& packing, JamStage stage, double residual) {
+  const JamStep& relax(Packing& packing, JamStage stage) {
     MinimiseOptions options = options_.minimise;
-    options.residual = residual;
+    if (stage == JamStage::consolidation) {
+      options.residual = std::max(options.residual, options_.passing_residual);
+      options.unjammed_energy = std::max(options.unjammed_energy, options_.passing_energy);
+      options.warm_up = options_.passing_warm_up;
+    }
     JamStep step;
     step.stage = stage;
     step.summary = minimise(packing, energy_, options, stop_);
@@ -82,8 +86,7 @@ class JamRun {
 
   /// Strains up to the target energy. False if the run ended on the way.
   bool consolidate() {
-    const double passing = std::max(options_.passing_residual, options_.minimise.residual);
-    const JamStep* step = &relax(packing_, JamStage::consolidation, passing);
+    const JamStep* step = &relax(packing_, JamStage::consolidation);
     while (!ended(*step)) {
       if (consolidated(*step)) return true;
       const double strain = options_.target_before_relaxation ? gentle_step() : options_.consolidation_step;
@@ -92,7 +95,7 @@ class JamRun {
         return false;
       }
       packing_ = strained_to(packing_, packing_.density() + strain);
-      step = &relax(packing_, JamStage::consolidation, passing);
+      step = &relax(packing_, JamStage::consolidation);
     }
     return false;
   }
@@ -109,7 +112,7 @@ class JamRun {
 
   /// Strains down towards φ_J from equilibrium to equilibrium.
   void expand() {
-    const JamStep* step = &relax(packing_, JamStage::expansion, options_.minimise.residual);
+    const JamStep* step = &relax(packing_, JamStage::expansion);
     if (ended(*step)) return;
     result_.status = JamStatus::not_jammed;
     if (!is_equilibrium(step->summary)) return;
@@ -118,7 +121,7 @@ class JamRun {
     int halvings = 0;
     while (distance > options_.final_distance) {
       Packing next = strained_to(packing_, packing_.density() - expansion_step(distance, approach));
-      step = &relax(next, JamStage::expansion, options_.minimise.residual);
+      step = &relax(next, JamStage::expansion);
       if (ended(*step)) return;
       if (!is_equilibrium(step->summary)) {
         if (++halvings > max_halvings) break;

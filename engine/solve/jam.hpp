@@ -30,6 +30,8 @@ struct JamOptions {
   int max_steps = 400;                ///< strain steps in all
   /// Working tolerance below jamming and on the way up, where states are only passed through.
   double passing_residual = 1e-3;
+  double passing_energy = 1e-14;      ///< E/N below which a state on the way up counts as unjammed
+  int passing_warm_up = 200;          ///< MinimiseOptions::warm_up on the way up
   MinimiseOptions minimise;
 };
 

@@ -56,13 +56,15 @@ void Descent::accept(Packing there, Evaluation value) {
   ++iterations_;
 }
 
+double Descent::longest_displacement() const { return trust_in_inradii * packing_.solid->inradius(); }
+
 bool Descent::advance(const Eigen::VectorXd& direction, double first_step, double curvature) {
   const double reach = largest_displacement(direction);
   const LinePoint start{0, here_.energy, here_.gradient.dot(direction)};
   if (!(start.slope < 0) || !std::isfinite(reach)) return false;
   LineSearchOptions search;
   search.curvature = curvature;
-  search.longest_step = trust_in_inradii * packing_.solid->inradius() / reach;
+  search.longest_step = longest_displacement() / reach;
 
   Packing lowest = packing_, trial = packing_;
   Evaluation at_lowest, at_trial;

@@ -26,6 +26,10 @@ class Descent {
   /// energy was found. The step taken, as a multiple of `direction`, is in last_step().
   bool advance(const Eigen::VectorXd& direction, double first_step, double curvature);
   double last_step() const { return last_step_; }
+  /// No particle moves farther than this in one trial step.
+  double longest_displacement() const;
+  /// ∂²E/∂r² here.
+  BlockMatrix hessian() { return energy_.hessian(packing_); }
   /// Evaluates the state at `step` from here without moving to it.
   Evaluation probe(const Eigen::VectorXd& step, Packing& there);
   /// Moves to a probed state.
@@ -48,6 +52,8 @@ class Descent {
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);
-MinimiseSummary minimise_lbfgs(Descent& descent);
+/// Ends without a verdict (StopReason::not_called) once `evaluations` are spent.
+MinimiseSummary minimise_lbfgs(Descent& descent, long evaluations);
+MinimiseSummary minimise_newton(Descent& descent);
 
 }  // namespace isojam

@@ -9,7 +9,7 @@
 namespace isojam {
 
 std::string_view to_string(Method method) {
-  static constexpr std::array<std::string_view, 2> names{"conjugate_gradient", "lbfgs"};
+  static constexpr std::array<std::string_view, 3> names{"conjugate_gradient", "lbfgs", "newton"};
   return names[static_cast<std::size_t>(method)];
 }
 
@@ -18,7 +18,8 @@ MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const Minimise
   Descent descent(packing, energy, options, std::move(stop));
   switch (options.method) {
     case Method::conjugate_gradient: return minimise_conjugate_gradient(descent);
-    case Method::lbfgs: return minimise_lbfgs(descent);
+    case Method::lbfgs: return minimise_lbfgs(descent, options.max_evaluations + 1);
+    case Method::newton: return minimise_newton(descent);
   }
   return {};
 }

@@ -9,11 +9,11 @@
 
 namespace isojam {
 
-enum class Method { conjugate_gradient, lbfgs };
+enum class Method { conjugate_gradient, lbfgs, newton };
 std::string_view to_string(Method method);
 
 struct MinimiseOptions {
-  Method method = Method::lbfgs;
+  Method method = Method::newton;
   /// Stop when forces balance to this fraction of the mean contact force.
   double residual = 1e-6;
   /// Stop when an iteration changes the energy by less than this fraction of it; 0 switches the rule off. The
@@ -24,6 +24,9 @@ struct MinimiseOptions {
   double unjammed_energy = 1e-20;
   long max_evaluations = 20000;
   int history = 20;  ///< pairs that L-BFGS keeps
+  /// Evaluations that Newton's method leaves to L-BFGS before it begins: far from equilibrium contacts come and go,
+  /// and a Hessian describes only those that are there.
+  int warm_up = 0;
 };
 
 /// Moves `packing` to a local minimum of the energy at fixed cell. On return it is the best state seen.

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace isojam::oracle {
+
+/// A convex polyhedron as closed polygons, cut by one half-space after another. Exact if T is an exact field; with
+/// T = double good enough to aim a test case at a volume.
+template <class T>
+class ClipPolytope {
+ public:
+  using Vector = std::array<T, 3>;
+
+  ClipPolytope(const std::vector<Vector>& vertices, const std::vector<std::vector<int>>& faces) {
+    for (const std::vector<int>& face : faces) {
+      Polygon& polygon = polygons_.emplace_back();
+      for (const int v : face) polygon.push_back(vertices[v]);
+    }
+  }
+
+  /// Keeps the part with normal·y ≤ offset.
+  void clip(const Vector& normal, const T& offset) {
+    std::vector<Polygon> kept;
+    std::vector<Segment> rim;
+    bool capped = false;  // a face that lies in the plane already closes the cut
+    for (const Polygon& polygon : polygons_) {
+      const MarkedPolygon cut = clip_polygon(polygon, normal, offset);
+      const std::size_t n = cut.size();
+      std::size_t on_plane = 0;
+      for (const Marked& corner : cut) on_plane += corner.on_plane;
+      if (n >= 3) {
+        kept.emplace_back();
+        for (const Marked& corner : cut) kept.back().push_back(corner.point);
+      }
+      if (n >= 3 && on_plane == n) {
+        capped = true;
+        continue;
+      }
+      if (n < 3) continue;
+      for (std::size_t k = 0; k < n; ++k) {
+        const Marked &tail = cut[k], &head = cut[(k + 1) % n];
+        if (tail.on_plane && head.on_plane) rim.push_back({head.point, tail.point});
+      }
+    }
+    if (!capped) close(kept, rim);
+    polygons_ = std::move(kept);
+  }
+
+  T volume() const {
+    T six(0);
+    if (polygons_.empty()) return six;
+    const Vector origin = polygons_.front().front();
+    for (const Polygon& polygon : polygons_) {
+      for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+        six += determinant(minus(polygon[0], origin), minus(polygon[k], origin), minus(polygon[k + 1], origin));
+      }
+    }
+    return T(six / 6);
+  }
+
+ private:
+  using Polygon = std::vector<Vector>;
+  struct Marked {
+    Vector point;
+    bool on_plane;
+  };
+  using MarkedPolygon = std::vector<Marked>;
+  struct Segment {
+    Vector tail, head;
+  };
+
+  static Vector minus(const Vector& u, const Vector& v) { return {T(u[0] - v[0]), T(u[1] - v[1]), T(u[2] - v[2])}; }
+
+  static T determinant(const Vector& u, const Vector& v, const Vector& w) {
+    return T(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+             u[2] * (v[0] * w[1] - v[1] * w[0]));
+  }
+
+  static T height(const Vector& p, const Vector& normal, const T& offset) {
+    return T(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2] - offset);
+  }
+
+  /// Always computed from the inner end, so that both faces along an edge get the same bits.
+  static Vector crossing(const Vector& in, const T& below, const Vector& out, const T& above) {
+    const T t(below / (below - above));
+    return {T(in[0] + t * (out[0] - in[0])), T(in[1] + t * (out[1] - in[1])), T(in[2] + t * (out[2] - in[2]))};
+  }
+
+  static MarkedPolygon clip_polygon(const Polygon& polygon, const Vector& normal, const T& offset) {
+    std::vector<T> heights;
+    for (const Vector& corner : polygon) heights.push_back(height(corner, normal, offset));
+    MarkedPolygon cut;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const std::size_t next = (k + 1) % polygon.size();
+      const T &here = heights[k], &there = heights[next];
+      if (here <= 0) cut.push_back({polygon[k], here == 0});
+      if (here < 0 && there > 0) cut.push_back({crossing(polygon[k], here, polygon[next], there), true});
+      if (here > 0 && there < 0) cut.push_back({crossing(polygon[next], there, polygon[k], here), true});
+    }
+    return cut;
+  }
+
+  /// Chains the rim into the polygon that lies in the cutting plane.
+  static void close(std::vector<Polygon>& kept, std::vector<Segment>& rim) {
+    if (rim.size() < 3) return;
+    Polygon cap;
+    Vector reached = rim.front().tail;
+    while (!rim.empty()) {
+      std::size_t k = 0;
+      while (k < rim.size() && rim[k].tail != reached) ++k;
+      if (k == rim.size()) break;
+      cap.push_back(rim[k].tail);
+      reached = rim[k].head;
+      rim[k] = rim.back();
+      rim.pop_back();
+    }
+    if (cap.size() >= 3) kept.push_back(std::move(cap));
+  }
+
+  std::vector<Polygon> polygons_;
+};
+
+}  // namespace isojam::oracle

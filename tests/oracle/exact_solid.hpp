@@ -1,0 +1,55 @@
+#pragma once
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "engine/geometry/convex_solid.hpp"
+#include "tests/oracle/exact_overlap.hpp"
+
+namespace isojam::oracle {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Rational = Kernel::Exact_kernel::FT;
+static_assert(std::is_same_v<Rational, mpq_class>, "conversion to and from Real goes through GMP");
+using RationalVector = std::array<Rational, 3>;
+using RationalMatrix = std::array<RationalVector, 3>;  ///< rows
+
+Rational to_rational(const Real& value);
+Real to_real(const Rational& value);
+
+Rational dot(const RationalVector& u, const RationalVector& v);
+RationalVector cross(const RationalVector& u, const RationalVector& v);
+RationalVector operator+(const RationalVector& u, const RationalVector& v);
+RationalVector operator-(const RationalVector& u, const RationalVector& v);
+RationalVector operator*(const RationalMatrix& m, const RationalVector& v);
+
+/// Rotation by q/|q|: quadratic in q over |q|², hence rational.
+RationalMatrix rotation_matrix(const RealQuaternion& q);
+
+/// normal·y ≤ offset inside. The normal is not of unit length.
+struct RationalPlane {
+  RationalVector normal;
+  Rational offset;
+};
+
+/// A Platonic solid with rational vertices whose faces are planar without error. Features numbered as in the engine.
+struct ExactSolid {
+  std::vector<RationalVector> vertices;
+  std::vector<RationalPlane> planes;
+  std::vector<std::vector<int>> faces;  ///< vertices counter-clockwise from outside
+  std::vector<Edge> edges;
+  std::vector<std::uint32_t> vertex_planes;  ///< bit i: the vertex lies on face i
+};
+
+/// The shared instance; see exact_overlap() for what it throws.
+const ExactSolid& exact_solid(SolidKind kind);
+
+/// The solid moved by y ↦ rotation·y + displacement.
+ExactSolid moved(const ExactSolid& solid, const RationalMatrix& rotation, const RationalVector& displacement);
+
+}  // namespace isojam::oracle
