@@ -31,7 +31,8 @@ void add(Point& point, const RecordSummary& record) {
   if (!point.empty() && point.begin()->second->settings != record.settings) {
     const auto& other = *point.begin()->second;
     throw InputError({describe(record), difference(other.settings, record.settings),
-                      "differs from the setting of " + describe(other), "one table of records with the same settings", ""});
+                      "differs from the setting of " + describe(other), "one table of records with the same settings",
+                      ""});
   }
   const auto [place, added] = point.try_emplace({record.manifest_digest, record.replicate}, &record);
   if (!added && place->second->result != record.result) {

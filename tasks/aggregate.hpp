@@ -17,7 +17,7 @@ struct Row {
   Json parameters;     ///< the other swept values
   int replicates = 0;  ///< recorded, the failed ones included
   int failed = 0;
-  int flagged = 0;     ///< did not fail, count in the estimates, but their records hold a reservation
+  int flagged = 0;  ///< did not fail, count in the estimates, but their records hold a reservation
   std::array<Estimate, columns.size()> estimates;  ///< over replicates that did not fail and have the value
   std::optional<double> residual;                  ///< worst of the states behind φ_J; nullopt if all failed
 };

@@ -8,7 +8,7 @@
 namespace isojam {
 namespace {
 
-constexpr std::array methods{Method::conjugate_gradient, Method::lbfgs};
+constexpr std::array methods{Method::conjugate_gradient, Method::lbfgs, Method::newton};
 
 constexpr Range positive_to(double high) { return {0, high, true, false}; }
 constexpr Range none{};
@@ -49,12 +49,15 @@ constexpr std::array fields{
     field<&P::fit_window>("fit_window", positive_to(1)),
     field<&P::max_steps>("max_steps", {1, 1e6}),
     field<&P::passing_residual>("passing_residual", positive_to(1)),
+    field<&P::passing_energy>("passing_energy", {0, 1}),
+    field<&P::passing_warm_up>("passing_warm_up", {0, 1e9}),
     field<&M::method>("method", none),
     field<&M::residual>("residual", positive_to(1)),
     field<&M::energy_change>("energy_change", {0, 1}),
     field<&M::unjammed_energy>("unjammed_energy", {0, 1}),
     field<&M::max_evaluations>("max_evaluations", {1, 1e9}),
     field<&M::history>("history", {1, 1000}),
+    field<&M::warm_up>("warm_up", {0, 1e9}),
 };
 
 const auto names_of_methods = [] {
@@ -88,12 +91,11 @@ std::span<const std::string_view> method_names() {
 
 std::string allowed_values(const Field& field) {
   JamOptions options;
-  return std::visit(Overloaded{[&](double*) { return number_in(field.range); },
-                               [&](int*) { return integer_in(field.range); },
-                               [&](long*) { return integer_in(field.range); },
-                               [&](bool*) { return std::string("true or false"); },
-                               [&](Method*) { return quoted_list(method_names()); }},
-                    field.slot(options));
+  return std::visit(
+      Overloaded{[&](double*) { return number_in(field.range); }, [&](int*) { return integer_in(field.range); },
+                 [&](long*) { return integer_in(field.range); }, [&](bool*) { return std::string("true or false"); },
+                 [&](Method*) { return quoted_list(method_names()); }},
+      field.slot(options));
 }
 
 void read_field(const JsonPlace& place, const Field& field, JamOptions& options) {
@@ -106,9 +108,9 @@ void read_field(const JsonPlace& place, const Field& field, JamOptions& options)
 }
 
 Json field_value(const Field& field, JamOptions options) {
-  return std::visit(Overloaded{[](const Method* m) { return Json(to_string(*m)); },
-                               [](const auto* value) { return Json(*value); }},
-                    field.slot(options));
+  return std::visit(
+      Overloaded{[](const Method* m) { return Json(to_string(*m)); }, [](const auto* value) { return Json(*value); }},
+      field.slot(options));
 }
 
 Json group_values(Group group, const JamOptions& options) {

@@ -69,8 +69,9 @@ class Run {
  public:
   Run(std::span<const ReplicateSpec> plan, const Stages& stages, const GraphOptions& options,
       const std::function<void(const Outcome&)>& on_outcome)
-      : plan_(plan), stages_(stages), options_(options), on_outcome_(on_outcome),
-        forward_stop_(options.stop, [this] { stop_.request_stop(); }) {}
+      : plan_(plan), stages_(stages), options_(options), on_outcome_(on_outcome), forward_stop_(options.stop, [this] {
+          stop_.request_stop();
+        }) {}
 
   std::size_t next(tbb::flow_control& control) {
     if (next_ == plan_.size() || stop_.stop_requested()) control.stop();
@@ -87,8 +88,8 @@ class Run {
     const OnStep on_step = [&](const JamStep& step) {
       if (options_.on_step) options_.on_step(spec, step);
     };
-    auto jammed = guarded<JamResult>(
-        placed.index, "jam", [&] { return stages_.jam(spec, *placed.value, stop_.get_token(), on_step); });
+    auto jammed = guarded<JamResult>(placed.index, "jam",
+                                     [&] { return stages_.jam(spec, *placed.value, stop_.get_token(), on_step); });
     if (jammed.value && jammed.value->status != JamStatus::interrupted) jammed.failure = failure_of(*jammed.value);
     jammed.timing = jammed.timing + placed.timing;
     return jammed;

@@ -9,8 +9,8 @@ namespace isojam {
 class InputError : public std::runtime_error {
  public:
   struct Details {
-    std::string file;        ///< with ":line:column" where the text is not JSON
-    std::string pointer;     ///< RFC 6901; empty for the whole document
+    std::string file;     ///< with ":line:column" where the text is not JSON
+    std::string pointer;  ///< RFC 6901; empty for the whole document
     std::string problem;
     std::string allowed;     ///< empty if `problem` says it all
     std::string suggestion;  ///< what was probably meant; empty if nothing is near

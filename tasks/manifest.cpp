@@ -46,7 +46,8 @@ bool is_safe(std::string_view name) {
 }
 
 std::string read_name(const JsonPlace& place) {
-  const auto allowed = fmt::format("1 to {} letters, digits, '.', '_' and '-', the first a letter or digit", longest_name);
+  const auto allowed =
+      fmt::format("1 to {} letters, digits, '.', '_' and '-', the first a letter or digit", longest_name);
   auto name = place.text(allowed);
   if (!is_safe(name)) place.refuse("the name cannot serve as the name of a directory", allowed);
   return name;

@@ -29,7 +29,7 @@ struct Manifest {
   std::vector<int> particles;     ///< ascending
   std::vector<SweptField> swept;  ///< by name
   int replicates = 0;
-  JamOptions protocol;            ///< with the minimiser's options
+  JamOptions protocol;  ///< with the minimiser's options
   std::vector<Measure> measures;
 };
 

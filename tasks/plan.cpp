@@ -24,8 +24,8 @@ std::vector<ReplicateSpec> make_plan(const Manifest& manifest) {
     for (const int particles : manifest.particles) {
       for (const auto& set : sets) {
         for (int replicate = 0; replicate < manifest.replicates; ++replicate) {
-          plan.push_back({solid, particles, set.parameters, replicate, manifest.seed, identity, set.options,
-                          manifest.measures});
+          plan.push_back(
+              {solid, particles, set.parameters, replicate, manifest.seed, identity, set.options, manifest.measures});
         }
       }
     }

@@ -18,7 +18,7 @@ struct ReplicateSpec {
   int particles = 0;
   Json parameters = Json::object();  ///< the other swept values of its sweep point
   int replicate = 0;
-  std::uint64_t seed = 0;            ///< the manifest's
+  std::uint64_t seed = 0;  ///< the manifest's
   std::string manifest_digest;
   JamOptions options;
   std::vector<Measure> measures;
@@ -34,7 +34,8 @@ std::vector<ReplicateSpec> make_plan(const Manifest& manifest);
 /// A safe file name without extension: <solid>-N<particles>[-<hash of the point>]-r<replicate>.
 std::string replicate_name(const ReplicateSpec& spec);
 
-/// Stream of (manifest seed, sweep point, replicate, purpose): the same alone, in a sweep and with any number of threads.
+/// Stream of (manifest seed, sweep point, replicate, purpose): the same alone, in a sweep and with any number of
+/// threads.
 RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose);
 
 /// The specification as it stands in a record.

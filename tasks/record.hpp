@@ -21,9 +21,8 @@ struct Column {
 };
 
 inline constexpr std::array columns{
-    Column{"phi_j", "phi_j", "\\phi_J"},    Column{"Z", "nearest", "Z"},
-    Column{"Z_ff", "nearest", "Z_{ff}"},    Column{"Z_ef", "nearest", "Z_{ef}"},
-    Column{"Z_l", "nearest", "Z_l"},        Column{"C", "nearest", "C"},
+    Column{"phi_j", "phi_j", "\\phi_J"}, Column{"Z", "nearest", "Z"},     Column{"Z_ff", "nearest", "Z_{ff}"},
+    Column{"Z_ef", "nearest", "Z_{ef}"}, Column{"Z_l", "nearest", "Z_l"}, Column{"C", "nearest", "C"},
 };
 
 /// The record of an outcome that was not interrupted. Only `timing` may differ between two runs of the same replicate
@@ -40,8 +39,8 @@ struct RecordSummary {
   Json parameters;
   int replicate = 0;
   std::string manifest_digest;
-  Json settings;      ///< protocol, minimiser and measure
-  Json result;        ///< all but timing and provenance: equal for two runs of the same replicate
+  Json settings;  ///< protocol, minimiser and measure
+  Json result;    ///< all but timing and provenance: equal for two runs of the same replicate
   bool failed = false, flagged = false;
   std::array<std::optional<double>, columns.size()> values;  ///< nullopt: not measured, or not decided
   std::optional<double> residual;                            ///< worst of the states behind φ_J

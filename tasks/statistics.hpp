@@ -14,10 +14,10 @@ struct Interval {
 /// Mean over replicates with its uncertainty. Intervals need two values or more.
 struct Estimate {
   int n = 0;
-  std::optional<double> mean;        ///< nullopt if n = 0
-  std::optional<double> sd;          ///< standard deviation of the sample, n − 1 degrees of freedom
-  std::optional<double> half_width;  ///< t_{0.975, n−1} · sd / √n
-  std::optional<Interval> ci95;      ///< mean ± half_width
+  std::optional<double> mean;           ///< nullopt if n = 0
+  std::optional<double> sd;             ///< standard deviation of the sample, n − 1 degrees of freedom
+  std::optional<double> half_width;     ///< t_{0.975, n−1} · sd / √n
+  std::optional<Interval> ci95;         ///< mean ± half_width
   std::optional<Interval> bootstrap95;  ///< percentiles of the means of resamples
 };
 

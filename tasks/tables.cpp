@@ -174,7 +174,8 @@ std::string to_csv(const Table& table) {
   for (const auto& row : table.rows) {
     Cells cells{std::string(to_string(row.solid)), std::to_string(row.particles)};
     for (const auto& name : parameters) cells.push_back(parameter_text(row, name));
-    cells.insert(cells.end(), {std::to_string(row.replicates), std::to_string(row.failed), std::to_string(row.flagged)});
+    cells.insert(cells.end(),
+                 {std::to_string(row.replicates), std::to_string(row.failed), std::to_string(row.flagged)});
     for (const auto& estimate : row.estimates) append_csv(estimate, cells);
     cells.push_back(row.residual ? Json(*row.residual).dump() : "");
     text += joined(cells, ",") + '\n';

@@ -89,7 +89,8 @@ TEST(Aggregate, CountsFailedAndFlagged) {
   EXPECT_EQ(row.flagged, 2);
   std::map<std::string_view, int> n;
   for (std::size_t i = 0; i < columns.size(); ++i) n[columns[i].name] = row.estimates[i].n;
-  const std::map<std::string_view, int> expected{{"phi_j", 4}, {"Z", 4}, {"Z_ff", 4}, {"Z_ef", 3}, {"Z_l", 3}, {"C", 3}};
+  const std::map<std::string_view, int> expected{{"phi_j", 4}, {"Z", 4},   {"Z_ff", 4},
+                                                 {"Z_ef", 3},  {"Z_l", 3}, {"C", 3}};
   EXPECT_EQ(n, expected);
   EXPECT_NEAR(*row.estimates[0].mean, expected_sum / 4, 1e-15);
   EXPECT_EQ(row.residual, worst);
@@ -134,17 +135,17 @@ TEST(Aggregate, RefusesTwoResultsOfOneReplicate) {
 
 TEST(Record, WhatATableNeedsIsRequired) {
   const auto record = make_record(test::made_up_outcome(plan()[0]));
-  for (const std::string pointer :
-       {"/schema", "/spec", "/spec/solid", "/spec/particles", "/spec/parameters", "/spec/replicate", "/spec/protocol",
-        "/provenance", "/provenance/manifest_digest", "/status", "/flags", "/phi_j", "/phi_j/phi_j",
-        "/phi_j/residual", "/nearest"}) {
+  for (const std::string pointer : {"/schema", "/spec", "/spec/solid", "/spec/particles", "/spec/parameters",
+                                    "/spec/replicate", "/spec/protocol", "/provenance", "/provenance/manifest_digest",
+                                    "/status", "/flags", "/phi_j", "/phi_j/phi_j", "/phi_j/residual", "/nearest"}) {
     auto damaged = record;
     const Json::json_pointer at(pointer);
     damaged.at(at.parent_pointer()).erase(at.back());
     const auto said = refusal([&] { summarise_record(damaged, "r.json"); });
     EXPECT_EQ(said, "r.json: " + pointer + ": the required key is missing");
   }
-  for (const std::string pointer : {"/schema", "/spec/solid", "/spec/particles", "/status", "/phi_j/phi_j", "/nearest/Z"}) {
+  for (const std::string pointer :
+       {"/schema", "/spec/solid", "/spec/particles", "/status", "/phi_j/phi_j", "/nearest/Z"}) {
     auto damaged = record;
     damaged[Json::json_pointer(pointer)] = Json::array();
     const auto said = refusal([&] { summarise_record(damaged, "r.json"); });

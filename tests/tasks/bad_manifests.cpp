@@ -23,12 +23,14 @@ std::string replaced(const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
-/// What a schema can tell.
+/// A value set where it must not be; a schema can tell.
+BadManifest set(const std::string& name, const std::string& at, const Json& value, const std::string& says,
+                const std::string& pointer = "") {
+  return {name, with(at, value), pointer.empty() ? at : pointer, says, true};
+}
+
+/// Keys and values outside the sweep that a schema refuses.
 std::vector<BadManifest> malformed() {
-  const auto set = [](const std::string& name, const std::string& at, const Json& value, const std::string& says,
-                      const std::string& pointer = "") {
-    return BadManifest{name, with(at, value), pointer.empty() ? at : pointer, says, true};
-  };
   return {
       set("unknown key", "/replicate", 4, "did you mean \"replicates\"?"),
       set("unknown key like nothing", "/zzzzzz", 4, "unknown key; allowed: \"$schema\", \"name\""),
@@ -36,7 +38,6 @@ std::vector<BadManifest> malformed() {
       set("protocol key at the root", "/target_energy", 1e-5, "did you mean \"/protocol/target_energy\"?"),
       set("minimiser key in the protocol", "/protocol/method", "lbfgs", "did you mean \"/minimiser/method\"?"),
       set("misspelt protocol key", "/protocol/target_enery", 1e-5, "did you mean \"target_energy\"?"),
-      set("misspelt sweep key", "/sweep/particle", Json{64}, "did you mean \"particles\"?"),
       set("name is a number", "/name", 4, "wrong type"),
       set("name leaves the directory", "/name", "../x", "letters, digits"),
       set("name is empty", "/name", "", "letters, digits"),
@@ -54,6 +55,25 @@ std::vector<BadManifest> malformed() {
       set("no replicate", "/replicates", 0, "an integer from 1 to 10000"),
       set("too many replicates", "/replicates", 10001, "an integer from 1 to 10000"),
       set("half a replicate", "/replicates", 2.5, "an integer from 1"),
+      set("protocol is a string", "/protocol", "paper", "an object"),
+      set("negative density", "/protocol/initial_density", -0.1, "a number in (0, 1]"),
+      set("open end of a range", "/protocol/approach", 1.0, "a number in (0, 1)"),
+      set("huge number", "/protocol/max_steps", 1e300, "an integer from 1 to 1000000"),
+      set("number for a truth value", "/protocol/target_before_relaxation", 1, "true or false"),
+      set("misspelt method", "/minimiser/method", "lbgfs", "did you mean \"lbfgs\"?"),
+      set("method is a number", "/minimiser/method", 3, "\"conjugate_gradient\", \"lbfgs\""),
+      set("misspelt measure", "/measure", {"contact"}, "did you mean \"contacts\"?", "/measure/0"),
+      set("measure is no list", "/measure", "contacts", "a list"),
+      set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
+      set("$schema is a number", "/$schema", 7, "a string"),
+      {"root is a list", "[1]", "", "an object with the keys", true},
+  };
+}
+
+/// Values in the sweep that a schema refuses.
+std::vector<BadManifest> malformed_sweep() {
+  return {
+      set("misspelt sweep key", "/sweep/particle", Json{64}, "did you mean \"particles\"?"),
       set("unknown solid", "/sweep/solid", {"octahedra"}, "did you mean \"octahedron\"?", "/sweep/solid/0"),
       set("solid is a number", "/sweep/solid", {8}, "\"tetrahedron\", \"cube\"", "/sweep/solid/0"),
       set("solid is no list", "/sweep/solid", "cube", "a list"),
@@ -70,18 +90,6 @@ std::vector<BadManifest> malformed() {
       set("swept list is empty", "/sweep/method", Json::array(), "\"conjugate_gradient\", \"lbfgs\""),
       set("swept method misspelt", "/sweep/method", {"lbgfs"}, "did you mean \"lbfgs\"?", "/sweep/method/0"),
       set("sweep is a list", "/sweep", Json::array(), "an object"),
-      set("protocol is a string", "/protocol", "paper", "an object"),
-      set("negative density", "/protocol/initial_density", -0.1, "a number in (0, 1]"),
-      set("open end of a range", "/protocol/approach", 1.0, "a number in (0, 1)"),
-      set("huge number", "/protocol/max_steps", 1e300, "an integer from 1 to 1000000"),
-      set("number for a truth value", "/protocol/target_before_relaxation", 1, "true or false"),
-      set("misspelt method", "/minimiser/method", "lbgfs", "did you mean \"lbfgs\"?"),
-      set("method is a number", "/minimiser/method", 3, "\"conjugate_gradient\", \"lbfgs\""),
-      set("misspelt measure", "/measure", {"contact"}, "did you mean \"contacts\"?", "/measure/0"),
-      set("measure is no list", "/measure", "contacts", "a list"),
-      set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
-      set("$schema is a number", "/$schema", 7, "a string"),
-      {"root is a list", "[1]", "", "an object with the keys", true},
   };
 }
 
@@ -145,7 +153,8 @@ Json good_manifest() {
 
 std::vector<BadManifest> bad_manifests() {
   auto all = malformed();
-  for (const auto& more : {inconsistent(), unreadable()}) all.insert(all.end(), more.begin(), more.end());
+  for (const auto& more : {malformed_sweep(), inconsistent(), unreadable()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 

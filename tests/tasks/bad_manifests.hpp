@@ -11,9 +11,9 @@ namespace isojam::test {
 struct BadManifest {
   std::string name;
   std::string text;
-  std::string pointer;        ///< of the error; empty: of no particular value
-  std::string says;           ///< a part of the message
-  bool schema_can_tell;       ///< whether draft-07 can express the rule (text that is not JSON never gets that far)
+  std::string pointer;   ///< of the error; empty: of no particular value
+  std::string says;      ///< a part of the message
+  bool schema_can_tell;  ///< whether draft-07 can express the rule (text that is not JSON never gets that far)
 };
 
 /// A manifest that is accepted; the bad ones differ from it in one place.

@@ -42,7 +42,9 @@ Stages quiet_stages() {
 /// What the made-up stages do to a replicate.
 enum class Fate { good, place_throws, jam_throws, jam_ends_early, contacts_throw, contacts_throw_int };
 
-Fate fate_of(const ReplicateSpec& spec) { return static_cast<Fate>(replicate_stream(spec, Purpose::bootstrap).bits() % 6); }
+Fate fate_of(const ReplicateSpec& spec) {
+  return static_cast<Fate>(replicate_stream(spec, Purpose::bootstrap).bits() % 6);
+}
 
 Stages fateful_stages() {
   auto stages = quiet_stages();
@@ -50,7 +52,8 @@ Stages fateful_stages() {
     if (fate_of(spec) == Fate::place_throws) throw std::invalid_argument("no place");
     return place(spec);
   };
-  stages.jam = [jam = stages.jam](const ReplicateSpec& spec, Packing start, std::stop_token stop, const OnStep& on_step) {
+  stages.jam = [jam = stages.jam](const ReplicateSpec& spec, Packing start, std::stop_token stop,
+                                  const OnStep& on_step) {
     if (fate_of(spec) == Fate::jam_throws) throw std::runtime_error("no jam");
     auto result = jam(spec, std::move(start), std::move(stop), on_step);
     if (fate_of(spec) == Fate::jam_ends_early) result.status = JamStatus::density_limit;

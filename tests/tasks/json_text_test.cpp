@@ -40,7 +40,8 @@ TEST(JsonText, DoublesRoundTrip) {
 }
 
 TEST(JsonText, PrettyTextParsesToTheSame) {
-  const auto value = Json::parse(R"({"b":[],"a":{},"list":[1,2.5,"x",null,true],"rows":[[1,2],[3,4]],"o":{"p":{"q":[{}]}}})");
+  const auto value =
+      Json::parse(R"({"b":[],"a":{},"list":[1,2.5,"x",null,true],"rows":[[1,2],[3,4]],"o":{"p":{"q":[{}]}}})");
   const auto text = pretty(value);
   EXPECT_EQ(parse_json(text, "text").dump(), value.dump()) << text;
   EXPECT_NE(text.find("\n  \"list\": [1, 2.5, \"x\", null, true],\n"), std::string::npos) << text;

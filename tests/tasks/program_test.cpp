@@ -105,8 +105,11 @@ TEST(Program, AnUnwritableDirectoryEndsWithTwo) {
 
 TEST(Program, HelpAndVersionGoToStdout) {
   const TemporaryDirectory directory;
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"validate", "-h"}, {"aggregate", "--help"}, {"--version"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"run", "--help"},
+                                                    {"validate", "-h"},
+                                                    {"aggregate", "--help"},
+                                                    {"--version"}}) {
     const auto run = isojam(arguments, directory.path());
     EXPECT_EQ(run.exit_code, 0) << arguments.front();
     EXPECT_EQ(run.err, "") << arguments.front();

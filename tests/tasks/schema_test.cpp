@@ -139,7 +139,8 @@ TEST(RecordSchema, RefusesDamagedRecords) {
     damaged.erase(item.key());
     EXPECT_NE(violations("replicate", damaged), "") << "without " << item.key();
   }
-  for (const std::string pointer : {"/status", "/phi_j/phi_j", "/states/0/phi", "/path/0/stage", "/timing/wall_seconds"}) {
+  for (const std::string pointer :
+       {"/status", "/phi_j/phi_j", "/states/0/phi", "/path/0/stage", "/timing/wall_seconds"}) {
     auto damaged = record;
     damaged[Json::json_pointer(pointer)] = "x";
     EXPECT_NE(violations("replicate", damaged), "") << pointer;

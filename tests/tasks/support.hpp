@@ -43,7 +43,7 @@ std::map<std::string, std::string> files_below(const std::filesystem::path& dire
 /// The same for a results directory, records without what may differ between runs.
 std::map<std::string, std::string> results_below(const std::filesystem::path& directory);
 
-/// Real packings in about half a second each: 24 or 28 dodecahedra, loosely converged.
+/// Real packings in about a second each: 24 or 28 dodecahedra, loosely converged.
 Json tiny_manifest();
 
 /// A made-up outcome without failure, a function of the specification.
