@@ -1,0 +1,74 @@
+#include "tasks/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <random>
+#include <system_error>
+
+#include "tasks/input_error.hpp"
+
+namespace isojam {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view what) {
+  throw FileError(fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(errno)));
+}
+
+class Descriptor {
+ public:
+  Descriptor(const std::filesystem::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  bool valid() const { return fd_ >= 0; }
+  bool sync() const { return ::fsync(fd_) == 0; }
+  bool write(std::string_view content) const {
+    while (!content.empty()) {
+      const auto written = ::write(fd_, content.data(), content.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return false;
+      content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+  }
+
+ private:
+  int fd_;
+};
+
+/// Hidden, so that no reader takes it for a result; random, so that writers on different machines never meet.
+std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  std::random_device device;
+  const auto tag = (static_cast<std::uint64_t>(device()) << 32) | device();
+  return path.parent_path() / fmt::format(".{}.{:016x}.tmp", path.filename().string(), tag);
+}
+
+bool write_and_rename(const std::filesystem::path& temporary, const std::filesystem::path& path,
+                      std::string_view content) {
+  const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
+  return file.valid() && file.write(content) && file.sync() && std::rename(temporary.c_str(), path.c_str()) == 0;
+}
+
+}  // namespace
+
+void write_atomically(const std::filesystem::path& path, std::string_view content) {
+  const auto temporary = temporary_beside(path);
+  if (!write_and_rename(temporary, path, content)) {
+    const int reason = errno;
+    ::unlink(temporary.c_str());
+    errno = reason;
+    fail(path, "cannot be written");
+  }
+  const auto parent = path.parent_path();
+  const Descriptor directory(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY);
+  if (!directory.valid() || !directory.sync()) fail(parent, "cannot be synchronised");
+}
+
+}  // namespace isojam

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <stop_token>
+#include <thread>
+
+namespace isojam {
+
+/// Turns SIGINT and SIGTERM into a stop request while it lives. A second signal ends the process at once with exit
+/// code 75; files are written atomically, so nothing is lost by it. To be made before any other thread, which
+/// inherits the blocked signals: a handler could not request a stop, since that is not safe within one.
+class InterruptWatcher {
+ public:
+  InterruptWatcher();
+  ~InterruptWatcher();
+  InterruptWatcher(const InterruptWatcher&) = delete;
+  InterruptWatcher& operator=(const InterruptWatcher&) = delete;
+
+  std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  void watch();
+
+  sigset_t signals_{}, before_{};
+  std::stop_source source_;
+  std::atomic<bool> finished_{false};
+  std::thread thread_;
+};
+
+}  // namespace isojam

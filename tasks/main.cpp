@@ -1,0 +1,112 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "tasks/commands.hpp"
+#include "tasks/input_error.hpp"
+#include "tasks/version.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr auto exit_codes =
+    "Exit codes: 0 all done; 1 some replicates failed, or results could no longer be written; 2 usage, or a path on "
+    "the command line that cannot be read or written; 65 bad manifest or record, or a directory of another manifest; "
+    "75 interrupted, the same command continues.";
+
+struct Arguments {
+  ConsoleOptions console;
+  RunCommand run;
+  ValidateCommand validate;
+  AggregateCommand aggregate;
+};
+
+/// An option that takes one of a few names.
+template <class T>
+void add_choice(CLI::App& app, const std::string& name, T& value, const std::map<std::string, T>& choices,
+                const std::string& description) {
+  std::string names;
+  for (const auto& [choice, meaning] : choices) names += (names.empty() ? "" : ", ") + choice;
+  app.add_option_function<std::string>(
+         name, [&value, choices](const std::string& choice) { value = choices.at(choice); }, description)
+      ->check(CLI::IsMember(choices).description(""))
+      ->type_name(names);
+}
+
+void add_options(CLI::App& app, ConsoleOptions& options) {
+  app.add_flag("--quiet", options.quiet, "Errors only on stderr");
+  app.add_flag("-v,--verbose", options.verbose, "A line for each replicate");
+  add_choice<Colour>(app, "--color", options.colour,
+                     {{"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}},
+                     "Colour on stderr");
+}
+
+void add_run(CLI::App& app, RunCommand& command) {
+  auto* run = app.add_subcommand("run", "Run what a manifest plans and the results directory does not hold yet");
+  run->add_option("manifest", command.manifest, "Manifest of the sweep")->required()->type_name("MANIFEST");
+  run->add_option("-o,--output", command.directory, "Results directory (default: results/<name>)")->type_name("DIR");
+  run->add_option("-j,--threads", command.threads, "Threads (default: as many as the machine gives)")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+}
+
+void add_validate(CLI::App& app, ValidateCommand& command) {
+  auto* validate = app.add_subcommand("validate", "Check a manifest and say how many replicates it plans");
+  validate->add_option("manifest", command.manifest, "Manifest of the sweep")->required()->type_name("MANIFEST");
+}
+
+void add_aggregate(CLI::App& app, AggregateCommand& command) {
+  auto* aggregate = app.add_subcommand("aggregate", "Make a table of the records in results directories");
+  aggregate->add_option("directories", command.directories, "Results directories")->required()->type_name("DIR");
+  aggregate->add_option("-o,--output", command.output, "Write the table as JSON to this file as well")
+      ->type_name("FILE");
+  add_choice<TableFormat>(*aggregate, "--format", command.format,
+                          {{"text", TableFormat::text},
+                           {"json", TableFormat::json},
+                           {"csv", TableFormat::csv},
+                           {"latex", TableFormat::latex}},
+                          "Format on stdout");
+}
+
+ExitCode dispatch(const CLI::App& app, const Arguments& arguments, Console& console) {
+  if (app.got_subcommand("run")) return run(arguments.run, console);
+  if (app.got_subcommand("validate")) return validate(arguments.validate);
+  return aggregate_directories(arguments.aggregate);
+}
+
+ExitCode parse_and_run(int argc, char** argv) {
+  CLI::App app("isojam: jammed packings of soft frictionless Platonic solids, in batches", "isojam");
+  Arguments arguments;
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.set_version_flag("--version", "isojam " + std::string(version()) + " (" + std::string(git_hash()) + ")");
+  app.footer(exit_codes);
+  add_options(app, arguments.console);
+  add_run(app, arguments.run);
+  add_validate(app, arguments.validate);
+  add_aggregate(app, arguments.aggregate);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::usage;
+  }
+
+  Console console(arguments.console);
+  try {
+    return dispatch(app, arguments, console);
+  } catch (const InputError& error) {
+    console.error(error.what());
+    return ExitCode::bad_input;
+  } catch (const FileError& error) {
+    console.error(error.what());
+    return ExitCode::usage;
+  } catch (const std::exception& error) {
+    console.error(error.what());
+    return ExitCode::some_failed;
+  }
+}
+
+}  // namespace
+}  // namespace isojam
+
+int main(int argc, char** argv) { return static_cast<int>(isojam::parse_and_run(argc, argv)); }

@@ -1,0 +1,238 @@
+#include "tasks/manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/packing/periodic_cell.hpp"
+#include "tasks/fields.hpp"
+#include "tasks/json_place.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr double greatest_seed = 9007199254740992;  // 2^53: every reader of JSON holds integers up to here
+constexpr Range particle_range{1, 100000};
+constexpr Range replicate_range{1, 10000};
+constexpr double most_replicates_in_all = 1e6;
+constexpr std::size_t longest_name = 64;
+
+constexpr std::array<std::string_view, 8> keys{"$schema",    "name",     "seed",      "sweep",
+                                               "replicates", "protocol", "minimiser", "measure"};
+constexpr std::array measures{Measure::contacts};
+constexpr std::array<std::string_view, 1> measure_names{"contacts"};
+
+std::vector<std::string_view> solid_names() {
+  std::vector<std::string_view> names;
+  for (const auto kind : all_solids) names.push_back(to_string(kind));
+  return names;
+}
+
+/// Where a parameter belongs that stands at the wrong place.
+std::string home_of_field(std::string_view name) {
+  const auto* field = find_field(name);
+  return field ? fmt::format("/{}/{}", to_string(field->group), name) : std::string();
+}
+
+bool is_safe(std::string_view name) {
+  const auto alphanumeric = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  return !name.empty() && name.size() <= longest_name && alphanumeric(name[0]) &&
+         std::all_of(name.begin(), name.end(),
+                     [&](char c) { return alphanumeric(c) || c == '.' || c == '_' || c == '-'; });
+}
+
+std::string read_name(const JsonPlace& place) {
+  const auto allowed =
+      fmt::format("1 to {} letters, digits, '.', '_' and '-', the first a letter or digit", longest_name);
+  auto name = place.text(allowed);
+  if (!is_safe(name)) place.refuse("the name cannot serve as the name of a directory", allowed);
+  return name;
+}
+
+/// Reads a list entry by entry; `read` gives the canonical value of one, by which repetition is judged.
+template <class Read>
+auto read_list(const JsonPlace& place, std::string_view allowed, Read read) {
+  const auto size = place.expect_list(fmt::format("a list, each entry {}", allowed));
+  std::vector<decltype(read(place))> values;
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto entry = place.at(i);
+    auto value = read(entry);
+    if (std::find(values.begin(), values.end(), value) != values.end()) {
+      entry.refuse(fmt::format("{} is given twice", entry.value().dump()), "each value once");
+    }
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+template <class Read>
+auto read_sweep_list(const JsonPlace& place, const std::string& allowed, Read read) {
+  auto values = read_list(place, allowed, read);
+  if (values.empty()) place.refuse("the list is empty", fmt::format("one or more of: {}", allowed));
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+void read_sweep(const JsonPlace& place, Manifest& manifest) {
+  std::vector<std::string_view> names{"solid", "particles"};
+  for (const auto& field : all_fields()) names.push_back(field.name);
+  place.expect_keys(names);
+
+  const auto solids = solid_names();
+  manifest.solids = read_sweep_list(place.at("solid"), quoted_list(solids),
+                                    [&](const JsonPlace& entry) { return all_solids[entry.choice(solids)]; });
+  manifest.particles = read_sweep_list(place.at("particles"), integer_in(particle_range), [](const JsonPlace& entry) {
+    return static_cast<int>(entry.integer(particle_range));
+  });
+  for (const auto& field : all_fields()) {
+    const std::string name(field.name);
+    if (!place.has(name)) continue;
+    auto values = read_sweep_list(place.at(name), allowed_values(field), [&](const JsonPlace& entry) {
+      JamOptions options;
+      read_field(entry, field, options);
+      return field_value(field, options);
+    });
+    manifest.swept.push_back({name, std::move(values)});
+  }
+  std::sort(manifest.swept.begin(), manifest.swept.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+}
+
+void read_group(const JsonPlace& root, Group group, Manifest& manifest) {
+  const std::string group_name(to_string(group));
+  if (!root.has(group_name)) return;
+  const auto place = root.at(group_name);
+  std::vector<std::string_view> names;
+  for (const auto& field : all_fields()) {
+    if (field.group == group) names.push_back(field.name);
+  }
+  place.expect_keys(names, home_of_field);
+  for (const auto& field : all_fields()) {
+    const std::string name(field.name);
+    if (field.group != group || !place.has(name)) continue;
+    if (root.at("sweep").has(name)) {
+      place.at(name).refuse("the parameter is swept as well", fmt::format("either here or at /sweep/{}", name));
+    }
+    read_field(place.at(name), field, manifest.protocol);
+  }
+}
+
+/// Pointer of a particle number in the user's own order.
+JsonPlace place_of_particles(const JsonPlace& root, int particles) {
+  const auto list = root.at("sweep").at("particles");
+  const auto found = std::find(list.value().begin(), list.value().end(), Json(particles));
+  return list.at(static_cast<std::size_t>(found - list.value().begin()));
+}
+
+JsonPlace place_of_field(const JsonPlace& root, const std::string& group, const std::string& name) {
+  const auto sweep = root.at("sweep");
+  if (sweep.has(name)) return sweep.at(name);
+  return root.has(group) && root.at(group).has(name) ? root.at(group).at(name) : root;
+}
+
+/// What holds between values that are each allowed.
+void check_together(const JsonPlace& root, const Manifest& manifest) {
+  double count = static_cast<double>(manifest.solids.size() * manifest.particles.size()) * manifest.replicates;
+  for (const auto& swept : manifest.swept) count *= static_cast<double>(swept.values.size());
+  if (count > most_replicates_in_all) {
+    root.at("sweep").refuse(fmt::format("the sweep makes {:.0f} replicates", count),
+                            fmt::format("at most {:.0f}", most_replicates_in_all));
+  }
+  for (const auto& set : option_sets(manifest)) {
+    const auto& options = set.options;
+    if (options.initial_density >= options.max_density) {
+      place_of_field(root, "protocol", "initial_density")
+          .refuse(fmt::format("initial_density {} does not lie below max_density {}", options.initial_density,
+                              options.max_density));
+    }
+    for (const auto kind : manifest.solids) {
+      const int least = least_particles(platonic(kind), options.max_density);
+      if (manifest.particles.front() >= least) continue;
+      place_of_particles(root, manifest.particles.front())
+          .refuse(fmt::format("{} particles are too few for the periodic cell: at max_density {} a {} would touch two "
+                              "images of another",
+                              manifest.particles.front(), options.max_density, to_string(kind)),
+                  fmt::format("{} or more", least));
+    }
+  }
+}
+
+Json values_of(const std::vector<Measure>& list) {
+  Json values = Json::array();
+  for (const auto measure : list) values.push_back(to_string(measure));
+  return values;
+}
+
+}  // namespace
+
+std::string_view to_string(Measure measure) { return measure_names[static_cast<std::size_t>(measure)]; }
+
+std::vector<OptionSet> option_sets(const Manifest& manifest) {
+  std::vector<OptionSet> sets{{Json::object(), manifest.protocol}};
+  for (const auto& swept : manifest.swept) {
+    std::vector<OptionSet> longer;
+    for (const auto& set : sets) {
+      for (const auto& value : swept.values) {
+        longer.push_back(set);
+        longer.back().parameters[swept.name] = value;
+        read_field({value, manifest.name}, *find_field(swept.name), longer.back().options);
+      }
+    }
+    sets = std::move(longer);
+  }
+  return sets;
+}
+
+Manifest parse_manifest(std::string_view text, const std::string& file) {
+  const auto document = parse_json(text, file);
+  const JsonPlace root(document, file);
+  root.expect_keys(keys, home_of_field);
+
+  Manifest manifest;
+  if (root.has("$schema")) root.at("$schema").text();
+  manifest.name = read_name(root.at("name"));
+  manifest.seed = static_cast<std::uint64_t>(root.at("seed").integer({0, greatest_seed}));
+  read_sweep(root.at("sweep"), manifest);
+  manifest.replicates = static_cast<int>(root.at("replicates").integer(replicate_range));
+  read_group(root, Group::protocol, manifest);
+  read_group(root, Group::minimiser, manifest);
+  manifest.measures.assign(measures.begin(), measures.end());
+  if (root.has("measure")) {
+    manifest.measures = read_list(root.at("measure"), quoted_list(measure_names),
+                                  [](const JsonPlace& entry) { return measures[entry.choice(measure_names)]; });
+    std::sort(manifest.measures.begin(), manifest.measures.end());
+  }
+  check_together(root, manifest);
+  return manifest;
+}
+
+Manifest read_manifest(const std::string& file) { return parse_manifest(read_text(file), file); }
+
+Json to_json(const Manifest& manifest) {
+  Json json;
+  json["name"] = manifest.name;
+  json["seed"] = manifest.seed;
+  auto& sweep = json["sweep"];
+  for (const auto kind : manifest.solids) sweep["solid"].push_back(to_string(kind));
+  sweep["particles"] = manifest.particles;
+  for (const auto& swept : manifest.swept) sweep[swept.name] = swept.values;
+  json["replicates"] = manifest.replicates;
+  for (const auto group : {Group::protocol, Group::minimiser}) {
+    auto values = group_values(group, manifest.protocol);
+    for (const auto& swept : manifest.swept) values.erase(swept.name);
+    json[std::string(to_string(group))] = std::move(values);
+  }
+  json["measure"] = values_of(manifest.measures);
+  return json;
+}
+
+std::string digest(const Manifest& manifest) {
+  auto json = to_json(manifest);
+  json.erase("replicates");
+  return hex_hash(json.dump());
+}
+
+}  // namespace isojam

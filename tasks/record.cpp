@@ -1,0 +1,223 @@
+#include "tasks/record.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "tasks/json_place.hpp"
+#include "tasks/version.hpp"
+
+namespace isojam {
+namespace {
+
+void put_distance(Json& json, double density, const JamResult& jam) {
+  if (jam.phi_j) {
+    put_number(json, "delta_phi", density - jam.phi_j->density);
+  } else {
+    put_absent(json, "delta_phi", "no jamming point");
+  }
+}
+
+Json step_record(const JamStep& step, const JamResult& jam) {
+  Json json;
+  json["stage"] = to_string(step.stage);
+  put_number(json, "phi", step.density);
+  put_distance(json, step.density, jam);
+  put_number(json, "energy_per_particle", step.energy_per_particle);
+  put_number(json, "pressure", step.pressure);
+  put_number(json, "residual", step.summary.residual);
+  put_number(json, "residual_floor", step.summary.residual_floor);
+  json["stopped"] = to_string(step.summary.reason);
+  json["evaluations"] = step.summary.evaluations;
+  json["iterations"] = step.summary.iterations;
+  return json;
+}
+
+Json fit_record(const CdfFit& fit) {
+  Json json;
+  json["verdict"] = to_string(fit.verdict);
+  if (fit.verdict != FitVerdict::fitted) return json;
+  put_number(json, "cutoff", fit.cutoff);
+  put_number(json, "alpha", fit.alpha);
+  put_number(json, "a_0", fit.a[0]);
+  put_number(json, "a_0_error", fit.a0_error);
+  put_number(json, "error", fit.error);
+  return json;
+}
+
+/// A cut-off that a fit did not give decides nothing: numbers that hang on it are absent rather than zero.
+void put_contacts(Json& json, const ContactAnalysis& analysis) {
+  const auto& n = analysis.numbers;
+  put_number(json, "Z", n.Z);
+  const bool faces = analysis.face_face.verdict == FitVerdict::fitted;
+  const bool edges = analysis.edge_face.verdict == FitVerdict::fitted;
+  const auto put = [&](const std::string& key, double value, bool decided) {
+    if (decided) {
+      put_number(json, key, value);
+    } else {
+      put_absent(json, key, faces ? "no edge-face cut-off" : "no face-face cut-off");
+    }
+  };
+  put("Z_ff", n.Z_ff, faces);
+  put("Z_ef", n.Z_ef, faces && edges);
+  put("Z_l", n.Z_l, faces && edges);
+  put("C", n.C, faces && edges);
+  json["face_face_fit"] = fit_record(analysis.face_face);
+  json["edge_face_fit"] = fit_record(analysis.edge_face);
+}
+
+Json state_record(const Outcome& outcome, std::size_t index) {
+  const auto& jam = outcome.jam;
+  auto json = step_record(jam.path[jam.state_steps[index]], jam);
+  json.erase("stage");
+  json.erase("evaluations");
+  json.erase("iterations");
+  json["step"] = jam.state_steps[index];
+  if (index < outcome.contacts.size()) put_contacts(json, outcome.contacts[index]);
+  return json;
+}
+
+double worst_residual(const JamResult& jam) {
+  double worst = 0;
+  for (const int state : jam.phi_j->states) {
+    const double residual = jam.path[jam.state_steps[state]].summary.residual;
+    // Written so that a NaN wins and is reported.
+    if (!(residual <= worst)) worst = residual;
+  }
+  return worst;
+}
+
+Json jamming_record(const JamResult& jam) {
+  const auto& point = *jam.phi_j;
+  Json json;
+  put_number(json, "phi_j", point.density);
+  const auto put_fitted = [&](const std::string& key, double value, std::string_view reason) {
+    if (value != 0) {
+      put_number(json, key, value);
+    } else {
+      put_absent(json, key, reason);
+    }
+  };
+  put_fitted("standard_error", point.standard_error, "two states leave no degree of freedom");
+  put_fitted("ci95_half_width", point.ci95_half_width, "two states leave no degree of freedom");
+  put_number(json, "single_state", point.single_state);
+  put_fitted("exponent", point.exponent, "a free exponent could not be fitted");
+  put_number(json, "residual", worst_residual(jam));
+  json["states"] = point.states;
+  return json;
+}
+
+Json provenance(const ReplicateSpec& spec) {
+  Json json;
+  json["version"] = version();
+  json["git"] = git_hash();
+  json["compiler"] = compiler();
+  json["manifest_digest"] = spec.manifest_digest;
+  json["seed"] = spec.seed;
+  return json;
+}
+
+Json pair_record(const PairCounts& counts) {
+  Json json;
+  json["listed"] = counts.listed;
+  json["out_of_reach"] = counts.out_of_reach;
+  json["by_axis"] = counts.by_axis;
+  json["overlapped"] = counts.overlapped;
+  json["clipped"] = counts.clipped;
+  json["touching"] = counts.touching;
+  return json;
+}
+
+std::optional<double> number_or_null(const JsonPlace& place) {
+  if (place.value().is_null()) return std::nullopt;
+  return place.number({-1e300, 1e300});
+}
+
+void read_values(const JsonPlace& root, RecordSummary& summary) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string section(columns[i].section), name(columns[i].name);
+    const auto place = root.at(section);
+    // Contacts are there only if they were measured.
+    if (section == "phi_j" || place.has(name)) summary.values[i] = number_or_null(place.at(name));
+  }
+  summary.residual = number_or_null(root.at("phi_j").at("residual"));
+}
+
+}  // namespace
+
+Json make_record(const Outcome& outcome) {
+  assert(!outcome.interrupted);
+  const auto& jam = outcome.jam;
+  Json json;
+  json["schema"] = record_schema;
+  json["provenance"] = provenance(outcome.spec);
+  json["spec"] = to_json(outcome.spec);
+  json["status"] = outcome.failure ? "failed" : "done";
+  if (outcome.failure) {
+    json["failure"] = {{"where", outcome.failure->where}, {"why", outcome.failure->why}};
+  } else {
+    json["flags"] = flags_of(outcome);
+  }
+  json["timing"] = {{"wall_seconds", outcome.timing.wall_seconds}, {"cpu_seconds", outcome.timing.cpu_seconds}};
+  json["evaluations"] = jam.evaluations;
+  json["pairs"] = pair_record(jam.counts);
+  if (!outcome.failure) {
+    json["phi_j"] = jamming_record(jam);
+    json["nearest"] = state_record(outcome, nearest_state(jam));
+  }
+  json["states"] = Json::array();
+  for (std::size_t i = 0; i < jam.states.size(); ++i) json["states"].push_back(state_record(outcome, i));
+  json["path"] = Json::array();
+  for (const auto& step : jam.path) json["path"].push_back(step_record(step, jam));
+  return json;
+}
+
+Json make_packing(const Outcome& outcome) {
+  assert(!outcome.failure && !outcome.interrupted);
+  const auto& packing = outcome.jam.states[nearest_state(outcome.jam)];
+  Json json;
+  json["schema"] = packing_schema;
+  json["manifest_digest"] = outcome.spec.manifest_digest;
+  json["solid"] = to_string(outcome.spec.solid);
+  json["phi"] = packing.density();
+  json["side"] = packing.cell.side();
+  json["positions"] = Json::array();
+  json["orientations"] = Json::array();
+  for (const auto& pose : packing.poses) {
+    const auto& x = pose.position;
+    const auto& q = pose.orientation;
+    json["positions"].push_back({x[0], x[1], x[2]});
+    json["orientations"].push_back({q.w(), q.x(), q.y(), q.z()});
+  }
+  return json;
+}
+
+RecordSummary summarise_record(const Json& record, const std::string& file) {
+  const JsonPlace root(record, file);
+  root.at("schema").choice(std::array{record_schema});
+  const auto spec = root.at("spec");
+  RecordSummary summary;
+  const auto solid = solid_kind(spec.at("solid").text());
+  if (!solid) spec.at("solid").refuse("unknown solid");
+  summary.solid = *solid;
+  summary.particles = static_cast<int>(spec.at("particles").integer({1, 1e9}));
+  summary.parameters = spec.at("parameters").value();
+  spec.at("parameters").expect_object("an object");
+  summary.replicate = static_cast<int>(spec.at("replicate").integer({0, 1e9}));
+  summary.manifest_digest = root.at("provenance").at("manifest_digest").text();
+  for (const std::string key : {"protocol", "minimiser", "measure"}) summary.settings[key] = spec.at(key).value();
+  summary.failed = root.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 1;
+  if (summary.failed) {
+    root.at("failure").at("where").text();
+    root.at("failure").at("why").text();
+  } else {
+    read_values(root, summary);
+    summary.flagged = root.at("flags").expect_list("a list of flags") > 0;
+  }
+  summary.result = record;
+  summary.result.erase("timing");
+  summary.result.erase("provenance");
+  return summary;
+}
+
+}  // namespace isojam

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace isojam {
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// Mean over replicates with its uncertainty. Intervals need two values or more.
+struct Estimate {
+  int n = 0;
+  std::optional<double> mean;           ///< nullopt if n = 0
+  std::optional<double> sd;             ///< standard deviation of the sample, n − 1 degrees of freedom
+  std::optional<double> half_width;     ///< t_{0.975, n−1} · sd / √n
+  std::optional<Interval> ci95;         ///< mean ± half_width
+  std::optional<Interval> bootstrap95;  ///< percentiles of the means of resamples
+};
+
+inline constexpr int bootstrap_resamples = 2000;
+
+/// The same bits for any order of `values`; the bootstrap draws from a stream of `key` and n alone.
+Estimate estimate(std::vector<double> values, std::uint64_t key);
+
+}  // namespace isojam

@@ -1,0 +1,198 @@
+// Facts proved here, with stages made up for the purpose:
+// - every planned replicate yields exactly one outcome, with any number of threads, whatever its stages throw;
+// - a failure says in which stage and why;
+// - outcomes are handed over one at a time, and no more replicates are in flight than threads;
+// - outcomes do not depend on the number of threads;
+// - after a stop request nothing new starts, and what was under way is handed over as interrupted;
+// - an exception of the consumer stops the run and comes out of it.
+
+#include "tasks/graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+#include "bad_manifests.hpp"
+#include "support.hpp"
+#include "tasks/record.hpp"
+
+namespace isojam {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::vector<ReplicateSpec> plan_of(int replicates) {
+  auto manifest = test::good_manifest();
+  manifest["replicates"] = replicates;
+  return make_plan(parse_manifest(manifest.dump(), "m"));
+}
+
+Stages quiet_stages() {
+  return {[](const ReplicateSpec& spec) { return test::made_up_outcome(spec).jam.states.front(); },
+          [](const ReplicateSpec& spec, Packing, std::stop_token, const OnStep&) {
+            return test::made_up_outcome(spec).jam;
+          },
+          [](const ReplicateSpec& spec, const JamResult&) { return test::made_up_outcome(spec).contacts; }};
+}
+
+/// What the made-up stages do to a replicate.
+enum class Fate { good, place_throws, jam_throws, jam_ends_early, contacts_throw, contacts_throw_int };
+
+Fate fate_of(const ReplicateSpec& spec) {
+  return static_cast<Fate>(replicate_stream(spec, Purpose::bootstrap).bits() % 6);
+}
+
+Stages fateful_stages() {
+  auto stages = quiet_stages();
+  stages.place = [place = stages.place](const ReplicateSpec& spec) {
+    if (fate_of(spec) == Fate::place_throws) throw std::invalid_argument("no place");
+    return place(spec);
+  };
+  stages.jam = [jam = stages.jam](const ReplicateSpec& spec, Packing start, std::stop_token stop,
+                                  const OnStep& on_step) {
+    if (fate_of(spec) == Fate::jam_throws) throw std::runtime_error("no jam");
+    auto result = jam(spec, std::move(start), std::move(stop), on_step);
+    if (fate_of(spec) == Fate::jam_ends_early) result.status = JamStatus::density_limit;
+    return result;
+  };
+  stages.contacts = [contacts = stages.contacts](const ReplicateSpec& spec, const JamResult& jam) {
+    if (fate_of(spec) == Fate::contacts_throw) throw std::runtime_error("no contacts");
+    if (fate_of(spec) == Fate::contacts_throw_int) throw 5;
+    return contacts(spec, jam);
+  };
+  return stages;
+}
+
+std::string expected_failure(Fate fate) {
+  switch (fate) {
+    case Fate::good: return "";
+    case Fate::place_throws: return "place: no place";
+    case Fate::jam_throws: return "jam: no jam";
+    case Fate::jam_ends_early: return "jam: density_limit after 4 strain steps";
+    case Fate::contacts_throw: return "contacts: no contacts";
+    case Fate::contacts_throw_int: return "contacts: an exception of unknown type";
+  }
+  return "?";
+}
+
+TEST(Graph, EveryReplicateYieldsOneOutcome) {
+  const auto plan = plan_of(60);
+  for (const int threads : {1, 2, 4}) {
+    std::map<std::string, int> seen;
+    std::map<Fate, int> fates;
+    run_graph(plan, fateful_stages(), {threads, {}, {}}, [&](const Outcome& outcome) {
+      ++seen[replicate_name(outcome.spec)];
+      const auto fate = fate_of(outcome.spec);
+      ++fates[fate];
+      EXPECT_FALSE(outcome.interrupted);
+      const auto failure = outcome.failure ? outcome.failure->where + ": " + outcome.failure->why : std::string();
+      EXPECT_EQ(failure.rfind(expected_failure(fate), 0), 0U) << failure;
+      EXPECT_EQ(failure.empty(), fate == Fate::good) << failure;
+      EXPECT_GT(outcome.timing.wall_seconds, 0);
+    });
+    EXPECT_EQ(seen.size(), plan.size());
+    for (const auto& [name, times] : seen) EXPECT_EQ(times, 1) << name;
+    EXPECT_EQ(fates.size(), 6U) << "the plan must meet every fate";
+  }
+}
+
+TEST(Graph, NoMeasurementWhereNoneIsAsked) {
+  auto plan = plan_of(3);
+  for (auto& spec : plan) spec.measures.clear();
+  auto stages = quiet_stages();
+  stages.contacts = [](const ReplicateSpec&, const JamResult&) -> std::vector<ContactAnalysis> {
+    throw std::logic_error("not asked for");
+  };
+  int outcomes = 0;
+  run_graph(plan, stages, {2, {}, {}}, [&](const Outcome& outcome) {
+    ++outcomes;
+    EXPECT_FALSE(outcome.failure);
+    EXPECT_FALSE(outcome.interrupted);
+    EXPECT_TRUE(outcome.contacts.empty());
+  });
+  EXPECT_EQ(outcomes, 3);
+}
+
+TEST(Graph, ThreadsChangeNoOutcome) {
+  const auto plan = plan_of(20);
+  std::map<int, std::map<std::string, std::string>> records;
+  for (const int threads : {1, 3}) {
+    run_graph(plan, fateful_stages(), {threads, {}, {}}, [&](const Outcome& outcome) {
+      auto record = make_record(outcome);
+      record.erase("timing");
+      records[threads][replicate_name(outcome.spec)] = pretty(record);
+    });
+  }
+  EXPECT_EQ(records.at(1), records.at(3));
+}
+
+TEST(Graph, AsManyInFlightAsThreadsAndOneConsumer) {
+  for (const int threads : {1, 3}) {
+    std::atomic<int> in_flight{0}, most{0}, consuming{0};
+    auto stages = quiet_stages();
+    stages.place = [&, place = stages.place](const ReplicateSpec& spec) {
+      const int now = ++in_flight;
+      for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
+      }
+      return place(spec);
+    };
+    run_graph(plan_of(30), stages, {threads, {}, {}}, [&](const Outcome&) {
+      EXPECT_EQ(++consuming, 1);
+      std::this_thread::sleep_for(1ms);
+      --consuming;
+      --in_flight;
+    });
+    EXPECT_LE(most, threads);
+    EXPECT_GE(most, 1);
+  }
+}
+
+TEST(Graph, StopsPromptly) {
+  std::stop_source source;
+  std::atomic<int> started{0};
+  auto stages = quiet_stages();
+  stages.jam = [&](const ReplicateSpec& spec, Packing, std::stop_token stop, const OnStep&) {
+    ++started;
+    if (spec.replicate < 3) return test::made_up_outcome(spec).jam;
+    source.request_stop();
+    while (!stop.stop_requested()) std::this_thread::sleep_for(1ms);
+    JamResult result;
+    result.status = JamStatus::interrupted;
+    return result;
+  };
+  int whole = 0, interrupted = 0;
+  run_graph(plan_of(1000), stages, {2, source.get_token(), {}}, [&](const Outcome& outcome) {
+    EXPECT_FALSE(outcome.failure) << outcome.failure->why;
+    (outcome.interrupted ? interrupted : whole)++;
+  });
+  EXPECT_GE(interrupted, 1);
+  EXPECT_LE(whole, 3);
+  EXPECT_EQ(whole + interrupted, started);
+  EXPECT_LT(started, 10);
+}
+
+TEST(Graph, NothingStartsAfterAStop) {
+  std::stop_source source;
+  source.request_stop();
+  int outcomes = 0;
+  run_graph(plan_of(10), quiet_stages(), {2, source.get_token(), {}}, [&](const Outcome&) { ++outcomes; });
+  EXPECT_EQ(outcomes, 0);
+}
+
+TEST(Graph, AnExceptionOfTheConsumerComesOut) {
+  int outcomes = 0;
+  const auto run = [&] {
+    run_graph(plan_of(1000), quiet_stages(), {2, {}, {}}, [&](const Outcome&) {
+      if (++outcomes == 3) throw std::runtime_error("disk full");
+    });
+  };
+  EXPECT_THROW(run(), std::runtime_error);
+  EXPECT_LT(outcomes, 100);
+}
+
+}  // namespace
+}  // namespace isojam

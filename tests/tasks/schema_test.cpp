@@ -1,0 +1,166 @@
+// Facts proved here:
+// - defaults, ranges, choices and places of the manifest's schema are those of the program;
+// - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
+// - of the bad corpus the schema refuses all that it can express;
+// - records and tables conform, failed and flagged ones too; a damaged one does not.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bad_manifests.hpp"
+#include "schema.hpp"
+#include "support.hpp"
+#include "tasks/aggregate.hpp"
+#include "tasks/fields.hpp"
+#include "tasks/input_error.hpp"
+#include "tasks/manifest.hpp"
+#include "tasks/record.hpp"
+#include "tasks/tables.hpp"
+
+namespace isojam {
+namespace {
+
+using test::violations;
+
+Json expected_definition(const Field& field) {
+  JamOptions options;
+  const auto slot = field.slot(options);
+  Json json;
+  if (std::holds_alternative<bool*>(slot)) {
+    json["type"] = "boolean";
+  } else if (std::holds_alternative<Method*>(slot)) {
+    for (const auto name : method_names()) json["enum"].push_back(name);
+  } else {
+    json["type"] = std::holds_alternative<double*>(slot) ? "number" : "integer";
+    json[field.range.low_excluded ? "exclusiveMinimum" : "minimum"] = field.range.low;
+    json[field.range.high_excluded ? "exclusiveMaximum" : "maximum"] = field.range.high;
+  }
+  json["default"] = field_value(field, {});
+  return json;
+}
+
+TEST(ManifestSchema, SaysWhatTheProgramSays) {
+  const auto schema = test::schema("manifest");
+  const auto& properties = schema.at("properties");
+  std::size_t described = 0;
+  for (const auto& field : all_fields()) {
+    const std::string name(field.name);
+    ASSERT_TRUE(schema.at("definitions").contains(name)) << name;
+    auto definition = schema.at("definitions").at(name);
+    EXPECT_FALSE(definition.at("description").get<std::string>().empty()) << name;
+    definition.erase("description");
+    // As unordered objects: the order of a schema's keys means nothing.
+    EXPECT_EQ(nlohmann::json(definition), nlohmann::json(expected_definition(field))) << name;
+    const Json reference{{"$ref", "#/definitions/" + name}};
+    EXPECT_EQ(properties.at(std::string(to_string(field.group))).at("properties").at(name), reference) << name;
+    EXPECT_EQ(properties.at("sweep").at("properties").at(name).at("items"), reference) << name;
+    ++described;
+  }
+  EXPECT_EQ(properties.at("protocol").at("properties").size() + properties.at("minimiser").at("properties").size(),
+            described);
+  EXPECT_EQ(properties.at("sweep").at("properties").size(), described + 2);
+  Json solids = Json::array(), measures = Json::array();
+  for (const auto kind : all_solids) solids.push_back(to_string(kind));
+  EXPECT_EQ(schema.at("definitions").at("solid").at("enum"), solids);
+  for (const auto measure : parse_manifest(test::good_manifest().dump(), "good").measures) {
+    measures.push_back(to_string(measure));
+  }
+  EXPECT_EQ(properties.at("measure").at("default"), measures);
+}
+
+TEST(ManifestSchema, AcceptsWhatTheProgramAccepts) {
+  auto swept = test::good_manifest();
+  swept["$schema"] = "../schemas/manifest.schema.json";
+  for (const auto& field : all_fields()) swept["sweep"][std::string(field.name)] = Json{field_value(field, {})};
+  for (const auto& manifest : {test::good_manifest(), test::tiny_manifest(), swept}) {
+    EXPECT_EQ(violations("manifest", manifest), "") << manifest;
+    const auto canonical = to_json(parse_manifest(manifest.dump(), "manifest"));
+    EXPECT_EQ(violations("manifest", canonical), "") << canonical;
+  }
+}
+
+TEST(ManifestSchema, AcceptsEveryExample) {
+  const std::filesystem::path examples = std::string(ISOJAM_SOURCE_DIR) + "/examples";
+  if (!std::filesystem::exists(examples)) GTEST_SKIP() << "no examples in this tree";
+  int seen = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(examples)) {
+    if (entry.path().filename() != "manifest.json") continue;
+    ++seen;
+    const auto text = read_text(entry.path().string());
+    EXPECT_NO_THROW(parse_manifest(text, entry.path().string()));
+    EXPECT_EQ(violations("manifest", parse_json(text, entry.path().string())), "") << entry.path();
+  }
+  EXPECT_GT(seen, 0);
+}
+
+TEST(ManifestSchema, RefusesWhatItCanExpress) {
+  int refused = 0;
+  for (const auto& bad : test::bad_manifests()) {
+    if (!bad.schema_can_tell) continue;
+    EXPECT_NE(violations("manifest", parse_json(bad.text, bad.name)), "") << bad.name << ": " << bad.text;
+    ++refused;
+  }
+  EXPECT_GT(refused, 40);
+}
+
+std::vector<Json> made_up_records() {
+  auto manifest = test::good_manifest();
+  manifest["sweep"]["target_energy"] = {1e-6, 3.2e-5};
+  std::vector<Json> records;
+  for (const auto& spec : make_plan(parse_manifest(manifest.dump(), "good"))) {
+    auto outcome = test::made_up_outcome(spec);
+    if (records.size() == 1) outcome.contacts.back().face_face.verdict = FitVerdict::collapsed;
+    if (records.size() == 2) {
+      outcome.jam.status = JamStatus::step_limit;
+      outcome.jam.phi_j.reset();
+      outcome.jam.path.front().summary.residual = std::numeric_limits<double>::infinity();
+      outcome.failure = failure_of(outcome.jam);
+    }
+    if (records.size() == 3) outcome.contacts.clear();
+    records.push_back(make_record(outcome));
+  }
+  return records;
+}
+
+TEST(RecordSchema, AcceptsRecords) {
+  const auto records = made_up_records();
+  EXPECT_EQ(records.at(1).at("flags"), Json{"classes_undecided"});
+  EXPECT_TRUE(records.at(1).at("nearest").at("Z_ff").is_null());
+  EXPECT_EQ(records.at(2).at("status"), "failed");
+  EXPECT_EQ(records.at(2).at("path").at(0).at("residual_reason"), "infinite");
+  for (const auto& record : records) EXPECT_EQ(violations("replicate", record), "") << record.dump(1);
+}
+
+TEST(RecordSchema, RefusesDamagedRecords) {
+  const auto record = made_up_records().front();
+  for (const auto& item : record.items()) {
+    auto damaged = record;
+    damaged.erase(item.key());
+    EXPECT_NE(violations("replicate", damaged), "") << "without " << item.key();
+  }
+  for (const std::string pointer :
+       {"/status", "/phi_j/phi_j", "/states/0/phi", "/path/0/stage", "/timing/wall_seconds"}) {
+    auto damaged = record;
+    damaged[Json::json_pointer(pointer)] = "x";
+    EXPECT_NE(violations("replicate", damaged), "") << pointer;
+  }
+  auto both = record;
+  both["failure"] = {{"where", "jam"}, {"why", "because"}};
+  EXPECT_NE(violations("replicate", both), "");
+}
+
+TEST(TableSchema, AcceptsTables) {
+  std::vector<RecordSummary> summaries;
+  for (const auto& record : made_up_records()) summaries.push_back(summarise_record(record, "made up"));
+  for (std::size_t n = 1; n <= summaries.size(); ++n) {
+    const auto table = to_json(aggregate(std::span(summaries).first(n)));
+    EXPECT_EQ(violations("tables", table), "") << table.dump(1);
+    auto damaged = table;
+    damaged["rows"][0].erase("failed");
+    EXPECT_NE(violations("tables", damaged), "");
+  }
+}
+
+}  // namespace
+}  // namespace isojam

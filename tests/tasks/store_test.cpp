@@ -1,0 +1,174 @@
+// Facts proved here:
+// - a file is replaced whole or not at all, and a failed write leaves nothing behind;
+// - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
+// - a record without its packing is not held;
+// - a directory of another manifest is refused and left as it was, in whichever file the other manifest shows;
+// - more replicates may be asked for later, and fewer do not shrink the plan on disk;
+// - temporaries of a writer that was killed are not taken for results.
+
+#include "tasks/store.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bad_manifests.hpp"
+#include "support.hpp"
+#include "tasks/atomic_file.hpp"
+#include "tasks/input_error.hpp"
+
+namespace isojam {
+namespace {
+
+using test::files_below;
+using test::TemporaryDirectory;
+
+Manifest manifest_with(int seed = 7, int replicates = 2) {
+  auto json = test::good_manifest();
+  json["seed"] = seed;
+  json["replicates"] = replicates;
+  return parse_manifest(json.dump(), "m.json");
+}
+
+struct Warnings {
+  std::vector<std::string> said;
+  Store::Warn warn() {
+    return [this](const std::string& message) { said.push_back(message); };
+  }
+};
+
+TEST(AtomicFile, ReplacesTheWholeContent) {
+  const TemporaryDirectory directory;
+  const auto path = directory / "f.json";
+  for (const auto& content : {std::string("first"), std::string(100000, 'x'), std::string()}) {
+    write_atomically(path, content);
+    EXPECT_EQ(files_below(directory.path()), (std::map<std::string, std::string>{{"f.json", content}}));
+  }
+}
+
+TEST(AtomicFile, AFailedWriteLeavesNothing) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(write_atomically(directory / "absent" / "f.json", "x"), FileError);
+  std::filesystem::create_directories(directory / "taken" / "inside");
+  EXPECT_THROW(write_atomically(directory / "taken", "x"), FileError);
+  EXPECT_TRUE(files_below(directory.path()).empty());
+}
+
+TEST(Store, HoldsWhatWasWritten) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = make_plan(manifest);
+  Warnings warnings;
+  const Store store(directory / "results", manifest);
+  EXPECT_FALSE(store.holds(plan[0], warnings.warn()));
+  store.write(test::made_up_outcome(plan[0]));
+  EXPECT_TRUE(store.holds(plan[0], warnings.warn()));
+  EXPECT_FALSE(store.holds(plan[1], warnings.warn()));
+  auto failed = test::made_up_outcome(plan[1]);
+  failed.failure = Failure{"jam", "made up"};
+  store.write(failed);
+  EXPECT_TRUE(store.holds(plan[1], warnings.warn()));
+  EXPECT_TRUE(warnings.said.empty()) << warnings.said.front();
+  EXPECT_EQ(read_records(directory / "results").size(), 2U);
+}
+
+TEST(Store, ADamagedRecordIsReportedAndNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = make_plan(manifest);
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(plan[0]));
+  const auto path = store.record_path(plan[0]);
+  const auto whole = read_text(path.string());
+  for (std::size_t size = 0; size + 2 < whole.size(); size += whole.size() / 37) {
+    test::write_text(path, whole.substr(0, size));
+    Warnings warnings;
+    EXPECT_FALSE(store.holds(plan[0], warnings.warn())) << size;
+    ASSERT_EQ(warnings.said.size(), 1U) << size;
+    EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
+    EXPECT_NO_THROW(Store(directory.path(), manifest)) << "the run replaces it";
+  }
+  test::write_text(path, whole);
+  Warnings warnings;
+  EXPECT_TRUE(store.holds(plan[0], warnings.warn()));
+}
+
+TEST(Store, ARecordUnderAnotherNameIsNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = make_plan(manifest);
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(plan[0]));
+  std::filesystem::copy_file(store.record_path(plan[0]), store.record_path(plan[1]));
+  std::filesystem::copy_file(store.packing_path(plan[0]), store.packing_path(plan[1]));
+  Warnings warnings;
+  EXPECT_FALSE(store.holds(plan[1], warnings.warn()));
+  EXPECT_EQ(warnings.said.size(), 1U);
+}
+
+TEST(Store, ARecordWithoutItsPackingIsNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto spec = make_plan(manifest)[0];
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(spec));
+  std::filesystem::remove(store.packing_path(spec));
+  Warnings warnings;
+  EXPECT_FALSE(store.holds(spec, warnings.warn()));
+  EXPECT_EQ(warnings.said.size(), 1U);
+}
+
+TEST(Store, RefusesADirectoryOfAnotherManifest) {
+  const TemporaryDirectory directory;
+  const Store store(directory.path(), manifest_with(7));
+  store.write(test::made_up_outcome(make_plan(manifest_with(7))[0]));
+  const auto refusal_of = [&](const Manifest& manifest) -> std::string {
+    try {
+      const Store other(directory.path(), manifest);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const std::string shows : {"manifest.json", "records/dodecahedron-N64-r0000.json"}) {
+    const auto before = files_below(directory.path());
+    const auto said = refusal_of(manifest_with(8));
+    EXPECT_NE(said.find(shows), std::string::npos) << said;
+    EXPECT_NE(said.find("belongs to another manifest"), std::string::npos) << said;
+    EXPECT_EQ(files_below(directory.path()), before);
+    std::filesystem::remove(directory / "manifest.json");
+  }
+}
+
+TEST(Store, RefusesADamagedRecordThatNoPlanReplaces) {
+  const TemporaryDirectory directory;
+  const Store store(directory.path(), manifest_with());
+  test::write_text(directory / "records/cube-N64-r0000.json", "{");
+  EXPECT_THROW(Store(directory.path(), manifest_with()), InputError);
+}
+
+TEST(Store, ThePlanOnlyGrows) {
+  const TemporaryDirectory directory;
+  const auto planned = [&] { return read_manifest((directory / "manifest.json").string()).replicates; };
+  for (const auto& [asked, expected] : {std::pair{2, 2}, {5, 5}, {3, 5}}) {
+    const Store store(directory.path(), manifest_with(7, asked));
+    EXPECT_EQ(planned(), expected);
+  }
+}
+
+TEST(Store, TemporariesAreNotResults) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(make_plan(manifest)[0]));
+  test::write_text(directory / "records/.dodecahedron-N64-r0001.json.0123456789abcdef.tmp", "{\"half");
+  EXPECT_NO_THROW(Store(directory.path(), manifest));
+  EXPECT_EQ(read_records(directory.path()).size(), 1U);
+}
+
+TEST(Store, ADirectoryWithoutRecordsIsNoResultsDirectory) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(read_records(directory.path()), FileError);
+  EXPECT_THROW(read_records(directory / "absent"), FileError);
+}
+
+}  // namespace
+}  // namespace isojam
