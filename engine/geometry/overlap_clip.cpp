@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <map>
 #include <utility>
 #include <vector>
@@ -10,6 +9,10 @@
 // A is cut by the face planes of B one after another. In quadruple precision every pose that doubles can express is
 // resolved: a vertex is on a plane exactly, or off it by far more than the rounding of this arithmetic. What lies on a
 // plane counts as inside, so that a face of A that coincides with one of B is kept once, as A's.
+//
+// The vertices of a face are planar only to the rounding of doubles. A plane that runs along a face so closely may
+// leave it and enter it more than once, and there is no one polygon to close the cut. Such a cut is noticed, and all is
+// done again with vertices counted as on a plane to within that rounding.
 
 namespace isojam {
 
@@ -73,15 +76,18 @@ class PlaneCut {
     for (const Quad3& point : solid.points) distance_.push_back(dot(plane.normal, point) - plane.offset);
   }
 
-  /// Cuts, and closes the hole by face `face` of B.
-  void apply(int face) {
+  /// Cuts, and closes the hole by face `face` of B. False if the plane crosses a face more than once.
+  [[nodiscard]] bool apply(int face) {
     std::vector<CutFace> kept;
     for (CutFace& f : solid_.faces) {
       trim(f);
       if (f.loop.size() >= 3) kept.push_back(std::move(f));
     }
-    if (CutFace cap{cap_loop(), face, false}; cap.loop.size() >= 3) kept.push_back(std::move(cap));
+    CutFace cap{cap_loop(), face, false};
+    if (cap.loop.size() != cap_next_.size()) consistent_ = false;
+    if (cap.loop.size() >= 3) kept.push_back(std::move(cap));
     solid_.faces = std::move(kept);
+    return consistent_;
   }
 
  private:
@@ -103,7 +109,7 @@ class PlaneCut {
 
   void trim(CutFace& face) {
     std::vector<int> loop;
-    int left = -1, entered = -1;
+    int left = -1, entered = -1, departures = 0;
     const auto append = [&loop](int p) {
       if (loop.empty() || loop.back() != p) loop.push_back(p);
     };
@@ -111,15 +117,20 @@ class PlaneCut {
     for (std::size_t k = 0; k < n; ++k) {
       const int p = face.loop[k], q = face.loop[(k + 1) % n];
       if (!outside(p)) append(p);
-      if (!outside(p) && outside(q)) append(left = crossing(p, q));
+      if (!outside(p) && outside(q)) {
+        append(left = crossing(p, q));
+        ++departures;
+      }
       if (outside(p) && !outside(q)) append(entered = crossing(q, p));
     }
     while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+    if (departures > 1) consistent_ = false;
     // The cap runs along the same edge the other way.
-    if (left >= 0 && entered >= 0 && left != entered) cap_next_[entered] = left;
+    if (left >= 0 && entered >= 0 && left != entered && !cap_next_.emplace(entered, left).second) consistent_ = false;
     face.loop = std::move(loop);
   }
 
+  /// Vertices of the closing polygon; fewer than there are links if the links do not form one loop.
   std::vector<int> cap_loop() const {
     std::vector<int> loop;
     if (cap_next_.empty()) return loop;
@@ -131,8 +142,7 @@ class PlaneCut {
       if (next == cap_next_.end()) break;
       p = next->second;
     } while (p != start && loop.size() <= cap_next_.size());
-    assert(p == start && loop.size() == cap_next_.size());
-    return loop;
+    return p == start ? loop : std::vector<int>{};
   }
 
   CutSolid& solid_;
@@ -140,6 +150,7 @@ class PlaneCut {
   std::vector<Quad> distance_;
   std::map<std::pair<int, int>, int> crossings_;
   std::map<int, int> cap_next_;
+  bool consistent_ = true;
 };
 
 struct Integrals {
@@ -197,15 +208,27 @@ void mark_features(const ConvexSolid& a, const ConvexSolid& b, const CutSolid& s
   result.edges_b = edges_between(b, pairs_b);
 }
 
+/// A ∩ B; false if a cut was not consistent.
+bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, Quad tolerance, CutSolid& solid) {
+  solid = whole(a);
+  for (int f = 0; f < b.arrays().faces && !solid.faces.empty(); ++f) {
+    if (!PlaneCut(solid, placed_plane(b, f, pose), tolerance).apply(f)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   // Between the rounding of quadruple precision (1e-34 of a coordinate) and the least distance that the rounding of
   // doubles leaves between planes that do not coincide.
-  const Quad tolerance = Quad(a.circumradius()) * Quad(1e-28);
-  CutSolid solid = whole(a);
-  for (int f = 0; f < b.arrays().faces && !solid.faces.empty(); ++f)
-    PlaneCut(solid, placed_plane(b, f, pose), tolerance).apply(f);
+  const Quad exact = Quad(a.circumradius()) * Quad(1e-28);
+  CutSolid solid;
+  if (!cut_all(a, b, pose, exact, solid)) {
+    // With everything on every plane nothing is cut: the loop ends.
+    Quad rounding = gap_tolerance(a, b, pose);
+    while (!cut_all(a, b, pose, rounding, solid)) rounding *= 2;
+  }
 
   Overlap result;
   const Integrals sum = integrate(solid);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "engine/packing/block_matrix.hpp"
 #include "engine/packing/pair_loop.hpp"
 
 namespace isojam {
@@ -20,22 +21,18 @@ struct Evaluation {
   /// The residual that rounding of the coordinates alone causes: λ_max·ulp(L)/mean_force, with λ_max bounded by the
   /// stiffest particle. No minimiser can be trusted below it in double precision.
   double residual_floor = 0;
+  /// What rounding of the coordinates can do to the energy: Σ|F|·ulp(L). Smaller differences mean nothing.
+  double energy_noise = 0;
   long contacts = 0;
 };
 
-/// Symmetric matrix of 6×6 blocks, one per particle and one per pair of particles that touch.
-struct BlockMatrix {
-  struct Block {
-    int row = 0, column = 0;  ///< row < column; the block below the diagonal is its transpose
-    Matrix6d value;
-  };
-  std::vector<Matrix6d> diagonal;
-  std::vector<Block> off_diagonal;  ///< in order of (row, column), each at most once
-
-  int size() const { return static_cast<int>(diagonal.size()); }  ///< in blocks
+/// Second derivatives of the energy, and what they leave out.
+struct SecondOrder {
+  BlockMatrix hessian;  ///< ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient
+  /// The stiffness against tilt that a flat contact shows only once its section line cuts the face; until then V is
+  /// linear in the tilt and the Hessian nearly blind to it. One entry per contact.
+  std::vector<TiltStiffness> tilts;
 };
-
-Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x);
 
 /// A touching pair. `overlap` as in Overlap: area and moment in A's body frame.
 struct Contact {
@@ -51,9 +48,9 @@ class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
   Evaluation evaluate(const Packing& packing);
-  /// ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient. Analytic; where two images of a particle touch, their
-  /// blocks are summed.
-  BlockMatrix hessian(const Packing& packing);
+  /// Analytic; where two images of a particle touch another, their blocks are summed.
+  SecondOrder second_order(const Packing& packing);
+  BlockMatrix hessian(const Packing& packing) { return second_order(packing).hessian; }
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
 

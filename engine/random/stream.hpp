@@ -11,7 +11,7 @@ namespace isojam {
 /// distributions of the standard library are not, so the mapping to uniforms is our own.
 class RandomStream {
  public:
-  explicit RandomStream(std::initializer_list<std::uint64_t> key);
+  RandomStream(std::initializer_list<std::uint64_t> key);
 
   std::uint64_t bits() { return engine_(); }
   /// Uniform in [0, 1), all 2^53 multiples of 2^-53 equally likely.

@@ -38,7 +38,8 @@ class JamRun {
     if (stage == JamStage::consolidation) {
       options.residual = std::max(options.residual, options_.passing_residual);
       options.unjammed_energy = std::max(options.unjammed_energy, options_.passing_energy);
-      options.warm_up = options_.passing_warm_up;
+      options.max_evaluations = options_.passing_evaluations;
+      options.method = Method::lbfgs;
     }
     JamStep step;
     step.stage = stage;

@@ -28,10 +28,11 @@ struct JamOptions {
   double final_distance = 0.004;      ///< expansion ends when φ − φ_J falls below this
   double fit_window = 0.02;           ///< states with φ − φ_J below this give φ_J
   int max_steps = 400;                ///< strain steps in all
-  /// Working tolerance below jamming and on the way up, where states are only passed through.
+  /// On the way up states are only passed through: L-BFGS relaxes each until forces balance to passing_residual, E/N
+  /// falls below passing_energy, or passing_evaluations are spent. The state at the target is then minimised fully.
   double passing_residual = 1e-3;
-  double passing_energy = 1e-14;      ///< E/N below which a state on the way up counts as unjammed
-  int passing_warm_up = 200;          ///< MinimiseOptions::warm_up on the way up
+  double passing_energy = 1e-14;
+  int passing_evaluations = 500;
   MinimiseOptions minimise;
 };
 

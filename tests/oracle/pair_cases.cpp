@@ -40,9 +40,8 @@ Vector3d random_vector(RandomStream& random) { return {random.normal(), random.n
 Vector3d random_direction(RandomStream& random) { return random_vector(random).normalized(); }
 
 Quaterniond random_quaternion(RandomStream& random) {
-  Quaterniond q;
-  q.coeffs() << random_vector(random), random.normal();
-  return q;
+  const Vector3d imaginary = random_vector(random);
+  return {random.normal(), imaginary.x(), imaginary.y(), imaginary.z()};
 }
 
 Vector3d random_normal_to(RandomStream& random, const Vector3d& axis) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/packing/energy.hpp"
+#include "engine/packing/block_matrix.hpp"
 
 namespace isojam {
 

@@ -64,6 +64,7 @@ bool Descent::advance(const Eigen::VectorXd& direction, double first_step, doubl
   if (!(start.slope < 0) || !std::isfinite(reach)) return false;
   LineSearchOptions search;
   search.curvature = curvature;
+  search.noise = here_.energy_noise;
   search.longest_step = longest_displacement() / reach;
 
   Packing lowest = packing_, trial = packing_;

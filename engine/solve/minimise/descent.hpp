@@ -28,8 +28,7 @@ class Descent {
   double last_step() const { return last_step_; }
   /// No particle moves farther than this in one trial step.
   double longest_displacement() const;
-  /// ∂²E/∂r² here.
-  BlockMatrix hessian() { return energy_.hessian(packing_); }
+  SecondOrder second_order() { return energy_.second_order(packing_); }
   /// Evaluates the state at `step` from here without moving to it.
   Evaluation probe(const Eigen::VectorXd& step, Packing& there);
   /// Moves to a probed state.
@@ -52,8 +51,7 @@ class Descent {
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);
-/// Ends without a verdict (StopReason::not_called) once `evaluations` are spent.
-MinimiseSummary minimise_lbfgs(Descent& descent, long evaluations);
+MinimiseSummary minimise_lbfgs(Descent& descent);
 MinimiseSummary minimise_newton(Descent& descent);
 
 }  // namespace isojam

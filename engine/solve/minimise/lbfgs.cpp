@@ -35,11 +35,10 @@ Eigen::VectorXd descent_direction(const std::deque<Correction>& memory, const Ei
 }  // namespace
 
 /// Limited-memory BFGS. Orientations enter through their tangent (R·dθ): a step's end is the next step's origin.
-MinimiseSummary minimise_lbfgs(Descent& descent, long evaluations) {
+MinimiseSummary minimise_lbfgs(Descent& descent) {
   std::deque<Correction> memory;
   while (true) {
     if (const auto reason = descent.verdict()) return descent.finish(*reason);
-    if (descent.evaluations() >= evaluations) return descent.finish(StopReason::not_called);
     const Eigen::VectorXd gradient = descent.here().gradient;
     const Eigen::VectorXd direction = memory.empty() ? Eigen::VectorXd(-gradient) : descent_direction(memory, gradient);
     const double first_step = memory.empty() ? first_displacement / largest_displacement(gradient) : 1;

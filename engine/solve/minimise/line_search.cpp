@@ -28,7 +28,9 @@ double cubic_minimum(const LinePoint& p, const LinePoint& q) {
 class Search {
  public:
   Search(const LinePoint& start, const LineSearchOptions& options)
-      : start_(start), options_(options), noise_(4 * std::numeric_limits<double>::epsilon() * std::abs(start.value)) {}
+      : start_(start),
+        options_(options),
+        noise_(std::max(options.noise, 4 * std::numeric_limits<double>::epsilon() * std::abs(start.value))) {}
 
   bool decreases(const LinePoint& p) const {
     if (p.value <= start_.value + options_.decrease * p.step * start_.slope) return true;

@@ -13,6 +13,7 @@ struct LineSearchOptions {
   double decrease = 1e-4;   ///< sufficient decrease: f(t) ≤ f(0) + decrease·t·f'(0)
   double curvature = 0.1;   ///< |f'(t)| ≤ curvature·|f'(0)|
   double longest_step = 1;  ///< steps beyond are not tried
+  double noise = 0;         ///< differences of f below this mean nothing
   int max_evaluations = 20;
 };
 

@@ -18,7 +18,7 @@ MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const Minimise
   Descent descent(packing, energy, options, std::move(stop));
   switch (options.method) {
     case Method::conjugate_gradient: return minimise_conjugate_gradient(descent);
-    case Method::lbfgs: return minimise_lbfgs(descent, options.max_evaluations + 1);
+    case Method::lbfgs: return minimise_lbfgs(descent);
     case Method::newton: return minimise_newton(descent);
   }
   return {};

@@ -24,9 +24,6 @@ struct MinimiseOptions {
   double unjammed_energy = 1e-20;
   long max_evaluations = 20000;
   int history = 20;  ///< pairs that L-BFGS keeps
-  /// Evaluations that Newton's method leaves to L-BFGS before it begins: far from equilibrium contacts come and go,
-  /// and a Hessian describes only those that are there.
-  int warm_up = 0;
 };
 
 /// Moves `packing` to a local minimum of the energy at fixed cell. On return it is the best state seen.

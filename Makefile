@@ -1,0 +1,97 @@
+# Verbs: run test build bench lint format clean. On Debian 12 each first installs the packages it needs and lacks.
+#   make test BUILD=build-asan OPTIONS='-DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON'
+#   make lint LINT='engine/solve/jam.cpp'
+BUILD ?= build
+JOBS ?= $(shell nproc)
+OPTIONS ?=
+EXAMPLE ?= examples/01-four-solids
+
+# ---- Packages, one list per need ----------------------------------------------------------------------------
+PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev \
+                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev
+LINT_PACKAGES    := clang-format clang-tidy
+# The tests lint two known-bad files, so they need the linters too.
+TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
+                    libmpfr-dev voro++-dev
+BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
+
+# $(call install,packages): the network is touched only if one of them is missing.
+define install
+	@command -v dpkg-query >/dev/null || { echo 'no dpkg here: taking it that these are installed: $(1)' >&2; exit 0; }; \
+	missing=; \
+	for package in $(1); do \
+	  dpkg-query -W -f '$${db:Status-Status}\n' $$package 2>/dev/null | grep -qx installed || missing="$$missing $$package"; \
+	done; \
+	[ -n "$$missing" ] || exit 0; \
+	if [ "$$(id -u)" = 0 ]; then as_root=; \
+	elif command -v sudo >/dev/null; then as_root=sudo; \
+	else \
+	  echo 'These packages are missing, and without root or sudo make cannot install them. As root, run:' >&2; \
+	  echo "  apt-get update && apt-get install --no-install-recommends$$missing" >&2; \
+	  exit 1; \
+	fi; \
+	echo "installing:$$missing" >&2; \
+	$$as_root apt-get -q update && \
+	$$as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends $$missing </dev/null
+endef
+
+# ---- Building ------------------------------------------------------------------------------------------------
+CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON $(OPTIONS)
+# A fresh directory does without the tests and their packages; one that has them keeps them, so that going back
+# and forth between `make run` and `make test` compiles nothing twice.
+CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
+
+.PHONY: build run test bench lint format clean
+.DEFAULT_GOAL := build
+
+build:
+	$(call install,$(PROGRAM_PACKAGES))
+	$(CONFIGURE_PROGRAM)
+	cmake --build $(BUILD) -j $(JOBS) --target isojam
+
+run: build
+	$(BUILD)/isojam run $(EXAMPLE)/manifest.json
+
+test:
+	$(call install,$(TEST_PACKAGES))
+	$(CONFIGURE) -DISOJAM_TESTS=ON
+	cmake --build $(BUILD) -j $(JOBS)
+	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout 300
+
+bench:
+	$(call install,$(BENCH_PACKAGES))
+	$(CONFIGURE) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
+	cmake --build $(BUILD) -j $(JOBS) --target isojam_bench
+	$(BUILD)/isojam_bench
+
+clean:
+	rm -rf $(BUILD)
+
+# ---- Style ---------------------------------------------------------------------------------------------------
+# tests/house/bad holds files that must fail: the tests see to those.
+FILES   := $(shell find engine tasks tests -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
+LINT    ?= $(filter %.cpp,$(FILES))
+STAMPS   = $(LINT:%=$(BUILD)/lint/%)
+
+lint:
+	$(call install,$(BENCH_PACKAGES))
+	clang-format --dry-run -Werror $(FILES)
+	$(CONFIGURE) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
+	@$(MAKE) --no-print-directory -j $(JOBS) -O -k lint-sources
+
+.PHONY: lint-sources
+lint-sources: $(STAMPS)
+
+# A stamp says that this source passed, with the headers it includes and this configuration.
+$(STAMPS): $(BUILD)/lint/%: % .clang-tidy
+	@mkdir -p $(@D)
+	@echo 'clang-tidy $<'
+	@clang-tidy --quiet -p $(BUILD) $< >$@.log 2>&1 || { grep -v ' warnings generated' $@.log; exit 1; }
+	@$(CXX) -std=c++20 -MM -MP -MT $@ -MF $@.d -I. -isystem /usr/include/eigen3 $<
+	@touch $@
+
+-include $(wildcard $(STAMPS:=.d))
+
+format:
+	$(call install,clang-format)
+	clang-format -i $(FILES)

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/geometry/overlap.hpp"
+
+namespace isojam {
+
+/// Symmetric matrix of 6×6 blocks, one per particle and one per pair of particles that touch.
+struct BlockMatrix {
+  struct Block {
+    int row = 0, column = 0;  ///< row < column; the block below the diagonal is its transpose
+    Matrix6d value;
+  };
+  std::vector<Matrix6d> diagonal;
+  std::vector<Block> off_diagonal;  ///< in order of (row, column), each at most once
+
+  int size() const { return static_cast<int>(diagonal.size()); }  ///< in blocks
+};
+
+Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x);
+
+/// Stiffness against relative rotation (R·θ_B − R·θ_A) of the two particles of one off-diagonal block.
+struct TiltStiffness {
+  int block = 0;  ///< index in BlockMatrix::off_diagonal
+  Eigen::Matrix3d value;
+};
+
+/// matrix + factor · Σ tilts.
+BlockMatrix stiffened(const BlockMatrix& matrix, const std::vector<TiltStiffness>& tilts, double factor);
+
+}  // namespace isojam

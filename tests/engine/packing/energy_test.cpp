@@ -1,0 +1,1 @@
+#include "engine/packing/energy.hpp"

@@ -1,0 +1,1 @@
+#include "engine/solve/jamming_point.hpp"

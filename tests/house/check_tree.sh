@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# usage: check_tree.sh ROOT
+# Proves, line by line, of the tree at ROOT:
+#   1. engine/ includes only engine/, the standard library, Eigen, Spectra and Boost.Math: nothing of tasks/, no JSON,
+#      no formatting or command-line library, no file, clock, stream or environment; nor does it name these by
+#      way of a header that happens to bring them.
+#   2. inside engine/, includes never point upwards: random < geometry < packing < solve < analysis.
+#   3. oneTBB (also by way of <execution>) enters engine/packing/pair_loop.cpp and tasks/graph.cpp, nothing else.
+#   4. no source of engine/, tasks/ or tests/ is longer than 400 lines.
+# Prints one line per breach, `file:line: why: text`, and exits 1 if there is one.
+set -euo pipefail
+export LC_ALL=C
+cd "${1:?usage: check_tree.sh ROOT}"
+
+readonly max_lines=400
+readonly ranks='random geometry packing solve analysis'
+readonly tbb_sources=' engine/packing/pair_loop.cpp tasks/graph.cpp '
+readonly banned_headers=' filesystem chrono ctime fstream iostream istream ostream sstream syncstream cstdio iomanip execution '
+readonly system_headers=' quadmath.h immintrin.h '
+readonly banned_names='std::(chrono|filesystem|cout|cerr|clog|random_device)\b|\b(std::)?(getenv|fopen|printf|clock_gettime)\('
+
+breaches=0
+breach() {  # file line why text
+  printf '%s:%s: %s: %s\n' "$1" "$2" "$3" "$4"
+  breaches=$((breaches + 1))
+}
+
+rank() {  # directory of engine/ -> its place in the order, or nothing
+  local place=0 name
+  for name in $ranks; do
+    [[ $name == "$1" ]] && { echo "$place"; return; }
+    place=$((place + 1))
+  done
+}
+
+check_engine_include() {  # file line header
+  local own theirs
+  case $3 in
+    \"engine/*)
+      own=$(rank "$(cut -d/ -f2 <<<"$1")") theirs=$(rank "$(cut -d/ -f2 <<<"$3")")
+      [[ -n $own && -n $theirs ]] || breach "$1" "$2" 'room of engine/ without a place in the order' "$3"
+      [[ -z $own || -z $theirs || $theirs -le $own ]] || breach "$1" "$2" 'include points upwards' "$3" ;;
+    \"*) breach "$1" "$2" 'engine/ includes what is not engine/' "$3" ;;
+    '<Eigen/'* | '<Spectra/'* | '<boost/math/'*) ;;
+    '<tbb/'* | '<oneapi/'*) ;;  # rule 3
+    *[/.]*) [[ $system_headers == *" ${3:1:-1} "* ]] || breach "$1" "$2" 'engine/ includes what is not engine/' "$3" ;;
+    *) [[ $banned_headers != *" ${3:1:-1} "* ]] || breach "$1" "$2" 'engine/ touches files, clock or streams' "$3" ;;
+  esac
+}
+
+check_include() {  # file line header
+  [[ $1 != engine/* ]] || check_engine_include "$@"
+  case $3 in
+    [\<\"]tbb/* | [\<\"]oneapi/* | '<execution>')
+      [[ $tbb_sources == *" $1 "* ]] || breach "$1" "$2" 'oneTBB outside its two sources' "$3" ;;
+  esac
+}
+
+rooms=()
+for room in engine tasks tests; do [[ ! -d $room ]] || rooms+=("$room"); done
+[[ -d engine ]] || { echo "no engine/ in $PWD: nothing to prove" >&2; exit 2; }
+
+sources=$(find "${rooms[@]}" -path tests/house/bad -prune -o -type f \
+            \( -name '*.cpp' -o -name '*.hpp' -o -name '*.h' -o -name '*.sh' -o -name '*.cmake' -o -name CMakeLists.txt \) -print | sort)
+while read -r file; do
+  length=$(wc -l <"$file")
+  [[ $length -le $max_lines ]] || breach "$file" "$length" "more than $max_lines lines" "$length"
+done <<<"$sources"
+
+directive='^[[:space:]]*#[[:space:]]*(include|include_next|import)\b'
+includes=0
+while IFS=: read -r file line text; do
+  [[ -n $file ]] || continue
+  includes=$((includes + 1))
+  if [[ $text =~ (\<[^\>]*\>|\"[^\"]*\") ]]; then
+    check_include "$file" "$line" "${BASH_REMATCH[1]}"
+  else
+    breach "$file" "$line" 'include that cannot be read' "$text"
+  fi
+done < <(grep -rnE "$directive" engine $([[ ! -d tasks ]] || echo tasks) --include='*.[ch]pp' --include='*.h' || true)
+
+while IFS=: read -r file line text; do
+  [[ -n $file ]] || continue
+  breach "$file" "$line" 'engine/ touches files, clock, streams or environment' "$text"
+done < <(grep -rnE "$banned_names" engine --include='*.[ch]pp' --include='*.h' || true)
+
+[[ $includes -gt 0 ]] || { echo "no include found in $PWD: nothing was proved" >&2; exit 2; }
+echo "$includes includes, $(wc -l <<<"$sources") files, $breaches breaches"
+[[ $breaches -eq 0 ]]
