@@ -164,7 +164,8 @@ TEST(Graph, StopsPromptly) {
     ++started;
     if (spec.replicate < 3) return test::made_up_outcome(spec).jam;
     source.request_stop();
-    while (!stop.stop_requested()) std::this_thread::sleep_for(1ms);
+    for (int i = 0; i < 5000 && !stop.stop_requested(); ++i) std::this_thread::sleep_for(1ms);
+    EXPECT_TRUE(stop.stop_requested());
     JamResult result;
     result.status = JamStatus::interrupted;
     return result;
