@@ -50,14 +50,13 @@ constexpr std::array fields{
     field<&P::max_steps>("max_steps", {1, 1e6}),
     field<&P::passing_residual>("passing_residual", positive_to(1)),
     field<&P::passing_energy>("passing_energy", {0, 1}),
-    field<&P::passing_warm_up>("passing_warm_up", {0, 1e9}),
+    field<&P::passing_evaluations>("passing_evaluations", {1, 1e9}),
     field<&M::method>("method", none),
     field<&M::residual>("residual", positive_to(1)),
     field<&M::energy_change>("energy_change", {0, 1}),
     field<&M::unjammed_energy>("unjammed_energy", {0, 1}),
     field<&M::max_evaluations>("max_evaluations", {1, 1e9}),
     field<&M::history>("history", {1, 1000}),
-    field<&M::warm_up>("warm_up", {0, 1e9}),
 };
 
 const auto names_of_methods = [] {
