@@ -43,19 +43,23 @@ void add(Point& point, const RecordSummary& record) {
 
 Row make_row(const Point& point) {
   const auto& first = *point.begin()->second;
-  Row row{first.solid, first.particles, first.parameters, static_cast<int>(point.size()), 0, 0, {}, {}};
-  std::array<std::vector<double>, columns.size()> values;
+  Row row{first.solid, first.particles, first.parameters, static_cast<int>(point.size()), 0, 0, {}, {}, {}};
+  std::array<std::vector<double>, columns.size()> values, unflagged;
   for (const auto& [key, record] : point) {
     row.failed += record->failed;
     row.flagged += record->flagged;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (record->values[i]) values[i].push_back(*record->values[i]);
+      if (!record->values[i]) continue;
+      values[i].push_back(*record->values[i]);
+      if (!record->flagged) unflagged[i].push_back(*record->values[i]);
     }
     if (record->residual) row.residual = std::max(row.residual.value_or(0), *record->residual);
   }
   const auto text = point_text(first.solid, first.particles, first.parameters);
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    row.estimates[i] = estimate(std::move(values[i]), hash_of(text + std::string(columns[i].name)));
+    const auto seed = hash_of(text + std::string(columns[i].name));
+    row.estimates[i] = estimate(std::move(values[i]), seed);
+    row.unflagged[i] = estimate(std::move(unflagged[i]), seed);
   }
   return row;
 }

@@ -19,6 +19,7 @@ struct Row {
   int failed = 0;
   int flagged = 0;  ///< did not fail, count in the estimates, but their records hold a reservation
   std::array<Estimate, columns.size()> estimates;  ///< over replicates that did not fail and have the value
+  std::array<Estimate, columns.size()> unflagged;  ///< the same without the flagged replicates
   std::optional<double> residual;                  ///< worst of the states behind φ_J; nullopt if all failed
 };
 

@@ -49,6 +49,7 @@ Json fit_record(const CdfFit& fit) {
 void put_contacts(Json& json, const ContactAnalysis& analysis) {
   const auto& n = analysis.numbers;
   put_number(json, "Z", n.Z);
+  put_number(json, "Q6", analysis.Q6);
   const bool faces = analysis.face_face.verdict == FitVerdict::fitted;
   const bool edges = analysis.edge_face.verdict == FitVerdict::fitted;
   const auto put = [&](const std::string& key, double value, bool decided) {

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "engine/analysis/alignment.hpp"
+#include "engine/analysis/order.hpp"
 #include "engine/packing/energy.hpp"
 
 namespace isojam {
@@ -26,6 +27,7 @@ std::vector<ContactAnalysis> analyse_states(const ReplicateSpec&, const JamResul
   for (const auto& state : jam.states) {
     const auto contacts = energy.contacts(state);
     analyses.push_back(analyse_contacts(*state.solid, state.size(), alignments(*state.solid, contacts)));
+    analyses.back().Q6 = contact_q6(contacts);
   }
   return analyses;
 }
@@ -58,6 +60,7 @@ std::vector<std::string_view> flags_of(const Outcome& outcome) {
     const bool decided =
         analysis.face_face.verdict == FitVerdict::fitted && analysis.edge_face.verdict == FitVerdict::fitted;
     if (!decided) flags.emplace_back("classes_undecided");
+    if (analysis.Q6 > crystalline_q6) flags.emplace_back("crystalline");
   }
   return flags;
 }

@@ -77,6 +77,18 @@ Cells row_cells(const Row& row, const std::vector<std::string>& parameters, std:
   return cells;
 }
 
+/// The second line of a row with flagged replicates: its estimates without them.
+Cells unflagged_cells(const Row& row, const std::vector<std::string>& parameters, std::string_view plus_minus) {
+  const int kept = row.replicates - row.failed - row.flagged;
+  Cells cells{"  unflagged", ""};
+  cells.resize(cells.size() + parameters.size());
+  cells.push_back(std::to_string(kept));
+  cells.resize(cells.size() + 2);
+  for (const auto& estimate : row.unflagged) cells.push_back(estimate_text(estimate, plus_minus, kept));
+  cells.emplace_back();
+  return cells;
+}
+
 /// Characters of a UTF-8 text.
 std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
@@ -141,6 +153,12 @@ Json to_json(const Table& table) {
     entry["failed"] = row.failed;
     entry["flagged"] = row.flagged;
     for (std::size_t i = 0; i < columns.size(); ++i) entry[std::string(columns[i].name)] = to_json(row.estimates[i]);
+    if (row.flagged > 0) {
+      auto& unflagged = entry["unflagged"];
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        unflagged[std::string(columns[i].name)] = to_json(row.unflagged[i]);
+      }
+    }
     entry["residual"] = row.residual ? Json(*row.residual) : Json(nullptr);
     json["rows"].push_back(std::move(entry));
   }
@@ -155,7 +173,10 @@ std::string to_text(const Table& table) {
   for (const auto& column : columns) head.emplace_back(column.name);
   head.emplace_back("residual");
   std::vector<Cells> lines{head};
-  for (const auto& row : table.rows) lines.push_back(row_cells(row, parameters, " ± "));
+  for (const auto& row : table.rows) {
+    lines.push_back(row_cells(row, parameters, " ± "));
+    if (row.flagged > 0) lines.push_back(unflagged_cells(row, parameters, " ± "));
+  }
   return aligned(lines);
 }
 

@@ -23,6 +23,7 @@ struct ContactAnalysis {
   CriticalAngles critical;
   std::vector<ContactClass> classes;  ///< per contact, in the order given
   ContactNumbers numbers;
+  double Q6 = 0;  ///< contact_q6 of the state, for whoever has its contacts and not just their angles
 };
 
 /// Classifies by the cut-offs of the two CDF fits on [0, θ_c,min/2] each: face-face if θ_ff < its cut-off,

@@ -93,6 +93,10 @@ TEST(Aggregate, CountsFailedAndFlagged) {
                                                  {"Z_ef", 3},  {"Z_l", 3}, {"C", 3}};
   EXPECT_EQ(n, expected);
   EXPECT_NEAR(*row.estimates[0].mean, expected_sum / 4, 1e-15);
+  EXPECT_EQ(row.unflagged[0].n, 2);
+  const double kept =
+      test::made_up_outcome(specs[0]).jam.phi_j->density + test::made_up_outcome(specs[4]).jam.phi_j->density;
+  EXPECT_NEAR(*row.unflagged[0].mean, kept / 2, 1e-15);
   EXPECT_EQ(row.residual, worst);
 }
 

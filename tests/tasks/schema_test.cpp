@@ -118,6 +118,7 @@ std::vector<Json> made_up_records() {
       outcome.failure = failure_of(outcome.jam);
     }
     if (records.size() == 3) outcome.contacts.clear();
+    if (records.size() == 4) outcome.contacts.back().Q6 = 0.5;
     records.push_back(make_record(outcome));
   }
   return records;
@@ -127,6 +128,7 @@ TEST(RecordSchema, AcceptsRecords) {
   const auto records = made_up_records();
   EXPECT_EQ(records.at(1).at("flags"), Json{"classes_undecided"});
   EXPECT_TRUE(records.at(1).at("nearest").at("Z_ff").is_null());
+  EXPECT_EQ(records.at(4).at("flags"), Json{"crystalline"});
   EXPECT_EQ(records.at(2).at("status"), "failed");
   EXPECT_EQ(records.at(2).at("path").at(0).at("residual_reason"), "infinite");
   for (const auto& record : records) EXPECT_EQ(violations("replicate", record), "") << record.dump(1);

@@ -1,0 +1,81 @@
+// Facts proved here:
+//   Q_l of parallel and antiparallel bonds is 1, of none 0;
+//   Q4 and Q6 of the simple cubic, face-centred cubic and icosahedral neighbour shells are their closed forms;
+//   it does not depend on rotation, length or order of the bonds, and is about 1/sqrt(n) for independent ones.
+
+#include "engine/analysis/order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/geometry/convex_solid.hpp"
+#include "engine/random/stream.hpp"
+
+namespace isojam {
+namespace {
+
+using Bonds = std::vector<Eigen::Vector3d>;
+
+Bonds face_centred() {
+  Bonds bonds;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double s : {-1.0, 1.0}) {
+      Eigen::Vector3d bond = Eigen::Vector3d::Ones();
+      bond[axis] = 0;
+      bond[(axis + 1) % 3] = s;
+      bonds.push_back(bond);
+    }
+  }
+  return bonds;
+}
+
+Eigen::Vector3d random_vector(RandomStream& random) { return {random.normal(), random.normal(), random.normal()}; }
+
+TEST(SteinhardtOrder, OfKnownShells) {
+  const Bonds cubic{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_NEAR(steinhardt_order(cubic, 4), std::sqrt(7.0 / 12), 1e-14);
+  EXPECT_NEAR(steinhardt_order(cubic, 6), std::sqrt(1.0 / 8), 1e-14);
+  EXPECT_NEAR(steinhardt_order(face_centred(), 4), std::sqrt(7.0 / 192), 1e-14);
+  EXPECT_NEAR(steinhardt_order(face_centred(), 6), std::sqrt(169.0 / 512), 1e-14);
+  const Bonds& icosahedral = platonic(SolidKind::icosahedron).vertices();
+  EXPECT_NEAR(steinhardt_order(icosahedral, 4), 0, 1e-7);
+  EXPECT_NEAR(steinhardt_order(icosahedral, 6), std::sqrt(11.0) / 5, 1e-13);
+}
+
+TEST(SteinhardtOrder, OfParallelBondsAndOfNone) {
+  const Bonds parallel{{1, 2, 3}, {-2, -4, -6}, {0.1, 0.2, 0.3}};
+  EXPECT_NEAR(steinhardt_order(parallel, 6), 1, 1e-14);
+  EXPECT_EQ(steinhardt_order(Bonds{}, 6), 0);
+}
+
+TEST(SteinhardtOrder, DependsOnDirectionsAlone) {
+  RandomStream random{3, 1};
+  Bonds bonds;
+  for (int k = 0; k < 40; ++k) bonds.push_back(random_vector(random));
+  const double value = steinhardt_order(bonds, 6);
+  const Eigen::Quaterniond turn = Eigen::Quaterniond(0.3, 0.5, -0.2, 0.9).normalized();
+  Bonds changed;
+  for (const Eigen::Vector3d& bond : bonds) changed.push_back((1 + random.uniform()) * (turn * bond));
+  std::reverse(changed.begin(), changed.end());
+  EXPECT_NEAR(steinhardt_order(changed, 6), value, 1e-13);
+}
+
+TEST(SteinhardtOrder, OfIndependentBondsFallsAsTheirRoot) {
+  RandomStream random{3, 2};
+  double sum = 0;
+  constexpr int sets = 50, n = 200;
+  for (int set = 0; set < sets; ++set) {
+    Bonds bonds;
+    for (int k = 0; k < n; ++k) bonds.push_back(random_vector(random));
+    const double q = steinhardt_order(bonds, 6);
+    sum += q * q;
+  }
+  // n Q² has mean 1 and variance 2/13 per set.
+  EXPECT_NEAR(sum / sets * n, 1, 5 * std::sqrt(2.0 / 13 / sets));
+}
+
+}  // namespace
+}  // namespace isojam
