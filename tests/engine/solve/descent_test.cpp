@@ -59,7 +59,7 @@ int wander(Packing& packing, int steps, RandomStream& random) {
 
 TEST_P(DescentOf, TakesTheStepItReports) {
   RandomStream random{31};
-  Packing packing = small_packing(GetParam(), 0.75, 32);
+  Packing packing = small_packing(GetParam(), over_compressed(GetParam()), 32);
   wander(packing, 40, random);
   MinimiseOptions options;
   options.residual = 1e-7;
@@ -71,7 +71,7 @@ TEST_P(DescentOf, TakesTheStepItReports) {
 }
 
 TEST_P(DescentOf, RefusesToClimb) {
-  Packing packing = small_packing(GetParam(), 0.75, 33);
+  Packing packing = small_packing(GetParam(), over_compressed(GetParam()), 33);
   const Packing before = packing;
   PackingEnergy energy;
   const MinimiseOptions options;

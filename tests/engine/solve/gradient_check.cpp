@@ -25,7 +25,7 @@ GradientCheck check_gradient(const EnergyFunction& function, const Packing& pack
     const double ratio = std::abs(quotient - slope) / allowed;
     if (!(ratio <= check.worst)) check = {ratio, entry, allowed / here.gradient.lpNorm<Eigen::Infinity>()};
   };
-  for (Eigen::Index k = 0; k < size; ++k) {
+  for (Eigen::Index k = 0; k < size && check.passes(); ++k) {
     along(Eigen::VectorXd::Unit(size, k), k);
     Eigen::VectorXd direction(size);
     for (double& entry : direction) entry = random.normal();

@@ -25,8 +25,9 @@ struct GradientCheck {
 };
 
 /// Compares the gradient of `function` with central differences of its energy over ±step (a length), along every
-/// coordinate and along as many random directions. The mean value theorem says that the difference quotient is the
-/// slope somewhere in between, so it may differ from the slope in the middle by no more than slopes vary there.
+/// coordinate and along as many random directions, up to the first that gives it the lie. The mean value theorem says
+/// that the difference quotient is the slope somewhere in between, so it may differ from the slope in the middle by no
+/// more than slopes vary there.
 GradientCheck check_gradient(const EnergyFunction& function, const Packing& packing, double step, RandomStream& random);
 
 }  // namespace isojam

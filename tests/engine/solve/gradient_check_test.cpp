@@ -71,7 +71,7 @@ TEST_P(GradientOf, PassesOnlyWhenItIsRight) {
   RandomStream random{21};
   PackingEnergy energy;
   for (const long evaluations : {0L, 60L}) {
-    Packing packing = small_packing(GetParam(), 0.75, 22);
+    Packing packing = small_packing(GetParam(), over_compressed(GetParam()), 22);
     if (evaluations > 0) {
       MinimiseOptions options;
       options.method = Method::lbfgs;

@@ -43,12 +43,13 @@ void expect_agreement(const MinimiseSummary& summary, const Packing& packing, co
 
 TEST_P(MinimiseWith, ReachesTheResidualAskedFor) {
   const auto [method, kind] = GetParam();
-  const Packing start = small_packing(kind, 0.75, 41);
+  const Packing start = small_packing(kind, over_compressed(kind), 41);
   Packing packing = start;
   PackingEnergy energy;
   MinimiseOptions options;
   options.method = method;
-  options.residual = 1e-5;
+  // Conjugate gradients creep: an order of magnitude costs them hundreds of evaluations.
+  options.residual = method == Method::conjugate_gradient ? 1e-4 : 1e-6;
   const MinimiseSummary summary = minimise(packing, energy, options);
   std::printf("N = %d: %s, residual %.1e, E/N %.1e, %ld evaluations, %ld iterations\n", packing.size(),
               to_string(summary.reason).data(), summary.residual, summary.energy / packing.size(), summary.evaluations,

@@ -33,6 +33,9 @@ inline Packing small_packing(SolidKind kind, double density, std::uint64_t seed,
   return random_packing(solid, std::max(least, least_particles(solid, density)), density, random);
 }
 
+/// A density at which random packings are jammed beyond doubt. Cubes can order, and then fit at .75.
+inline double over_compressed(SolidKind kind) { return kind == SolidKind::cube ? 0.85 : 0.75; }
+
 inline bool same_bits(const Packing& p, const Packing& q) {
   return p.solid == q.solid && p.cell.side() == q.cell.side() &&
          std::equal(p.poses.begin(), p.poses.end(), q.poses.begin(), q.poses.end(), [](const Pose& a, const Pose& b) {
