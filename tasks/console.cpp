@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -12,7 +13,7 @@ namespace {
 constexpr auto bar_interval = std::chrono::milliseconds(100);
 constexpr auto line_interval = std::chrono::seconds(5);
 constexpr int bar_width = 24;
-constexpr std::string_view red = "\033[1;31m", yellow = "\033[1;33m", plain = "";
+constexpr std::string_view red = "\033[1;31m", yellow = "\033[1;33m", plain;
 
 bool wants_colour(Colour colour, bool terminal) {
   if (colour != Colour::automatic) return colour == Colour::always;
@@ -101,7 +102,7 @@ std::string Console::status() const {
 }
 
 std::string duration_text(double seconds) {
-  const auto s = static_cast<long>(seconds + 0.5);
+  const auto s = std::lround(seconds);
   if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
   if (s >= 60) return fmt::format("{} min {:02} s", s / 60, s % 60);
   return fmt::format("{} s", s);

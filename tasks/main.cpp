@@ -100,13 +100,17 @@ ExitCode parse_and_run(int argc, char** argv) {
   } catch (const FileError& error) {
     console.error(error.what());
     return ExitCode::usage;
-  } catch (const std::exception& error) {
-    console.error(error.what());
-    return ExitCode::some_failed;
   }
 }
 
 }  // namespace
 }  // namespace isojam
 
-int main(int argc, char** argv) { return static_cast<int>(isojam::parse_and_run(argc, argv)); }
+int main(int argc, char** argv) {
+  try {
+    return static_cast<int>(isojam::parse_and_run(argc, argv));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "isojam: error: %s\n", error.what());
+    return static_cast<int>(isojam::ExitCode::some_failed);
+  }
+}

@@ -52,12 +52,12 @@ std::optional<Failure> failure_of(const JamResult& jam) {
 std::vector<std::string_view> flags_of(const Outcome& outcome) {
   assert(!outcome.failure);
   std::vector<std::string_view> flags;
-  if (outcome.jam.status == JamStatus::short_of_goal) flags.push_back("short_of_goal");
+  if (outcome.jam.status == JamStatus::short_of_goal) flags.emplace_back("short_of_goal");
   if (!outcome.contacts.empty()) {
     const auto& analysis = outcome.contacts[nearest_state(outcome.jam)];
     const bool decided =
         analysis.face_face.verdict == FitVerdict::fitted && analysis.edge_face.verdict == FitVerdict::fitted;
-    if (!decided) flags.push_back("classes_undecided");
+    if (!decided) flags.emplace_back("classes_undecided");
   }
   return flags;
 }

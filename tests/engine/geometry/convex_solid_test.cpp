@@ -17,7 +17,7 @@ namespace {
 class Platonic : public testing::TestWithParam<SolidKind> {};
 
 INSTANTIATE_TEST_SUITE_P(Solids, Platonic, testing::ValuesIn(all_solids),
-                         [](const auto& info) { return std::string(to_string(info.param)); });
+                         [](const auto& solid) { return std::string(to_string(solid.param)); });
 
 TEST_P(Platonic, HasUnitVolumeAndCentroidZero) {
   const ConvexSolid& solid = platonic(GetParam());

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "engine/packing/energy.hpp"
+
+namespace isojam {
+
+/// Steinhardt's global Q_l of a set of bonds (any length, either direction; l even): 1 if all are parallel, about
+/// 1/sqrt(number of bonds) if they are independent. By the addition theorem
+///   Q_l² = (4π/(2l+1)) Σ_m |⟨Y_lm⟩|² = (1/n²) Σ_ij P_l(cos γ_ij),
+/// so no spherical harmonic is ever computed. 0 without bonds.
+double steinhardt_order(std::span<const Eigen::Vector3d> bonds, unsigned l);
+
+/// Q6 over the centre-to-centre lines of all contacts.
+double contact_q6(std::span<const Contact> contacts);
+
+/// Disordered packings of 64 to 100 particles have a contact Q6 of at most .15, partly crystalline ones of .3 and more.
+inline constexpr double crystalline_q6 = 0.3;
+
+}  // namespace isojam
