@@ -1,0 +1,240 @@
+// Facts proved here, on dodecahedra (N = 24) and octahedra (N = 48) with large steps and a lax goal:
+//   the run ends jammed; consolidation climbs to the target energy, expansion falls from equilibrium to equilibrium;
+//   every state is in balance by forces summed anew, and its step on the path says what a fresh evaluation says;
+//   φ_J lies below every state, within final_distance of the last by either form, and between .6 and .8;
+//   the same start gives the same bits, another start another packing;
+//   a stop requested on the way ends the run with what it has; so do a target beyond reach and too few steps;
+//   straining only as far as the unrelaxed energy stays below the target ends consolidation nearer to jamming.
+
+#include "engine/solve/jam.hpp"
+
+#include <set>
+
+#include "tests/engine/solve/solve_support.hpp"
+
+namespace isojam {
+namespace {
+
+struct System {
+  SolidKind kind;
+  int n;
+};
+
+JamOptions lax() {
+  JamOptions options;
+  options.initial_density = 0.2;
+  options.consolidation_step = 0.03;
+  options.approach = 0.35;
+  options.final_distance = 0.02;
+  options.fit_window = 0.06;
+  options.passing_evaluations = 200;
+  options.minimise.residual = 1e-5;
+  options.minimise.max_evaluations = 2000;
+  return options;
+}
+
+Packing start_of(const System& system, std::uint64_t seed, const JamOptions& options) {
+  RandomStream random{seed};
+  return random_packing(platonic(system.kind), system.n, options.initial_density, random);
+}
+
+class Jam : public testing::TestWithParam<System> {};
+
+INSTANTIATE_TEST_SUITE_P(Systems, Jam,
+                         testing::Values(System{SolidKind::dodecahedron, 24}, System{SolidKind::octahedron, 48}),
+                         [](const auto& test) { return std::string(to_string(test.param.kind)); });
+
+void expect_path(const JamResult& result, const JamOptions& options) {
+  bool expanding = false;
+  double before = 0;
+  for (const JamStep& step : result.path) {
+    if (step.stage == JamStage::consolidation) {
+      EXPECT_FALSE(expanding) << "consolidation after expansion";
+      EXPECT_GT(step.density, before);
+    } else if (!expanding) {
+      expanding = true;
+      EXPECT_EQ(step.density, before) << "the state at the target is minimised once more, fully";
+    }
+    before = step.density;
+    EXPECT_NE(step.summary.reason, StopReason::not_called);
+  }
+  ASSERT_TRUE(expanding);
+  const auto last_up = std::find_if(result.path.begin(), result.path.end(),
+                                    [](const JamStep& step) { return step.stage == JamStage::expansion; }) -
+                       1;
+  EXPECT_GE(last_up->energy_per_particle, options.target_energy);
+  for (auto step = result.path.begin(); step != last_up; ++step)
+    EXPECT_TRUE(step->energy_per_particle < options.target_energy || step->summary.reason == StopReason::unjammed)
+        << "went on beyond the target at " << step->density;
+}
+
+void expect_states(const JamResult& result, const JamOptions& options) {
+  ASSERT_GE(result.states.size(), 3U);
+  ASSERT_EQ(result.states.size(), result.state_steps.size());
+  for (std::size_t s = 0; s < result.states.size(); ++s) {
+    const Packing& state = result.states[s];
+    const JamStep& step = result.path[static_cast<std::size_t>(result.state_steps[s])];
+    EXPECT_EQ(step.stage, JamStage::expansion);
+    EXPECT_TRUE(is_equilibrium(step.summary)) << to_string(step.summary.reason);
+    const Evaluation fresh = PackingEnergy().evaluate(state);
+    EXPECT_EQ(step.density, state.density());
+    EXPECT_EQ(step.energy_per_particle, fresh.energy / state.size());
+    EXPECT_EQ(step.pressure, fresh.pressure);
+    EXPECT_GT(step.pressure, 0);
+    const double asked = std::max(options.minimise.residual, step.summary.residual_floor);
+    EXPECT_LE(balance_of(state).residual, asked * (1 + 1e-3)) << "state " << s << " is not in balance";
+    if (s == 0) continue;
+    EXPECT_LT(state.density(), result.states[s - 1].density());
+    EXPECT_GT(result.state_steps[s], result.state_steps[s - 1]);
+    const JamStep& above = result.path[static_cast<std::size_t>(result.state_steps[s - 1])];
+    EXPECT_LT(step.energy_per_particle, above.energy_per_particle);
+  }
+}
+
+void expect_jamming_point(const JamResult& result, const JamOptions& options) {
+  ASSERT_TRUE(result.phi_j);
+  const double nearest = result.states.back().density();
+  EXPECT_GT(result.phi_j->density, 0.6);
+  EXPECT_LT(result.phi_j->density, 0.8);
+  EXPECT_LT(result.phi_j->density, nearest);
+  EXPECT_LT(result.phi_j->single_state, nearest);
+  EXPECT_LE(nearest - result.phi_j->single_state, options.final_distance * (1 + 1e-12));
+  // Two extrapolations over the same distance agree to a fraction of it.
+  EXPECT_NEAR(result.phi_j->density, result.phi_j->single_state, options.final_distance / 2);
+}
+
+TEST_P(Jam, EndsAtTheEdgeOfJamming) {
+  const JamOptions options = lax();
+  std::vector<JamStep> reported;
+  const JamResult result =
+      jam(start_of(GetParam(), 71, options), options, {}, [&](const JamStep& step) { reported.push_back(step); });
+  std::printf("%s after %zu steps, %zu states, %ld evaluations, φ_J %.4f ± %.4f, single state %.4f, exponent %.2f\n",
+              to_string(result.status).data(), result.path.size(), result.states.size(), result.evaluations,
+              result.phi_j ? result.phi_j->density : 0, result.phi_j ? result.phi_j->standard_error : 0,
+              result.phi_j ? result.phi_j->single_state : 0, result.phi_j ? result.phi_j->exponent : 0);
+  ASSERT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
+  expect_path(result, options);
+  expect_states(result, options);
+  expect_jamming_point(result, options);
+  ASSERT_EQ(reported.size(), result.path.size());
+  long spent = 0;
+  for (std::size_t k = 0; k < reported.size(); ++k) {
+    EXPECT_EQ(reported[k].density, result.path[k].density);
+    spent += reported[k].summary.evaluations;
+  }
+  EXPECT_GE(result.evaluations, spent);
+
+  const JamResult again = jam(start_of(GetParam(), 71, options), options);
+  ASSERT_EQ(again.states.size(), result.states.size());
+  for (std::size_t s = 0; s < result.states.size(); ++s) EXPECT_TRUE(same_bits(result.states[s], again.states[s])) << s;
+  EXPECT_EQ(again.phi_j->density, result.phi_j->density);
+  EXPECT_EQ(again.evaluations, result.evaluations);
+}
+
+const System small{SolidKind::dodecahedron, 24};
+
+TEST(JamTest, NamesAreDistinct) {
+  std::set<std::string_view> names;
+  for (int k = 0; k <= static_cast<int>(JamStatus::interrupted); ++k)
+    names.insert(to_string(static_cast<JamStatus>(k)));
+  EXPECT_EQ(names.size(), 8U);
+  EXPECT_EQ(to_string(JamStatus::interrupted), "interrupted");
+  EXPECT_EQ(JamResult().status, JamStatus::not_called);
+}
+
+TEST(JamTest, StartsDecideTheOutcome) {
+  JamOptions options = lax();
+  options.max_steps = 3;
+  double energy = 0;
+  for (const std::uint64_t seed : {72U, 73U}) {
+    options.initial_density = 0.7;
+    const JamResult result = jam(start_of(small, seed, options), options);
+    EXPECT_NE(result.path.back().energy_per_particle, energy);
+    energy = result.path.back().energy_per_particle;
+  }
+}
+
+TEST(JamTest, StopsWhenAskedTo) {
+  const JamOptions options = lax();
+  // Interrupted in consolidation, and in expansion with some states at hand.
+  for (const std::size_t wanted_states : {0U, 2U}) {
+    std::stop_source source;
+    std::size_t expansion_steps = 0, steps = 0;
+    const JamResult result = jam(start_of(small, 71, options), options, source.get_token(), [&](const JamStep& step) {
+      ++steps;
+      expansion_steps += step.stage == JamStage::expansion;
+      if (wanted_states == 0 ? steps == 3 : expansion_steps == wanted_states + 1) source.request_stop();
+    });
+    EXPECT_EQ(result.status, JamStatus::interrupted) << to_string(result.status);
+    EXPECT_EQ(result.path.size(), steps) << "went on after the stop";
+    EXPECT_EQ(result.states.size(), wanted_states);
+    EXPECT_EQ(result.phi_j.has_value(), wanted_states >= 2);
+  }
+}
+
+TEST(JamTest, StopsBeforeItBegins) {
+  const JamOptions options = lax();
+  std::stop_source source;
+  source.request_stop();
+  JamOptions dense = options;
+  dense.initial_density = 0.75;
+  const JamResult result = jam(start_of(small, 71, dense), dense, source.get_token());
+  EXPECT_EQ(result.status, JamStatus::interrupted);
+  EXPECT_EQ(result.path.size(), 1U);
+  EXPECT_TRUE(result.states.empty());
+  EXPECT_FALSE(result.phi_j);
+}
+
+TEST(JamTest, DensityLimit) {
+  JamOptions options = lax();
+  options.target_energy = 1e3;
+  options.max_density = 0.75;
+  const JamResult result = jam(start_of(small, 71, options), options);
+  EXPECT_EQ(result.status, JamStatus::density_limit) << to_string(result.status);
+  EXPECT_LE(result.path.back().density, options.max_density);
+  EXPECT_GT(result.path.back().density, options.max_density - options.consolidation_step * (1 + 1e-9));
+  EXPECT_TRUE(result.states.empty());
+  EXPECT_FALSE(result.phi_j);
+}
+
+TEST(JamTest, StepLimit) {
+  JamOptions options = lax();
+  options.max_steps = 5;
+  const JamResult result = jam(start_of(small, 71, options), options);
+  EXPECT_EQ(result.status, JamStatus::step_limit) << to_string(result.status);
+  EXPECT_EQ(result.path.size(), 5U);
+}
+
+TEST(JamTest, NotFinite) {
+  JamOptions options = lax();
+  options.initial_density = 0.6;
+  Packing start = start_of(small, 71, options);
+  start.poses[3].orientation.w() = std::numeric_limits<double>::quiet_NaN();
+  const JamResult result = jam(start, options);
+  EXPECT_EQ(result.status, JamStatus::not_finite) << to_string(result.status);
+  EXPECT_TRUE(result.states.empty());
+}
+
+TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
+  JamOptions options = lax();
+  // "Minimisation no longer removes the energy" must not mean that it ran out of evaluations.
+  options.passing_evaluations = 6000;
+  const auto top_of = [](const JamResult& result) {
+    return result.path[static_cast<std::size_t>(result.state_steps.front())];
+  };
+  const JamResult usual = jam(start_of(small, 71, options), options);
+  options.target_before_relaxation = true;
+  const JamResult gentle = jam(start_of(small, 71, options), options);
+  ASSERT_EQ(usual.status, JamStatus::jammed) << to_string(usual.status);
+  ASSERT_EQ(gentle.status, JamStatus::jammed) << to_string(gentle.status);
+  std::printf("expansion starts at φ %.3f, E/N %.1e; by the other reading at %.3f, %.1e, φ_J %.3f\n",
+              top_of(usual).density, top_of(usual).energy_per_particle, top_of(gentle).density,
+              top_of(gentle).energy_per_particle, gentle.phi_j->density);
+  EXPECT_LT(top_of(gentle).density, top_of(usual).density - options.consolidation_step);
+  EXPECT_LT(top_of(gentle).energy_per_particle, options.target_energy / 100);
+  // One strain step beyond the last state that could relax, and φ_J lies above that one.
+  EXPECT_LT(top_of(gentle).density - gentle.phi_j->density, 1.5 * options.consolidation_step);
+}
+
+}  // namespace
+}  // namespace isojam

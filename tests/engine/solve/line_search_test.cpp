@@ -1,0 +1,294 @@
+// Facts proved here, over random smooth functions of one variable (quadratics, quartics, cosine mixtures over a bowl,
+// one-sided powers max(0, x)^2 and ^6 as overlaps have them) and starts and first steps over six decades:
+//   the point found satisfies the strong Wolfe conditions, whatever the curvature asked for;
+//   it was evaluated, its value and slope are as returned, and the evaluations are counted;
+//   no step beyond the longest is tried; where the function still falls there, the longest step is the answer;
+//   trials without a finite value or slope are survived, before and behind the minimum;
+//   a found point is never higher than the start by more than the noise, and never is the start itself;
+//   a function without a lower point is answered with found = false and the start.
+
+#include "engine/solve/minimise/line_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/engine/solve/solve_support.hpp"
+
+namespace isojam {
+namespace {
+
+using Function = std::function<LinePoint(double)>;
+
+constexpr int cases = 4000;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Σ over terms of weight·max(0, side·(t − place))^power; with `both` sides, weight·(t − place)^power.
+Function powers(RandomStream& random, int terms, int power, bool both) {
+  struct Term {
+    double weight, place, side;
+  };
+  std::vector<Term> list;
+  for (int k = 0; k < terms; ++k)
+    list.push_back({decade(random, -2, 2), uniform(random, 0.1, 3), random.uniform() < 0.7 ? -1.0 : 1.0});
+  list.front().side = -1;  // something pushes away from 0
+  return [list, power, both](double t) {
+    LinePoint p{t, 0, 0};
+    for (const Term& term : list) {
+      const double x = both ? term.side * (t - term.place) : std::max(0.0, term.side * (t - term.place));
+      p.value += term.weight * std::pow(x, power);
+      p.slope += term.weight * power * std::pow(x, power - 1) * term.side;
+    }
+    return p;
+  };
+}
+
+Function cosines(RandomStream& random) {
+  struct Wave {
+    double amplitude, number, phase;
+  };
+  std::vector<Wave> waves;
+  for (int k = 0; k < 4; ++k)
+    waves.push_back({uniform(random, 0, 1), uniform(random, 0.3, 5), uniform(random, 0, 6.3)});
+  const double bowl = decade(random, -2, 0);
+  return [waves, bowl](double t) {
+    LinePoint p{t, bowl * (t - 1) * (t - 1), 2 * bowl * (t - 1)};
+    for (const Wave& wave : waves) {
+      p.value += wave.amplitude * std::cos(wave.number * t + wave.phase);
+      p.slope -= wave.amplitude * wave.number * std::sin(wave.number * t + wave.phase);
+    }
+    return p;
+  };
+}
+
+/// Stretched so that its lengths and values span decades.
+Function scaled(const Function& f, double length, double height) {
+  return [=](double t) {
+    const LinePoint p = f(t / length);
+    return LinePoint{t, height * p.value, height / length * p.slope};
+  };
+}
+
+constexpr std::array kinds{"quadratic", "quartic", "cosines", "kinks", "overlaps"};
+
+struct Case {
+  std::string name;
+  Function at;
+  double length = 1;  ///< minima lie within a few of these
+  double first_step = 1;
+  bool convex = true;
+  LineSearchOptions options;
+};
+
+Case random_case(RandomStream& random, int k) {
+  Case c;
+  const std::size_t kind = static_cast<std::size_t>(k) % kinds.size();
+  Function f;
+  do {
+    switch (kind) {
+      case 0: f = powers(random, 1, 2, true); break;
+      case 1: f = powers(random, 3, 4, true); break;
+      case 2: f = cosines(random); break;
+      case 3: f = powers(random, 5, 2, false); break;
+      default: f = powers(random, 5, 6, false); break;
+    }
+  } while (!(f(0).slope < 0));
+  c.length = decade(random, -3, 3);
+  c.at = scaled(f, c.length, decade(random, -6, 3));
+  c.first_step = c.length * decade(random, -3, 3);
+  c.options.curvature = random.uniform() < 0.5 ? 0.1 : 0.9;
+  c.options.longest_step = 1e5 * c.length;
+  c.options.max_evaluations = 60;
+  c.convex = kind != 2;
+  c.name = std::string(kinds[kind]) + " #" + std::to_string(k);
+  return c;
+}
+
+/// What a search saw.
+struct Trace {
+  LineSearchResult result;
+  std::vector<LinePoint> points;
+  LinePoint start;
+};
+
+Trace search(const Case& c) {
+  Trace trace;
+  trace.start = c.at(0);
+  const auto at = [&](double t) {
+    trace.points.push_back(c.at(t));
+    return trace.points.back();
+  };
+  trace.result = line_search(at, trace.start, c.first_step, c.options);
+  return trace;
+}
+
+std::string seen(const Trace& trace) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "start value " << trace.start.value << " slope " << trace.start.slope;
+  for (const LinePoint& p : trace.points) text << "\n  t " << p.step << " value " << p.value << " slope " << p.slope;
+  text << "\n  returned t " << trace.result.point.step;
+  return text.str();
+}
+
+/// Rounding of the values, as the search itself takes it to be.
+double rounding(const Trace& trace) { return 4 * std::numeric_limits<double>::epsilon() * std::abs(trace.start.value); }
+
+void expect_honest(const Case& c, const Trace& trace) {
+  const LineSearchResult& result = trace.result;
+  ASSERT_EQ(result.evaluations, static_cast<int>(trace.points.size())) << c.name;
+  ASSERT_LE(result.evaluations, c.options.max_evaluations) << c.name;
+  for (const LinePoint& p : trace.points) {
+    ASSERT_GT(p.step, 0) << c.name << "\n" << seen(trace);
+    ASSERT_LE(p.step, c.options.longest_step) << c.name << "\n" << seen(trace);
+  }
+  if (!result.found) return;
+  ASSERT_GT(result.point.step, 0) << c.name << ": the start was returned as found\n" << seen(trace);
+  ASSERT_LE(result.point.value, trace.start.value + std::max(c.options.noise, rounding(trace))) << c.name << "\n"
+                                                                                                << seen(trace);
+  EXPECT_TRUE(std::any_of(trace.points.begin(), trace.points.end(),
+                          [&](const LinePoint& p) { return p.step == result.point.step; }))
+      << c.name << ": returned a point that was never evaluated\n"
+      << seen(trace);
+  const LinePoint again = c.at(result.point.step);
+  ASSERT_EQ(result.point.value, again.value) << c.name;
+  ASSERT_EQ(result.point.slope, again.slope) << c.name;
+}
+
+void expect_strong_wolfe(const Case& c, const Trace& trace) {
+  const LinePoint& p = trace.result.point;
+  const double allowed = trace.start.value + c.options.decrease * p.step * trace.start.slope + rounding(trace);
+  EXPECT_LE(p.value, allowed) << c.name << ": too small a decrease\n" << seen(trace);
+  EXPECT_LE(std::abs(p.slope), c.options.curvature * std::abs(trace.start.slope)) << c.name << ": too steep\n"
+                                                                                  << seen(trace);
+}
+
+TEST(LineSearch, FindsStrongWolfePoints) {
+  RandomStream random{1};
+  std::array<int, kinds.size()> evaluations{};
+  for (int k = 0; k < cases; ++k) {
+    const Case c = random_case(random, k);
+    const Trace trace = search(c);
+    ASSERT_TRUE(trace.result.found) << c.name << "\n" << seen(trace);
+    expect_honest(c, trace);
+    expect_strong_wolfe(c, trace);
+    if (HasFatalFailure()) return;
+    evaluations[static_cast<std::size_t>(k) % kinds.size()] += trace.result.evaluations;
+  }
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    std::printf("%-9s %.1f evaluations a search\n", kinds[kind],
+                static_cast<double>(evaluations[kind]) * static_cast<double>(kinds.size()) / cases);
+}
+
+TEST(LineSearch, StaysWithinTheLongestStep) {
+  RandomStream random{2};
+  int at_the_end = 0;
+  for (int k = 0; k < cases; ++k) {
+    Case c = random_case(random, k);
+    c.options.longest_step = c.length * decade(random, -3, 0);
+    const Trace trace = search(c);
+    ASSERT_TRUE(trace.result.found) << c.name << "\n" << seen(trace);
+    expect_honest(c, trace);
+    if (HasFatalFailure()) return;
+    const LinePoint& p = trace.result.point;
+    if (p.step < c.options.longest_step) {
+      expect_strong_wolfe(c, trace);
+      continue;
+    }
+    ++at_the_end;
+    EXPECT_LE(p.value, trace.start.value + c.options.decrease * p.step * trace.start.slope + rounding(trace)) << c.name;
+    EXPECT_LE(p.slope, c.options.curvature * std::abs(trace.start.slope)) << c.name << "\n" << seen(trace);
+  }
+  EXPECT_GT(at_the_end, cases / 4);
+}
+
+TEST(LineSearch, RecoversFromTrialsThatAreNotFinite) {
+  RandomStream random{3};
+  int walls_met = 0;
+  for (int k = 0; k < cases; ++k) {
+    Case c = random_case(random, k);
+    const Trace free = search(c);
+    ASSERT_TRUE(free.result.found) << c.name;
+    // Half of the walls stand behind the minimum, half of them in front of it.
+    const bool behind = random.uniform() < 0.5;
+    const double wall = free.result.point.step * (behind ? uniform(random, 1.01, 2) : uniform(random, 0.2, 0.9));
+    const int kind = static_cast<int>(3 * random.uniform());
+    const double bad = kind == 0 ? infinite : std::numeric_limits<double>::quiet_NaN();
+    const Function inner = c.at;
+    c.at = [=](double t) {
+      LinePoint p = inner(std::min(t, wall));
+      p.step = t;
+      if (t > wall && kind < 2) p.value = bad;
+      if (t > wall && kind > 0) p.slope = bad;
+      return p;
+    };
+    const Trace trace = search(c);
+    ASSERT_TRUE(trace.result.found) << c.name << " wall " << wall << "\n" << seen(trace);
+    expect_honest(c, trace);
+    if (HasFatalFailure()) return;
+    EXPECT_LE(trace.result.point.step, wall) << c.name << "\n" << seen(trace);
+    // A function with several minima may fall right into the wall, and a search follow it.
+    if (behind && c.convex) expect_strong_wolfe(c, trace);
+    walls_met +=
+        std::any_of(trace.points.begin(), trace.points.end(), [&](const LinePoint& p) { return p.step > wall; });
+  }
+  EXPECT_GT(walls_met, cases / 4);
+}
+
+TEST(LineSearch, IsNotMisledByNoise) {
+  RandomStream random{4};
+  int found = 0, accepted_by_slope = 0;
+  for (int k = 0; k < cases; ++k) {
+    Case c = random_case(random, 5 * k);
+    // A bowl that is shallower than the jitter of its values, whose slopes are exact.
+    const double depth = -c.at(0).slope * c.length;
+    const double noise = depth * decade(random, -2, 3), level = 1e3 * noise;
+    const Function inner = c.at;
+    const std::uint64_t salt = random.bits();
+    c.at = [=](double t) {
+      LinePoint p = inner(t);
+      RandomStream jitter{salt, std::bit_cast<std::uint64_t>(t)};
+      if (t != 0) p.value += noise * (jitter.uniform() - 0.5);
+      p.value += level;
+      return p;
+    };
+    c.options.noise = noise;
+    c.options.longest_step = c.length * decade(random, -1, 2);
+    const Trace trace = search(c);
+    expect_honest(c, trace);
+    if (HasFatalFailure()) return;
+    found += trace.result.found;
+    accepted_by_slope += trace.result.found && trace.result.point.value > trace.start.value;
+  }
+  std::printf("%d of %d searches in noise found a point, %d of them higher than the start\n", found, cases,
+              accepted_by_slope);
+  EXPECT_GT(found, cases / 2);
+  EXPECT_GT(accepted_by_slope, 0);
+}
+
+TEST(LineSearch, SaysWhenNothingIsLower) {
+  RandomStream random{5};
+  for (int k = 0; k < cases; ++k) {
+    Case c = random_case(random, k);
+    // The slope at the start is a lie: every step leads up.
+    const double slope = c.at(0).slope, level = random.normal();
+    c.at = [=](double t) { return LinePoint{t, level * std::abs(slope) - 2 * slope * t, t == 0 ? slope : -2 * slope}; };
+    const Trace trace = search(c);
+    expect_honest(c, trace);
+    if (HasFatalFailure()) return;
+    // A lie is unmasked as far as rounding can tell a rise from none.
+    if (trace.result.found) {
+      EXPECT_LE(trace.result.point.value, trace.start.value + rounding(trace)) << c.name << "\n" << seen(trace);
+    } else {
+      EXPECT_EQ(trace.result.point.value, trace.start.value) << c.name << "\n" << seen(trace);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isojam
