@@ -65,7 +65,8 @@ class Checker final : public nlohmann::json_sax<Json> {
     }
     const std::string_view what = error.what();
     const auto detail = what.rfind(" - ");
-    refuse(file, fmt::format("not valid JSON: {}", detail == what.npos ? what : what.substr(detail + 3)), "");
+    refuse(file, fmt::format("not valid JSON: {}", detail == std::string_view::npos ? what : what.substr(detail + 3)),
+           "");
   }
 
  private:

@@ -26,6 +26,7 @@ constexpr std::array<std::string_view, 1> measure_names{"contacts"};
 
 std::vector<std::string_view> solid_names() {
   std::vector<std::string_view> names;
+  names.reserve(all_solids.size());
   for (const auto kind : all_solids) names.push_back(to_string(kind));
   return names;
 }

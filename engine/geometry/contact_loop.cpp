@@ -25,7 +25,7 @@ struct Distances {
 /// Where an edge enters or leaves the other solid, and the two loop segments that meet there.
 struct Piercing {
   Eigen::Vector3d point;
-  std::uint16_t begins = 0, ends = 0;  ///< face pairs, capacity·i + j
+  std::uint16_t begins, ends;  ///< face pairs, capacity·i + j
 };
 
 struct Piercings {

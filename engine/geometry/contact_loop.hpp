@@ -12,14 +12,14 @@ namespace isojam {
 /// Part of an edge of one solid inside the other, tail → head of the edge.
 struct EdgeSpan {
   Eigen::Vector3d from, to;
-  std::uint8_t left = 0, right = 0;  ///< faces of the edge's own solid
-  bool of_a = true;
+  std::uint8_t left, right;  ///< faces of the edge's own solid
+  bool of_a;
 };
 
 /// A segment of the loop where face i of A crosses face j of B, counter-clockwise seen from outside A.
 struct LoopSegment {
   Eigen::Vector3d from, to;
-  std::uint8_t face_a = 0, face_b = 0;
+  std::uint8_t face_a, face_b;
 };
 
 /// A solid's vertices and planes in the frame of A.
@@ -38,7 +38,8 @@ enum class LoopVerdict : std::uint8_t {
   degenerate   ///< a vertex lies on a plane to within rounding, a loop does not close, or one solid holds the other
 };
 
-/// The edges of the intersection of A and B, relative to `origin` (a vertex of the intersection) in A's frame.
+/// The edges of the intersection of A and B (the first `spans` and `segments` entries; the others are left as they were,
+/// since clearing them would cost as much as finding the loop), relative to `origin` (a vertex of the intersection) in A's frame.
 struct ContactLoop {
   static constexpr int max_spans = 2 * SolidArrays::capacity;
   static constexpr int max_segments = 2 * max_spans;
