@@ -1,9 +1,9 @@
 // Facts proved here, against central differences of V and of (S, M) on random contacts of all pairs of solids:
-//   (S_A, M_A, −S_A, −M_A + r×S_A) is the gradient of V; slips of sign in M, S or the lever of B, and a wrong volume, are
-//   refused by the same check on tetrahedra, which have no inversion symmetry to hide them;
-//   H_AB is the derivative of each body's gradient by the other's position and turn;
-//   H_AA and H_BB are the symmetric part of the derivative by the body's own, and what is missing is ½ θ×M;
-//   moving both bodies rigidly changes nothing, so H has the six null vectors it must have, up to turning the gradient.
+//   (S_A, M_A, −S_A, −M_A + r×S_A) is the gradient of V; slips of sign in M, S or the lever of B, and a wrong volume,
+//   are refused by the same check on tetrahedra, which have no inversion symmetry to hide them; H_AB is the derivative
+//   of each body's gradient by the other's position and turn; H_AA and H_BB are the symmetric part of the derivative by
+//   the body's own, and what is missing is ½ θ×M; moving both bodies rigidly changes nothing, so H has the six null
+//   vectors it must have, up to turning the gradient.
 
 #include <gtest/gtest.h>
 
@@ -67,14 +67,16 @@ std::string gradient_disagreement(const Pair& pair, const Claimant& claimant) {
   const Claim here = claimant(pair);
   Vector12d differences;
   for (int k = 0; k < 12; ++k)
-    differences[k] = (claimant(moved_by(pair, h * unit(k))).volume - claimant(moved_by(pair, -h * unit(k))).volume) / (2 * h);
+    differences[k] =
+        (claimant(moved_by(pair, h * unit(k))).volume - claimant(moved_by(pair, -h * unit(k))).volume) / (2 * h);
   // Third derivatives of V are of the order of the levers: h² and the rounding ε/h both stay far below this.
   const double limit = 1e-7 * differences.norm();
   const double error = (differences - here.gradient).cwiseAbs().maxCoeff();
   if (error <= limit) return "";
   std::ostringstream text;
   text << "off by " << error << " where " << limit << " is allowed; claimed " << here.gradient.transpose()
-       << "\ndifferences " << differences.transpose() << "\n" << describe(pair);
+       << "\ndifferences " << differences.transpose() << "\n"
+       << describe(pair);
   return text.str();
 }
 
@@ -150,8 +152,8 @@ TEST(OverlapDerivativesTest, HessianIsTheDerivativeOfTheGradient) {
     expected.block<3, 3>(3, 3) -= skew(g.segment<3>(3)) / 2;
     expected.block<3, 3>(9, 9) -= skew(g.segment<3>(9)) / 2;
     const double limit = 1e-6 * analytic.norm();
-    EXPECT_LE((expected - differences).cwiseAbs().maxCoeff(), limit)
-        << describe(pair) << "\nminus differences\n" << expected - differences;
+    EXPECT_LE((expected - differences).cwiseAbs().maxCoeff(), limit) << describe(pair) << "\nminus differences\n"
+                                                                     << expected - differences;
     // Without the asymmetric part it must not pass: the contact is not in equilibrium.
     EXPECT_GT((analytic - differences).cwiseAbs().maxCoeff(), limit) << describe(pair);
   });

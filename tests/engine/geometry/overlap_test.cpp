@@ -207,8 +207,7 @@ TEST_P(OverlapOfBuiltContacts, FeaturesAreThoseBuilt) {
     for (const Contact& contact :
          {vertex_on_face(GetParam(), spin), edge_on_edge(GetParam(), spin + .5), edge_on_face(GetParam(), spin)}) {
       const Overlap seen = overlap(contact.at(depth));
-      const Overlap clipped =
-          clipped_overlap(platonic(GetParam()), platonic(GetParam()), contact.at(depth).relative());
+      const Overlap clipped = clipped_overlap(platonic(GetParam()), platonic(GetParam()), contact.at(depth).relative());
       // The ends of an edge that lies in a face bring the faces and edges at its ends along.
       const bool ends = contact.edges_a == 0 && std::popcount(contact.edges_b) == 1;
       for (const Overlap& result : {seen, clipped}) {

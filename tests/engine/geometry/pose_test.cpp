@@ -70,8 +70,8 @@ TEST(RotatedTest, IsRodriguesFormulaInTheLabFrame) {
     // From far below an ulp to more than a whole turn.
     const double angle = 10 * std::pow(10.0, -20 * random.uniform());
     const Vector3d x = q * y;
-    const Vector3d turned = std::cos(angle) * x + std::sin(angle) * axis.cross(x) +
-                            (1 - std::cos(angle)) * axis.dot(x) * axis;
+    const Vector3d turned =
+        std::cos(angle) * x + std::sin(angle) * axis.cross(x) + (1 - std::cos(angle)) * axis.dot(x) * axis;
     const Quaterniond result = rotated(q, angle * axis);
     EXPECT_LE((result * y - turned).norm(), rotation_error * (1 + angle)) << "angle " << angle;
     EXPECT_NEAR(result.norm(), 1, 2 * epsilon) << "angle " << angle;

@@ -19,7 +19,8 @@ namespace {
 
 TEST(RandomStreamTest, BitsAreThoseOfTheStandard) {
   RandomStream random{20110711, 3, 0x123456789abcdef0};
-  for (const std::uint64_t bits : {0xee8564ad99ac734aU, 0xb6c712400377496eU, 0x47d373c690792e71U, 0xd86a6756b4d5ac43U}) EXPECT_EQ(random.bits(), bits);
+  for (const std::uint64_t bits : {0xee8564ad99ac734aU, 0xb6c712400377496eU, 0x47d373c690792e71U, 0xd86a6756b4d5ac43U})
+    EXPECT_EQ(random.bits(), bits);
 }
 
 TEST(RandomStreamTest, EqualKeysGiveEqualStreams) {
@@ -31,9 +32,10 @@ TEST(RandomStreamTest, EqualKeysGiveEqualStreams) {
 
 TEST(RandomStreamTest, DifferentKeysGiveDifferentStreams) {
   const std::uint64_t high = std::uint64_t{1} << 32;
-  std::array streams{RandomStream{1, 2},    RandomStream{2, 1},        RandomStream{1, 3},    RandomStream{1, 2, 0},
-                     RandomStream{0, 1, 2}, RandomStream{1, 2 + high}, RandomStream{1, high}, RandomStream{1},
-                     RandomStream{0},       RandomStream{}};
+  std::array streams{RandomStream{1, 2},    RandomStream{2, 1},    RandomStream{1, 3},
+                     RandomStream{1, 2, 0}, RandomStream{0, 1, 2}, RandomStream{1, 2 + high},
+                     RandomStream{1, high}, RandomStream{1},       RandomStream{0},
+                     RandomStream{}};
   std::set<std::uint64_t> seen;
   for (RandomStream& stream : streams) {
     for (int k = 0; k < 100; ++k) seen.insert(stream.bits());

@@ -77,7 +77,8 @@ TEST(SeparatingAxisTest, AGapMeansNoOverlap) {
     ++apart;
     const Overlap fast = overlap(pair), slow = clipped_overlap(a, b, pose);
     EXPECT_FALSE(fast.touching() || slow.touching())
-        << "gap " << best_gap(pair) << ", V " << fast.volume << ", clipped " << slow.volume << "\n" << describe(pair);
+        << "gap " << best_gap(pair) << ", V " << fast.volume << ", clipped " << slow.volume << "\n"
+        << describe(pair);
     EXPECT_EQ(fast.path, OverlapPath::separated);
     EXPECT_EQ(fast.area.norm() + fast.moment.norm(), 0);
     EXPECT_EQ(fast.faces_a | fast.faces_b | fast.edges_a | fast.edges_b, 0U);
@@ -139,8 +140,7 @@ TEST(SeparatingAxisTest, OverlapHandsBackASeparatingFace) {
     if (axis.kind == Kind::none) return;
     ++handed;
     EXPECT_FALSE(result.touching()) << describe(pair);
-    EXPECT_GT(gap(pair.solid_a(), pair.solid_b(), pose, axis),
-              -gap_tolerance(pair.solid_a(), pair.solid_b(), pose))
+    EXPECT_GT(gap(pair.solid_a(), pair.solid_b(), pose, axis), -gap_tolerance(pair.solid_a(), pair.solid_b(), pose))
         << describe(pair);
   });
   EXPECT_GT(handed, cases * 5);

@@ -1,7 +1,7 @@
 // Facts proved here:
 //   the product of a block matrix with a vector is that of the full symmetric matrix;
-//   stiffened() adds factor·Σ tilts: a positive semidefinite term, linear in the factor, that resists relative turns only
-//   and is blind to translations and to equal turns of all particles; also for the tilts of real packings.
+//   stiffened() adds factor·Σ tilts: a positive semidefinite term, linear in the factor, that resists relative turns
+//   only and is blind to translations and to equal turns of all particles; also for the tilts of real packings.
 
 #include "engine/packing/block_matrix.hpp"
 

@@ -1,9 +1,8 @@
 // Facts proved here, against central differences on random packings of all solids:
-//   the gradient is that of the energy, along random directions of all 6N coordinates and along single ones; a slip of sign
-//   in the torques, or in the forces, is refused by the same check;
-//   the pressure is −dE/dV_cell, and N p/φ² = dE/dφ;
-//   the stress is (1/V_cell) dE/dε for every one of the nine strains of the displacements of the contacts;
-//   the Hessian is the derivative of the gradient, up to ½ θ×T for turns of particles that are not in equilibrium;
+//   the gradient is that of the energy, along random directions of all 6N coordinates and along single ones; a slip of
+//   sign in the torques, or in the forces, is refused by the same check; the pressure is −dE/dV_cell, and N p/φ² =
+//   dE/dφ; the stress is (1/V_cell) dE/dε for every one of the nine strains of the displacements of the contacts; the
+//   Hessian is the derivative of the gradient, up to ½ θ×T for turns of particles that are not in equilibrium;
 //   translations are its null vectors.
 
 #include <gtest/gtest.h>
@@ -35,8 +34,8 @@ std::string slope_disagreement(const Packing& packing, const VectorXd& direction
   const double h = 1e-5;  // far less than the depths that carry the energy
   const Evaluation here = evaluation(packing);
   const double slope = here.gradient.dot(direction);
-  const double differences = (evaluation(moved(packing, h * direction)).energy -
-                              evaluation(moved(packing, -h * direction)).energy) / (2 * h);
+  const double differences =
+      (evaluation(moved(packing, h * direction)).energy - evaluation(moved(packing, -h * direction)).energy) / (2 * h);
   // Third derivatives of E are of the order of V and S, as the gradient is: h² of that, and rounding over h.
   const double limit = 1e-7 * here.gradient.norm() * direction.norm() + energy_tolerance(here) / h;
   if (std::abs(slope - differences) <= limit) return "";
@@ -96,9 +95,9 @@ double strained_energy(const Packing& packing, const std::vector<Contact>& conta
   double energy = 0;
   for (const Contact& contact : contacts) {
     const Vector3d d = contact.displacement + strain * contact.displacement;
-    const Overlap o = overlap(*packing.solid, *packing.solid,
-                              relative_pose(packing.poses[contact.pair.a].orientation,
-                                            packing.poses[contact.pair.b].orientation, d));
+    const Overlap o =
+        overlap(*packing.solid, *packing.solid,
+                relative_pose(packing.poses[contact.pair.a].orientation, packing.poses[contact.pair.b].orientation, d));
     energy += o.volume * o.volume / 4;
   }
   return energy;
@@ -120,8 +119,9 @@ TEST(EnergyDerivativesTest, StressIsTheSlopeInEveryStrain) {
                             (2 * h * packing.cell.volume());
       }
     }
-    EXPECT_LE((here.stress - differences).cwiseAbs().maxCoeff(), 1e-7 * here.stress.norm())
-        << describe(packing) << "\n" << here.stress << "\n" << differences;
+    EXPECT_LE((here.stress - differences).cwiseAbs().maxCoeff(), 1e-7 * here.stress.norm()) << describe(packing) << "\n"
+                                                                                            << here.stress << "\n"
+                                                                                            << differences;
   }
 }
 
@@ -147,7 +147,8 @@ TEST(EnergyDerivativesTest, HessianIsTheDerivativeOfTheGradient) {
                                        : VectorXd::Unit(6 * particles, 6 * ((13 * k) % particles) + k % 6).eval();
       const VectorXd product = hessian * direction + turned_gradient(packing, gradient, direction);
       const VectorXd differences = (energy.evaluate(moved(packing, h * direction)).gradient -
-                                    energy.evaluate(moved(packing, -h * direction)).gradient) / (2 * h);
+                                    energy.evaluate(moved(packing, -h * direction)).gradient) /
+                                   (2 * h);
       // V'' is continuous but has kinks, and some contact is always near one.
       EXPECT_LE((product - differences).norm(), 1e-5 * product.norm())
           << describe(packing) << ", direction " << k << ", |Hd| " << product.norm();

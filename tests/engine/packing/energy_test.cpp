@@ -1,10 +1,9 @@
 // Facts proved here, on random packings of all solids:
 //   energy, gradient, stress, contacts and mean force are the sums over all pairs found by brute force;
 //   forces sum to zero, and the torques to what an asymmetric stress leaves;
-//   translating all particles, wrapping one by the side, relabelling, or turning the whole cell by 90° leaves the energy,
-//   and moves the gradient along;
-//   residual and mean force are as defined, with their limits for packings without contacts;
-//   every listed pair is out of reach, rejected by its axis, or overlapped.
+//   translating all particles, wrapping one by the side, relabelling, or turning the whole cell by 90° leaves the
+//   energy, and moves the gradient along; residual and mean force are as defined, with their limits for packings
+//   without contacts; every listed pair is out of reach, rejected by its axis, or overlapped.
 
 #include "engine/packing/energy.hpp"
 
@@ -93,8 +92,9 @@ TEST(PackingEnergyTest, ForcesBalanceAndTorquesMatchTheStress) {
     const Matrix3d s = got.stress * packing.cell.volume();
     const Vector3d axial(s(2, 1) - s(1, 2), s(0, 2) - s(2, 0), s(1, 0) - s(0, 1));
     EXPECT_GT(axial.norm(), 1e-6 * s.norm()) << "a random packing has net torque";
-    EXPECT_LE((torque + axial).norm(), 64 * epsilon * all_forces * packing.cell.side())
-        << describe(packing) << "\n" << torque.transpose() << "\n" << axial.transpose();
+    EXPECT_LE((torque + axial).norm(), 64 * epsilon * all_forces * packing.cell.side()) << describe(packing) << "\n"
+                                                                                        << torque.transpose() << "\n"
+                                                                                        << axial.transpose();
   }
 }
 
@@ -108,7 +108,8 @@ TEST(PackingEnergyTest, TranslationOfAllLeavesEverything) {
     const Evaluation after = PackingEnergy().evaluate(shifted);
     EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
     EXPECT_NEAR(after.energy, before.energy, energy_tolerance(before)) << describe(packing);
-    EXPECT_LE((after.gradient - before.gradient).cwiseAbs().maxCoeff(), gradient_tolerance(before)) << describe(packing);
+    EXPECT_LE((after.gradient - before.gradient).cwiseAbs().maxCoeff(), gradient_tolerance(before))
+        << describe(packing);
   }
 }
 

@@ -64,8 +64,8 @@ TEST(RandomPackingTest, RefusesWhatIsNoPacking) {
   const ConvexSolid& solid = platonic(SolidKind::octahedron);
   RandomStream random{7, 1};
   for (const int n : {0, -1}) EXPECT_THROW(random_packing(solid, n, .05, random), std::invalid_argument) << n;
-  for (const double density : {0.0, -.1, 1.0001, std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::quiet_NaN()})
+  for (const double density :
+       {0.0, -.1, 1.0001, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(random_packing(solid, 1000, density, random), std::invalid_argument) << density;
 }
 

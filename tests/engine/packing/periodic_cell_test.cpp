@@ -52,8 +52,8 @@ TEST(PeriodicCellTest, HalfASideBelongsToTheLowerEnd) {
 }
 
 TEST(PeriodicCellTest, RefusesWhatIsNoSide) {
-  for (const double side : {0.0, -1.0, std::numeric_limits<double>::infinity(),
-                            std::numeric_limits<double>::quiet_NaN()})
+  for (const double side :
+       {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(PeriodicCell{side}, std::invalid_argument) << side;
 }
 

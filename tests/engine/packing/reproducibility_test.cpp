@@ -83,7 +83,8 @@ TEST(ReproducibilityTest, OtherPackingsBeforeChangeNothing) {
     SCOPED_TRACE(describe(packing));
     used.evaluate(strained_to(packing, .4));
     used.hessian(sample(SolidKind::cube, 90, .9, 31));
-    used.evaluate(sample(SolidKind::tetrahedron, particles, density, 32));  // the same size: another solid, or positions
+    used.evaluate(
+        sample(SolidKind::tetrahedron, particles, density, 32));  // the same size: another solid, or positions
     expect_same_bits(answer(used, packing), fresh(packing));
   }
 }
