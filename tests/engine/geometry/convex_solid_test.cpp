@@ -41,13 +41,24 @@ TEST_P(Platonic, ClosesByEulersFormula) {
   EXPECT_EQ(solid.vertices().size() + solid.faces().size(), solid.edges().size() + 2);
 }
 
+/// Whether the polygon of the face goes straight from one vertex to the other.
+bool runs_along(const Face& face, int from, int to) {
+  const std::size_t n = face.vertices.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (face.vertices[k] == from && face.vertices[(k + 1) % n] == to) return true;
+  }
+  return false;
+}
+
 TEST_P(Platonic, EdgesRunBetweenTheirFaces) {
   const ConvexSolid& solid = platonic(GetParam());
   for (const Edge& edge : solid.edges()) {
     const Eigen::Vector3d along = solid.vertices()[edge.head] - solid.vertices()[edge.tail];
     const Eigen::Vector3d left = solid.faces()[edge.left].normal, right = solid.faces()[edge.right].normal;
     // The outward normal turns from left to right about the edge.
-    EXPECT_GT(right.cross(left).dot(along), 0) << edge.tail << " → " << edge.head;
+    EXPECT_GT(left.cross(right).dot(along), 0) << edge.tail << " → " << edge.head;
+    EXPECT_TRUE(runs_along(solid.faces()[edge.left], edge.tail, edge.head)) << edge.tail << " → " << edge.head;
+    EXPECT_TRUE(runs_along(solid.faces()[edge.right], edge.head, edge.tail)) << edge.tail << " → " << edge.head;
     for (const int v : {edge.tail, edge.head}) {
       EXPECT_NEAR(left.dot(solid.vertices()[v]), solid.faces()[edge.left].offset, 1e-15);
       EXPECT_NEAR(right.dot(solid.vertices()[v]), solid.faces()[edge.right].offset, 1e-15);

@@ -1,1 +1,216 @@
+// Facts proved here, on random packings of all solids:
+//   energy, gradient, stress, contacts and mean force are the sums over all pairs found by brute force;
+//   forces sum to zero, and the torques to what an asymmetric stress leaves;
+//   translating all particles, wrapping one by the side, relabelling, or turning the whole cell by 90° leaves the
+//   energy, and moves the gradient along; residual and mean force are as defined, with their limits for packings
+//   without contacts; every listed pair is out of reach, rejected by its axis, or overlapped.
+
 #include "engine/packing/energy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "tests/engine/packing/packings.hpp"
+
+namespace isojam {
+namespace {
+
+using namespace testing_packings;
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr int particles = 70;
+constexpr double density = .7;
+
+/// Rounding of one entry of the gradient: the stiffest particle moved by some ulp of the side.
+double gradient_tolerance(const Evaluation& evaluation) {
+  return 16 * evaluation.residual_floor * evaluation.mean_force;
+}
+
+struct Sums {
+  double energy = 0, force = 0;
+  VectorXd gradient;
+  Matrix3d stress = Matrix3d::Zero();
+  long contacts = 0;
+};
+
+/// From every pair and the formulae of the pair alone.
+Sums sums_over_pairs(const Packing& packing) {
+  Sums sums;
+  sums.gradient = VectorXd::Zero(6 * packing.size());
+  const double radius = packing.solid->gyration_radius();
+  for (const NeighbourPair& pair : find_neighbours_brute_force(packing, 2 * packing.solid->circumradius())) {
+    const Vector3d r = displacement(packing, pair);
+    const Quaterniond &qa = packing.poses[pair.a].orientation, &qb = packing.poses[pair.b].orientation;
+    const Overlap o = clipped_overlap(*packing.solid, *packing.solid, relative_pose(qa, qb, r));
+    if (!o.touching()) continue;
+    const Vector3d s = qa * o.area, m = qa * o.moment;
+    sums.energy += o.volume * o.volume / 4;
+    sums.gradient.segment<6>(6 * pair.a) += o.volume / 2 * joined(s, m / radius);
+    sums.gradient.segment<6>(6 * pair.b) += o.volume / 2 * joined(-s, (r.cross(s) - m) / radius);
+    sums.stress -= o.volume / 2 * s * r.transpose() / packing.cell.volume();
+    sums.force += o.volume / 2 * s.norm();
+    ++sums.contacts;
+  }
+  return sums;
+}
+
+TEST(PackingEnergyTest, IsTheSumOverAllPairs) {
+  for (const Packing& packing : samples(11, particles, density)) {
+    const Evaluation got = PackingEnergy().evaluate(packing);
+    const Sums sums = sums_over_pairs(packing);
+    EXPECT_EQ(got.contacts, sums.contacts) << describe(packing);
+    EXPECT_NEAR(got.energy, sums.energy, energy_tolerance(got)) << describe(packing);
+    EXPECT_LE((got.gradient - sums.gradient).cwiseAbs().maxCoeff(), gradient_tolerance(got)) << describe(packing);
+    EXPECT_LE((got.stress - sums.stress).norm(), 1e-12 * sums.stress.norm()) << describe(packing);
+    EXPECT_NEAR(got.pressure, -sums.stress.trace() / 3, 1e-12 * sums.stress.norm()) << describe(packing);
+    const double mean_force = sums.force / static_cast<double>(sums.contacts);
+    EXPECT_NEAR(got.mean_force, mean_force, 1e-12 * mean_force) << describe(packing);
+    double largest = 0;
+    for (int k = 0; k < 2 * packing.size(); ++k) largest = std::max(largest, sums.gradient.segment<3>(3 * k).norm());
+    EXPECT_NEAR(got.residual, largest / mean_force, 1e-11 * got.residual) << describe(packing);
+  }
+}
+
+TEST(PackingEnergyTest, ForcesBalanceAndTorquesMatchTheStress) {
+  for (const Packing& packing : samples(12, particles, density)) {
+    const Evaluation got = PackingEnergy().evaluate(packing);
+    Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+    for (int i = 0; i < packing.size(); ++i) {
+      force += got.gradient.segment<3>(6 * i);
+      torque += got.gradient.segment<3>(6 * i + 3) * packing.solid->gyration_radius();
+    }
+    const double all_forces = got.mean_force * static_cast<double>(got.contacts);
+    EXPECT_LE(force.norm(), 64 * epsilon * all_forces) << describe(packing);
+    // E is blind to turning everything: the turns of the bodies and of the displacements cancel.
+    const Matrix3d s = got.stress * packing.cell.volume();
+    const Vector3d axial(s(2, 1) - s(1, 2), s(0, 2) - s(2, 0), s(1, 0) - s(0, 1));
+    EXPECT_GT(axial.norm(), 1e-6 * s.norm()) << "a random packing has net torque";
+    EXPECT_LE((torque + axial).norm(), 64 * epsilon * all_forces * packing.cell.side()) << describe(packing) << "\n"
+                                                                                        << torque.transpose() << "\n"
+                                                                                        << axial.transpose();
+  }
+}
+
+TEST(PackingEnergyTest, TranslationOfAllLeavesEverything) {
+  RandomStream random{13};
+  for (const Packing& packing : samples(13, particles, density)) {
+    const Evaluation before = PackingEnergy().evaluate(packing);
+    Packing shifted = packing;
+    const Vector3d shift(random.normal(), random.normal(), random.normal());
+    for (Pose& pose : shifted.poses) pose.position += shift;
+    const Evaluation after = PackingEnergy().evaluate(shifted);
+    EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
+    EXPECT_NEAR(after.energy, before.energy, energy_tolerance(before)) << describe(packing);
+    EXPECT_LE((after.gradient - before.gradient).cwiseAbs().maxCoeff(), gradient_tolerance(before))
+        << describe(packing);
+  }
+}
+
+TEST(PackingEnergyTest, WrappingOneParticleLeavesEverything) {
+  for (const Packing& packing : samples(14, particles, density)) {
+    const Evaluation before = PackingEnergy().evaluate(packing);
+    for (const Vector3d& sides : {Vector3d(1, 0, 0), Vector3d(0, -2, 1), Vector3d(-1, 1, 3)}) {
+      Packing wrapped = packing;
+      wrapped.poses[7].position += packing.cell.side() * sides;
+      const Evaluation after = PackingEnergy().evaluate(wrapped);
+      // Coordinates four times as large are rounded four times as coarsely.
+      EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
+      EXPECT_NEAR(after.energy, before.energy, 4 * energy_tolerance(before)) << describe(packing);
+      EXPECT_LE((after.gradient - before.gradient).cwiseAbs().maxCoeff(), 4 * gradient_tolerance(before))
+          << describe(packing);
+      EXPECT_LE((after.stress - before.stress).norm(), 1e-12 * before.stress.norm()) << describe(packing);
+    }
+  }
+}
+
+TEST(PackingEnergyTest, RelabellingPermutesTheGradient) {
+  RandomStream random{15};
+  for (const Packing& packing : samples(15, particles, density)) {
+    const Evaluation before = PackingEnergy().evaluate(packing);
+    std::vector<int> order(packing.poses.size());
+    std::iota(order.begin(), order.end(), 0);
+    for (std::size_t i = order.size() - 1; i > 0; --i)
+      std::swap(order[i], order[static_cast<std::size_t>(random.uniform() * static_cast<double>(i + 1))]);
+    Packing relabelled = packing;
+    for (std::size_t i = 0; i < order.size(); ++i) relabelled.poses[i] = packing.poses[order[i]];
+    const Evaluation after = PackingEnergy().evaluate(relabelled);
+    EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
+    EXPECT_NEAR(after.energy, before.energy, energy_tolerance(before)) << describe(packing);
+    for (int i = 0; i < packing.size(); ++i) {
+      const Vector6d moved_along = before.gradient.segment<6>(6 * order[i]);
+      EXPECT_LE((after.gradient.segment<6>(6 * i) - moved_along).norm(), gradient_tolerance(before))
+          << describe(packing) << ", particle " << i;
+    }
+  }
+}
+
+TEST(PackingEnergyTest, TurningTheCellTurnsForcesAndStress) {
+  const Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()));
+  for (const Packing& packing : samples(16, particles, density)) {
+    const Evaluation before = PackingEnergy().evaluate(packing);
+    Packing turned = packing;
+    for (Pose& pose : turned.poses) {
+      pose.position = Vector3d(-pose.position.y(), pose.position.x(), pose.position.z());
+      pose.orientation = (turn * pose.orientation).normalized();
+    }
+    const Evaluation after = PackingEnergy().evaluate(turned);
+    EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
+    EXPECT_NEAR(after.energy, before.energy, energy_tolerance(before)) << describe(packing);
+    for (int k = 0; k < 2 * packing.size(); ++k)
+      EXPECT_LE((after.gradient.segment<3>(3 * k) - turn * before.gradient.segment<3>(3 * k)).norm(),
+                gradient_tolerance(before))
+          << describe(packing) << ", vector " << k;
+    const Matrix3d r = turn.toRotationMatrix();
+    EXPECT_LE((after.stress - r * before.stress * r.transpose()).norm(), 1e-12 * before.stress.norm())
+        << describe(packing);
+  }
+}
+
+TEST(PackingEnergyTest, WithoutContactsAllIsZero) {
+  Packing packing{&platonic(SolidKind::octahedron), PeriodicCell(8), std::vector<Pose>(8)};
+  for (int i = 0; i < 8; ++i) packing.poses[i].position = Vector3d(4 * (i & 1), 4 * (i >> 1 & 1), 4 * (i >> 2));
+  const Evaluation got = PackingEnergy().evaluate(packing);
+  EXPECT_EQ(got.contacts, 0);
+  EXPECT_EQ(got.energy, 0);
+  EXPECT_EQ(got.gradient.norm(), 0);
+  EXPECT_EQ(got.residual, 0);
+  EXPECT_EQ(got.mean_force, 0);
+  EXPECT_EQ(got.pressure, 0);
+  EXPECT_TRUE(PackingEnergy().contacts(packing).empty());
+}
+
+TEST(PackingEnergyTest, CountsAddUp) {
+  RandomStream random{17};
+  for (const Packing& packing : samples(17, particles, density)) {
+    PackingEnergy energy;
+    PairCounts before;
+    Packing current = packing;
+    for (int k = 1; k <= 5; ++k) {
+      const long contacts = energy.evaluate(current).contacts;
+      const PairCounts now = energy.counts();
+      EXPECT_EQ(energy.evaluations(), k);
+      EXPECT_EQ(now.listed, now.out_of_reach + now.by_axis + now.overlapped) << describe(packing);
+      EXPECT_EQ(now.touching - before.touching, contacts) << describe(packing);
+      EXPECT_GE(now.overlapped - before.overlapped, contacts) << describe(packing);
+      // The first evaluation knows no axis. Later ones have one for nearly every pair within reach that is apart.
+      if (k == 1) {
+        EXPECT_EQ(now.by_axis, 0) << describe(packing);
+      } else {
+        EXPECT_GT(now.by_axis - before.by_axis, now.overlapped - before.overlapped - contacts) << describe(packing);
+      }
+      before = now;
+      current = moved(current, 1e-3 * random_step(random, packing.size()));
+    }
+    EXPECT_EQ(before.clipped, 0) << describe(packing);
+  }
+}
+
+}  // namespace
+}  // namespace isojam

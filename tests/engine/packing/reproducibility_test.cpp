@@ -1,0 +1,121 @@
+// Facts proved here, bit for bit:
+//   an evaluation, a Hessian and a list of contacts are functions of the packing alone: whatever was evaluated before
+//   (other solids, sizes, densities; a walk that kept or rebuilt the neighbour list) and for 1 and 2 threads.
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "engine/packing/energy.hpp"
+#include "tests/engine/packing/packings.hpp"
+
+namespace isojam {
+namespace {
+
+using namespace testing_packings;
+
+constexpr int particles = 300;  // several blocks of pairs
+constexpr double density = .7;
+
+/// Everything the energy says of a packing.
+struct Answer {
+  Evaluation evaluation;
+  SecondOrder second;
+  std::vector<Contact> contacts;
+};
+
+Answer answer(PackingEnergy& energy, const Packing& packing) {
+  return {energy.evaluate(packing), energy.second_order(packing), energy.contacts(packing)};
+}
+
+Answer fresh(const Packing& packing) {
+  PackingEnergy energy;
+  return answer(energy, packing);
+}
+
+void expect_same_bits(const Evaluation& one, const Evaluation& two) {
+  EXPECT_EQ(one.energy, two.energy);
+  EXPECT_EQ((one.gradient.array() != two.gradient.array()).count(), 0);
+  EXPECT_EQ((one.stress.array() != two.stress.array()).count(), 0) << one.stress - two.stress;
+  EXPECT_EQ(one.pressure, two.pressure);
+  EXPECT_EQ(one.mean_force, two.mean_force);
+  EXPECT_EQ(one.residual, two.residual);
+  EXPECT_EQ(one.residual_floor, two.residual_floor);
+  EXPECT_EQ(one.energy_noise, two.energy_noise);
+  EXPECT_EQ(one.contacts, two.contacts);
+}
+
+void expect_same_bits(const SecondOrder& one, const SecondOrder& two) {
+  ASSERT_EQ(one.hessian.size(), two.hessian.size());
+  ASSERT_EQ(one.hessian.off_diagonal.size(), two.hessian.off_diagonal.size());
+  ASSERT_EQ(one.tilts.size(), two.tilts.size());
+  for (int i = 0; i < one.hessian.size(); ++i)
+    EXPECT_EQ(one.hessian.diagonal[i], two.hessian.diagonal[i]) << "particle " << i;
+  for (std::size_t k = 0; k < one.hessian.off_diagonal.size(); ++k) {
+    EXPECT_EQ(one.hessian.off_diagonal[k].row, two.hessian.off_diagonal[k].row);
+    EXPECT_EQ(one.hessian.off_diagonal[k].column, two.hessian.off_diagonal[k].column);
+    EXPECT_EQ(one.hessian.off_diagonal[k].value, two.hessian.off_diagonal[k].value) << "block " << k;
+  }
+  for (std::size_t k = 0; k < one.tilts.size(); ++k) {
+    EXPECT_EQ(one.tilts[k].block, two.tilts[k].block);
+    EXPECT_EQ(one.tilts[k].value, two.tilts[k].value) << "tilt " << k;
+  }
+}
+
+void expect_same_bits(const Answer& one, const Answer& two) {
+  ASSERT_GT(one.evaluation.contacts, particles);
+  expect_same_bits(one.evaluation, two.evaluation);
+  expect_same_bits(one.second, two.second);
+  ASSERT_EQ(one.contacts.size(), two.contacts.size());
+  for (std::size_t k = 0; k < one.contacts.size(); ++k) {
+    const Contact &c = one.contacts[k], &d = two.contacts[k];
+    EXPECT_TRUE(c.pair.a == d.pair.a && c.pair.b == d.pair.b && c.pair.shift == d.pair.shift) << "contact " << k;
+    EXPECT_TRUE(c.displacement == d.displacement && c.pose.rotation == d.pose.rotation) << "contact " << k;
+    EXPECT_TRUE(c.overlap.volume == d.overlap.volume && c.overlap.area == d.overlap.area &&
+                c.overlap.moment == d.overlap.moment && c.overlap.path == d.overlap.path)
+        << "contact " << k;
+    EXPECT_TRUE(c.overlap.faces_a == d.overlap.faces_a && c.overlap.edges_b == d.overlap.edges_b) << "contact " << k;
+  }
+}
+
+TEST(ReproducibilityTest, OtherPackingsBeforeChangeNothing) {
+  PackingEnergy used;
+  for (const Packing& packing : samples(31, particles, density)) {
+    SCOPED_TRACE(describe(packing));
+    used.evaluate(strained_to(packing, .4));
+    used.hessian(sample(SolidKind::cube, 90, .9, 31));
+    used.evaluate(
+        sample(SolidKind::tetrahedron, particles, density, 32));  // the same size: another solid, or positions
+    expect_same_bits(answer(used, packing), fresh(packing));
+  }
+}
+
+TEST(ReproducibilityTest, AWalkBeforeChangesNothing) {
+  for (const Packing& packing : samples(33, particles, density)) {
+    SCOPED_TRACE(describe(packing));
+    RandomStream random{33};
+    PackingEnergy used;
+    Packing current = packing;
+    for (const double length : {1e-3, 1e-2, 1e-2, 1e-1, 1e-3, 1e-2}) {
+      current = moved(current, length * random_step(random, particles));
+      used.evaluate(current);
+    }
+    expect_same_bits(answer(used, current), fresh(current));
+    // Back to where it came from, by one step that is longer than the skin.
+    expect_same_bits(answer(used, packing), fresh(packing));
+  }
+}
+
+TEST(ReproducibilityTest, TheNumberOfThreadsChangesNothing) {
+  for (const Packing& packing : samples(34, particles, density)) {
+    SCOPED_TRACE(describe(packing));
+    const auto with_threads = [&](std::size_t threads) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+      return fresh(packing);
+    };
+    const Answer one = with_threads(1);
+    for (int again = 0; again < 3; ++again) expect_same_bits(one, with_threads(2));
+  }
+}
+
+}  // namespace
+}  // namespace isojam
