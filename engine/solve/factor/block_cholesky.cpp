@@ -199,7 +199,7 @@ bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
     const int width = 6 * front.columns, height = static_cast<int>(front.factor.rows());
     Eigen::Ref<Eigen::MatrixXd> top = front.factor.topRows(width);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> pivot(top);
-    if (pivot.info() != Eigen::Success) return false;
+    if (pivot.info() != Eigen::Success || !pivot.matrixLLT().diagonal().allFinite()) return false;
     if (height == width) continue;
     auto below = front.factor.bottomRows(height - width);
     top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);

@@ -69,11 +69,12 @@ bool Descent::advance(const Eigen::VectorXd& direction, double first_step, doubl
 
   Packing lowest = packing_, trial = packing_;
   Evaluation at_lowest, at_trial;
-  double step_of_lowest = 0;
+  double step_of_lowest = 0, step_of_trial = 0;
   const auto at = [&](double step) {
     at_trial = probe(step * direction, trial);
+    step_of_trial = step;
     const LinePoint point{step, at_trial.energy, at_trial.gradient.dot(direction)};
-    // The search ends either at the last point or at the lowest one.
+    // The search ends at the last point or at the lowest one; among energies equal but for noise, elsewhere.
     if (step_of_lowest == 0 || point.value < at_lowest.energy) {
       lowest = trial;
       at_lowest = at_trial;
@@ -87,6 +88,7 @@ bool Descent::advance(const Eigen::VectorXd& direction, double first_step, doubl
   if (result.point.step == step_of_lowest) {
     accept(std::move(lowest), std::move(at_lowest));
   } else {
+    if (result.point.step != step_of_trial) at(result.point.step);
     accept(std::move(trial), std::move(at_trial));
   }
   return true;

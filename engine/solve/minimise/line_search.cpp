@@ -86,6 +86,7 @@ LineSearchResult line_search(const std::function<LinePoint(double)>& at, const L
       low = p;
       if (!bracketed && p.step >= options.longest_step) {
         result.found = true;  // still descending at the longest step allowed: as good as it gets
+        result.point = p;
         return result;
       }
     }

@@ -32,7 +32,9 @@ class Shift {
   void set_scale(double stiffness) {
     scale_ = stiffness;
     least_ = 16 * std::numeric_limits<double>::epsilon() * stiffness;
-    most_ = 1e6 * stiffness;  // beyond it a step is gradient descent by next to nothing
+    // Beyond it a step is gradient descent by next to nothing, even where faces that close are about to become
+    // as stiff as contacts can be (of order 1) while nothing in the Hessian says so.
+    most_ = 1e6 * std::max(stiffness, 1.0);
     if (value_ == 0) value_ = 1e-4 * stiffness;
     value_ = std::max(value_, least_);
   }
