@@ -46,8 +46,8 @@ TEST_P(Platonic, EdgesRunBetweenTheirFaces) {
   for (const Edge& edge : solid.edges()) {
     const Eigen::Vector3d along = solid.vertices()[edge.head] - solid.vertices()[edge.tail];
     const Eigen::Vector3d left = solid.faces()[edge.left].normal, right = solid.faces()[edge.right].normal;
-    // The outward normal turns from left to right about the edge.
-    EXPECT_GT(right.cross(left).dot(along), 0) << edge.tail << " → " << edge.head;
+    // The left face lies left of the edge seen from outside, so its normal turns about the edge into the right one.
+    EXPECT_GT(left.cross(right).dot(along), 0) << edge.tail << " → " << edge.head;
     for (const int v : {edge.tail, edge.head}) {
       EXPECT_NEAR(left.dot(solid.vertices()[v]), solid.faces()[edge.left].offset, 1e-15);
       EXPECT_NEAR(right.dot(solid.vertices()[v]), solid.faces()[edge.right].offset, 1e-15);
