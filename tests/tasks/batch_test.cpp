@@ -9,9 +9,9 @@
 // - `aggregate` makes the tables that `run` made.
 
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <chrono>
+#include <csignal>
 #include <thread>
 
 #include "schema.hpp"
@@ -55,13 +55,12 @@ class Batch : public testing::Test {
   static Files reference() { return results_below(*shared_ / "results"); }
   Files results() const { return results_below(here_ / "results"); }
 
-  static std::unique_ptr<TemporaryDirectory> shared_;
-  static test::Finished finished_;
+  // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): GoogleTest's way to share a costly set-up.
+  static inline std::unique_ptr<TemporaryDirectory> shared_;
+  static inline test::Finished finished_;
+  // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
   TemporaryDirectory here_;
 };
-
-std::unique_ptr<TemporaryDirectory> Batch::shared_;
-test::Finished Batch::finished_;
 
 Files only(const Files& files, const std::string& part) {
   Files some;

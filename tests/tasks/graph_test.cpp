@@ -33,7 +33,7 @@ std::vector<ReplicateSpec> plan_of(int replicates) {
 
 Stages quiet_stages() {
   return {[](const ReplicateSpec& spec) { return test::made_up_outcome(spec).jam.states.front(); },
-          [](const ReplicateSpec& spec, Packing, std::stop_token, const OnStep&) {
+          [](const ReplicateSpec& spec, const Packing&, std::stop_token, const OnStep&) {
             return test::made_up_outcome(spec).jam;
           },
           [](const ReplicateSpec& spec, const JamResult&) { return test::made_up_outcome(spec).contacts; }};
@@ -160,7 +160,7 @@ TEST(Graph, StopsPromptly) {
   std::stop_source source;
   std::atomic<int> started{0};
   auto stages = quiet_stages();
-  stages.jam = [&](const ReplicateSpec& spec, Packing, std::stop_token stop, const OnStep&) {
+  stages.jam = [&](const ReplicateSpec& spec, const Packing&, std::stop_token stop, const OnStep&) {
     ++started;
     if (spec.replicate < 3) return test::made_up_outcome(spec).jam;
     source.request_stop();

@@ -1,7 +1,8 @@
 // Facts proved here, at states of every solid from random to converged, where energies no longer resolve a step:
 //   a step that Descent::advance takes moves the packing by last_step() times the direction, no particle beyond the
 //   longest displacement, raises the energy by no more than its noise, and leaves packing and evaluation in agreement;
-//   a direction that leads up is refused and nothing moves.
+//   a direction that leads up is refused and nothing moves;
+//   the verdict is energy_change exactly when the last step changed the energy by less than that fraction of it.
 
 #include "engine/solve/minimise/descent.hpp"
 
@@ -68,6 +69,30 @@ TEST_P(DescentOf, TakesTheStepItReports) {
   const int unresolved = wander(packing, 100, random);
   std::printf("%d steps below the noise of the energy\n", unresolved);
   EXPECT_GT(unresolved, 0);
+}
+
+TEST_P(DescentOf, JudgesRelativeChangesOfEnergy) {
+  int settled = 0, moving = 0;
+  for (const double tolerance : {1e-1, 1e-2, 1e-3}) {
+    Packing packing = small_packing(GetParam(), over_compressed(GetParam()), 34);
+    PackingEnergy energy;
+    MinimiseOptions options;
+    options.residual = 0;
+    options.energy_change = tolerance;
+    Descent descent(packing, energy, options, {});
+    EXPECT_FALSE(descent.verdict()) << "nothing has changed yet";
+    for (int k = 0; k < 60; ++k) {
+      const double before = descent.here().energy;
+      const Eigen::VectorXd direction = -descent.here().gradient;
+      ASSERT_TRUE(descent.advance(direction, 1e-3 / largest_displacement(direction), 0.1));
+      const double change = (before - descent.here().energy) / descent.here().energy;
+      const bool stops = descent.verdict() == StopReason::energy_change;
+      EXPECT_EQ(stops, change < tolerance) << "relative change " << change << ", tolerance " << tolerance;
+      ++(stops ? settled : moving);
+    }
+  }
+  EXPECT_GT(settled, 10);
+  EXPECT_GT(moving, 10);
 }
 
 TEST_P(DescentOf, RefusesToClimb) {
