@@ -29,7 +29,7 @@ Pair random_contact(RandomStream& random, SolidKind a, SolidKind b, double least
   const double farthest = platonic(a).circumradius() + platonic(b).circumradius();
   for (;;) {
     const double distance = nearest + (farthest - nearest) * random.uniform();
-    const Pair pair = random_pair(random, a, b, distance);
+    Pair pair = random_pair(random, a, b, distance);
     const double volume = overlap(pair).volume;
     if (least_volume < volume && volume < greatest_volume) return pair;
   }
