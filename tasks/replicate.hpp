@@ -50,8 +50,8 @@ Stages engine_stages();
 std::optional<Failure> failure_of(const JamResult& jam);
 
 /// Reservations about an outcome without failure, in a fixed order: short_of_goal (expansion did not come as near to
-/// jamming as asked), classes_undecided (a CDF fit in the nearest state gave no cut-off), crystalline (Q6 of its contacts is above
-/// crystalline_q6).
+/// jamming as asked), classes_undecided (a CDF fit in the nearest state gave no cut-off), crystalline (Q6 of its
+/// contacts is above crystalline_q6).
 std::vector<std::string_view> flags_of(const Outcome& outcome);
 
 /// Index in jam.states of the state nearest jamming: the one of lowest density among those of positive energy.

@@ -16,8 +16,8 @@ double steinhardt_order(std::span<const Eigen::Vector3d> bonds, unsigned l);
 /// Q6 over the centre-to-centre lines of all contacts.
 double contact_q6(std::span<const Contact> contacts);
 
-/// Packings above count as partly crystalline. At N = 64 fifteen disordered packings gave .04 to .27, and a crystalline one
-/// of icosahedra .47; larger packings scatter less.
+/// Packings above count as partly crystalline. At N = 64 fifteen disordered packings gave .04 to .27, and a crystalline
+/// one of icosahedra .47; larger packings scatter less.
 inline constexpr double crystalline_q6 = 0.35;
 
 }  // namespace isojam

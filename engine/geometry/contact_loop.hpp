@@ -33,13 +33,14 @@ struct PlacedSolid {
 };
 
 enum class LoopVerdict : std::uint8_t {
-  separated,   ///< no intersection, beyond the reach of rounding
-  closed,      ///< every segment has its two ends: the loop is the boundary between A's part and B's
-  degenerate   ///< a vertex lies on a plane to within rounding, a loop does not close, or one solid holds the other
+  separated,  ///< no intersection, beyond the reach of rounding
+  closed,     ///< every segment has its two ends: the loop is the boundary between A's part and B's
+  degenerate  ///< a vertex lies on a plane to within rounding, a loop does not close, or one solid holds the other
 };
 
-/// The edges of the intersection of A and B (the first `spans` and `segments` entries; the others are left as they were,
-/// since clearing them would cost as much as finding the loop), relative to `origin` (a vertex of the intersection) in A's frame.
+/// The edges of the intersection of A and B (the first `spans` and `segments` entries; the others are left as they
+/// were, since clearing them would cost as much as finding the loop), relative to `origin` (a vertex of the
+/// intersection) in A's frame.
 struct ContactLoop {
   static constexpr int max_spans = 2 * SolidArrays::capacity;
   static constexpr int max_segments = 2 * max_spans;

@@ -105,7 +105,7 @@ std::vector<HullFace> hull(const std::vector<Vector3l>& points) {
 
 struct Moments {
   long double volume = 0;
-  Vector3l first = Vector3l::Zero();    ///< ∫ x dV
+  Vector3l first = Vector3l::Zero();   ///< ∫ x dV
   Matrix3l second = Matrix3l::Zero();  ///< ∫ x xᵀ dV
 };
 
@@ -170,7 +170,8 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vert
     : ConvexSolid(std::move(name), extended(vertices)) {}
 
 ConvexSolid::ConvexSolid(std::string name, std::span<const Vector3l> vertices) : name_(std::move(name)) {
-  if (vertices.size() < 4 || vertices.size() > max_features) throw std::invalid_argument("a solid has 4 to 32 vertices");
+  if (vertices.size() < 4 || vertices.size() > max_features)
+    throw std::invalid_argument("a solid has 4 to 32 vertices");
   std::vector<Vector3l> points(vertices.begin(), vertices.end());
   std::vector<HullFace> hull_faces = hull(points);
   if (hull_faces.size() < 4) throw std::invalid_argument("the vertices span no volume");
@@ -182,8 +183,7 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Vector3l> vertices) :
   edges_ = find_edges(hull_faces);
   if (hull_faces.size() > max_features || edges_.size() > max_features)
     throw std::invalid_argument("a solid has at most 32 faces and 32 edges");
-  if (vertices.size() + hull_faces.size() != edges_.size() + 2)
-    throw std::invalid_argument("a vertex is not extreme");
+  if (vertices.size() + hull_faces.size() != edges_.size() + 2) throw std::invalid_argument("a vertex is not extreme");
 
   for (const Vector3l& point : points) {
     vertices_.push_back(point.cast<double>());

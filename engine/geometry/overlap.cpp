@@ -40,9 +40,9 @@ Overlap integrate(const SolidArrays& a, const ContactLoop& loop) {
   for (int k = 0; k < loop.spans; ++k) {
     const EdgeSpan& s = loop.span[k];
     const Eigen::Vector3d cross = s.from.cross(s.to);
-    volume += (s.of_a ? edge_normal(a, s.left, s.right, loop.origin)
-                      : edge_normal(loop.b, s.left, s.right, loop.origin))
-                  .dot(cross);
+    volume +=
+        (s.of_a ? edge_normal(a, s.left, s.right, loop.origin) : edge_normal(loop.b, s.left, s.right, loop.origin))
+            .dot(cross);
     (s.of_a ? result.faces_a : result.faces_b) |= std::uint32_t{1} << s.left | std::uint32_t{1} << s.right;
   }
   result.volume = volume / 6;

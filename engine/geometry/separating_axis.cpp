@@ -50,7 +50,8 @@ double edge_gap(const SolidArrays& a, const SolidArrays& b, const RelativePose& 
 double gap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, const SeparatingAxis& axis) {
   switch (axis.kind) {
     case SeparatingAxis::Kind::none: break;
-    case SeparatingAxis::Kind::face_a: return face_gap(a.arrays(), b.arrays(), axis.a, pose.rotation, pose.displacement);
+    case SeparatingAxis::Kind::face_a:
+      return face_gap(a.arrays(), b.arrays(), axis.a, pose.rotation, pose.displacement);
     case SeparatingAxis::Kind::face_b:
       return face_gap(b.arrays(), a.arrays(), axis.b, pose.rotation.transpose(),
                       -(pose.rotation.transpose() * pose.displacement));

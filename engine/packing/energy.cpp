@@ -15,9 +15,7 @@ namespace {
 /// few listed pairs are out of reach.
 constexpr double skin_in_circumradii = 0.15;
 
-auto canonical_key(const NeighbourPair& p) {
-  return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]);
-}
+auto canonical_key(const NeighbourPair& p) { return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]); }
 
 /// Axes of the pairs that stay, by a merge of two lists in canonical order.
 std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_pairs,
@@ -142,7 +140,8 @@ SecondOrder PackingEnergy::second_order(const Packing& packing) {
       blocks.push_back({pair.a, pair.b, Matrix6d::Zero()});
     blocks.back().value += hessians_[k].ab;
     const Eigen::Vector3d area = packing.poses[pair.a].orientation * overlaps_[k].area;
-    result.tilts.push_back({static_cast<int>(blocks.size()) - 1, tilt_stiffness(area, packing.solid->gyration_radius())});
+    result.tilts.push_back(
+        {static_cast<int>(blocks.size()) - 1, tilt_stiffness(area, packing.solid->gyration_radius())});
   }
   return result;
 }

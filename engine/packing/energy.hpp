@@ -13,8 +13,8 @@ struct Evaluation {
   double energy = 0;
   Eigen::VectorXd gradient;  ///< 6N: per particle (−F, −T/R), lab frame; R the radius of gyration
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
-  double pressure = 0;       ///< −dE/dV_cell = −tr(stress)/3
-  double mean_force = 0;     ///< mean of |F| over touching pairs; 0 without contacts
+  double pressure = 0;                               ///< −dE/dV_cell = −tr(stress)/3
+  double mean_force = 0;                             ///< mean of |F| over touching pairs; 0 without contacts
   /// max over particles and both kinds of |F_i|, |T_i|/R, divided by mean_force. Infinity if mean_force is 0 and
   /// some force is not; 0 if all are.
   double residual = 0;

@@ -11,12 +11,12 @@ namespace {
 /// Appends every image of b within reach of a.
 void append_images(const Packing& packing, int a, int b, double reach, std::vector<NeighbourPair>& pairs) {
   const double side = packing.cell.side();
-  const Eigen::Vector3d d = packing.poses[static_cast<std::size_t>(b)].position -
-                            packing.poses[static_cast<std::size_t>(a)].position;
+  const Eigen::Vector3d d =
+      packing.poses[static_cast<std::size_t>(b)].position - packing.poses[static_cast<std::size_t>(a)].position;
   const Eigen::Vector3i nearest = packing.cell.nearest_shift(d);
   const Eigen::Vector3d nearest_d = d + side * nearest.cast<double>();
   // Images farther than the nearest by a whole side matter only while half the side is within reach.
-  const int spread = reach > side / 2 ? static_cast<int>(std::ceil(reach / side + 0.5)) : 0;
+  const int spread = reach > side / 2 ? static_cast<int>(std::floor(reach / side + 0.5)) : 0;
   for (int i = -spread; i <= spread; ++i) {
     for (int j = -spread; j <= spread; ++j) {
       for (int k = -spread; k <= spread; ++k) {
@@ -29,16 +29,15 @@ void append_images(const Packing& packing, int a, int b, double reach, std::vect
 }
 
 void sort_canonically(std::vector<NeighbourPair>& pairs) {
-  const auto key = [](const NeighbourPair& p) {
-    return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]);
-  };
+  const auto key = [](const NeighbourPair& p) { return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]); };
   std::sort(pairs.begin(), pairs.end(), [&](const auto& p, const auto& q) { return key(p) < key(q); });
 }
 
 /// Particles by cell of a grid with `cells` ≥ 3 cells a side.
 class CellGrid {
  public:
-  CellGrid(const Packing& packing, int cells) : cells_(cells), members_(static_cast<std::size_t>(cells) * cells * cells) {
+  CellGrid(const Packing& packing, int cells)
+      : cells_(cells), members_(static_cast<std::size_t>(cells) * cells * cells) {
     const double side = packing.cell.side();
     for (int i = 0; i < packing.size(); ++i) {
       Eigen::Vector3i where;
@@ -56,7 +55,8 @@ class CellGrid {
     for (int dx = -1; dx <= 1; ++dx) {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dz = -1; dz <= 1; ++dz) {
-          for (const int j : members_[index(home_[static_cast<std::size_t>(i)] + Eigen::Vector3i(dx, dy, dz))]) visit(j);
+          for (const int j : members_[index(home_[static_cast<std::size_t>(i)] + Eigen::Vector3i(dx, dy, dz))])
+            visit(j);
         }
       }
     }

@@ -75,8 +75,7 @@ void pair_hessian(const Packing& packing, const NeighbourPair& pair, const Overl
   const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
   const Matrix6d own_a = overlap_own_hessian(cross, overlap.area, r);
   const Matrix6d own_b = overlap_own_hessian(cross.transpose(), -overlap.area, -r);
-  const Eigen::Matrix3d q =
-      packing.poses[static_cast<std::size_t>(pair.a)].orientation.toRotationMatrix();
+  const Eigen::Matrix3d q = packing.poses[static_cast<std::size_t>(pair.a)].orientation.toRotationMatrix();
   const double radius = solid.gyration_radius();
   out.aa = to_lab((ga * ga.transpose() + overlap.volume * own_a) / 2, q, radius);
   out.ab = to_lab((ga * gb.transpose() + overlap.volume * cross) / 2, q, radius);

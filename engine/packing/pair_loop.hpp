@@ -10,12 +10,12 @@ namespace isojam {
 
 /// What the broad and narrow phases did in one evaluation.
 struct PairCounts {
-  long listed = 0;       ///< pairs in the neighbour list
-  long out_of_reach = 0; ///< circumspheres apart
-  long by_axis = 0;      ///< rejected by the axis cached from an earlier evaluation
-  long overlapped = 0;   ///< handed to the overlap kernel
-  long clipped = 0;      ///< of these, answered by the slow path
-  long touching = 0;     ///< V > 0
+  long listed = 0;        ///< pairs in the neighbour list
+  long out_of_reach = 0;  ///< circumspheres apart
+  long by_axis = 0;       ///< rejected by the axis cached from an earlier evaluation
+  long overlapped = 0;    ///< handed to the overlap kernel
+  long clipped = 0;       ///< of these, answered by the slow path
+  long touching = 0;      ///< V > 0
 
   PairCounts& operator+=(const PairCounts& term);
 };

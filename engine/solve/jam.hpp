@@ -15,19 +15,19 @@ namespace isojam {
 /// Jamming protocol: consolidate in small isotropic strain steps, then expand towards φ_J, minimising after each.
 struct JamOptions {
   double initial_density = 0.05;
-  double consolidation_step = 0.01;   ///< Δφ of a strain step on the way up
-  double target_energy = 3.2e-5;      ///< E/N at which consolidation ends (the paper's)
+  double consolidation_step = 0.01;  ///< Δφ of a strain step on the way up
+  double target_energy = 3.2e-5;     ///< E/N at which consolidation ends (the paper's)
   /// false: consolidation ends at the minimised state with E/N ≥ target_energy. true: the other reading of the
   /// paper, each strain step is as large as keeps the unrelaxed E/N below target_energy, and consolidation ends
   /// when minimisation no longer removes the energy.
   bool target_before_relaxation = false;
-  double max_density = 0.9;           ///< refuse to go beyond; the cell must be legal up to here
-  double coarse_step = 0.025;         ///< Δφ of an expansion step while φ − φ_J > coarse_above
+  double max_density = 0.9;    ///< refuse to go beyond; the cell must be legal up to here
+  double coarse_step = 0.025;  ///< Δφ of an expansion step while φ − φ_J > coarse_above
   double coarse_above = 0.08;
-  double approach = 0.25;             ///< fraction of the remaining distance taken by a step nearer than that
-  double final_distance = 0.004;      ///< expansion ends when φ − φ_J falls below this
-  double fit_window = 0.02;           ///< states with φ − φ_J below this give φ_J
-  int max_steps = 400;                ///< strain steps in all
+  double approach = 0.25;         ///< fraction of the remaining distance taken by a step nearer than that
+  double final_distance = 0.004;  ///< expansion ends when φ − φ_J falls below this
+  double fit_window = 0.02;       ///< states with φ − φ_J below this give φ_J
+  int max_steps = 400;            ///< strain steps in all
   /// On the way up states are only passed through: L-BFGS relaxes each until forces balance to passing_residual, E/N
   /// falls below passing_energy, or passing_evaluations are spent. The state at the target is then minimised fully.
   double passing_residual = 1e-3;
@@ -63,11 +63,11 @@ std::string_view to_string(JamStatus status);
 struct JamResult {
   JamStatus status = JamStatus::not_called;
   std::vector<JamStep> path;
-  std::vector<Packing> states;         ///< minimised packings of the expansion, in the order of expansion
-  std::vector<int> state_steps;        ///< index in `path` of each, all of them equilibria
+  std::vector<Packing> states;   ///< minimised packings of the expansion, in the order of expansion
+  std::vector<int> state_steps;  ///< index in `path` of each, all of them equilibria
   std::optional<JammingPoint> phi_j;
   long evaluations = 0;
-  PairCounts counts;                   ///< work of the pair loop, summed over all evaluations
+  PairCounts counts;  ///< work of the pair loop, summed over all evaluations
 };
 
 /// Runs the protocol from `start`. `on_step` is called after every minimised step.

@@ -59,7 +59,8 @@ double free_exponent(std::span<const EnergyPoint> states, std::span<const int> c
   for (const int k : chosen) log_energy.push_back(std::log(states[static_cast<std::size_t>(k)].energy_per_particle));
   const auto fit_at = [&](double gap) {
     std::vector<double> log_distance;
-    for (const int k : chosen) log_distance.push_back(std::log(states[static_cast<std::size_t>(k)].density - nearest + gap));
+    for (const int k : chosen)
+      log_distance.push_back(std::log(states[static_cast<std::size_t>(k)].density - nearest + gap));
     return fit_line(log_distance, log_energy);
   };
   // The gap between φ_J and the nearest state is a scale parameter: search its logarithm.

@@ -16,11 +16,11 @@ struct EnergyPoint {
 /// φ_J as the asymptote of (E/N)^(1/6), linear in φ (E ∝ Δφ⁶).
 struct JammingPoint {
   double density = 0;
-  double standard_error = 0;      ///< of the fit; 0 with two states
-  double ci95_half_width = 0;     ///< Student t on the fit's degrees of freedom; 0 with fewer than three states
-  double single_state = 0;        ///< φ − 6E/(dE/dφ) of the state nearest jamming
-  double exponent = 0;            ///< E ∝ Δφ^x with x free, same states, φ_J fitted beside it; 0 if it can't be fitted
-  std::vector<int> states;        ///< indices of the states used, nearest first
+  double standard_error = 0;   ///< of the fit; 0 with two states
+  double ci95_half_width = 0;  ///< Student t on the fit's degrees of freedom; 0 with fewer than three states
+  double single_state = 0;     ///< φ − 6E/(dE/dφ) of the state nearest jamming
+  double exponent = 0;      ///< E ∝ Δφ^x with x free, same states, φ_J fitted beside it; 0 if it can't be fitted
+  std::vector<int> states;  ///< indices of the states used, nearest first
 };
 
 /// Fits the states with φ − φ_J < window, φ_J found self-consistently; the two nearest where fewer lie within.

@@ -1,5 +1,5 @@
-// Time of one pair: the contact loop on touching pairs, the slow clip on the same pairs, the cached axis on near misses.
-// Pairs are many and differ, so that the branch predictor cannot learn them.
+// Time of one pair: the contact loop on touching pairs, the slow clip on the same pairs, the cached axis on near
+// misses. Pairs are many and differ, so that the branch predictor cannot learn them.
 
 #include <benchmark/benchmark.h>
 

@@ -189,10 +189,9 @@ void BlockCholesky::assemble(Front& front, const BlockMatrix& matrix, double shi
 
 bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
   const bool same_pattern =
-      size_ == matrix.size() && std::equal(pattern_.begin(), pattern_.end(), matrix.off_diagonal.begin(),
-                                           matrix.off_diagonal.end(), [](const auto& p, const auto& block) {
-                                             return p.first == block.row && p.second == block.column;
-                                           });
+      size_ == matrix.size() &&
+      std::equal(pattern_.begin(), pattern_.end(), matrix.off_diagonal.begin(), matrix.off_diagonal.end(),
+                 [](const auto& p, const auto& block) { return p.first == block.row && p.second == block.column; });
   if (!same_pattern) analyse(matrix);
   for (Front& front : fronts_) {
     assemble(front, matrix, shift);

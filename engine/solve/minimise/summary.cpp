@@ -6,9 +6,9 @@
 namespace isojam {
 
 std::string_view to_string(StopReason reason) {
-  static constexpr std::array<std::string_view, 9> names{"not_called",      "residual_reached", "energy_change",
-                                                         "unjammed",        "precision_floor",  "budget",
-                                                         "line_search_failed", "not_finite",    "interrupted"};
+  static constexpr std::array<std::string_view, 9> names{"not_called",         "residual_reached", "energy_change",
+                                                         "unjammed",           "precision_floor",  "budget",
+                                                         "line_search_failed", "not_finite",       "interrupted"};
   return names[static_cast<std::size_t>(reason)];
 }
 

@@ -5,15 +5,16 @@
 namespace isojam {
 
 enum class StopReason {
-  not_called,           ///< nothing was minimised
-  residual_reached,     ///< forces balance to the residual asked for
-  energy_change,        ///< relative energy change below the tolerance asked for (the paper's rule); not an equilibrium by itself
-  unjammed,             ///< energy and forces fell to the floor of the unjammed verdict
-  precision_floor,      ///< no lower residual can be resolved in double precision
-  budget,               ///< evaluations spent
-  line_search_failed,   ///< no lower energy found along any direction tried
-  not_finite,           ///< energy or gradient was not finite
-  interrupted           ///< stop requested from outside
+  not_called,        ///< nothing was minimised
+  residual_reached,  ///< forces balance to the residual asked for
+  energy_change,     ///< relative energy change below the tolerance asked for (the paper's rule); not an equilibrium by
+                     ///< itself
+  unjammed,          ///< energy and forces fell to the floor of the unjammed verdict
+  precision_floor,   ///< no lower residual can be resolved in double precision
+  budget,            ///< evaluations spent
+  line_search_failed,  ///< no lower energy found along any direction tried
+  not_finite,          ///< energy or gradient was not finite
+  interrupted          ///< stop requested from outside
 };
 
 std::string_view to_string(StopReason reason);
@@ -22,7 +23,7 @@ std::string_view to_string(StopReason reason);
 struct MinimiseSummary {
   StopReason reason = StopReason::not_called;
   double energy = 0;
-  double residual = 0;  ///< as Evaluation::residual
+  double residual = 0;        ///< as Evaluation::residual
   double residual_floor = 0;  ///< as Evaluation::residual_floor, in the same state
   long evaluations = 0;
   long iterations = 0;
