@@ -142,6 +142,11 @@ std::vector<Edge> find_edges(const std::vector<HullFace>& faces) {
   return edges;
 }
 
+double height(const Face& face, const std::vector<Eigen::Vector3d>& vertices, int v) {
+  if (std::find(face.vertices.begin(), face.vertices.end(), v) != face.vertices.end()) return 0;
+  return static_cast<double>(face.normal.cast<long double>().dot(vertices[v].cast<long double>()) - face.offset);
+}
+
 SolidArrays flatten(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces,
                     const std::vector<Edge>& edges) {
   SolidArrays flat;
@@ -154,6 +159,7 @@ SolidArrays flatten(const std::vector<Eigen::Vector3d>& vertices, const std::vec
     flat.x[k] = v.x(), flat.y[k] = v.y(), flat.z[k] = v.z();
     flat.nx[k] = f.normal.x(), flat.ny[k] = f.normal.y(), flat.nz[k] = f.normal.z(), flat.offset[k] = f.offset;
     flat.edge[k] = edges[k < flat.edges ? k : 0];
+    for (int p = 0; p < SolidArrays::capacity; ++p) flat.height[k][p] = height(f, vertices, p < flat.vertices ? p : 0);
   }
   return flat;
 }

@@ -35,6 +35,8 @@ struct SolidArrays {
   alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
   alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
   Edge edge[capacity];
+  /// Of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the face.
+  alignas(32) double height[capacity][capacity];
 };
 
 /// An immutable convex polyhedron of unit volume and unit mass (V_p = 1, ρ = 1), centred on its centroid.
