@@ -63,7 +63,18 @@ Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const
 /// r = x_B − x_A. For B exchange the bodies: H_BAᵀ, S_B = −S_A, −r.
 Matrix6d overlap_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r);
 
+/// An Overlap in quadruple precision.
+struct QuadOverlap {
+  Quad volume = 0;
+  Quad3 area{}, moment{};
+  std::uint32_t faces_a = 0, faces_b = 0;
+  std::uint32_t edges_a = 0, edges_b = 0;
+};
+
+Overlap narrowed(const QuadOverlap& overlap);
+
 /// The slow path and oracle: A cut by the face planes of B one after another in quadruple precision.
+QuadOverlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
 Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 }  // namespace isojam
