@@ -2,10 +2,12 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 
-// Every edge of one solid is clipped by the planes of the other. Where it enters or leaves it pierces a face, and
-// there the loop passes from one of the edge's two faces to the other: one segment of the loop ends and the next
-// begins. Segments are identified by their pair of faces, so the loop closes if and only if every pair that
+// Phase 1 tabulates the signed distances of either solid's vertices from the other's planes. Phase 2 sees nothing but
+// this table: every edge of one solid is clipped by the planes of the other. Where it enters or leaves it pierces a
+// face, and there the loop passes from one of the edge's two faces to the other: one segment of the loop ends and the
+// next begins. Segments are identified by their pair of faces, so the loop closes if and only if every pair that
 // begins also ends, once. No segment is ever found by intersecting two planes, which is ill-conditioned when they
 // are nearly parallel.
 
@@ -15,64 +17,46 @@ namespace {
 
 constexpr int capacity = SolidArrays::capacity;
 
-/// Signed distances of the vertices of one solid from the planes of the other: distance[plane][vertex].
-struct Distances {
-  alignas(32) double of[capacity][capacity];
-  alignas(32) std::uint64_t outside[capacity] = {};    ///< per vertex, planes it lies outside of
-  alignas(32) std::uint64_t uncertain[capacity] = {};  ///< per vertex, planes it lies on to within rounding
-};
-
-/// Where an edge enters or leaves the other solid, and the two loop segments that meet there.
+/// The segments that meet where an edge pierces a face: face pairs, capacity·i + j.
 struct Piercing {
-  Eigen::Vector3d point;
-  std::uint16_t begins, ends;  ///< face pairs, capacity·i + j
+  std::uint16_t begins, ends;
+  std::uint8_t corner;
 };
 
 struct Piercings {
-  std::array<Piercing, 2 * ContactLoop::max_spans> at;
+  std::array<Piercing, ContactLoop::max_corners> at;
   int count = 0;
 };
 
 int padded(int n) { return (n + 3) & ~3; }
 
-void place(const SolidArrays& solid, const RelativePose& pose, PlacedSolid& placed) {
-  const auto& r = pose.rotation;
-  const auto& t = pose.displacement;
-  const double r00 = r(0, 0), r01 = r(0, 1), r02 = r(0, 2);
-  const double r10 = r(1, 0), r11 = r(1, 1), r12 = r(1, 2);
-  const double r20 = r(2, 0), r21 = r(2, 1), r22 = r(2, 2);
-  const double tx = t.x(), ty = t.y(), tz = t.z();
-  for (int k = 0; k < padded(solid.vertices); ++k) {
-    placed.x[k] = r00 * solid.x[k] + r01 * solid.y[k] + r02 * solid.z[k] + tx;
-    placed.y[k] = r10 * solid.x[k] + r11 * solid.y[k] + r12 * solid.z[k] + ty;
-    placed.z[k] = r20 * solid.x[k] + r21 * solid.y[k] + r22 * solid.z[k] + tz;
-  }
-  for (int k = 0; k < padded(solid.faces); ++k) {
-    placed.nx[k] = r00 * solid.nx[k] + r01 * solid.ny[k] + r02 * solid.nz[k];
-    placed.ny[k] = r10 * solid.nx[k] + r11 * solid.ny[k] + r12 * solid.nz[k];
-    placed.nz[k] = r20 * solid.nx[k] + r21 * solid.ny[k] + r22 * solid.nz[k];
-    placed.offset[k] = solid.offset[k] + placed.nx[k] * tx + placed.ny[k] * ty + placed.nz[k] * tz;
+/// `shift` is the position of `body`'s centre seen from that of `other`.
+void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& shift, Distances& d) {
+  const int planes = padded(other.faces());
+  const double *nx = other.nx(), *ny = other.ny(), *nz = other.nz(), *offset = other.offset();
+  alignas(32) double constant[capacity];
+  for (int f = 0; f < planes; ++f) constant[f] = nx[f] * shift.x() + ny[f] * shift.y() + nz[f] * shift.z() - offset[f];
+  for (int v = 0; v < body.vertices(); ++v) {
+    const double x = body.x()[v], y = body.y()[v], z = body.z()[v];
+    for (int f = 0; f < planes; ++f) d.of[v][f] = nx[f] * x + ny[f] * y + nz[f] * z + constant[f];
   }
 }
 
-template <class Vertices, class Planes>
-void measure(const Vertices& body, int vertices, const Planes& other, int planes, double tolerance, Distances& d) {
-  const int n = padded(vertices);
-  for (int f = 0; f < planes; ++f) {
-    const double nx = other.nx[f], ny = other.ny[f], nz = other.nz[f], offset = other.offset[f];
-    const std::uint64_t bit = std::uint64_t{1} << f;
-    for (int v = 0; v < n; ++v) {
-      const double distance = nx * body.x[v] + ny * body.y[v] + nz * body.z[v] - offset;
-      d.of[f][v] = distance;
-      d.outside[v] |= distance > 0 ? bit : 0;
-      d.uncertain[v] |= std::abs(distance) < tolerance ? bit : 0;
+void classify(int vertices, int planes, double tolerance, Distances& d) {
+  for (int v = 0; v < vertices; ++v) {
+    std::uint32_t outside = 0, uncertain = 0;
+    for (int f = 0; f < planes; ++f) {
+      outside |= std::uint32_t{d.of[v][f] > 0} << f;
+      uncertain |= std::uint32_t{std::abs(d.of[v][f]) < tolerance} << f;
     }
+    d.outside[v] = outside;
+    d.uncertain[v] = uncertain;
   }
 }
 
 /// Planes with every vertex outside: each separates.
-std::uint64_t separating_planes(const Distances& d, int vertices) {
-  std::uint64_t all = ~std::uint64_t{0};
+std::uint32_t separating_planes(const Distances& d, int vertices) {
+  std::uint32_t all = ~std::uint32_t{0};
   for (int v = 0; v < vertices; ++v) all &= d.outside[v];
   return all;
 }
@@ -93,55 +77,69 @@ struct Interval {
 
 /// False if the edge lies outside.
 bool clip_edge(const Distances& d, const Edge& edge, Interval& inside) {
-  std::uint64_t tail = d.outside[edge.tail], head = d.outside[edge.head];
+  std::uint32_t tail = d.outside[edge.tail], head = d.outside[edge.head];
   if (tail & head) return false;
   for (; tail; tail &= tail - 1) {
     const int f = std::countr_zero(tail);
-    const double s = d.of[f][edge.tail] / (d.of[f][edge.tail] - d.of[f][edge.head]);
+    const double s = d.of[edge.tail][f] / (d.of[edge.tail][f] - d.of[edge.head][f]);
     if (inside.enter_plane < 0 || s > inside.enter) inside.enter = s, inside.enter_plane = f;
   }
   for (; head; head &= head - 1) {
     const int f = std::countr_zero(head);
-    const double s = d.of[f][edge.tail] / (d.of[f][edge.tail] - d.of[f][edge.head]);
+    const double s = d.of[edge.tail][f] / (d.of[edge.tail][f] - d.of[edge.head][f]);
     if (inside.leave_plane < 0 || s < inside.leave) inside.leave = s, inside.leave_plane = f;
   }
   return inside.enter < inside.leave;
+}
+
+/// Where an edge pierces `plane`, or its own vertex if plane < 0.
+Corner corner_at(const PlacedSolid& body, const Distances& d, const Edge& edge, int plane, bool leaving, bool of_a) {
+  Corner corner{};
+  corner.tail = static_cast<std::uint8_t>(edge.tail), corner.head = static_cast<std::uint8_t>(edge.head);
+  corner.plane = static_cast<std::int8_t>(plane);
+  corner.of_a = of_a;
+  corner.weight_tail = leaving ? 0 : 1, corner.weight_head = leaving ? 1 : 0;
+  if (plane >= 0) {
+    const double tail = d.of[edge.tail][plane], head = d.of[edge.head][plane], all = tail - head;
+    corner.weight_tail = -head / all, corner.weight_head = tail / all;
+  }
+  corner.position = corner.weight_tail * body.vertex(edge.tail) + corner.weight_head * body.vertex(edge.head);
+  return corner;
 }
 
 std::uint16_t face_pair(int face_a, int face_b) { return static_cast<std::uint16_t>(capacity * face_a + face_b); }
 
 /// The loop turns the same way round on both surfaces, so seen from outside B it runs clockwise: beginnings and
 /// ends are exchanged.
-Piercing pierce(const Eigen::Vector3d& point, const Edge& edge, int plane, bool leaving, bool of_a) {
+Piercing pierce(int corner, const Edge& edge, int plane, bool leaving, bool of_a) {
   const int first = leaving ? edge.left : edge.right;
   const int second = leaving ? edge.right : edge.left;
-  if (of_a) return {point, face_pair(first, plane), face_pair(second, plane)};
-  return {point, face_pair(plane, second), face_pair(plane, first)};
+  const auto at = static_cast<std::uint8_t>(corner);
+  if (of_a) return {face_pair(first, plane), face_pair(second, plane), at};
+  return {face_pair(plane, second), face_pair(plane, first), at};
 }
 
-template <class Body>
-void clip_edges(const Body& body, const SolidArrays& solid, const Distances& d, bool of_a, ContactLoop& loop,
+/// `shift`: where the solid's centre is, from that of A.
+void clip_edges(const PlacedSolid& body, const Eigen::Vector3d& shift, const Distances& d, bool of_a, ContactLoop& loop,
                 Piercings& piercings) {
+  const SolidArrays& solid = body.solid().arrays();
   std::uint32_t& edges_inside = of_a ? loop.edges_a : loop.edges_b;
+  const int first_face = of_a ? 0 : face_of_b;
   for (int e = 0; e < solid.edges; ++e) {
     const Edge& edge = solid.edge[e];
     Interval inside;
     if (!clip_edge(d, edge, inside)) continue;
     edges_inside |= std::uint32_t{1} << e;
-    const Eigen::Vector3d tail(body.x[edge.tail], body.y[edge.tail], body.z[edge.tail]);
-    const Eigen::Vector3d head(body.x[edge.head], body.y[edge.head], body.z[edge.head]);
-    EdgeSpan& span = loop.span[loop.spans++];
-    span.from = tail, span.to = head;
-    span.left = static_cast<std::uint8_t>(edge.left), span.right = static_cast<std::uint8_t>(edge.right);
-    span.of_a = of_a;
-    if (inside.enter_plane >= 0) {
-      span.from = tail + inside.enter * (head - tail);
-      piercings.at[piercings.count++] = pierce(span.from, edge, inside.enter_plane, false, of_a);
-    }
-    if (inside.leave_plane >= 0) {
-      span.to = tail + inside.leave * (head - tail);
-      piercings.at[piercings.count++] = pierce(span.to, edge, inside.leave_plane, true, of_a);
-    }
+    const int from = 2 * loop.spans, to = from + 1;
+    loop.corner[from] = corner_at(body, d, edge, inside.enter_plane, false, of_a);
+    loop.corner[to] = corner_at(body, d, edge, inside.leave_plane, true, of_a);
+    loop.corner[from].position += shift;
+    loop.corner[to].position += shift;
+    loop.span[loop.spans++] = {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
+                               static_cast<std::uint8_t>(first_face + edge.left),
+                               static_cast<std::uint8_t>(first_face + edge.right)};
+    if (inside.enter_plane >= 0) piercings.at[piercings.count++] = pierce(from, edge, inside.enter_plane, false, of_a);
+    if (inside.leave_plane >= 0) piercings.at[piercings.count++] = pierce(to, edge, inside.leave_plane, true, of_a);
   }
 }
 
@@ -154,31 +152,30 @@ bool close_loop(const Piercings& piercings, ContactLoop& loop) {
     slot = static_cast<std::uint8_t>(k + 1);
   }
   for (int k = 0; k < piercings.count; ++k) {
-    std::uint8_t& slot = beginning[piercings.at[k].ends];
+    const Piercing& end = piercings.at[k];
+    std::uint8_t& slot = beginning[end.ends];
     if (slot == 0) return false;
-    LoopSegment& segment = loop.segment[loop.segments++];
-    segment.from = piercings.at[slot - 1].point;
-    segment.to = piercings.at[k].point;
-    segment.face_a = static_cast<std::uint8_t>(piercings.at[k].ends / capacity);
-    segment.face_b = static_cast<std::uint8_t>(piercings.at[k].ends % capacity);
+    loop.segment[loop.segments++] = {piercings.at[slot - 1].corner, end.corner,
+                                     static_cast<std::uint8_t>(end.ends / capacity),
+                                     static_cast<std::uint8_t>(face_of_b + end.ends % capacity)};
     slot = 0;
   }
   return true;
 }
 
-void move_origin(const Eigen::Vector3d& origin, ContactLoop& loop) {
+/// By value: the origin is itself one of the corners.
+void move_origin(Eigen::Vector3d origin, ContactLoop& loop) {
   loop.origin = origin;
-  for (int k = 0; k < loop.spans; ++k) loop.span[k].from -= origin, loop.span[k].to -= origin;
-  for (int k = 0; k < loop.segments; ++k) loop.segment[k].from -= origin, loop.segment[k].to -= origin;
+  for (int k = 0; k < 2 * loop.spans; ++k) loop.corner[k].position -= origin;
 }
 
 bool separated_by_face(const Distances& vertices_of_a, int a, const Distances& vertices_of_b, int b,
                        SeparatingAxis& axis) {
-  if (const std::uint64_t planes = separating_planes(vertices_of_a, a); planes != 0) {
+  if (const std::uint32_t planes = separating_planes(vertices_of_a, a); planes != 0) {
     axis = {SeparatingAxis::Kind::face_b, 0, static_cast<std::uint8_t>(std::countr_zero(planes))};
     return true;
   }
-  if (const std::uint64_t planes = separating_planes(vertices_of_b, b); planes != 0) {
+  if (const std::uint32_t planes = separating_planes(vertices_of_b, b); planes != 0) {
     axis = {SeparatingAxis::Kind::face_a, static_cast<std::uint8_t>(std::countr_zero(planes)), 0};
     return true;
   }
@@ -187,33 +184,31 @@ bool separated_by_face(const Distances& vertices_of_a, int a, const Distances& v
 
 }  // namespace
 
-void find_contact_loop(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, ContactLoop& loop) {
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   loop.verdict = LoopVerdict::separated;
   loop.axis = {};
   loop.spans = loop.segments = 0;
   loop.edges_a = loop.edges_b = 0;
-  const SolidArrays& solid_a = a.arrays();
-  const SolidArrays& solid_b = b.arrays();
-  const double tolerance = gap_tolerance(a, b, pose);
+  const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
 
-  place(solid_b, pose, loop.b);
-  Distances of_a, of_b;
-  measure(solid_a, solid_a.vertices, loop.b, solid_b.faces, tolerance, of_a);
-  measure(loop.b, solid_b.vertices, solid_a, solid_a.faces, tolerance, of_b);
-  if (separated_by_face(of_a, solid_a.vertices, of_b, solid_b.vertices, loop.axis)) return;
+  measure(a, b, -r, loop.of_a);
+  measure(b, a, r, loop.of_b);
+  classify(a.vertices(), b.faces(), tolerance, loop.of_a);
+  classify(b.vertices(), a.faces(), tolerance, loop.of_b);
+  if (separated_by_face(loop.of_a, a.vertices(), loop.of_b, b.vertices(), loop.axis)) return;
 
   loop.verdict = LoopVerdict::degenerate;
-  if (has_vertex_on_plane(of_a, solid_a.vertices) || has_vertex_on_plane(of_b, solid_b.vertices)) return;
+  if (has_vertex_on_plane(loop.of_a, a.vertices()) || has_vertex_on_plane(loop.of_b, b.vertices())) return;
   Piercings piercings;
-  clip_edges(solid_a, solid_a, of_a, true, loop, piercings);
-  clip_edges(loop.b, solid_b, of_b, false, loop, piercings);
+  clip_edges(a, Eigen::Vector3d::Zero(), loop.of_a, true, loop, piercings);
+  clip_edges(b, r, loop.of_b, false, loop, piercings);
   if (piercings.count == 0) {
     // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
     if (loop.spans == 0) loop.verdict = LoopVerdict::separated;
     return;
   }
   if (!close_loop(piercings, loop)) return;
-  move_origin(piercings.at[0].point, loop);
+  move_origin(loop.corner[piercings.at[0].corner].position, loop);
   loop.verdict = LoopVerdict::closed;
 }
 

@@ -140,8 +140,13 @@ std::vector<Edge> find_edges(const std::vector<Loop>& faces) {
   return edges;
 }
 
+double height(const Plane& plane, const Loop& face, const Quad3& vertex, int v) {
+  if (std::find(face.begin(), face.end(), v) != face.end()) return 0;
+  return static_cast<double>(dot(plane.normal, vertex) - plane.offset);
+}
+
 SolidArrays flatten(const std::vector<Quad3>& vertices, const std::vector<Plane>& planes,
-                    const std::vector<Edge>& edges) {
+                    const std::vector<Loop>& faces, const std::vector<Edge>& edges) {
   SolidArrays flat;
   flat.vertices = static_cast<int>(vertices.size());
   flat.faces = static_cast<int>(planes.size());
@@ -161,6 +166,10 @@ SolidArrays flatten(const std::vector<Quad3>& vertices, const std::vector<Plane>
     store(plane.normal[2], flat.nz[k], flat.nz_low[k]);
     store(plane.offset, flat.offset[k], flat.offset_low[k]);
     flat.edge[k] = edges[k < flat.edges ? k : 0];
+    for (int p = 0; p < SolidArrays::capacity; ++p) {
+      const int own = p < flat.vertices ? p : 0;
+      flat.height[k][p] = height(plane, faces[k < flat.faces ? k : 0], vertices[own], own);
+    }
   }
   return flat;
 }
@@ -213,7 +222,7 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Quad3> vertices) : na
     inradius_ = std::min(inradius_, faces_.back().offset);
   }
   gyration_radius_ = static_cast<double>(square_root(2 * moments(points, loops).second / 3));
-  arrays_ = flatten(points, planes, edges_);
+  arrays_ = flatten(points, planes, loops, edges_);
 }
 
 }  // namespace isojam

@@ -40,6 +40,8 @@ struct SolidArrays {
   alignas(32) double x_low[capacity], y_low[capacity], z_low[capacity];
   alignas(32) double nx_low[capacity], ny_low[capacity], nz_low[capacity], offset_low[capacity];
   Edge edge[capacity];
+  /// Of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the face.
+  alignas(32) double height[capacity][capacity];
 
   /// In quadruple precision, low parts included.
   Quad3 vertex(int v) const {

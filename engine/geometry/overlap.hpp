@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/placed_solid.hpp"
 #include "engine/geometry/pose.hpp"
 #include "engine/geometry/separating_axis.hpp"
 
@@ -12,7 +13,8 @@ namespace isojam {
 /// Which way an overlap was found. `clip` is the slow, exact-minded path for degenerate pairs.
 enum class OverlapPath : std::uint8_t { separated, loop, clip };
 
-/// Intersection of solids A and B. Vectors in A's body frame, taken about A's centre.
+/// Intersection of solids A and B. Vectors taken about A's centre, in the frame that both solids were given in: the
+/// lab for placed solids, A's body frame where B is given by its pose relative to A.
 ///   volume  V
 ///   area    S_A = ½ Σ_C v×w = ∂V/∂x_A                  (force on A: F_A = −(V/2) S_A)
 ///   moment  M_A = ∫ r×n dS over A's part = ∂V/∂θ_A       (torque on A: T_A = −(V/2) M_A)
@@ -29,18 +31,23 @@ struct Overlap {
   bool touching() const { return volume > 0; }
 };
 
-/// Intersection of A with B by the closed loop where their surfaces cross. Notation: v → w is a segment of
-/// the loop C, on face i of A (outward unit normal n_i) and face j of B, oriented counter-clockwise seen from outside
-/// A; d_f is the distance of face plane f from the origin, which is put on a vertex of the intersection so that
-/// nothing large cancels:
+/// Intersection of A with B, B's centre at r = x_B − x_A, by the closed loop where their surfaces cross. Notation:
+/// v → w is a segment of the loop C, on face i of A and face j of B, oriented counter-clockwise seen from outside A;
+/// coordinates from a vertex of the loop, so that nothing large cancels:
 ///   S_A = ½ Σ_C v×w,  M_A = −½ Σ_C (w−v)(|v|² + v·w + |w|²)/3,
-///   V = (1/6) Σ over all edges of the intersection of (d_L n_L − d_R n_R)·(v×w), L and R the faces left and right.
+///   V = Σ_f ∫_f h n_P·n_f dA over the faces f of the intersection, h the height over the least-penetrated plane P,
+///     = (1/6) Σ over its edges of n_P·((v−o)×(w−o)) (h_o+h_v+h_w) for the face left of the edge − the same for the
+///     right,
+/// o a vertex of the face. Heights are interpolated between tabulated plane distances, never taken from coordinates:
+/// they are 0 on P and small near it, so that V of two faces in contact is as accurate as the table at any depth.
 /// If the loop does not close, or a vertex lies on a face plane to within rounding, the
 /// answer comes from clipped_overlap. Never silently wrong; never throws.
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+/// If a face of A or B separates the solids, `axis` is set to it, for later use with separates().
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
 
-/// The same; if a face of A or B separates the solids, `axis` is set to it, for later use with gap().
+/// The same of solids given by their relative pose, in A's body frame.
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -53,10 +60,11 @@ inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d
   return both;
 }
 
-/// ∂²V/∂(x_A, θ_A)∂(x_B, θ_B), A's frame, rotations about each body's own centre:
+/// ∂²V/∂(x_A, θ_A)∂(x_B, θ_B), frame as for overlap(), rotations about each body's own centre:
 ///   H_AB = Σ_C ∫ u_A u_Bᵀ dl / |n_i×n_j|,  u_A = (n_i, (y−x_A)×n_i),  u_B = (n_j, (y−x_B)×n_j)
 /// by 2-point Gauss quadrature, exact since the integrand is quadratic. The other blocks follow from it by rigid
 /// motion of both bodies. Zero where the loop does not close (a degenerate pair has no second derivative).
+Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 /// ∂²V/∂(x_A, θ_A)² from H_AB: −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised, Tr: (a, θ) → (a + θ×r, θ);

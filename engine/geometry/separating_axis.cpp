@@ -22,6 +22,18 @@ Eigen::Vector3d direction(const SolidArrays& solid, int edge) {
   return {solid.x[e.head] - solid.x[e.tail], solid.y[e.head] - solid.y[e.tail], solid.z[e.head] - solid.z[e.tail]};
 }
 
+double support(const PlacedSolid& solid, const Eigen::Vector3d& u) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < solid.vertices(); ++k)
+    best = std::max(best, u.x() * solid.x()[k] + u.y() * solid.y()[k] + u.z() * solid.z()[k]);
+  return best;
+}
+
+Eigen::Vector3d direction(const PlacedSolid& solid, int edge) {
+  const Edge& e = solid.solid().arrays().edge[edge];
+  return solid.vertex(e.head) - solid.vertex(e.tail);
+}
+
 /// Gap along the unit vector u (A's frame) from A to B.
 double gap_along(const SolidArrays& a, const SolidArrays& b, const RelativePose& pose, const Eigen::Vector3d& u) {
   return u.dot(pose.displacement) - support(a, u) - support(b, -(pose.rotation.transpose() * u));
@@ -76,9 +88,38 @@ SeparatingAxis best_axis(const ConvexSolid& a, const ConvexSolid& b, const Relat
   return best;
 }
 
-double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
-  const double reach = pose.displacement.lpNorm<1>() + a.circumradius() + b.circumradius();
+SeparatingAxis best_axis(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
+  const Eigen::Matrix3d to_a = a.rotation().transpose();
+  return best_axis(a.solid(), b.solid(), {to_a * b.rotation(), to_a * r});
+}
+
+double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r) {
+  const double reach = r.lpNorm<1>() + a.circumradius() + b.circumradius();
   return 4 * std::numeric_limits<double>::epsilon() * reach;
+}
+
+double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  return gap_tolerance(a, b, pose.displacement);
+}
+
+bool separates(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const SeparatingAxis& axis) {
+  const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
+  switch (axis.kind) {
+    case SeparatingAxis::Kind::none: return false;
+    case SeparatingAxis::Kind::face_a: {
+      const Eigen::Vector3d n = a.normal(axis.a);
+      return n.dot(r) - a.offset()[axis.a] - support(b, -n) > tolerance;
+    }
+    case SeparatingAxis::Kind::face_b: {
+      const Eigen::Vector3d n = b.normal(axis.b);
+      return -n.dot(r) - b.offset()[axis.b] - support(a, -n) > tolerance;
+    }
+    case SeparatingAxis::Kind::edge_edge: break;
+  }
+  Eigen::Vector3d u = direction(a, axis.a).cross(direction(b, axis.b));
+  if (u.dot(r) < 0) u = -u;
+  const double gap = u.dot(r) - support(a, u) - support(b, -u);
+  return gap > 0 && gap * gap > tolerance * tolerance * u.squaredNorm();
 }
 
 }  // namespace isojam

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/placed_solid.hpp"
 #include "engine/geometry/pose.hpp"
 
 namespace isojam {
@@ -22,7 +23,15 @@ double gap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose,
 /// two convex polyhedra are disjoint exactly if this gap is positive).
 SeparatingAxis best_axis(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
-/// A gap larger than this proves separation in spite of rounding: a multiple of ulp(|pose| + circumradii).
+/// The same for placed solids, B's centre at r from A's.
+SeparatingAxis best_axis(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
+
+/// A gap larger than this proves separation in spite of rounding: a multiple of ulp(|r| + circumradii), r = x_B − x_A.
+double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r);
 double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+
+/// Whether the axis separates the placed solids, B's centre at r from A's, by more than gap_tolerance. False for
+/// Kind::none.
+bool separates(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const SeparatingAxis& axis);
 
 }  // namespace isojam

@@ -40,10 +40,9 @@ struct Accumulator {
 void add_contact(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap, Evaluation& sum,
                  Accumulator& on_the_way) {
   const Eigen::Vector3d r = displacement(packing, pair);
-  const Eigen::Quaterniond& q = packing.poses[static_cast<std::size_t>(pair.a)].orientation;
   const double radius = packing.solid->gyration_radius();
-  const Eigen::Vector3d dx = overlap.volume / 2 * (q * overlap.area);
-  const Eigen::Vector3d dtheta = overlap.volume / 2 * (q * overlap.moment);
+  const Eigen::Vector3d dx = overlap.volume / 2 * overlap.area;
+  const Eigen::Vector3d dtheta = overlap.volume / 2 * overlap.moment;
   sum.energy += overlap.volume * overlap.volume / 4;
   sum.gradient.segment<3>(6 * pair.a) += dx;
   sum.gradient.segment<3>(6 * pair.a + 3) += dtheta / radius;
@@ -52,7 +51,7 @@ void add_contact(const Packing& packing, const NeighbourPair& pair, const Overla
   sum.stress -= dx * r.transpose();
   on_the_way.force += dx.norm();
   const double square = overlap.area.squaredNorm();
-  const Eigen::Vector3d moment_b = r.cross(q * overlap.area) - q * overlap.moment;
+  const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
   on_the_way.stiffness[pair.a] += (square + overlap.moment.squaredNorm() / (radius * radius)) / 2;
   on_the_way.stiffness[pair.b] += (square + moment_b.squaredNorm() / (radius * radius)) / 2;
   ++sum.contacts;
@@ -96,7 +95,8 @@ void PackingEnergy::refresh(const Packing& packing) {
 
 void PackingEnergy::overlap_all(const Packing& packing) {
   refresh(packing);
-  totals_ += overlap_pairs(packing, pairs_, axes_, overlaps_);
+  place_all(packing, placed_);
+  totals_ += overlap_pairs(packing, placed_, pairs_, axes_, overlaps_);
   ++evaluations_;
 }
 
@@ -127,7 +127,7 @@ Evaluation PackingEnergy::evaluate(const Packing& packing) {
 SecondOrder PackingEnergy::second_order(const Packing& packing) {
   overlap_all(packing);
   hessians_.resize(pairs_.size());
-  pair_hessians(packing, pairs_, overlaps_, hessians_);
+  pair_hessians(packing, placed_, pairs_, overlaps_, hessians_);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
   std::vector<BlockMatrix::Block>& blocks = result.hessian.off_diagonal;
@@ -139,9 +139,8 @@ SecondOrder PackingEnergy::second_order(const Packing& packing) {
     if (blocks.empty() || blocks.back().row != pair.a || blocks.back().column != pair.b)
       blocks.push_back({pair.a, pair.b, Matrix6d::Zero()});
     blocks.back().value += hessians_[k].ab;
-    const Eigen::Vector3d area = packing.poses[pair.a].orientation * overlaps_[k].area;
     result.tilts.push_back(
-        {static_cast<int>(blocks.size()) - 1, tilt_stiffness(area, packing.solid->gyration_radius())});
+        {static_cast<int>(blocks.size()) - 1, tilt_stiffness(overlaps_[k].area, packing.solid->gyration_radius())});
   }
   return result;
 }
@@ -153,10 +152,11 @@ std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
     if (!overlaps_[k].touching()) continue;
     const NeighbourPair& pair = pairs_[k];
     const Eigen::Vector3d d = displacement(packing, pair);
-    result.push_back({pair, d,
-                      relative_pose(packing.poses[static_cast<std::size_t>(pair.a)].orientation,
-                                    packing.poses[static_cast<std::size_t>(pair.b)].orientation, d),
-                      overlaps_[k]});
+    const Eigen::Quaterniond &a = packing.poses[pair.a].orientation, &b = packing.poses[pair.b].orientation;
+    Contact contact{pair, d, relative_pose(a, b, d), overlaps_[k]};
+    contact.overlap.area = a.conjugate() * overlaps_[k].area;
+    contact.overlap.moment = a.conjugate() * overlaps_[k].moment;
+    result.push_back(contact);
   }
   return result;
 }

@@ -34,7 +34,7 @@ struct SecondOrder {
   std::vector<TiltStiffness> tilts;
 };
 
-/// A touching pair. `overlap` as in Overlap: area and moment in A's body frame.
+/// A touching pair. `overlap`: area and moment in A's body frame.
 struct Contact {
   NeighbourPair pair;
   Eigen::Vector3d displacement;  ///< x_b − x_a, the touching image, lab frame
@@ -63,7 +63,8 @@ class PackingEnergy {
 
   std::vector<NeighbourPair> pairs_;
   std::vector<SeparatingAxis> axes_;
-  std::vector<Overlap> overlaps_;
+  std::vector<PlacedSolid> placed_;
+  std::vector<Overlap> overlaps_;  ///< lab frame
   std::vector<PairHessian> hessians_;
   std::vector<Eigen::Vector3d> list_positions_;
   double list_side_ = 0, skin_ = 0;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "engine/geometry/overlap.hpp"
+#include "engine/geometry/placed_solid.hpp"
 #include "engine/geometry/separating_axis.hpp"
 #include "engine/packing/neighbours.hpp"
 
@@ -20,12 +22,15 @@ struct PairCounts {
   PairCounts& operator+=(const PairCounts& term);
 };
 
-/// Overlap of every listed pair into its own slot (area and moment in A's body frame), parallel over pairs on
-/// oneTBB where there are enough of them. Slots of pairs that do not touch are left with volume 0.
-/// axes[k] is read and updated: a cache that changes the cost and never the result.
-/// All spans have the size of `pairs`.
-PairCounts overlap_pairs(const Packing& packing, std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes,
-                         std::span<Overlap> out);
+/// Every particle's solid in its orientation, in the order of particles. `placed` is overwritten.
+void place_all(const Packing& packing, std::vector<PlacedSolid>& placed);
+
+/// Overlap of every listed pair into its own slot (lab frame), parallel over pairs on
+/// oneTBB where there are enough of them. `placed` as place_all left it. Slots of pairs that do not touch are left with
+/// volume 0. axes[k] is read and updated: a cache that changes the cost and never the result. All spans have the size
+/// of `pairs`.
+PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
+                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
 
 /// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
 /// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
@@ -34,7 +39,7 @@ struct PairHessian {
 };
 
 /// Of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left them.
-void pair_hessians(const Packing& packing, std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps,
-                   std::span<PairHessian> out);
+void pair_hessians(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
+                   std::span<const Overlap> overlaps, std::span<PairHessian> out);
 
 }  // namespace isojam
