@@ -57,6 +57,29 @@ Pose scaled(const Pose& pose, const TwoDouble& s) {
   return result;
 }
 
+TwoDoubleMatrix rotation_matrix(const Pose& pose) {
+  const TwoDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
+  const TwoDouble xx = x * x, yy = y * y, zz = z * z;
+  const TwoDouble s = 2.0 / (xx + yy + zz + w * w);
+  const TwoDouble sx = s * x, sy = s * y, sz = s * z;
+  const TwoDouble xy = sx * y, yz = sy * z, zx = sz * x, wx = sx * w, wy = sy * w, wz = sz * w;
+  TwoDoubleMatrix m;
+  m.set(0, 0, 1.0 - s * (yy + zz)), m.set(0, 1, xy - wz), m.set(0, 2, zx + wy);
+  m.set(1, 0, xy + wz), m.set(1, 1, 1.0 - s * (xx + zz)), m.set(1, 2, yz - wx);
+  m.set(2, 0, zx - wy), m.set(2, 1, yz + wx), m.set(2, 2, 1.0 - s * (xx + yy));
+  return m;
+}
+
+Quad3 widened(const TwoDoubleVector& v) { return {widened(v[0]), widened(v[1]), widened(v[2])}; }
+
+QuadMatrix widened(const TwoDoubleMatrix& m) {
+  QuadMatrix result;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) result[r][c] = widened(m(r, c));
+  }
+  return result;
+}
+
 Quad3 quad_position(const Pose& pose) {
   return {widened(pose.coordinate(0)), widened(pose.coordinate(1)), widened(pose.coordinate(2))};
 }

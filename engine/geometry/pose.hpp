@@ -7,6 +7,23 @@
 
 namespace isojam {
 
+/// A vector in two doubles, component by component.
+struct TwoDoubleVector {
+  Eigen::Vector3d high = Eigen::Vector3d::Zero(), low = Eigen::Vector3d::Zero();
+
+  TwoDouble operator[](int c) const { return {high[c], low[c]}; }
+  void set(int c, const TwoDouble& value) { high[c] = value.high, low[c] = value.low; }
+  TwoDoubleVector operator-() const { return {-high, -low}; }
+};
+
+/// A matrix in two doubles, entry by entry.
+struct TwoDoubleMatrix {
+  Eigen::Matrix3d high = Eigen::Matrix3d::Identity(), low = Eigen::Matrix3d::Zero();
+
+  TwoDouble operator()(int r, int c) const { return {high(r, c), low(r, c)}; }
+  void set(int r, int c, const TwoDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
+};
+
 /// Position of the centre (V_p^(1/3)) and orientation (quaternion q, body frame → lab frame) of a particle, in two
 /// doubles each: x = position + position_low, q = orientation + orientation_low, with the first the nearest double of
 /// the sum. The rotation is the one by q/|q|, whatever |q|. Whoever assigns a first part resets the second.
@@ -27,6 +44,9 @@ Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& t
 /// The pose with its centre at s·x.
 Pose scaled(const Pose& pose, const TwoDouble& s);
 
+/// Rotation by q/|q|, body frame → lab frame, to 1e-31.
+TwoDoubleMatrix rotation_matrix(const Pose& pose);
+
 /// Solid B seen from the body frame of A: a point y of B's body frame lies at rotation·y + displacement.
 struct RelativePose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
@@ -46,6 +66,8 @@ struct QuadPose {
 Quad3 quad_position(const Pose& pose);
 /// Rotation by q/|q|, body frame → lab frame.
 QuadMatrix quad_rotation(const Pose& pose);
+Quad3 widened(const TwoDoubleVector& v);
+QuadMatrix widened(const TwoDoubleMatrix& m);
 QuadPose widened(const RelativePose& pose);
 RelativePose narrowed(const QuadPose& pose);
 /// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).

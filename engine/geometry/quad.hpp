@@ -33,7 +33,9 @@ inline Quad3 cross(const Quad3& p, const Quad3& q) {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
 inline Quad3 operator*(const QuadMatrix& m, const Quad3& p) { return {dot(m[0], p), dot(m[1], p), dot(m[2], p)}; }
-inline QuadMatrix operator-(const QuadMatrix& m, const QuadMatrix& n) { return {m[0] - n[0], m[1] - n[1], m[2] - n[2]}; }
+inline QuadMatrix operator-(const QuadMatrix& m, const QuadMatrix& n) {
+  return {m[0] - n[0], m[1] - n[1], m[2] - n[2]};
+}
 inline QuadMatrix transposed(const QuadMatrix& m) {
   return {Quad3{m[0][0], m[1][0], m[2][0]}, Quad3{m[0][1], m[1][1], m[2][1]}, Quad3{m[0][2], m[1][2], m[2][2]}};
 }
