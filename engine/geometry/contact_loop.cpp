@@ -1,8 +1,9 @@
 #include "engine/geometry/contact_loop.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <limits>
 
 // Phase 1 tabulates the signed distances of either solid's vertices from the other's planes. Phase 2 sees nothing but
 // this table: every edge of one solid is clipped by the planes of the other. Where it enters or leaves it pierces a
@@ -51,6 +52,42 @@ void classify(int vertices, int planes, double tolerance, Distances& d) {
     }
     d.outside[v] = outside;
     d.uncertain[v] = uncertain;
+  }
+}
+
+/// Signed distance of a vertex from a plane in two doubles: n·(y + shift) − offset, with products of high parts exact
+/// and low parts to first order.
+double precise_distance(const PlacedSolid& body, int vertex, const PlacedSolid& other, int plane,
+                        const TwoDoubleVector& shift) {
+  const TwoDoubleVector n = other.precise_normal(plane), y = body.precise_vertex(vertex);
+  TwoDouble sum = -other.precise_offset(plane);
+  for (int c = 0; c < 3; ++c) {
+    const TwoDouble p = two_sum(y.high[c], shift.high[c]);
+    const TwoDouble product = two_product(n.high[c], p.high);
+    const TwoDouble next = two_sum(sum.high, product.high);
+    const double first_order = n.high[c] * (p.low + y.low[c] + shift.low[c]) + n.low[c] * p.high;
+    sum = {next.high, sum.low + (next.low + product.low + first_order)};
+  }
+  return sum.high + sum.low;
+}
+
+/// Distances below this fraction of the inradius are computed again in two doubles. Above it their rounding, 1e-16 of
+/// a coordinate, is below 1e-12 of themselves.
+constexpr double refined_below = 2e-3;
+
+/// Takes the distances marked uncertain again in two doubles, and leaves those marked that are zero to their rounding.
+void refine(const PlacedSolid& body, const PlacedSolid& other, const TwoDoubleVector& shift, double tolerance,
+            Distances& d) {
+  for (int v = 0; v < body.vertices(); ++v) {
+    std::uint32_t still = 0;
+    for (std::uint32_t near = d.uncertain[v]; near; near &= near - 1) {
+      const int f = std::countr_zero(near);
+      const double distance = precise_distance(body, v, other, f, shift);
+      d.of[v][f] = distance;
+      d.outside[v] = (d.outside[v] & ~(std::uint32_t{1} << f)) | std::uint32_t{distance > 0} << f;
+      still |= std::uint32_t{std::abs(distance) < tolerance} << f;
+    }
+    d.uncertain[v] = still;
   }
 }
 
@@ -182,19 +219,20 @@ bool separated_by_face(const Distances& vertices_of_a, int a, const Distances& v
   return false;
 }
 
-}  // namespace
+/// Phase 1; entries smaller than `near` are marked uncertain.
+void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, double near, ContactLoop& loop) {
+  measure(a, b, -r, loop.of_a);
+  measure(b, a, r, loop.of_b);
+  classify(a.vertices(), b.faces(), near, loop.of_a);
+  classify(b.vertices(), a.faces(), near, loop.of_b);
+}
 
-void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+/// Phase 2.
+void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   loop.verdict = LoopVerdict::separated;
   loop.axis = {};
   loop.spans = loop.segments = 0;
   loop.edges_a = loop.edges_b = 0;
-  const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
-
-  measure(a, b, -r, loop.of_a);
-  measure(b, a, r, loop.of_b);
-  classify(a.vertices(), b.faces(), tolerance, loop.of_a);
-  classify(b.vertices(), a.faces(), tolerance, loop.of_b);
   if (separated_by_face(loop.of_a, a.vertices(), loop.of_b, b.vertices(), loop.axis)) return;
 
   loop.verdict = LoopVerdict::degenerate;
@@ -210,6 +248,22 @@ void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   if (!close_loop(piercings, loop)) return;
   move_origin(loop.corner[piercings.at[0].corner].position, loop);
   loop.verdict = LoopVerdict::closed;
+}
+
+}  // namespace
+
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  tabulate(a, b, r, gap_tolerance(a.solid(), b.solid(), r), loop);
+  trace(a, b, r, loop);
+}
+
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, ContactLoop& loop) {
+  const double near = refined_below * std::min(a.solid().inradius(), b.solid().inradius());
+  const double tolerance = std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high);
+  tabulate(a, b, r.high, near, loop);
+  refine(a, b, -r, tolerance, loop.of_a);
+  refine(b, a, r, tolerance, loop.of_b);
+  trace(a, b, r.high, loop);
 }
 
 }  // namespace isojam

@@ -123,9 +123,22 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   return m;
 }
 
-}  // namespace
+QuadPose relative_pose(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r) {
+  const QuadMatrix to_a = transposed(widened(a.precise_rotation()));
+  return {to_a * widened(b.precise_rotation()), to_a * widened(r)};
+}
 
-Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
+RelativePose relative_pose(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
+  const Eigen::Matrix3d to_a = a.rotation().transpose();
+  return {to_a * b.rotation(), to_a * r};
+}
+
+Overlap narrow(const Overlap& overlap) { return overlap; }
+Overlap narrow(const QuadOverlap& overlap) { return narrowed(overlap); }
+
+/// In double or in two doubles, as r is.
+template <class Displacement>
+Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis) {
   ContactLoop loop;
   find_contact_loop(a, b, r, loop);
   switch (loop.verdict) {
@@ -137,11 +150,20 @@ Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3
     }
     case LoopVerdict::degenerate: break;
   }
-  const Eigen::Matrix3d to_a = a.rotation().transpose();
-  Overlap result = clipped_overlap(a.solid(), b.solid(), {to_a * b.rotation(), to_a * r});
+  Overlap result = narrow(clipped_overlap(a.solid(), b.solid(), relative_pose(a, b, r)));
   result.area = a.rotation() * result.area;
   result.moment = a.rotation() * result.moment;
   return result;
+}
+
+}  // namespace
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
+  return overlap_at(a, b, r, axis);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis) {
+  return overlap_at(a, b, r, axis);
 }
 
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
@@ -153,9 +175,9 @@ Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& 
   return overlap(a, b, pose, unused);
 }
 
-Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
-  ContactLoop loop;
-  find_contact_loop(a, b, r, loop);
+namespace {
+
+Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop) {
   Matrix6d hessian = Matrix6d::Zero();
   if (loop.verdict != LoopVerdict::closed) return hessian;
   const double gauss = 0.5 / std::sqrt(3.0);
@@ -175,6 +197,20 @@ Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const
     }
   }
   return hessian;
+}
+
+}  // namespace
+
+Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
+  ContactLoop loop;
+  find_contact_loop(a, b, r, loop);
+  return cross_hessian(a, b, r, loop);
+}
+
+Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r) {
+  ContactLoop loop;
+  find_contact_loop(a, b, r, loop);
+  return cross_hessian(a, b, r.high, loop);
 }
 
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/pose.hpp"
 
 namespace isojam {
 
@@ -14,6 +15,9 @@ class PlacedSolid {
   PlacedSolid() = default;
   /// Keeps a pointer to the solid, which must outlive this. `rotation`: body frame → lab frame.
   PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation);
+  /// The same in two doubles: vertices and normals have low parts. Without them, precise_vertex() and the like must not
+  /// be called.
+  PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotation);
 
   const ConvexSolid& solid() const { return *solid_; }
   const Eigen::Matrix3d& rotation() const { return rotation_; }
@@ -31,12 +35,23 @@ class PlacedSolid {
   Eigen::Vector3d vertex(int v) const { return {x()[v], y()[v], z()[v]}; }
   Eigen::Vector3d normal(int f) const { return {nx()[f], ny()[f], nz()[f]}; }
 
+  TwoDoubleVector precise_vertex(int v) const { return {vertex(v), entries(low_ + v, vertex_stride_)}; }
+  TwoDoubleVector precise_normal(int f) const {
+    return {normal(f), entries(low_ + 3 * vertex_stride_ + f, face_stride_)};
+  }
+  TwoDouble precise_offset(int f) const { return {offset()[f], solid_->arrays().offset_low[f]}; }
+  TwoDoubleMatrix precise_rotation() const { return {rotation_, rotation_low_}; }
+
  private:
+  static Eigen::Vector3d entries(const double* first, int stride) {
+    return {first[0], first[stride], first[2 * stride]};
+  }
+
   // Euler: vertices + faces = edges + 2 ≤ capacity + 2, and the padding of both adds at most 6.
   static constexpr int pool_size = 3 * (SolidArrays::capacity + 8);
 
-  alignas(32) double pool_[pool_size];
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+  alignas(32) double pool_[pool_size], low_[pool_size];
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), rotation_low_ = Eigen::Matrix3d::Zero();
   const ConvexSolid* solid_ = nullptr;
   int vertex_stride_ = 0, face_stride_ = 0;
 };

@@ -93,15 +93,15 @@ void PackingEnergy::refresh(const Packing& packing) {
   list_solid_ = packing.solid;
 }
 
-void PackingEnergy::overlap_all(const Packing& packing) {
+void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   refresh(packing);
-  place_all(packing, placed_);
-  totals_ += overlap_pairs(packing, placed_, pairs_, axes_, overlaps_);
+  place_all(packing, precision, placed_);
+  totals_ += overlap_pairs(packing, precision, placed_, pairs_, axes_, overlaps_);
   ++evaluations_;
 }
 
-Evaluation PackingEnergy::evaluate(const Packing& packing) {
-  overlap_all(packing);
+Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) {
+  overlap_all(packing, precision);
   Evaluation result;
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
   Accumulator on_the_way{0, std::vector<double>(packing.poses.size(), 0.0)};
@@ -124,10 +124,10 @@ Evaluation PackingEnergy::evaluate(const Packing& packing) {
   return result;
 }
 
-SecondOrder PackingEnergy::second_order(const Packing& packing) {
-  overlap_all(packing);
+SecondOrder PackingEnergy::second_order(const Packing& packing, Precision precision) {
+  overlap_all(packing, precision);
   hessians_.resize(pairs_.size());
-  pair_hessians(packing, placed_, pairs_, overlaps_, hessians_);
+  pair_hessians(packing, precision, placed_, pairs_, overlaps_, hessians_);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
   std::vector<BlockMatrix::Block>& blocks = result.hessian.off_diagonal;
@@ -146,7 +146,7 @@ SecondOrder PackingEnergy::second_order(const Packing& packing) {
 }
 
 std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
-  overlap_all(packing);
+  overlap_all(packing, Precision::working);
   std::vector<Contact> result;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (!overlaps_[k].touching()) continue;

@@ -47,10 +47,12 @@ struct Contact {
 class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
-  Evaluation evaluate(const Packing& packing);
+  Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
   /// Analytic; where two images of a particle touch another, their blocks are summed.
-  SecondOrder second_order(const Packing& packing);
-  BlockMatrix hessian(const Packing& packing) { return second_order(packing).hessian; }
+  SecondOrder second_order(const Packing& packing, Precision precision = Precision::working);
+  BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working) {
+    return second_order(packing, precision).hessian;
+  }
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
 
@@ -59,7 +61,7 @@ class PackingEnergy {
 
  private:
   void refresh(const Packing& packing);
-  void overlap_all(const Packing& packing);
+  void overlap_all(const Packing& packing, Precision precision);
 
   std::vector<NeighbourPair> pairs_;
   std::vector<SeparatingAxis> axes_;

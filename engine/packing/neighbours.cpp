@@ -81,6 +81,14 @@ Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair) 
          packing.poses[static_cast<std::size_t>(pair.a)].position + packing.cell.side() * pair.shift.cast<double>();
 }
 
+TwoDoubleVector precise_displacement(const Packing& packing, const NeighbourPair& pair) {
+  const Pose &a = packing.poses[static_cast<std::size_t>(pair.a)], &b = packing.poses[static_cast<std::size_t>(pair.b)];
+  TwoDoubleVector r;
+  for (int c = 0; c < 3; ++c)
+    r.set(c, b.coordinate(c) - a.coordinate(c) + two_product(packing.cell.side(), pair.shift[c]));
+  return r;
+}
+
 std::vector<NeighbourPair> find_neighbours_brute_force(const Packing& packing, double reach) {
   std::vector<NeighbourPair> pairs;
   for (int a = 0; a < packing.size(); ++a) {

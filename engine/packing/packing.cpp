@@ -37,8 +37,8 @@ Packing random_packing(const ConvexSolid& solid, int n, double density, RandomSt
 Packing strained_to(const Packing& packing, double density) {
   Packing strained = packing;
   strained.cell = PeriodicCell(side_at(packing.size(), density));
-  const double stretch = strained.cell.side() / packing.cell.side();
-  for (Pose& pose : strained.poses) pose.position *= stretch;
+  const TwoDouble stretch = TwoDouble(strained.cell.side()) / packing.cell.side();
+  for (Pose& pose : strained.poses) pose = scaled(pose, stretch);
   return strained;
 }
 
@@ -48,8 +48,7 @@ Packing moved(const Packing& packing, const Eigen::VectorXd& step) {
   const double radius = packing.solid->gyration_radius();
   for (int i = 0; i < packing.size(); ++i) {
     Pose& pose = result.poses[static_cast<std::size_t>(i)];
-    pose.position += step.segment<3>(6 * i);
-    pose.orientation = rotated(pose.orientation, step.segment<3>(6 * i + 3) / radius);
+    pose = moved(pose, step.segment<3>(6 * i), step.segment<3>(6 * i + 3) / radius);
   }
   return result;
 }
