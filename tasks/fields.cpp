@@ -8,7 +8,7 @@
 namespace isojam {
 namespace {
 
-constexpr std::array methods{Method::conjugate_gradient, Method::lbfgs, Method::newton};
+constexpr std::array methods{Method::conjugate_gradient, Method::fire, Method::lbfgs, Method::newton};
 
 constexpr Range positive_to(double high) { return {0, high, true, false}; }
 constexpr Range none{};

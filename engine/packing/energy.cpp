@@ -57,14 +57,6 @@ void add_contact(const Packing& packing, const NeighbourPair& pair, const Overla
   ++sum.contacts;
 }
 
-/// A flat contact of area A whose section line crosses its middle resists tilt about axes in its plane: V_τ ≈ A^(3/2)/5
-/// there, and ½ V_τ² = A³/50. Contacts of lower order have so small an area that it vanishes beside ½ |∇V|².
-Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, double radius) {
-  const double square = area.squaredNorm();
-  const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - area * area.transpose() / square;
-  return square * std::sqrt(square) / (50 * radius * radius) * in_plane;
-}
-
 double largest_imbalance(const Eigen::VectorXd& gradient) {
   double largest = 0;
   for (Eigen::Index k = 0; k < gradient.size(); k += 3) largest = std::max(largest, gradient.segment<3>(k).norm());
@@ -94,14 +86,21 @@ void PackingEnergy::refresh(const Packing& packing) {
 }
 
 void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
+  // Hessians and contacts are mostly asked for in a state that was evaluated a moment ago.
+  const bool seen = list_solid_ == packing.solid && list_side_ == packing.cell.side() && seen_ == packing.poses &&
+                    seen_precision_ == precision;
+  if (seen) return;
+  seen_.clear();
   refresh(packing);
   place_all(packing, precision, placed_);
   totals_ += overlap_pairs(packing, precision, placed_, pairs_, axes_, overlaps_);
-  ++evaluations_;
+  seen_ = packing.poses;
+  seen_precision_ = precision;
 }
 
 Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) {
   overlap_all(packing, precision);
+  ++evaluations_;
   Evaluation result;
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
   Accumulator on_the_way{0, std::vector<double>(packing.poses.size(), 0.0)};
@@ -124,23 +123,26 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   return result;
 }
 
-SecondOrder PackingEnergy::second_order(const Packing& packing, Precision precision) {
+SecondOrder PackingEnergy::second_order(const Packing& packing, double press, Precision precision) {
   overlap_all(packing, precision);
   hessians_.resize(pairs_.size());
   pair_hessians(packing, precision, placed_, pairs_, overlaps_, hessians_);
+  pressed_.assign(pairs_.size(), Overlap{});
+  if (press > 0) press_pairs(packing, placed_, pairs_, axes_, press, pressed_);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
   std::vector<BlockMatrix::Block>& blocks = result.hessian.off_diagonal;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (!overlaps_[k].touching()) continue;
     const NeighbourPair& pair = pairs_[k];
+    if (!overlaps_[k].touching() && !pressed_[k].touching()) continue;
+    result.pairs.push_back(pressed_pair(pair.a, pair.b, overlaps_[k], pressed_[k], displacement(packing, pair), press,
+                                        packing.solid->gyration_radius()));
+    if (!overlaps_[k].touching()) continue;
     result.hessian.diagonal[pair.a] += hessians_[k].aa;
     result.hessian.diagonal[pair.b] += hessians_[k].bb;
     if (blocks.empty() || blocks.back().row != pair.a || blocks.back().column != pair.b)
       blocks.push_back({pair.a, pair.b, Matrix6d::Zero()});
     blocks.back().value += hessians_[k].ab;
-    result.tilts.push_back(
-        {static_cast<int>(blocks.size()) - 1, tilt_stiffness(overlaps_[k].area, packing.solid->gyration_radius())});
   }
   return result;
 }

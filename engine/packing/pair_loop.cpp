@@ -39,6 +39,19 @@ void overlap_pair(const Packing& packing, Precision precision, std::span<const P
   if (!out.touching() && axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
 }
 
+void press_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
+                const SeparatingAxis& axis, double distance, Overlap& out) {
+  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
+  const Eigen::Vector3d r = displacement(packing, pair);
+  const double length = r.norm(), reach = 2 * packing.solid->circumradius();
+  out = {};
+  if (length - distance >= reach || length <= distance) return;
+  const Eigen::Vector3d closer = (1 - distance / length) * r;
+  if (separates(a, b, closer, axis)) return;
+  SeparatingAxis unused;
+  out = overlap(a, b, closer, unused);
+}
+
 /// Runs `run(block)` for every block of `grain` pairs.
 template <class Run>
 void for_each_block(std::size_t blocks, const Run& run) {
@@ -112,6 +125,16 @@ PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<
   PairCounts sum;
   for (const PairCounts& block : counts) sum += block;
   return sum;
+}
+
+void press_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
+                 std::span<const SeparatingAxis> axes, double distance, std::span<Overlap> out) {
+  assert(axes.size() == pairs.size() && out.size() == pairs.size());
+  const std::size_t n = pairs.size();
+  for_each_block(block_count(n), [&](std::size_t block) {
+    for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
+      press_pair(packing, placed, pairs[k], axes[k], distance, out[k]);
+  });
 }
 
 void pair_hessians(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,

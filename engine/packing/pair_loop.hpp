@@ -38,6 +38,11 @@ void place_all(const Packing& packing, Precision precision, std::vector<PlacedSo
 PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
 
+/// Overlap of every listed pair as it would be with B's centre closer to A's by `distance`; volume 0 where they would
+/// still be apart. `axes` as overlap_pairs left them.
+void press_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
+                 std::span<const SeparatingAxis> axes, double distance, std::span<Overlap> out);
+
 /// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
 /// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
 struct PairHessian {

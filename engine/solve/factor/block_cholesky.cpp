@@ -156,25 +156,6 @@ void BlockCholesky::assemble(const BlockMatrix& matrix) {
   }
 }
 
-void BlockCholesky::add_tilts(const BlockMatrix& matrix, const std::vector<TiltStiffness>& tilts, double tilt_factor) {
-  const auto rotation = [this](const Target& target) {
-    return Eigen::Map<Eigen::Matrix3d, Eigen::Unaligned, Eigen::OuterStride<panels::height>>(
-        factor_.data() + target.at + 3 * panels::height + 3);
-  };
-  for (const TiltStiffness& tilt : tilts) {
-    const Eigen::Matrix3d stiffness = tilt_factor * tilt.value;
-    const BlockMatrix::Block& block = matrix.off_diagonal[tilt.block];
-    rotation(diagonal_[block.row]) += stiffness;
-    rotation(diagonal_[block.column]) += stiffness;
-    const Target& target = off_diagonal_[tilt.block];
-    if (target.transposed) {
-      rotation(target) -= stiffness.transpose();
-    } else {
-      rotation(target) -= stiffness;
-    }
-  }
-}
-
 void BlockCholesky::add_shift(double shift) {
   for (const Target& target : diagonal_) {
     for (int i = 0; i < 6; ++i) factor_[target.at + i * (panels::height + 1)] += shift;
@@ -201,13 +182,9 @@ void BlockCholesky::gather_updates(const Front& front) {
   }
 }
 
-bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) { return factorise(matrix, {}, 0, shift); }
-
-bool BlockCholesky::factorise(const BlockMatrix& matrix, const std::vector<TiltStiffness>& tilts, double tilt_factor,
-                              double shift) {
+bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
   if (!has_pattern_of(matrix)) analyse(matrix);
   assemble(matrix);
-  add_tilts(matrix, tilts, tilt_factor);
   add_shift(shift);
   for (const Front& front : fronts_) {
     gather_updates(front);

@@ -20,8 +20,6 @@ class BlockCholesky {
  public:
   /// False if the shifted matrix is not positive definite to working precision; then solve() must not be called.
   bool factorise(const BlockMatrix& matrix, double shift);
-  /// Of stiffened(matrix, tilts, tilt_factor) + shift·1, to the bit, without that matrix being formed.
-  bool factorise(const BlockMatrix& matrix, const std::vector<TiltStiffness>& tilts, double tilt_factor, double shift);
   /// (H + shift·1)⁻¹ b, b with 6 entries per particle.
   Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& b) const;
 
@@ -58,7 +56,6 @@ class BlockCholesky {
   void place_blocks(const BlockMatrix& matrix);
   void place_children();
   void assemble(const BlockMatrix& matrix);
-  void add_tilts(const BlockMatrix& matrix, const std::vector<TiltStiffness>& tilts, double tilt_factor);
   void add_shift(double shift);
   void gather_updates(const Front& front);
 

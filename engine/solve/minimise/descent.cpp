@@ -43,10 +43,10 @@ std::optional<StopReason> Descent::verdict() const {
   return std::nullopt;
 }
 
-Evaluation Descent::probe(const Eigen::VectorXd& step, Packing& there) {
-  there = moved(packing_, step);
+Evaluation Descent::probe(const Packing& from, const Eigen::VectorXd& step, Packing& there) {
+  there = moved(from, step);
   ++evaluations_;
-  return energy_.evaluate(there);
+  return energy_.evaluate(there, precision_);
 }
 
 void Descent::accept(Packing there, Evaluation value) {
@@ -71,7 +71,7 @@ bool Descent::advance(const Eigen::VectorXd& direction, double first_step, doubl
   Evaluation at_lowest, at_trial;
   double step_of_lowest = 0, step_of_trial = 0;
   const auto at = [&](double step) {
-    at_trial = probe(step * direction, trial);
+    at_trial = probe(packing_, step * direction, trial);
     step_of_trial = step;
     const LinePoint point{step, at_trial.energy, at_trial.gradient.dot(direction)};
     // The search ends at the last point or at the lowest one; among energies equal but for noise, elsewhere.

@@ -28,9 +28,12 @@ class Descent {
   double last_step() const { return last_step_; }
   /// No particle moves farther than this in one trial step.
   double longest_displacement() const;
-  SecondOrder second_order() { return energy_.second_order(packing_); }
-  /// Evaluates the state at `step` from here without moving to it.
-  Evaluation probe(const Eigen::VectorXd& step, Packing& there);
+  /// Of any state; pairs pressed together by `press`.
+  SecondOrder second_order(const Packing& packing, double press) {
+    return energy_.second_order(packing, press, precision_);
+  }
+  /// Evaluates the state at `step` from another one without moving there.
+  Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
   /// Moves to a probed state.
   void accept(Packing there, Evaluation value);
 
@@ -43,6 +46,7 @@ class Descent {
   std::stop_token stop_;
   Evaluation here_;
   double previous_energy_;
+  Precision precision_ = Precision::working;
   double last_step_ = 0;
   long evaluations_ = 0, iterations_ = 0;
 };
@@ -51,6 +55,7 @@ class Descent {
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);
+MinimiseSummary minimise_fire(Descent& descent);
 MinimiseSummary minimise_lbfgs(Descent& descent);
 MinimiseSummary minimise_newton(Descent& descent);
 

@@ -4,7 +4,6 @@
 //   the solution has a backward error of a few roundings, and agrees with Eigen's dense LLT and sparse SimplicialLDLT
 //   as far as the condition number lets two solvers agree;
 //   a shift a little above −λ_min is accepted, one a little below is refused, and so is a singular matrix;
-//   a tilt term added on the way gives the bits of the stiffened matrix;
 //   a factor used before (on the same pattern, on another one, on a matrix that was refused) gives the bits of a new
 //   one.
 
@@ -174,35 +173,6 @@ TEST(BlockCholesky, RefusesWhatIsNotANumber) {
   ASSERT_TRUE(BlockCholesky().factorise(matrix, shift));
   matrix.diagonal[7](3, 3) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(BlockCholesky().factorise(matrix, shift));
-}
-
-TEST(BlockCholesky, TiltsGiveTheBitsOfTheStiffenedMatrix) {
-  RandomStream random{15};
-  int tilted = 0;
-  for (const System& system : systems()) {
-    std::vector<TiltStiffness> tilts;
-    for (int k = 0; k < static_cast<int>(system.matrix.off_diagonal.size()); ++k) {
-      // None, one or several contacts of a pair; not symmetric, so that a transposed one shows.
-      while (random.uniform() < 0.5) {
-        Eigen::Matrix3d value;
-        for (double& entry : value.reshaped()) entry = random.normal() * stiffness(system);
-        tilts.push_back({k, value});
-      }
-    }
-    const double factor = decade(random, -3, 0);
-    const BlockMatrix sum = stiffened(system.matrix, tilts, factor);
-    const double shift = 3 * dense(sum).cwiseAbs().rowwise().sum().maxCoeff() + stiffness(system);
-    BlockCholesky direct, copied;
-    ASSERT_TRUE(direct.factorise(system.matrix, tilts, factor, shift)) << system.name;
-    ASSERT_TRUE(copied.factorise(sum, shift)) << system.name;
-    const Eigen::VectorXd b = normal_vector(system.full.rows(), random);
-    EXPECT_TRUE(direct.solve(b) == copied.solve(b)) << system.name;
-    if (tilts.empty()) continue;
-    ++tilted;
-    ASSERT_TRUE(copied.factorise(system.matrix, shift)) << system.name;
-    EXPECT_FALSE(direct.solve(b) == copied.solve(b)) << system.name << ": the tilts did nothing";
-  }
-  EXPECT_GE(tilted, 8);
 }
 
 TEST(BlockCholesky, ReuseGivesTheBitsOfANewFactor) {
