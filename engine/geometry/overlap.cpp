@@ -177,7 +177,19 @@ Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& 
 
 namespace {
 
-Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop) {
+/// |n×m| of two unit normals.
+double sine(const Eigen::Vector3d& n, const Eigen::Vector3d& m) { return n.cross(m).norm(); }
+
+/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
+double sine(const TwoDoubleVector& n, const TwoDoubleVector& m) {
+  const double sign = n.high.dot(m.high) < 0 ? 1 : -1;
+  return n.high.cross((n.high + sign * m.high) + (n.low + sign * m.low)).norm();
+}
+
+/// `sine_between(i, j)` of face i of A and face j of B.
+template <class Sine>
+Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop,
+                       const Sine& sine_between) {
   Matrix6d hessian = Matrix6d::Zero();
   if (loop.verdict != LoopVerdict::closed) return hessian;
   const double gauss = 0.5 / std::sqrt(3.0);
@@ -185,10 +197,10 @@ Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
     const LoopEdge& s = loop.segment[k];
     const Eigen::Vector3d n = a.normal(s.left), m = b.normal(s.right - face_of_b);
     const Eigen::Vector3d &from = loop.corner[s.from].position, &to = loop.corner[s.to].position;
-    const double sine = n.cross(m).norm();
+    const double sine_of_planes = sine_between(s.left, s.right - face_of_b);
     const Eigen::Vector3d along = to - from;
-    if (!(sine > 0)) continue;
-    const double weight = along.norm() / (2 * sine);
+    if (!(sine_of_planes > 0)) continue;
+    const double weight = along.norm() / (2 * sine_of_planes);
     for (const double t : {0.5 - gauss, 0.5 + gauss}) {
       const Eigen::Vector3d y = loop.origin + from + t * along;
       const Vector6d ua = joined(n, y.cross(n));
@@ -204,13 +216,14 @@ Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
 Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
   ContactLoop loop;
   find_contact_loop(a, b, r, loop);
-  return cross_hessian(a, b, r, loop);
+  return cross_hessian(a, b, r, loop, [&](int i, int j) { return sine(a.normal(i), b.normal(j)); });
 }
 
 Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r) {
   ContactLoop loop;
   find_contact_loop(a, b, r, loop);
-  return cross_hessian(a, b, r.high, loop);
+  return cross_hessian(a, b, r.high, loop,
+                       [&](int i, int j) { return sine(a.precise_normal(i), b.precise_normal(j)); });
 }
 
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {

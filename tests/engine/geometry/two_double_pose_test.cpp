@@ -2,15 +2,16 @@
 //   moved() and scaled() keep the low parts: steps of 1e-25 are not lost, a thousand steps add up to their sum, and the
 //   high part is the nearest double;
 //   moved() turns by exp(θ), keeps |q| = 1 to 1e-31, and takes any q but 0 for the rotation by q/|q|;
+//   rotation_matrix() and the vertices and normals of placed solids are right to 1e-31;
 //   relative_pose() of low parts is the quotient of the rotations, and agrees with that of doubles;
 //   a solid's constants are correct to 1e-31: planes through their vertices, unit normals, unit volume, centroid 0.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
-#include "engine/geometry/convex_solid.hpp"
-#include "engine/geometry/pose.hpp"
+#include "engine/geometry/placed_solid.hpp"
 #include "tests/engine/geometry/pairs.hpp"
 
 namespace isojam {
@@ -128,6 +129,30 @@ TEST(TwoDoublePoseTest, ScalingKeepsLowParts) {
   }
 }
 
+TEST(TwoDoublePoseTest, RotationMatricesAreRight) {
+  RandomStream random{62, 6};
+  for (int k = 0; k < cases; ++k) {
+    Pose pose = random_pose(random);
+    EXPECT_LE(size(widened(rotation_matrix(pose)) - quad_rotation(pose)), 4 * last_bits);
+    pose.orientation_low.setZero();
+    EXPECT_LE(size(widened(rotation_matrix(pose)) - quad_rotation(pose)), 4 * last_bits) << "rounded";
+    for (const double length : {1e-6, 1 + 1e-9, 3.0, 1e6}) {
+      Pose longer = pose;
+      longer.orientation.coeffs() *= length;
+      EXPECT_LE(size(widened(rotation_matrix(longer)) - quad_rotation(longer)), 4 * last_bits) << length;
+    }
+  }
+}
+
+TEST(TwoDoublePoseTest, NotANumberStaysOne) {
+  Pose pose;
+  pose.orientation.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(rotation_matrix(pose).high.hasNaN());
+  EXPECT_TRUE(moved(pose, Vector3d::Zero(), Vector3d::Zero()).orientation.coeffs().hasNaN());
+  pose.orientation.coeffs().setZero();
+  EXPECT_FALSE(rotation_matrix(pose).high.allFinite());
+}
+
 TEST(TwoDoublePoseTest, RelativePoseIsTheQuotient) {
   RandomStream random{62, 5};
   for (int k = 0; k < cases; ++k) {
@@ -173,6 +198,25 @@ TEST_P(SolidConstants, AreCorrectToTheirLowParts) {
   }
   EXPECT_LE(size(volume - 1), 4 * last_bits);
   EXPECT_LE(size(sum), 4 * last_bits);
+}
+
+TEST_P(SolidConstants, ArePlacedInTwoDoubles) {
+  RandomStream random{62, 7};
+  const ConvexSolid& solid = platonic(GetParam());
+  for (int k = 0; k < cases / 10; ++k) {
+    const Pose pose = random_pose(random);
+    const PlacedSolid placed(solid, rotation_matrix(pose));
+    const QuadMatrix turn = quad_rotation(pose);
+    EXPECT_LE(size(widened(placed.precise_rotation()) - turn), 4 * last_bits);
+    for (int v = 0; v < placed.vertices(); ++v) {
+      EXPECT_LE(size(widened(placed.precise_vertex(v)) - turn * solid.arrays().vertex(v)), 4 * last_bits) << v;
+      EXPECT_EQ(placed.vertex(v), placed.precise_vertex(v).high);
+    }
+    for (int f = 0; f < placed.faces(); ++f) {
+      EXPECT_LE(size(widened(placed.precise_normal(f)) - turn * solid.arrays().normal(f)), 4 * last_bits) << f;
+      EXPECT_TRUE(widened(placed.precise_offset(f)) == solid.arrays().plane_offset(f));
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Facts proved here, bit for bit:
-//   an evaluation, a Hessian and a list of contacts are functions of the packing alone: whatever was evaluated before
-//   (other solids, sizes, densities, cells; a walk that kept or rebuilt the neighbour list) and for 1 and 2 threads.
+//   an evaluation, a Hessian (in either precision) and a list of contacts are functions of the packing alone: whatever
+//   was evaluated before (other solids, sizes, densities, cells; a walk that kept or rebuilt the neighbour list) and
+//   for 1 and 2 threads.
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -18,13 +19,14 @@ constexpr double density = .7;
 
 /// Everything the energy says of a packing.
 struct Answer {
-  Evaluation evaluation;
-  SecondOrder second;
+  Evaluation evaluation, extended;
+  SecondOrder second, extended_second;
   std::vector<Contact> contacts;
 };
 
 Answer answer(PackingEnergy& energy, const Packing& packing) {
-  return {energy.evaluate(packing), energy.second_order(packing, 0.01), energy.contacts(packing)};
+  return {energy.evaluate(packing), energy.evaluate(packing, Precision::extended), energy.second_order(packing, 0.01),
+          energy.second_order(packing, 0.01, Precision::extended), energy.contacts(packing)};
 }
 
 Answer fresh(const Packing& packing) {
@@ -73,7 +75,9 @@ void expect_same_bits(const SecondOrder& one, const SecondOrder& two) {
 void expect_same_bits(const Answer& one, const Answer& two) {
   ASSERT_GT(one.evaluation.contacts, particles);
   expect_same_bits(one.evaluation, two.evaluation);
+  expect_same_bits(one.extended, two.extended);
   expect_same_bits(one.second, two.second);
+  expect_same_bits(one.extended_second, two.extended_second);
   ASSERT_EQ(one.contacts.size(), two.contacts.size());
   for (std::size_t k = 0; k < one.contacts.size(); ++k) {
     const Contact &c = one.contacts[k], &d = two.contacts[k];
