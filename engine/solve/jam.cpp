@@ -45,7 +45,7 @@ class JamRun {
     step.stage = stage;
     step.summary = minimise(packing, energy_, options, stop_);
     step.density = packing.density();
-    const Evaluation value = energy_.evaluate(packing);
+    const Evaluation value = energy_.evaluate(packing, step.summary.precision);
     step.energy_per_particle = value.energy / packing.size();
     step.pressure = value.pressure;
     result_.path.push_back(step);

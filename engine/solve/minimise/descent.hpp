@@ -20,8 +20,8 @@ class Descent {
   const MinimiseOptions& options() const { return options_; }
   long evaluations() const { return evaluations_; }
 
-  /// Why to stop in this state, if there is a reason.
-  std::optional<StopReason> verdict() const;
+  /// Why to stop in this state, if there is a reason. Goes over to extended precision where the answer needs it.
+  std::optional<StopReason> verdict();
   /// Moves along `direction` (a descent direction) by a line search from `first_step` times it; false if no lower
   /// energy was found. The step taken, as a multiple of `direction`, is in last_step().
   bool advance(const Eigen::VectorXd& direction, double first_step, double curvature);
@@ -40,6 +40,8 @@ class Descent {
   MinimiseSummary finish(StopReason reason) const;
 
  private:
+  void refine();
+
   Packing& packing_;
   PackingEnergy& energy_;
   const MinimiseOptions& options_;
