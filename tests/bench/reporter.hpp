@@ -1,0 +1,53 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <iosfwd>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/bench/ratios.hpp"
+
+namespace isojam::bench {
+
+/// A claim and what was measured.
+struct Verdict {
+  Claim claim;
+  double ours = 0, peer = 0;  ///< per unit, as the claim says; ns, or the counter's unit
+  double ratio = 0;           ///< as the claim says; of an absolute claim, ours
+  bool holds = true;
+};
+
+/// Collects every repetition of every benchmark.
+class MedianReporter : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context& context) override;
+  void ReportRuns(const std::vector<Run>& runs) override;
+
+  /// Quantities by name, as in Claim.
+  std::map<std::string, double> medians() const;
+  const std::map<std::string, std::string>& labels() const { return labels_; }
+  bool failed() const { return failed_; }
+  /// CPU, cores, compiler.
+  const nlohmann::ordered_json& machine() const { return machine_; }
+
+ private:
+  std::map<std::string, std::vector<double>> samples_;
+  std::map<std::string, std::string> labels_;
+  nlohmann::ordered_json machine_;
+  bool failed_ = false;
+};
+
+/// Median of a list that is not empty.
+double median(std::vector<double> values);
+
+/// Of the claims both sides of which were measured.
+std::vector<Verdict> judge(const std::vector<Claim>& claims, const std::map<std::string, double>& medians);
+
+void print_medians(std::ostream& out, const MedianReporter& reporter);
+void print_verdicts(std::ostream& out, const std::vector<Verdict>& verdicts);
+nlohmann::ordered_json to_json(const MedianReporter& reporter, const std::vector<Verdict>& verdicts);
+
+}  // namespace isojam::bench
