@@ -71,10 +71,6 @@ double precise_distance(const PlacedSolid& body, int vertex, const PlacedSolid& 
   return sum.high + sum.low;
 }
 
-/// Distances below this fraction of the inradius are computed again in two doubles. Above it their rounding, 1e-16 of
-/// a coordinate, is below 1e-12 of themselves.
-constexpr double refined_below = 2e-3;
-
 /// Takes the distances marked uncertain again in two doubles, and leaves those marked that are zero to their rounding.
 void refine(const PlacedSolid& body, const PlacedSolid& other, const TwoDoubleVector& shift, double tolerance,
             Distances& d) {
@@ -257,10 +253,11 @@ void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   trace(a, b, r, loop);
 }
 
+double refined_below(const ConvexSolid& a, const ConvexSolid& b) { return 2e-3 * std::min(a.inradius(), b.inradius()); }
+
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, ContactLoop& loop) {
-  const double near = refined_below * std::min(a.solid().inradius(), b.solid().inradius());
   const double tolerance = std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high);
-  tabulate(a, b, r.high, near, loop);
+  tabulate(a, b, r.high, refined_below(a.solid(), b.solid()), loop);
   refine(a, b, -r, tolerance, loop.of_a);
   refine(b, a, r, tolerance, loop.of_b);
   trace(a, b, r.high, loop);

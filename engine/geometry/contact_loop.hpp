@@ -60,6 +60,9 @@ struct ContactLoop {
 
 /// Finds the loop of A and B, B's centre at r from A's (lab frame). `loop` is overwritten.
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop);
+/// Distances smaller than this are taken in two doubles, where a loop is: 2e-3 of the inradius. The rounding of larger
+/// ones, gap_tolerance(), is below 1e-11 of themselves.
+double refined_below(const ConvexSolid& a, const ConvexSolid& b);
 /// The same with small distances taken in two doubles: each is right to its last bits however deep or flat the contact.
 /// A and B must have low parts.
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, ContactLoop& loop);

@@ -1,6 +1,7 @@
 #include "engine/geometry/pose.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace isojam {
 
@@ -20,11 +21,29 @@ void store(Pose& pose, int c, const TwoDouble& value) {
   pose.orientation_low[c] = value.low;
 }
 
-void normalise(Pose& pose) {
-  TwoDouble square;
-  for (int c = 0; c < 4; ++c) square = square + pose.component(c) * pose.component(c);
-  const TwoDouble inverse = reciprocal_sqrt(square);
-  for (int c = 0; c < 4; ++c) store(pose, c, pose.component(c) * inverse);
+TwoDouble squared_length(const Pose& pose) {
+  const TwoDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
+  return short_sum(short_sum(x * x, y * y), short_sum(z * z, w * w));
+}
+
+/// Of |q|² − 1 where q was normalised in double. Its second order then suffices for 1e-31.
+bool is_small(double excess) { return std::abs(excess) <= 4 * std::numeric_limits<double>::epsilon(); }
+
+Pose normalised(const Pose& pose) {
+  Pose result = pose;
+  const TwoDouble square = squared_length(pose);
+  const double excess = short_sum(square, -1).high;
+  if (is_small(excess)) {
+    const double correction = excess * (3.0 / 8 * excess - 0.5);
+    for (int c = 0; c < 4; ++c) {
+      const TwoDouble q = pose.component(c);
+      store(result, c, fast_two_sum(q.high, q.low + q.high * correction));
+    }
+  } else {
+    const TwoDouble inverse = reciprocal_sqrt(square);
+    for (int c = 0; c < 4; ++c) store(result, c, pose.component(c) * inverse);
+  }
+  return result;
 }
 
 }  // namespace
@@ -37,10 +56,10 @@ Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& t
   turn.w() = -2 * std::pow(std::sin(angle / 4), 2);
   turn.vec() = half_sinc(angle) * theta;
   const Eigen::Vector4d change = (turn * pose.orientation).coeffs();
-  for (int c = 0; c < 4; ++c) store(result, c, pose.component(c) + change[c]);
-  normalise(result);
+  for (int c = 0; c < 4; ++c) store(result, c, short_sum(pose.component(c), change[c]));
+  result = normalised(result);
   for (int c = 0; c < 3; ++c) {
-    const TwoDouble x = pose.coordinate(c) + dx[c];
+    const TwoDouble x = short_sum(pose.coordinate(c), dx[c]);
     result.position[c] = x.high;
     result.position_low[c] = x.low;
   }
@@ -58,15 +77,20 @@ Pose scaled(const Pose& pose, const TwoDouble& s) {
 }
 
 TwoDoubleMatrix rotation_matrix(const Pose& pose) {
+  const double excess = short_sum(squared_length(pose), -1).high;
+  if (!is_small(excess) && std::isfinite(excess)) return rotation_matrix(normalised(pose));
   const TwoDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
   const TwoDouble xx = x * x, yy = y * y, zz = z * z;
-  const TwoDouble s = 2.0 / (xx + yy + zz + w * w);
-  const TwoDouble sx = s * x, sy = s * y, sz = s * z;
-  const TwoDouble xy = sx * y, yz = sy * z, zx = sz * x, wx = sx * w, wy = sy * w, wz = sz * w;
+  const double correction = excess * excess - excess;
+  const auto twice_sum = [&](const TwoDouble& p, const TwoDouble& q) {
+    const TwoDouble sum = short_sum(p, q);
+    return TwoDouble{2 * sum.high, 2 * (sum.low + sum.high * correction)};
+  };
+  const TwoDouble xy = x * y, yz = y * z, zx = z * x, wx = w * x, wy = w * y, wz = w * z;
   TwoDoubleMatrix m;
-  m.set(0, 0, 1.0 - s * (yy + zz)), m.set(0, 1, xy - wz), m.set(0, 2, zx + wy);
-  m.set(1, 0, xy + wz), m.set(1, 1, 1.0 - s * (xx + zz)), m.set(1, 2, yz - wx);
-  m.set(2, 0, zx - wy), m.set(2, 1, yz + wx), m.set(2, 2, 1.0 - s * (xx + yy));
+  m.set(0, 0, short_sum(1, -twice_sum(yy, zz))), m.set(0, 1, twice_sum(xy, -wz)), m.set(0, 2, twice_sum(zx, wy));
+  m.set(1, 0, twice_sum(xy, wz)), m.set(1, 1, short_sum(1, -twice_sum(xx, zz))), m.set(1, 2, twice_sum(yz, -wx));
+  m.set(2, 0, twice_sum(zx, -wy)), m.set(2, 1, twice_sum(yz, wx)), m.set(2, 2, short_sum(1, -twice_sum(xx, yy)));
   return m;
 }
 

@@ -42,6 +42,12 @@ inline TwoDouble operator+(const TwoDouble& a, const TwoDouble& b) {
   return fast_two_sum(sum.high, sum.low + low.low);
 }
 
+/// a + b at half the cost, with an error of 4 u² (|a| + |b|).
+inline TwoDouble short_sum(const TwoDouble& a, const TwoDouble& b) {
+  const TwoDouble high = two_sum(a.high, b.high);
+  return fast_two_sum(high.high, high.low + (a.low + b.low));
+}
+
 inline TwoDouble operator-(const TwoDouble& a, const TwoDouble& b) { return a + -b; }
 
 inline TwoDouble operator*(const TwoDouble& a, const TwoDouble& b) {

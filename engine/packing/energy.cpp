@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "engine/geometry/contact_loop.hpp"
+
 namespace isojam {
 
 namespace {
@@ -34,7 +36,15 @@ std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_p
 struct Accumulator {
   double force = 0;
   std::vector<double> stiffness;  ///< per particle, Σ ½ |∇V|² over its contacts
+  std::vector<double> noise;      ///< per particle, Σ ρ_c |F_c|, see Evaluation::residual_floor
+  double energy_noise = 0;        ///< Σ ρ_c V²/2
 };
+
+/// ρ_c.
+double relative_error(const ConvexSolid& solid, const Eigen::Vector3d& r, const Overlap& overlap) {
+  const double tolerance = gap_tolerance(solid, solid, r), area = overlap.area.norm();
+  return tolerance / std::max(refined_below(solid, solid), overlap.volume / area) + tolerance / std::sqrt(area);
+}
 
 /// Adds one contact, lab frame. ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
 void add_contact(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap, Evaluation& sum,
@@ -54,7 +64,26 @@ void add_contact(const Packing& packing, const NeighbourPair& pair, const Overla
   const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
   on_the_way.stiffness[pair.a] += (square + overlap.moment.squaredNorm() / (radius * radius)) / 2;
   on_the_way.stiffness[pair.b] += (square + moment_b.squaredNorm() / (radius * radius)) / 2;
+  const double error = relative_error(*packing.solid, r, overlap);
+  on_the_way.noise[pair.a] += error * dx.norm();
+  on_the_way.noise[pair.b] += error * dx.norm();
+  on_the_way.energy_noise += error * overlap.volume * overlap.volume / 2;
   ++sum.contacts;
+}
+
+/// Sets residual_floor and energy_noise; mean_force > 0.
+void bound_rounding(const Packing& packing, Precision precision, const Accumulator& sums, Evaluation& result) {
+  if (precision == Precision::extended) {
+    const double levers = packing.solid->circumradius() / packing.solid->gyration_radius();
+    result.residual_floor = levers * *std::max_element(sums.noise.begin(), sums.noise.end()) / result.mean_force;
+    result.energy_noise = sums.energy_noise;
+    return;
+  }
+  // H ≤ Σ ½ ∇V ∇Vᵀ: its largest eigenvalue is at most twice the stiffest diagonal block.
+  const double lambda = 2 * *std::max_element(sums.stiffness.begin(), sums.stiffness.end());
+  const double ulp = std::numeric_limits<double>::epsilon() * packing.cell.side();
+  result.residual_floor = lambda * ulp / result.mean_force;
+  result.energy_noise = sums.force * ulp;
 }
 
 /// A flat contact of area A whose section line crosses its middle resists tilt about axes in its plane: V_τ ≈ A^(3/2)/5
@@ -104,7 +133,8 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   overlap_all(packing, precision);
   Evaluation result;
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
-  Accumulator on_the_way{0, std::vector<double>(packing.poses.size(), 0.0)};
+  const std::vector<double> zeros(packing.poses.size(), 0.0);
+  Accumulator on_the_way{0, zeros, zeros};
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (overlaps_[k].touching()) add_contact(packing, pairs_[k], overlaps_[k], result, on_the_way);
   }
@@ -114,13 +144,7 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   if (result.contacts > 0) result.mean_force = on_the_way.force / static_cast<double>(result.contacts);
   if (imbalance > 0)
     result.residual = result.mean_force > 0 ? imbalance / result.mean_force : std::numeric_limits<double>::infinity();
-  if (result.mean_force > 0) {
-    // H ≤ Σ ½ ∇V ∇Vᵀ: its largest eigenvalue is at most twice the stiffest diagonal block.
-    const double lambda = 2 * *std::max_element(on_the_way.stiffness.begin(), on_the_way.stiffness.end());
-    const double ulp = std::numeric_limits<double>::epsilon() * packing.cell.side();
-    result.residual_floor = lambda * ulp / result.mean_force;
-    result.energy_noise = on_the_way.force * ulp;
-  }
+  if (result.mean_force > 0) bound_rounding(packing, precision, on_the_way, result);
   return result;
 }
 

@@ -18,10 +18,15 @@ struct Evaluation {
   /// max over particles and both kinds of |F_i|, |T_i|/R, divided by mean_force. Infinity if mean_force is 0 and
   /// some force is not; 0 if all are.
   double residual = 0;
-  /// The residual that rounding of the coordinates alone causes: λ_max·ulp(L)/mean_force, with λ_max bounded by the
-  /// stiffest particle. No minimiser can be trusted below it in double precision.
+  /// What rounding alone can make of the residual; no minimiser can be trusted below it.
+  /// In working precision that of the coordinates: λ_max·ulp(L)/mean_force, λ_max bounded by the stiffest particle.
+  /// In extended precision that of the contacts: the largest Σ_c ρ_c |F_c| R_c/R of a particle over mean_force, where
+  /// R_c is the circumradius, longest lever of a force, and ρ_c the relative error of V and S of a contact. Plane
+  /// distances are then wrong by τ = gap_tolerance() if they exceed refined_below(), and right to their last bits
+  /// otherwise, so ρ_c = τ/max(refined_below(), V/|S|) + τ/√|S|, the second term for the corners, whose coordinates are
+  /// doubles.
   double residual_floor = 0;
-  /// What rounding of the coordinates can do to the energy: Σ|F|·ulp(L). Smaller differences mean nothing.
+  /// What the same rounding can do to the energy: Σ|F|·ulp(L), and Σ ρ_c V²/2. Smaller differences mean nothing.
   double energy_noise = 0;
   long contacts = 0;
 };
@@ -47,6 +52,8 @@ struct Contact {
 class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
+  /// In extended precision V, S and M of every contact are computed from the low parts of the state too, at a tenth
+  /// more cost; sums are in double in either.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
   /// Analytic; where two images of a particle touch another, their blocks are summed.
   SecondOrder second_order(const Packing& packing, Precision precision = Precision::working);

@@ -84,8 +84,10 @@ Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair) 
 TwoDoubleVector precise_displacement(const Packing& packing, const NeighbourPair& pair) {
   const Pose &a = packing.poses[static_cast<std::size_t>(pair.a)], &b = packing.poses[static_cast<std::size_t>(pair.b)];
   TwoDoubleVector r;
-  for (int c = 0; c < 3; ++c)
-    r.set(c, b.coordinate(c) - a.coordinate(c) + two_product(packing.cell.side(), pair.shift[c]));
+  for (int c = 0; c < 3; ++c) {
+    const TwoDouble image = short_sum(b.coordinate(c), two_product(packing.cell.side(), pair.shift[c]));
+    r.set(c, short_sum(image, -a.coordinate(c)));
+  }
   return r;
 }
 

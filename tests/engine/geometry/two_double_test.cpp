@@ -56,17 +56,21 @@ TEST(TwoDoubleTest, SumAndProductOfDoublesLoseNothing) {
 
 TEST(TwoDoubleTest, OperationsKeepTheirErrors) {
   RandomStream random{61, 2};
-  double sum = 0, product = 0, quotient = 0, root = 0;
+  double sum = 0, short_one = 0, product = 0, quotient = 0, root = 0;
   for (int k = 0; k < cases; ++k) {
     const TwoDouble a = random_number(random, 30), b = random_number(random, k % 2 ? 30 : 1);
     const Quad x = widened(a), y = widened(b);
     sum = std::fmax(sum, std::fmax(error_of(a + b, x + y), error_of(a - b, x - y)));
+    const Quad terms = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+    const Quad error = widened(short_sum(a, b)) - (x + y);
+    short_one = std::fmax(short_one, std::abs(static_cast<double>(error / terms)));
     product = std::fmax(product, error_of(a * b, x * y));
     quotient = std::fmax(quotient, error_of(a / b, x / y));
     const TwoDouble positive = a.high < 0 ? -a : a;
     root = std::fmax(root, error_of(reciprocal_sqrt(positive), 1 / square_root(widened(positive))));
   }
   EXPECT_LE(sum, 4 * u * u);
+  EXPECT_LE(short_one, 4 * u * u);
   EXPECT_LE(product, 8 * u * u);
   EXPECT_LE(quotient, 16 * u * u);
   EXPECT_LE(root, 16 * u * u);
