@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,21 @@ struct Claim {
   double ours_per = 1, peer_per = 1;
 };
 
+/// A claim and what was measured.
+struct Verdict {
+  Claim claim;
+  double ours = 0, peer = 0;  ///< per unit, as the claim says; ns, or the counter's unit
+  double ratio = 0;           ///< as the claim says; of an absolute claim, ours
+  bool holds = true;
+};
+
 /// All that is claimed, in the order of the table.
 std::vector<Claim> all_claims();
+
+/// Median of a list that is not empty.
+double median(std::vector<double> values);
+
+/// Of the claims both sides of which were measured.
+std::vector<Verdict> judge(const std::vector<Claim>& claims, const std::map<std::string, double>& medians);
 
 }  // namespace isojam::bench

@@ -99,32 +99,6 @@ std::map<std::string, double> MedianReporter::medians() const {
   return result;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
-
-std::vector<Verdict> judge(const std::vector<Claim>& claims, const std::map<std::string, double>& medians) {
-  std::vector<Verdict> verdicts;
-  for (const Claim& claim : claims) {
-    const bool absolute = claim.kind == Claim::Kind::absolute;
-    const auto ours = medians.find(claim.ours), peer = medians.find(claim.peer);
-    if (ours == medians.end() || (!absolute && peer == medians.end())) continue;
-    Verdict verdict{claim, ours->second / claim.ours_per, absolute ? 0 : peer->second / claim.peer_per};
-    if (absolute) {
-      verdict.ratio = verdict.ours;
-    } else {
-      verdict.ratio = claim.kind == Claim::Kind::faster ? verdict.peer / verdict.ours : verdict.ours / verdict.peer;
-    }
-    verdict.holds = claim.bound == 0 ||
-                    (claim.kind == Claim::Kind::faster ? verdict.ratio >= claim.bound : verdict.ratio <= claim.bound);
-    verdicts.push_back(std::move(verdict));
-  }
-  return verdicts;
-}
-
 void print_medians(std::ostream& out, const MedianReporter& reporter) {
   for (const auto& [name, value] : reporter.medians()) {
     const auto label = reporter.labels().find(name);

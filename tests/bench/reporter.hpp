@@ -12,14 +12,6 @@
 
 namespace isojam::bench {
 
-/// A claim and what was measured.
-struct Verdict {
-  Claim claim;
-  double ours = 0, peer = 0;  ///< per unit, as the claim says; ns, or the counter's unit
-  double ratio = 0;           ///< as the claim says; of an absolute claim, ours
-  bool holds = true;
-};
-
 /// Collects every repetition of every benchmark.
 class MedianReporter : public benchmark::BenchmarkReporter {
  public:
@@ -39,12 +31,6 @@ class MedianReporter : public benchmark::BenchmarkReporter {
   nlohmann::ordered_json machine_;
   bool failed_ = false;
 };
-
-/// Median of a list that is not empty.
-double median(std::vector<double> values);
-
-/// Of the claims both sides of which were measured.
-std::vector<Verdict> judge(const std::vector<Claim>& claims, const std::map<std::string, double>& medians);
 
 void print_medians(std::ostream& out, const MedianReporter& reporter);
 void print_verdicts(std::ostream& out, const std::vector<Verdict>& verdicts);
