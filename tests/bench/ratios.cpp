@@ -39,6 +39,7 @@ void claim_scaling(std::vector<Claim>& claims) {
   for (const double n : {1000.0, 10000.0}) {
     const std::string many = "/N=" + std::to_string(static_cast<int>(n)), few = "/N=100";
     claims.push_back({Kind::costs, "evaluate/1_thread" + many, "evaluate/1_thread" + few, linear, n, 100});
+    claims.push_back({Kind::costs, "evaluate/afresh" + many, "evaluate/afresh" + few, linear, n, 100});
     claims.push_back(
         {Kind::costs, "evaluate/1_thread" + many + "#bytes", "evaluate/1_thread" + few + "#bytes", linear, n, 100});
   }
