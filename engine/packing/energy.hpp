@@ -47,6 +47,15 @@ struct Contact {
   Overlap overlap;
 };
 
+/// What one contact adds to an Evaluation.
+struct ContactTerms {
+  Eigen::Vector3d dx, dtheta_a, dtheta_b;  ///< to the gradient: of a (of b −dx), and of rotations over R
+  Eigen::Matrix3d stress;                  ///< times −V_cell
+  double energy = 0, force = 0;
+  double stiffness_a = 0, stiffness_b = 0;  ///< ½ |∇V|², ∇V by the coordinates of one particle
+  double error = 0;                         ///< ρ_c, see Evaluation::residual_floor
+};
+
 /// Evaluates packings of one solid. Holds caches only (neighbour list with a skin, separating axes): the same
 /// packing gives the same bits whatever was evaluated before and whatever the number of threads.
 class PackingEnergy {
@@ -76,6 +85,7 @@ class PackingEnergy {
   std::vector<PlacedSolid> placed_;
   std::vector<Overlap> overlaps_;  ///< lab frame
   std::vector<Overlap> pressed_;
+  std::vector<ContactTerms> terms_;
   std::vector<PairHessian> hessians_;
   std::vector<Eigen::Vector3d> list_positions_;
   double list_side_ = 0, skin_ = 0;

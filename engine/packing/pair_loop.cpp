@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <vector>
 
 namespace isojam {
@@ -101,15 +102,23 @@ PairCounts& PairCounts::operator+=(const PairCounts& term) {
   return *this;
 }
 
+void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run) {
+  for_each_block(block_count(slots), [&](std::size_t block) {
+    for (std::size_t k = block * grain; k < std::min(slots, (block + 1) * grain); ++k) run(k);
+  });
+}
+
 void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed) {
-  placed.clear();
-  for (const Pose& pose : packing.poses) {
+  placed.resize(packing.poses.size());
+  for_each_slot(placed.size(), [&](std::size_t k) {
+    const Pose& pose = packing.poses[k];
+    // In place of the old one, which owns nothing: a copy would cost as much again.
     if (precision == Precision::extended) {
-      placed.emplace_back(*packing.solid, rotation_matrix(pose));
+      std::construct_at(&placed[k], *packing.solid, rotation_matrix(pose));
     } else {
-      placed.emplace_back(*packing.solid, pose.orientation.toRotationMatrix());
+      std::construct_at(&placed[k], *packing.solid, pose.orientation.toRotationMatrix());
     }
-  }
+  });
 }
 
 PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,

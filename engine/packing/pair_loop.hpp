@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,10 @@ enum class Precision {
   working,  ///< doubles: enough until forces balance to residual_floor, 1e-8 and worse near jamming
   extended  ///< two doubles: enough for a residual of 1e-9 at any distance from jamming
 };
+
+/// run(k) for every k < slots, parallel on oneTBB where there are enough of them. It may write to slot k only, so that
+/// the result does not depend on the number of threads.
+void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run);
 
 /// Every particle's solid in its orientation, in the order of particles. `placed` is overwritten.
 void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed);
