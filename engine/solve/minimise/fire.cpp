@@ -14,7 +14,7 @@ constexpr double grow = 1.1, shrink = 0.5, first_mixing = 0.1, mixing_decay = 0.
 constexpr int downhill_before_growth = 5;
 
 /// Time steps in units of the period scale 1/√λ of the stiffest particle.
-constexpr double first_time = 0.1, longest_time = 10;
+constexpr double first_time = 0.1, longest_time = 100;
 
 struct Motion {
   Eigen::VectorXd velocity;

@@ -64,10 +64,10 @@ void StepModel::forget_closing_pairs() {
   states_.assign(second_.pairs.size(), {});
 }
 
-void StepModel::recall(const ActivePairs& active) {
+void StepModel::recall(const ActivePairs& active, double shift) {
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const PressedPair& pair = second_.pairs[k];
-    states_[k] = {squared_norm(pair.pressed) > 0 && contains(active.pressed, pair),
+    states_[k] = {closing(pair, shift) && contains(active.pressed, pair),
                   touching(pair) && contains(active.tilted, pair)};
   }
 }
@@ -162,7 +162,7 @@ double StepModel::decrease(const Eigen::VectorXd& step) const {
 }
 
 std::optional<ModelStep> StepModel::minimise(double shift, BlockCholesky& factor, ActivePairs& active) {
-  recall(active);
+  recall(active, shift);
   Eigen::VectorXd step;
   for (int round = 0; round < rounds; ++round) {
     if (!factor.factorise(assembled(shift), shift)) return std::nullopt;

@@ -46,7 +46,7 @@ class StepModel {
     bool pressed = false, tilted = false;
   };
 
-  void recall(const ActivePairs& active);
+  void recall(const ActivePairs& active, double shift);
   ActivePairs active_pairs(const Eigen::VectorXd& step) const;
   bool closing(const PressedPair& pair, double shift) const;
   bool revise(const Eigen::VectorXd& step, double shift, bool may_release);
