@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 
 #include "engine/geometry/placed_solid.hpp"
@@ -9,27 +8,28 @@
 
 namespace isojam {
 
-/// Signed distances of the vertices of one solid from the planes of the other, of[vertex][plane] > 0 outside.
+/// Signed distances of the vertices of one solid from the planes of the other, > 0 outside. Rows of vertices that lie
+/// certainly outside, with every edge that ends there, may be missing.
 struct Distances {
-  alignas(32) double of[SolidArrays::capacity][SolidArrays::capacity];
-  std::uint32_t outside[SolidArrays::capacity];    ///< per vertex, planes it lies outside of
-  std::uint32_t uncertain[SolidArrays::capacity];  ///< per vertex, planes it lies on to within rounding
+  static constexpr int capacity = SolidArrays::capacity;
+
+  int planes = 0;                ///< columns, padded to a multiple of 4 with planes that everything lies inside of
+  std::uint32_t rows = 0;        ///< vertices that have a row
+  std::uint32_t edges = 0;       ///< edges with a row for both ends; the others lie outside
+  double nearest = 0;            ///< least |distance| in the table
+  int least_penetrated = 0;      ///< the plane that is penetrated least,
+  double least_penetration = 0;  ///< and how deep: not positive if it separates. Its last 6 bits are noise
+  alignas(32) double of[capacity * capacity];
+  alignas(32) std::uint8_t inside[capacity / 8][capacity];  ///< bit k of [s][v]: vertex v is inside plane 8s + k
+
+  double* row(int v) { return of + v * planes; }
+  const double* row(int v) const { return of + v * planes; }
 };
 
-/// A vertex of the intersection, on an edge of A or of B: weight_tail·tail + weight_head·head. Both weights are
-/// products of tabulated distances, so each is right to its own last bits however small it is.
-struct Corner {
-  Eigen::Vector3d position;  ///< lab frame, from A's centre; from ContactLoop::origin once the loop is closed
-  double weight_tail, weight_head;
-  std::uint8_t tail, head;  ///< vertices of the edge's own solid
-  std::int8_t plane;        ///< face of the other solid that the edge pierces here; −1: the solid's own vertex
-  bool of_a;
-};
-
-/// An edge of the intersection; corners by index.
+/// An edge of the intersection; corners by index. Faces: i for face i of A, face_of_b + j for face j of B.
 struct LoopEdge {
   std::uint8_t from, to;
-  std::uint8_t left, right;  ///< faces: i for face i of A, face_of_b + j for face j of B
+  std::uint8_t left, right;
 };
 
 inline constexpr int face_of_b = SolidArrays::capacity;
@@ -49,12 +49,15 @@ struct ContactLoop {
 
   LoopVerdict verdict = LoopVerdict::degenerate;
   SeparatingAxis axis;  ///< the face that separates, if one does
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  int reference = 0;    ///< the face whose plane heights are measured from, counted as in LoopEdge
   int spans = 0, segments = 0;
   std::uint32_t edges_a = 0, edges_b = 0;
-  std::array<Corner, max_corners> corner;  ///< of span k: from 2k, to 2k + 1
-  std::array<LoopEdge, max_spans> span;
-  std::array<LoopEdge, max_corners> segment;
+  /// x, y, z from A's centre (lab frame), and the height over the reference plane (negative inside), interpolated
+  /// between tabulated distances: 0 on that plane, and never the difference of larger numbers near it.
+  /// Of span k: from 2k, to 2k + 1.
+  alignas(32) double corner[max_corners][4];
+  LoopEdge span[max_spans];
+  LoopEdge segment[max_corners];
   Distances of_a, of_b;  ///< of the vertices of A from the planes of B, and the other way round
 };
 

@@ -147,20 +147,33 @@ double height(const Face& face, const std::vector<Eigen::Vector3d>& vertices, in
   return static_cast<double>(face.normal.cast<long double>().dot(vertices[v].cast<long double>()) - face.offset);
 }
 
+void flatten_edges(const std::vector<Edge>& edges, SolidArrays& flat) {
+  flat.edges = static_cast<int>(edges.size());
+  for (int v = 0; v < SolidArrays::capacity; ++v) flat.around[v] = std::uint32_t{1} << v, flat.edges_at[v] = 0;
+  for (int k = 0; k < SolidArrays::capacity; ++k) {
+    const Edge& e = flat.edge[k] = edges[k < flat.edges ? k : 0];
+    flat.tail[k] = static_cast<std::uint8_t>(e.tail), flat.head[k] = static_cast<std::uint8_t>(e.head);
+    flat.left[k] = static_cast<std::uint8_t>(e.left), flat.right[k] = static_cast<std::uint8_t>(e.right);
+    if (k >= flat.edges) continue;
+    flat.around[e.tail] |= std::uint32_t{1} << e.head, flat.around[e.head] |= std::uint32_t{1} << e.tail;
+    flat.edges_at[e.tail] |= std::uint32_t{1} << k, flat.edges_at[e.head] |= std::uint32_t{1} << k;
+  }
+}
+
 SolidArrays flatten(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Face>& faces,
                     const std::vector<Edge>& edges) {
   SolidArrays flat;
   flat.vertices = static_cast<int>(vertices.size());
   flat.faces = static_cast<int>(faces.size());
-  flat.edges = static_cast<int>(edges.size());
+  const Face nowhere{Eigen::Vector3d::Zero(), SolidArrays::far, {}};
   for (int k = 0; k < SolidArrays::capacity; ++k) {
     const Eigen::Vector3d& v = vertices[k < flat.vertices ? k : 0];
-    const Face& f = faces[k < flat.faces ? k : 0];
+    const Face& f = k < flat.faces ? faces[k] : nowhere;
     flat.x[k] = v.x(), flat.y[k] = v.y(), flat.z[k] = v.z();
     flat.nx[k] = f.normal.x(), flat.ny[k] = f.normal.y(), flat.nz[k] = f.normal.z(), flat.offset[k] = f.offset;
-    flat.edge[k] = edges[k < flat.edges ? k : 0];
     for (int p = 0; p < SolidArrays::capacity; ++p) flat.height[k][p] = height(f, vertices, p < flat.vertices ? p : 0);
   }
+  flatten_edges(edges, flat);
   return flat;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,13 +29,18 @@ struct Edge {
   int left = 0, right = 0;
 };
 
-/// The same solid as flat arrays for the kernels, padded with copies of the first entry to a multiple of 4.
+/// The same solid as flat arrays for the kernels. Vertices and edges are padded with copies of the first, faces with
+/// planes 0·y = far that everything lies inside of.
 struct SolidArrays {
   static constexpr int capacity = 32;
+  static constexpr double far = 1e300;
   int vertices = 0, faces = 0, edges = 0;
   alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
   alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
   Edge edge[capacity];
+  alignas(32) std::uint8_t tail[capacity], head[capacity], left[capacity], right[capacity];  ///< of the edges
+  std::uint32_t around[capacity];    ///< per vertex: itself and its neighbours
+  std::uint32_t edges_at[capacity];  ///< per vertex: the edges that meet there
   /// Of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the face.
   alignas(32) double height[capacity][capacity];
 };

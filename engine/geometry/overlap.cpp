@@ -8,112 +8,73 @@
 #include <limits>
 
 #include "engine/geometry/contact_loop.hpp"
+#include "engine/geometry/lanes.hpp"
 
 namespace isojam {
 
 namespace {
 
-/// Heights over a face plane of A or of B, negative inside.
-class Heights {
- public:
-  Heights(const PlacedSolid& a, const PlacedSolid& b, const ContactLoop& loop, int face)
-      : plane_(face % face_of_b), of_a_(face < face_of_b) {
-    // Over a solid's own plane heights are constants, over the other's they are in the table.
-    const double* own = (of_a_ ? a : b).solid().arrays().height[plane_];
-    const double* other = &(of_a_ ? loop.of_b : loop.of_a).of[0][plane_];
-    (of_a_ ? a_ : b_) = {own, 1};
-    (of_a_ ? b_ : a_) = {other, SolidArrays::capacity};
-  }
+/// Moves the origin to a corner of the loop, so that nothing large cancels. Heights lose that corner's height only if
+/// the reference plane does not bound the intersection: if it does, they are small already, and 0 on the plane.
+Lanes move_origin(std::uint64_t faces, ContactLoop& loop) {
+  double* first = loop.corner[loop.segment[0].from];
+  Lanes origin = Lanes::load(first);
+  if (faces >> loop.reference & 1) origin = origin * Lanes::of(1, 1, 1, 0);
+  for (int k = 0; k < 2 * loop.spans; ++k) (Lanes::load(loop.corner[k]) - origin).store(loop.corner[k]);
+  return origin;
+}
 
-  double of(const Corner& corner) const {
-    if (corner.of_a != of_a_ && corner.plane == plane_) return 0;
-    const Table& vertex = corner.of_a ? a_ : b_;
-    return corner.weight_tail * vertex.first[vertex.stride * corner.tail] +
-           corner.weight_head * vertex.first[vertex.stride * corner.head];
-  }
+/// Any corner of each face of the intersection, and the set of these faces.
+struct Hubs {
+  std::uint8_t corner[2 * SolidArrays::capacity];
+  std::uint64_t faces = 0;
 
- private:
-  struct Table {
-    const double* first;
-    int stride;
-  };
-  Table a_{}, b_{};
-  int plane_;
-  bool of_a_;
+  void add(const LoopEdge& edge) {
+    corner[edge.left] = corner[edge.right] = edge.from;
+    faces |= std::uint64_t{1} << edge.left | std::uint64_t{1} << edge.right;
+  }
 };
 
-/// Greatest depth of the other solid's vertices behind a plane.
-double penetration(const Distances& d, int vertices, int plane) {
-  double lowest = 0;
-  for (int v = 0; v < vertices; ++v) lowest = std::min(lowest, d.of[v][plane]);
-  return -lowest;
+/// Σ (v−o)×(w−o) (h_o+h_v+h_w), as cross_zxy() has it, for the face left of the edge − the same for the right.
+Lanes fan(const ContactLoop& loop, const Hubs& hubs, const LoopEdge& edge, Lanes sum) {
+  const Lanes v = Lanes::load(loop.corner[edge.from]), w = Lanes::load(loop.corner[edge.to]), h = v + w;
+  const Lanes l = Lanes::load(loop.corner[hubs.corner[edge.left]]);
+  const Lanes r = Lanes::load(loop.corner[hubs.corner[edge.right]]);
+  const Lanes left = cross_zxy(v - l, w - l) * fourth(h + l);
+  return sum + (left - cross_zxy(v - r, w - r) * fourth(h + r));
 }
 
-/// Of the planes that bound the intersection, the one that is penetrated least.
-int reference_face(const PlacedSolid& a, const PlacedSolid& b, const ContactLoop& loop, const Overlap& result) {
-  int best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  const auto consider = [&](double depth, int face) {
-    if (depth < least) least = depth, best = face;
-  };
-  for (std::uint32_t faces = result.faces_a; faces; faces &= faces - 1) {
-    const int f = std::countr_zero(faces);
-    consider(penetration(loop.of_b, b.vertices(), f), f);
+Eigen::Vector3d vector_of(Lanes a) {
+  alignas(32) double lane[4];
+  a.store(lane);
+  return {lane[0], lane[1], lane[2]};
+}
+
+Overlap integrate(const PlacedSolid& a, const PlacedSolid& b, ContactLoop& loop) {
+  Hubs hubs;
+  for (int k = 0; k < loop.spans; ++k) hubs.add(loop.span[k]);
+  for (int k = 0; k < loop.segments; ++k) hubs.add(loop.segment[k]);
+  const Eigen::Vector3d origin = vector_of(move_origin(hubs.faces, loop));
+  Lanes twice_area = Lanes::all(0), moment = twice_area, prisms = twice_area;
+  for (int k = 0; k < loop.segments; ++k) {
+    const LoopEdge& edge = loop.segment[k];
+    const Lanes v = Lanes::load(loop.corner[edge.from]), w = Lanes::load(loop.corner[edge.to]);
+    twice_area = twice_area + cross_zxy(v, w);
+    moment = fma(w - v, sum3(fma(v, v, fma(v, w, w * w))), moment);
+    prisms = fan(loop, hubs, edge, prisms);
   }
-  for (std::uint32_t faces = result.faces_b; faces; faces &= faces - 1) {
-    const int f = std::countr_zero(faces);
-    consider(penetration(loop.of_a, a.vertices(), f), face_of_b + f);
-  }
-  return best;
-}
+  for (int k = 0; k < loop.spans; ++k) prisms = fan(loop, hubs, loop.span[k], prisms);
 
-void mark_faces(const LoopEdge& edge, Overlap& result) {
-  const std::uint64_t faces = std::uint64_t{1} << edge.left | std::uint64_t{1} << edge.right;
-  result.faces_a |= static_cast<std::uint32_t>(faces);
-  result.faces_b |= static_cast<std::uint32_t>(faces >> face_of_b);
-}
-
-/// V = Σ_f ∫_f h (n_P·n_f) dA: each face as a fan of triangles about one of its corners.
-double volume(const PlacedSolid& a, const PlacedSolid& b, const ContactLoop& loop, int reference) {
-  const Eigen::Vector3d up = reference < face_of_b ? a.normal(reference) : b.normal(reference - face_of_b);
-  const Heights heights(a, b, loop, reference);
-  std::array<int, 2 * SolidArrays::capacity> hub;
-  hub.fill(-1);
-  double six_volume = 0;
-  const auto add = [&](const LoopEdge& edge) {
-    const Corner &v = loop.corner[edge.from], &w = loop.corner[edge.to];
-    const double h = heights.of(v) + heights.of(w);
-    double sign = 1;
-    for (const int face : {edge.left, edge.right}) {
-      if (hub[face] < 0) hub[face] = edge.from;
-      const Corner& o = loop.corner[hub[face]];
-      six_volume += sign * (heights.of(o) + h) * up.dot((v.position - o.position).cross(w.position - o.position));
-      sign = -1;
-    }
-  };
-  for (int k = 0; k < loop.segments; ++k) add(loop.segment[k]);
-  for (int k = 0; k < loop.spans; ++k) add(loop.span[k]);
-  return six_volume / 6;
-}
-
-Overlap integrate(const PlacedSolid& a, const PlacedSolid& b, const ContactLoop& loop) {
   Overlap result;
   result.path = OverlapPath::loop;
-  result.edges_a = loop.edges_a;
-  result.edges_b = loop.edges_b;
-  Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (int k = 0; k < loop.segments; ++k) {
-    const Eigen::Vector3d &v = loop.corner[loop.segment[k].from].position,
-                          &w = loop.corner[loop.segment[k].to].position;
-    twice_area += v.cross(w);
-    moment += (w - v) * (v.squaredNorm() + v.dot(w) + w.squaredNorm());
-    mark_faces(loop.segment[k], result);
-  }
-  for (int k = 0; k < loop.spans; ++k) mark_faces(loop.span[k], result);
-  result.volume = volume(a, b, loop, reference_face(a, b, loop, result));
-  result.area = twice_area / 2;
-  result.moment = loop.origin.cross(result.area) - moment / 6;
+  result.edges_a = loop.edges_a, result.edges_b = loop.edges_b;
+  result.faces_a = static_cast<std::uint32_t>(hubs.faces);
+  result.faces_b = static_cast<std::uint32_t>(hubs.faces >> face_of_b);
+  const Eigen::Vector3d up =
+      loop.reference < face_of_b ? a.normal(loop.reference) : b.normal(loop.reference - face_of_b);
+  result.volume = up.dot(vector_of(yzx(prisms))) / 6;
+  result.area = vector_of(yzx(twice_area)) / 2;
+  result.moment = origin.cross(result.area) - vector_of(moment) / 6;
   return result;
 }
 
@@ -162,13 +123,13 @@ Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const
   for (int k = 0; k < loop.segments; ++k) {
     const LoopEdge& s = loop.segment[k];
     const Eigen::Vector3d n = a.normal(s.left), m = b.normal(s.right - face_of_b);
-    const Eigen::Vector3d &from = loop.corner[s.from].position, &to = loop.corner[s.to].position;
+    const Eigen::Vector3d from(loop.corner[s.from]), to(loop.corner[s.to]);
     const double sine = n.cross(m).norm();
     const Eigen::Vector3d along = to - from;
     if (!(sine > 0)) continue;
     const double weight = along.norm() / (2 * sine);
     for (const double t : {0.5 - gauss, 0.5 + gauss}) {
-      const Eigen::Vector3d y = loop.origin + from + t * along;
+      const Eigen::Vector3d y = from + t * along;
       const Vector6d ua = joined(n, y.cross(n));
       const Vector6d ub = joined(m, (y - r).cross(m));
       hessian.noalias() += (weight * ua) * ub.transpose();

@@ -21,12 +21,8 @@ PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotati
       vertex_stride_(padded(solid.arrays().vertices)),
       face_stride_(padded(solid.arrays().faces)) {
   const SolidArrays& body = solid.arrays();
-  double* normals = pool_ + 3 * vertex_stride_;
   turn(rotation, body.x, body.y, body.z, vertex_stride_, pool_);
-  turn(rotation, body.nx, body.ny, body.nz, face_stride_, normals);
-  for (int row = 0; row < 3; ++row) {
-    for (int k = body.faces; k < face_stride_; ++k) normals[row * face_stride_ + k] = 0;
-  }
+  turn(rotation, body.nx, body.ny, body.nz, face_stride_, pool_ + 3 * vertex_stride_);
 }
 
 }  // namespace isojam

@@ -7,8 +7,8 @@
 namespace isojam {
 
 /// A solid turned into the lab frame, about its own centre: computed once per particle and used by all its pairs.
-/// Structure of arrays, each padded to a multiple of 4: vertices with copies of the first, normals with zeros (a plane
-/// 0·y = offset > 0 that everything lies inside of). About 1 KB, so that a packing of hundreds stays in a core's cache.
+/// Structure of arrays, each padded to a multiple of 4 as in SolidArrays. About 1 KB, so that a packing of hundreds
+/// stays in a core's cache.
 class PlacedSolid {
  public:
   PlacedSolid() = default;

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#if defined(__AVX2__) && defined(__FMA__)
+#include <immintrin.h>
+#define ISOJAM_AVX2 1
+#endif
+
+namespace isojam {
+
+/// Four doubles in one vector register where the build allows it. The portable twin rounds products of fma() before the
+/// sum, so that results of the two builds differ in last bits.
+#ifdef ISOJAM_AVX2
+
+struct Lanes {
+  __m256d v;
+
+  static Lanes load(const double* p) { return {_mm256_loadu_pd(p)}; }
+  static Lanes all(double x) { return {_mm256_set1_pd(x)}; }
+  static Lanes of(double x, double y, double z, double w) { return {_mm256_setr_pd(x, y, z, w)}; }
+  void store(double* p) const { _mm256_storeu_pd(p, v); }
+  double first() const { return _mm256_cvtsd_f64(v); }
+};
+
+inline Lanes operator+(Lanes a, Lanes b) { return {_mm256_add_pd(a.v, b.v)}; }
+inline Lanes operator-(Lanes a, Lanes b) { return {_mm256_sub_pd(a.v, b.v)}; }
+inline Lanes operator*(Lanes a, Lanes b) { return {_mm256_mul_pd(a.v, b.v)}; }
+inline Lanes operator/(Lanes a, Lanes b) { return {_mm256_div_pd(a.v, b.v)}; }
+inline Lanes fma(Lanes a, Lanes b, Lanes c) { return {_mm256_fmadd_pd(a.v, b.v, c.v)}; }
+inline Lanes min(Lanes a, Lanes b) { return {_mm256_min_pd(a.v, b.v)}; }
+inline Lanes max(Lanes a, Lanes b) { return {_mm256_max_pd(a.v, b.v)}; }
+inline Lanes absolute(Lanes a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
+/// a where the sign bit of s is set, else b.
+inline Lanes where_negative(Lanes s, Lanes a, Lanes b) { return {_mm256_blendv_pd(b.v, a.v, s.v)}; }
+/// Bit k: the sign bit of lane k.
+inline unsigned sign_bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_pd(a.v)); }
+inline Lanes yzx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11001001)}; }
+/// Lanes 1, 0, 3, 2.
+inline Lanes swapped_pairs(Lanes a) { return {_mm256_permute_pd(a.v, 0b0101)}; }
+/// Lanes 2, 3, 0, 1.
+inline Lanes swapped_halves(Lanes a) { return {_mm256_permute2f128_pd(a.v, a.v, 1)}; }
+inline Lanes fourth(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11111111)}; }
+/// The last bits of every lane replaced by `tag` (of which only those bits may be set).
+inline Lanes tagged(Lanes a, std::uint64_t bits, const std::uint64_t* tag) {
+  const __m256d mask = _mm256_castsi256_pd(_mm256_set1_epi64x(static_cast<long long>(bits)));
+  return {_mm256_or_pd(_mm256_andnot_pd(mask, a.v), _mm256_loadu_pd(reinterpret_cast<const double*>(tag)))};
+}
+
+#else
+
+struct Lanes {
+  double v[4];
+
+  static Lanes load(const double* p) { return {{p[0], p[1], p[2], p[3]}}; }
+  static Lanes all(double x) { return {{x, x, x, x}}; }
+  static Lanes of(double x, double y, double z, double w) { return {{x, y, z, w}}; }
+  void store(double* p) const {
+    for (int k = 0; k < 4; ++k) p[k] = v[k];
+  }
+  double first() const { return v[0]; }
+};
+
+template <class Function>
+Lanes each(const Function& function) {
+  return {{function(0), function(1), function(2), function(3)}};
+}
+
+inline Lanes operator+(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] + b.v[k]; });
+}
+inline Lanes operator-(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] - b.v[k]; });
+}
+inline Lanes operator*(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] * b.v[k]; });
+}
+inline Lanes operator/(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] / b.v[k]; });
+}
+inline Lanes fma(Lanes a, Lanes b, Lanes c) { return a * b + c; }
+inline Lanes min(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] < b.v[k] ? a.v[k] : b.v[k]; });
+}
+inline Lanes max(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; });
+}
+inline Lanes absolute(Lanes a) {
+  return each([&](int k) { return std::abs(a.v[k]); });
+}
+inline Lanes where_negative(Lanes s, Lanes a, Lanes b) {
+  return each([&](int k) { return std::signbit(s.v[k]) ? a.v[k] : b.v[k]; });
+}
+inline unsigned sign_bits(Lanes a) {
+  unsigned bits = 0;
+  for (int k = 0; k < 4; ++k) bits |= unsigned{std::signbit(a.v[k])} << k;
+  return bits;
+}
+inline Lanes yzx(Lanes a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
+inline Lanes swapped_pairs(Lanes a) { return {{a.v[1], a.v[0], a.v[3], a.v[2]}}; }
+inline Lanes swapped_halves(Lanes a) { return {{a.v[2], a.v[3], a.v[0], a.v[1]}}; }
+inline Lanes fourth(Lanes a) { return Lanes::all(a.v[3]); }
+inline Lanes tagged(Lanes a, std::uint64_t bits, const std::uint64_t* tag) {
+  return each([&](int k) { return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a.v[k]) & ~bits) | tag[k]); });
+}
+
+#endif
+
+inline double least(Lanes a) {
+  const Lanes pairs = min(a, swapped_pairs(a));
+  return min(pairs, swapped_halves(pairs)).first();
+}
+inline double greatest(Lanes a) {
+  const Lanes pairs = max(a, swapped_pairs(a));
+  return max(pairs, swapped_halves(pairs)).first();
+}
+
+/// The sum of lanes 0 to 2, in each of them.
+inline Lanes sum3(Lanes a) { return a + yzx(a) + yzx(yzx(a)); }
+
+/// Lanes z, x, y of a×b: a cross product without its last permutation, which sums of them need but once.
+inline Lanes cross_zxy(Lanes a, Lanes b) { return a * yzx(b) - yzx(a) * b; }
+
+}  // namespace isojam
