@@ -81,50 +81,63 @@ void choose_rows(const PlacedSolid& body, const PlacedSolid& other, const Eigen:
   }
 }
 
+/// Signs and extremes of the table, gathered row by row.
+template <int capacity_in_lanes>
+struct Extremes {
+  Lanes lowest[capacity_in_lanes];
+  Lanes nearest = Lanes::all(SolidArrays::far);
+
+  explicit Extremes(int vectors) {
+    for (int k = 0; k < vectors; ++k) lowest[k] = nearest;
+  }
+
+  void add(int k, Lanes distance, unsigned& inside) {
+    lowest[k] = min(lowest[k], distance);
+    nearest = min(nearest, absolute(distance));
+    inside |= sign_bits(distance) << 4 * k;
+  }
+
+  template <class Count>
+  void finish(Count vectors, Distances& d) const {
+    Lanes highest = tagged(lowest[0], tag_bits, tags.at);
+    for (int k = 1; k < vectors; ++k) highest = max(highest, tagged(lowest[k], tag_bits, tags.at + 4 * k));
+    d.nearest = least(nearest).first();
+    d.least_penetration = -greatest(highest).first();
+    d.least_penetrated = tag_of(d.least_penetration);
+  }
+};
+
+/// Bits of planes that do not exist are set: everything lies inside of these.
+template <class Count>
+void store_inside(Count vectors, unsigned inside, int v, Distances& d) {
+  if (4 * vectors < 32) inside |= ~0U << 4 * vectors % 32;
+  for (int s = 0; 2 * s < vectors; ++s) d.inside[s][v] = static_cast<std::uint8_t>(inside >> 8 * s);
+}
+
 void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other, Distances& d) {
   d.planes = (other.faces() + 3) & ~3;
   for_vectors(d.planes / 4, [&](auto vectors) {
     Lanes constant[capacity / 4];
-    const double *nx = other.nx(), *ny = other.ny(), *nz = other.nz();
-    const auto affine = [&](int k, Lanes x, Lanes y, Lanes z, Lanes c) {
+    const double *nx = other.nx(), *ny = other.ny(), *nz = other.nz(), *offset = other.offset();
+    const double *px = body.x(), *py = body.y(), *pz = body.z();
+    const auto affine = [=](int k, Lanes x, Lanes y, Lanes z, Lanes c) {
       return fma(Lanes::load(nx + 4 * k), x, fma(Lanes::load(ny + 4 * k), y, fma(Lanes::load(nz + 4 * k), z, c)));
     };
     const Lanes x = Lanes::all(-to_other.x()), y = Lanes::all(-to_other.y()), z = Lanes::all(-to_other.z());
-    for (int k = 0; k < vectors; ++k)
-      constant[k] = affine(k, x, y, z, Lanes::all(0) - Lanes::load(other.offset() + 4 * k));
+    for (int k = 0; k < vectors; ++k) constant[k] = affine(k, x, y, z, Lanes::all(0) - Lanes::load(offset + 4 * k));
+    Extremes<capacity / 4> extremes(vectors);
     for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
       const int v = std::countr_zero(rows);
-      const Lanes p = Lanes::all(body.x()[v]), q = Lanes::all(body.y()[v]), s = Lanes::all(body.z()[v]);
-      double* row = d.of + 4 * vectors * v;
-      for (int k = 0; k < vectors; ++k) affine(k, p, q, s, constant[k]).store(row + 4 * k);
-    }
-  });
-}
-
-/// Signs and extremes of the table.
-void classify(Distances& d) {
-  for_vectors(d.planes / 4, [&](auto vectors) {
-    Lanes lowest[capacity / 4];
-    Lanes nearest = Lanes::all(std::numeric_limits<double>::infinity());
-    for (int k = 0; k < vectors; ++k) lowest[k] = nearest;
-    for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
-      const int v = std::countr_zero(rows);
-      const double* row = d.of + 4 * vectors * v;
+      const Lanes p = Lanes::all(px[v]), q = Lanes::all(py[v]), s = Lanes::all(pz[v]);
+      unsigned inside = 0;
       for (int k = 0; k < vectors; ++k) {
-        const Lanes distance = Lanes::load(row + 4 * k);
-        lowest[k] = min(lowest[k], distance);
-        nearest = min(nearest, absolute(distance));
-        const unsigned inside = sign_bits(distance);
-        std::uint8_t& byte = d.inside[k / 2][v];
-        byte = static_cast<std::uint8_t>(k % 2 == 0 ? inside | 0xF0U : byte & (inside << 4 | 0x0FU));
+        const Lanes distance = affine(k, p, q, s, constant[k]);
+        distance.store(d.of + 4 * (vectors * v + k));
+        extremes.add(k, distance, inside);
       }
+      store_inside(vectors, inside, v, d);
     }
-    Lanes highest = tagged(lowest[0], tag_bits, tags.at);
-    for (int k = 1; k < vectors; ++k) highest = max(highest, tagged(lowest[k], tag_bits, tags.at + 4 * k));
-    d.nearest = least(nearest);
-    const double found = greatest(highest);
-    d.least_penetrated = tag_of(found);
-    d.least_penetration = -found;
+    extremes.finish(vectors, d);
   });
 }
 
@@ -170,36 +183,36 @@ bool has_vertex_on_plane(const Distances& d, double tolerance) {
 
 /// One solid's part in the clipping.
 struct Side {
-  const PlacedSolid& body;
-  const Distances& distances;
-  Lanes shift;           ///< the solid's centre from that of A; height 0
+  const SolidArrays* solid;
+  const double *x, *y, *z;
+  const double* distance;
   const double* height;  ///< of the solid's vertices over the reference plane,
   int height_stride;
-  int reference;  ///< column of the reference plane in `distances`; −1 if it is one of the solid's own
-  int first_face;
-  const std::uint8_t *first, *second;  ///< faces of an edge that a segment begins on where it leaves, and enters
-  int own_stride, plane_stride;        ///< of face pairs: own_stride·(own face) + plane_stride·(other face)
+  int reference;  ///< column of the reference plane; −1 if it is one of the solid's own
+  const std::uint32_t*
+      leaving;            ///< per edge, the pairs that begin and end where it leaves, without the face it pierces
+  std::uint32_t pierced;  ///< what face 1 of the other solid adds to them
+  unsigned first_faces;   ///< numbers of the solid's faces 0, in two bytes
+  Lanes shift;            ///< the solid's centre from that of A; height 0
 
-  Lanes vertex(int v) const {
-    return Lanes::of(body.x()[v], body.y()[v], body.z()[v], height[v * height_stride]) + shift;
-  }
+  Lanes vertex(int v) const { return Lanes::of(x[v], y[v], z[v], height[v * height_stride]) + shift; }
 };
 
-/// Ends of segments still to be joined to the beginnings of the same face pair.
-struct Ends {
-  std::uint16_t pair[ContactLoop::max_corners + 1];
-  std::uint8_t corner[ContactLoop::max_corners + 1];
+/// Where an edge pierces a face: the pair of faces whose segment begins there, and the pair whose segment ends.
+/// A pair (i, j) is 32i + j.
+struct Piercings {
+  std::uint64_t at[ContactLoop::max_corners + 1];  ///< begins + 2^16·ends + 2^32·corner
   int count = 0;
-  std::uint8_t beginning[(capacity + 1) * (capacity + 1)];  ///< by face pair: corner + 1; 0: none
-};
-
-/// Where an edge enters and leaves the other solid: the parameter (0 at the tail, 1 at the head), tagged by the plane.
-struct Interval {
-  double enter, leave;
 };
 
 constexpr double at_tail = 0;
 constexpr double at_head = 1 + 64 * std::numeric_limits<double>::epsilon();  // past every tagged parameter
+
+/// Where an edge enters and leaves the other solid, in every lane: the parameter (0 at the tail, 1 at the head), tagged
+/// by the plane.
+struct Interval {
+  Lanes enter, leave;
+};
 
 template <class Count>
 Interval clip(Count vectors, const double* tail, const double* head) {
@@ -214,83 +227,76 @@ Interval clip(Count vectors, const double* tail, const double* head) {
   return {greatest(enter), least(leave)};
 }
 
-/// Weights of tail and head where the edge enters and where it leaves: products of distances, each right to its own
-/// last bits however small it is.
-Lanes corner_weights(const double* tail, const double* head, int enter_plane, int leave_plane, bool enters,
-                     bool leaves) {
-  const Lanes pierced = Lanes::of(tail[enter_plane], head[enter_plane], tail[leave_plane], head[leave_plane]);
-  const Lanes whole = Lanes::of(0, -1, -1, 0);
-  const double e = enters ? 1 : -1, l = leaves ? 1 : -1;
-  const Lanes d = where_negative(Lanes::of(e, e, l, l), whole, pierced);
-  const Lanes exchanged = swapped_pairs(d);
-  return exchanged / (exchanged - d);
-}
-
 /// 0 in place of a height that is 0 by construction.
 struct HeightMask {
   alignas(32) double of[2][4] = {{1, 1, 1, 1}, {1, 1, 1, 0}};
 };
 constexpr HeightMask height_mask;
 
+/// `alive`: edges of A, and from bit 32 on of B.
 template <class Count>
-std::uint32_t clip_edges(Count vectors, const Side& side, std::uint32_t alive, ContactLoop& loop, Ends& ends) {
-  const SolidArrays& solid = side.body.solid().arrays();
-  std::uint32_t kept_edges = 0;
-  const int no_own = solid.faces;
-  int spans = loop.spans, count = ends.count;
+void clip_edges(Count vectors, const Side* sides, std::uint64_t alive, ContactLoop& loop, Piercings& piercings) {
+  const Lanes whole = Lanes::of(0, -1, -1, 0), untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
+  std::uint64_t kept_edges = 0;
+  unsigned spans = static_cast<unsigned>(loop.spans);
+  int count = piercings.count;
   for (; alive; alive &= alive - 1) {
-    const int e = std::countr_zero(alive);
-    const int t = solid.tail[e], h = solid.head[e];
-    const double *tail = side.distances.of + 4 * vectors * t, *head = side.distances.of + 4 * vectors * h;
+    const int bit = std::countr_zero(alive), e = bit % 32;
+    const Side& side = sides[bit / 32];
+    const int t = side.solid->tail[e], h = side.solid->head[e];
+    const double *tail = side.distance + 4 * vectors * t, *head = side.distance + 4 * vectors * h;
     const Interval inside = clip(vectors, tail, head);
-    const bool kept = inside.enter < inside.leave;
-    const bool enters = inside.enter != at_tail, leaves = inside.leave != at_head;
-    const int enter_plane = enters ? tag_of(inside.enter) : 0, leave_plane = leaves ? tag_of(inside.leave) : 0;
-    alignas(32) double weight[4];
-    corner_weights(tail, head, enter_plane, leave_plane, enters, leaves).store(weight);
+    const Lanes whole_ends = equal(halves(inside.enter, inside.leave), untouched);
+    const unsigned ends = ~sign_bits(whole_ends);
+    const bool kept = inside.enter.first() < inside.leave.first();
+    const unsigned enters = ends & 1, leaves = ends >> 3 & 1;
+    const int into = tag_of(inside.enter.first()), out_of = tag_of(inside.leave.first());
 
+    // Weights of tail and head at either end: products of distances, each right to its own last bits however small.
+    const Lanes d = where_negative(whole_ends, whole, Lanes::of(tail[into], head[into], tail[out_of], head[out_of]));
+    const Lanes exchanged = swapped_pairs(d);
+    alignas(32) double weight[4];
+    (exchanged / (exchanged - d)).store(weight);
     const Lanes p = side.vertex(t), q = side.vertex(h);
     const Lanes from = fma(p, Lanes::all(weight[0]), q * Lanes::all(weight[1]));
     const Lanes to = fma(p, Lanes::all(weight[2]), q * Lanes::all(weight[3]));
-    (from * Lanes::load(height_mask.of[enters & (enter_plane == side.reference)])).store(loop.corner[2 * spans]);
-    (to * Lanes::load(height_mask.of[leaves & (leave_plane == side.reference)])).store(loop.corner[2 * spans + 1]);
-    const auto corner = static_cast<std::uint8_t>(2 * spans), next = static_cast<std::uint8_t>(2 * spans + 1);
-    loop.span[spans] = {corner, next, static_cast<std::uint8_t>(side.first_face + solid.left[e]),
-                        static_cast<std::uint8_t>(side.first_face + solid.right[e])};
+    (from * Lanes::load(height_mask.of[enters & unsigned{into == side.reference}])).store(loop.corner[2 * spans]);
+    (to * Lanes::load(height_mask.of[leaves & unsigned{out_of == side.reference}])).store(loop.corner[2 * spans + 1]);
+    loop.span[spans] = static_cast<std::uint16_t>(side.solid->sides[e] + side.first_faces);
 
-    // A beginning that is none goes to a place that no pair of faces has.
-    const int first = side.own_stride * (kept ? side.first[e] : no_own);
-    const int second = side.own_stride * (kept ? side.second[e] : no_own);
-    const int into = side.plane_stride * enter_plane, out_of = side.plane_stride * leave_plane;
-    const int none = side.own_stride * no_own;
-    ends.beginning[enters ? second + into : none] = static_cast<std::uint8_t>(corner + 1);
-    ends.pair[count] = static_cast<std::uint16_t>(first + into);
-    ends.corner[count] = corner;
-    count += kept & enters;
-    ends.beginning[leaves ? first + out_of : none] = static_cast<std::uint8_t>(next + 1);
-    ends.pair[count] = static_cast<std::uint16_t>(second + out_of);
-    ends.corner[count] = next;
-    count += kept & leaves;
+    const std::uint32_t leaving = side.leaving[e], entering = std::rotl(leaving, 16);
+    const std::uint64_t corner = std::uint64_t{2 * spans} << 32;
+    piercings.at[count] = corner | (entering + side.pierced * static_cast<unsigned>(into));
+    count += static_cast<int>(kept & enters);
+    piercings.at[count] =
+        (corner + (std::uint64_t{1} << 32)) | (leaving + side.pierced * static_cast<unsigned>(out_of));
+    count += static_cast<int>(kept & leaves);
     spans += kept;
-    kept_edges |= std::uint32_t{kept} << e;
+    kept_edges |= std::uint64_t{kept} << bit;
   }
-  loop.spans = spans;
-  ends.count = count;
-  return kept_edges;
+  loop.spans = static_cast<int>(spans);
+  loop.edges_a |= static_cast<std::uint32_t>(kept_edges);
+  loop.edges_b |= static_cast<std::uint32_t>(kept_edges >> 32);
+  piercings.count = count;
 }
 
 /// Joins every end to the beginning of the same face pair. False if the loop does not close.
-bool close_loop(Ends& ends, int stride, ContactLoop& loop) {
+bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
+  std::uint8_t beginning[capacity * capacity];  // corner + 1; 0: none
+  std::memset(beginning, 0, static_cast<std::size_t>(capacity * faces_a));
+  for (int k = 0; k < piercings.count; ++k)
+    beginning[piercings.at[k] & 0xFFFF] = static_cast<std::uint8_t>((piercings.at[k] >> 32) + 1);
   bool open = false;
-  for (int k = 0; k < ends.count; ++k) {
-    const int pair = ends.pair[k];
-    std::uint8_t& beginning = ends.beginning[pair];
-    open |= beginning == 0;
-    loop.segment[k] = {static_cast<std::uint8_t>((beginning - 1) & (ContactLoop::max_corners - 1)), ends.corner[k],
-                       static_cast<std::uint8_t>(pair / stride), static_cast<std::uint8_t>(face_of_b + pair % stride)};
-    beginning = 0;
+  for (int k = 0; k < piercings.count; ++k) {
+    const unsigned pair = piercings.at[k] >> 16 & 0xFFFF;
+    const unsigned from = beginning[pair];
+    beginning[pair] = 0;
+    open |= from == 0;
+    loop.segment[k] = {static_cast<std::uint8_t>((from - 1) % ContactLoop::max_corners),
+                       static_cast<std::uint8_t>(piercings.at[k] >> 32), static_cast<std::uint8_t>(pair / capacity),
+                       static_cast<std::uint8_t>(face_of_b + pair % capacity)};
   }
-  loop.segments = ends.count;
+  loop.segments = piercings.count;
   return !open;
 }
 
@@ -309,6 +315,36 @@ bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   return true;
 }
 
+/// Clips the edges of both and closes the loop.
+void clip_both(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  const Distances &of_a = loop.of_a, &of_b = loop.of_b;
+  const SolidArrays &solid_a = a.solid().arrays(), &solid_b = b.solid().arrays();
+  const bool over_b = of_a.least_penetration < of_b.least_penetration;
+  const int plane = over_b ? of_a.least_penetrated : of_b.least_penetrated;
+  loop.reference = over_b ? face_of_b + plane : plane;
+  const Side sides[2] = {
+      {&solid_a, a.x(), a.y(), a.z(), of_a.of, over_b ? of_a.of + plane : solid_a.height[plane],
+       over_b ? of_a.planes : 1, over_b ? plane : -1, solid_a.pairs_as_a, 0x00010001, 0, Lanes::all(0)},
+      {&solid_b, b.x(), b.y(), b.z(), of_b.of, over_b ? solid_b.height[plane] : of_b.of + plane,
+       over_b ? 1 : of_b.planes, over_b ? -1 : plane, solid_b.pairs_as_b, 0x00010001 * capacity, 0x0101 * face_of_b,
+       Lanes::of(r.x(), r.y(), r.z(), 0)}};
+  const std::uint64_t alive_a = edges_alive(solid_a, of_a), alive_b = std::uint64_t{edges_alive(solid_b, of_b)} << 32;
+  Piercings piercings;
+  if (of_a.planes == of_b.planes) {
+    // One loop, so that its end is mispredicted once.
+    for_vectors(of_a.planes / 4, [&](auto n) { clip_edges(n, sides, alive_a | alive_b, loop, piercings); });
+  } else {
+    for_vectors(of_a.planes / 4, [&](auto n) { clip_edges(n, sides, alive_a, loop, piercings); });
+    for_vectors(of_b.planes / 4, [&](auto n) { clip_edges(n, sides, alive_b, loop, piercings); });
+  }
+  if (piercings.count == 0) {
+    // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
+    if (loop.spans == 0) loop.verdict = LoopVerdict::separated;
+  } else if (close_loop(piercings, solid_a.faces, loop)) {
+    loop.verdict = LoopVerdict::closed;
+  }
+}
+
 }  // namespace
 
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
@@ -321,8 +357,6 @@ void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   choose_rows(b, a, -r, of_b);
   measure(a, b, r, of_a);
   measure(b, a, -r, of_b);
-  classify(of_a);
-  classify(of_b);
   if (separated_by_face(a, b, r, loop)) return;
 
   const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
@@ -330,47 +364,7 @@ void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   if (of_a.nearest < tolerance && has_vertex_on_plane(of_a, tolerance)) return;
   if (of_b.nearest < tolerance && has_vertex_on_plane(of_b, tolerance)) return;
 
-  const SolidArrays &solid_a = a.solid().arrays(), &solid_b = b.solid().arrays();
-  const bool over_b = of_a.least_penetration < of_b.least_penetration;
-  const int plane = over_b ? of_a.least_penetrated : of_b.least_penetrated;
-  loop.reference = over_b ? face_of_b + plane : plane;
-  const int stride = solid_b.faces + 1;
-  Ends ends;
-  std::memset(ends.beginning, 0, static_cast<std::size_t>((solid_a.faces + 1) * stride));
-  const Side side_a{a,
-                    of_a,
-                    Lanes::all(0),
-                    over_b ? of_a.of + plane : solid_a.height[plane],
-                    over_b ? of_a.planes : 1,
-                    over_b ? plane : -1,
-                    0,
-                    solid_a.left,
-                    solid_a.right,
-                    stride,
-                    1};
-  const Side side_b{b,
-                    of_b,
-                    Lanes::of(r.x(), r.y(), r.z(), 0),
-                    over_b ? solid_b.height[plane] : of_b.of + plane,
-                    over_b ? 1 : of_b.planes,
-                    over_b ? -1 : plane,
-                    face_of_b,
-                    solid_b.right,
-                    solid_b.left,
-                    1,
-                    stride};
-  for_vectors(of_a.planes / 4, [&](auto vectors) {
-    loop.edges_a = clip_edges(vectors, side_a, edges_alive(solid_a, of_a), loop, ends);
-  });
-  for_vectors(of_b.planes / 4, [&](auto vectors) {
-    loop.edges_b = clip_edges(vectors, side_b, edges_alive(solid_b, of_b), loop, ends);
-  });
-  if (ends.count == 0) {
-    // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
-    if (loop.spans == 0) loop.verdict = LoopVerdict::separated;
-    return;
-  }
-  if (close_loop(ends, stride, loop)) loop.verdict = LoopVerdict::closed;
+  clip_both(a, b, r, loop);
 }
 
 }  // namespace isojam

@@ -26,13 +26,14 @@ struct Distances {
   const double* row(int v) const { return of + v * planes; }
 };
 
-/// An edge of the intersection; corners by index. Faces: i for face i of A, face_of_b + j for face j of B.
-struct LoopEdge {
-  std::uint8_t from, to;
-  std::uint8_t left, right;
-};
-
+/// Face i of A has number i in the intersection, face j of B number face_of_b + j.
 inline constexpr int face_of_b = SolidArrays::capacity;
+
+/// A segment of the loop; corners by index, faces by number.
+struct LoopSegment {
+  std::uint8_t from, to;
+  std::uint8_t face_a, face_b;
+};
 
 enum class LoopVerdict : std::uint8_t {
   separated,  ///< no intersection, beyond the reach of rounding
@@ -49,15 +50,15 @@ struct ContactLoop {
 
   LoopVerdict verdict = LoopVerdict::degenerate;
   SeparatingAxis axis;  ///< the face that separates, if one does
-  int reference = 0;    ///< the face whose plane heights are measured from, counted as in LoopEdge
+  int reference = 0;    ///< the face whose plane heights are measured from, by number
   int spans = 0, segments = 0;
   std::uint32_t edges_a = 0, edges_b = 0;
   /// x, y, z from A's centre (lab frame), and the height over the reference plane (negative inside), interpolated
   /// between tabulated distances: 0 on that plane, and never the difference of larger numbers near it.
   /// Of span k: from 2k, to 2k + 1.
   alignas(32) double corner[max_corners][4];
-  LoopEdge span[max_spans];
-  LoopEdge segment[max_corners];
+  std::uint16_t span[max_spans];  ///< numbers of the faces to the left and right of the edge: left + 256·right
+  LoopSegment segment[max_corners];
   Distances of_a, of_b;  ///< of the vertices of A from the planes of B, and the other way round
 };
 

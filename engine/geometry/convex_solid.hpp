@@ -38,7 +38,11 @@ struct SolidArrays {
   alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
   alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
   Edge edge[capacity];
-  alignas(32) std::uint8_t tail[capacity], head[capacity], left[capacity], right[capacity];  ///< of the edges
+  alignas(32) std::uint8_t tail[capacity], head[capacity];  ///< of the edges
+  std::uint16_t sides[capacity];                            ///< of the edges: left + 256·right
+  /// Of the edges, as two 16-bit pairs 32i + j of faces (i of a solid A, j of a solid B) with the other solid's left 0:
+  /// of A 32·left + 2^16·32·right, of B right + 2^16·left.
+  std::uint32_t pairs_as_a[capacity], pairs_as_b[capacity];
   std::uint32_t around[capacity];    ///< per vertex: itself and its neighbours
   std::uint32_t edges_at[capacity];  ///< per vertex: the edges that meet there
   /// Of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the face.

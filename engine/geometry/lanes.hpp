@@ -35,6 +35,11 @@ inline Lanes max(Lanes a, Lanes b) { return {_mm256_max_pd(a.v, b.v)}; }
 inline Lanes absolute(Lanes a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
 /// a where the sign bit of s is set, else b.
 inline Lanes where_negative(Lanes s, Lanes a, Lanes b) { return {_mm256_blendv_pd(b.v, a.v, s.v)}; }
+/// Negative (all bits set) where a = b.
+inline Lanes equal(Lanes a, Lanes b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ)}; }
+/// Lanes 0 and 1 of a, 2 and 3 of b.
+inline Lanes halves(Lanes a, Lanes b) { return {_mm256_blend_pd(a.v, b.v, 0b1100)}; }
+inline Lanes without_fourth(Lanes a) { return {_mm256_blend_pd(a.v, _mm256_setzero_pd(), 0b1000)}; }
 /// Bit k: the sign bit of lane k.
 inline unsigned sign_bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_pd(a.v)); }
 inline Lanes yzx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11001001)}; }
@@ -93,6 +98,11 @@ inline Lanes absolute(Lanes a) {
 inline Lanes where_negative(Lanes s, Lanes a, Lanes b) {
   return each([&](int k) { return std::signbit(s.v[k]) ? a.v[k] : b.v[k]; });
 }
+inline Lanes equal(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] == b.v[k] ? -1.0 : 1.0; });
+}
+inline Lanes halves(Lanes a, Lanes b) { return {{a.v[0], a.v[1], b.v[2], b.v[3]}}; }
+inline Lanes without_fourth(Lanes a) { return {{a.v[0], a.v[1], a.v[2], 0}}; }
 inline unsigned sign_bits(Lanes a) {
   unsigned bits = 0;
   for (int k = 0; k < 4; ++k) bits |= unsigned{std::signbit(a.v[k])} << k;
@@ -108,17 +118,19 @@ inline Lanes tagged(Lanes a, std::uint64_t bits, const std::uint64_t* tag) {
 
 #endif
 
-inline double least(Lanes a) {
+/// The extreme of all lanes, or their sum, in each of them.
+inline Lanes least(Lanes a) {
   const Lanes pairs = min(a, swapped_pairs(a));
-  return min(pairs, swapped_halves(pairs)).first();
+  return min(pairs, swapped_halves(pairs));
 }
-inline double greatest(Lanes a) {
+inline Lanes greatest(Lanes a) {
   const Lanes pairs = max(a, swapped_pairs(a));
-  return max(pairs, swapped_halves(pairs)).first();
+  return max(pairs, swapped_halves(pairs));
 }
-
-/// The sum of lanes 0 to 2, in each of them.
-inline Lanes sum3(Lanes a) { return a + yzx(a) + yzx(yzx(a)); }
+inline Lanes sum(Lanes a) {
+  const Lanes pairs = a + swapped_pairs(a);
+  return pairs + swapped_halves(pairs);
+}
 
 /// Lanes z, x, y of a×b: a cross product without its last permutation, which sums of them need but once.
 inline Lanes cross_zxy(Lanes a, Lanes b) { return a * yzx(b) - yzx(a) * b; }

@@ -24,24 +24,22 @@ Lanes move_origin(std::uint64_t faces, ContactLoop& loop) {
   return origin;
 }
 
-/// Any corner of each face of the intersection, and the set of these faces.
+/// A corner of each face of the intersection, and the set of these faces.
 struct Hubs {
   std::uint8_t corner[2 * SolidArrays::capacity];
   std::uint64_t faces = 0;
 
-  void add(const LoopEdge& edge) {
-    corner[edge.left] = corner[edge.right] = edge.from;
-    faces |= std::uint64_t{1} << edge.left | std::uint64_t{1} << edge.right;
+  void add(int at, int left, int right) {
+    corner[left] = corner[right] = static_cast<std::uint8_t>(at);
+    faces |= std::uint64_t{1} << left | std::uint64_t{1} << right;
   }
 };
 
-/// Σ (v−o)×(w−o) (h_o+h_v+h_w), as cross_zxy() has it, for the face left of the edge − the same for the right.
-Lanes fan(const ContactLoop& loop, const Hubs& hubs, const LoopEdge& edge, Lanes sum) {
-  const Lanes v = Lanes::load(loop.corner[edge.from]), w = Lanes::load(loop.corner[edge.to]), h = v + w;
-  const Lanes l = Lanes::load(loop.corner[hubs.corner[edge.left]]);
-  const Lanes r = Lanes::load(loop.corner[hubs.corner[edge.right]]);
-  const Lanes left = cross_zxy(v - l, w - l) * fourth(h + l);
-  return sum + (left - cross_zxy(v - r, w - r) * fourth(h + r));
+/// Σ (v−o)×(w−o) (h_o+h_v+h_w), as cross_zxy() has it, for the face left of an edge v → w with o = l, minus the same
+/// for the right with o = r: v×w (h_l−h_r) + (l (h_l+h_v+h_w) − r (h_r+h_v+h_w)) × (v−w).
+Lanes fan(Lanes v_cross_w, Lanes v_plus_w, Lanes w_minus_v, Lanes l, Lanes r) {
+  const Lanes lever = r * fourth(v_plus_w + r) - l * fourth(v_plus_w + l);
+  return fma(v_cross_w, fourth(l - r), cross_zxy(lever, w_minus_v));
 }
 
 Eigen::Vector3d vector_of(Lanes a) {
@@ -52,18 +50,24 @@ Eigen::Vector3d vector_of(Lanes a) {
 
 Overlap integrate(const PlacedSolid& a, const PlacedSolid& b, ContactLoop& loop) {
   Hubs hubs;
-  for (int k = 0; k < loop.spans; ++k) hubs.add(loop.span[k]);
-  for (int k = 0; k < loop.segments; ++k) hubs.add(loop.segment[k]);
+  for (int k = 0; k < loop.spans; ++k) hubs.add(2 * k, loop.span[k] & 0xFF, loop.span[k] >> 8);
+  for (int k = 0; k < loop.segments; ++k)
+    hubs.add(loop.segment[k].from, loop.segment[k].face_a, loop.segment[k].face_b);
   const Eigen::Vector3d origin = vector_of(move_origin(hubs.faces, loop));
+  const auto hub = [&](int face) { return Lanes::load(loop.corner[hubs.corner[face]]); };
   Lanes twice_area = Lanes::all(0), moment = twice_area, prisms = twice_area;
   for (int k = 0; k < loop.segments; ++k) {
-    const LoopEdge& edge = loop.segment[k];
-    const Lanes v = Lanes::load(loop.corner[edge.from]), w = Lanes::load(loop.corner[edge.to]);
-    twice_area = twice_area + cross_zxy(v, w);
-    moment = fma(w - v, sum3(fma(v, v, fma(v, w, w * w))), moment);
-    prisms = fan(loop, hubs, edge, prisms);
+    const LoopSegment& s = loop.segment[k];
+    const Lanes v = Lanes::load(loop.corner[s.from]), w = Lanes::load(loop.corner[s.to]);
+    const Lanes cross = cross_zxy(v, w), both = v + w, along = w - v;
+    twice_area = twice_area + cross;
+    moment = fma(along, sum(without_fourth(fma(v, both, w * w))), moment);
+    prisms = prisms + fan(cross, both, along, hub(s.face_a), hub(s.face_b));
   }
-  for (int k = 0; k < loop.spans; ++k) prisms = fan(loop, hubs, loop.span[k], prisms);
+  for (int k = 0; k < loop.spans; ++k) {
+    const Lanes v = Lanes::load(loop.corner[2 * k]), w = Lanes::load(loop.corner[2 * k + 1]);
+    prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, hub(loop.span[k] & 0xFF), hub(loop.span[k] >> 8));
+  }
 
   Overlap result;
   result.path = OverlapPath::loop;
@@ -121,8 +125,8 @@ Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const
   if (loop.verdict != LoopVerdict::closed) return hessian;
   const double gauss = 0.5 / std::sqrt(3.0);
   for (int k = 0; k < loop.segments; ++k) {
-    const LoopEdge& s = loop.segment[k];
-    const Eigen::Vector3d n = a.normal(s.left), m = b.normal(s.right - face_of_b);
+    const LoopSegment& s = loop.segment[k];
+    const Eigen::Vector3d n = a.normal(s.face_a), m = b.normal(s.face_b - face_of_b);
     const Eigen::Vector3d from(loop.corner[s.from]), to(loop.corner[s.to]);
     const double sine = n.cross(m).norm();
     const Eigen::Vector3d along = to - from;
