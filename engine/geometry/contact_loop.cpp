@@ -23,6 +23,7 @@ namespace isojam {
 namespace {
 
 constexpr int capacity = SolidArrays::capacity;
+constexpr int none = 2 * capacity;  // a plane that is not there
 
 /// Numbers 0 to 31 in the last bits of four doubles each.
 constexpr std::uint64_t tag_bits = 63;
@@ -34,7 +35,7 @@ struct Tags {
 };
 constexpr Tags tags;
 
-int tag_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) & tag_bits); }
+std::uint32_t tag_of(double x) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(x) & tag_bits); }
 
 /// Calls with the number of plane vectors, as a constant for the Platonic solids.
 template <class Function>
@@ -103,16 +104,9 @@ struct Extremes {
     for (int k = 1; k < vectors; ++k) highest = max(highest, tagged(lowest[k], tag_bits, tags.at + 4 * k));
     d.nearest = least(nearest).first();
     d.least_penetration = -greatest(highest).first();
-    d.least_penetrated = tag_of(d.least_penetration);
+    d.least_penetrated = static_cast<int>(tag_of(d.least_penetration));
   }
 };
-
-/// Bits of planes that do not exist are set: everything lies inside of these.
-template <class Count>
-void store_inside(Count vectors, unsigned inside, int v, Distances& d) {
-  if (4 * vectors < 32) inside |= ~0U << 4 * vectors % 32;
-  for (int s = 0; 2 * s < vectors; ++s) d.inside[s][v] = static_cast<std::uint8_t>(inside >> 8 * s);
-}
 
 void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other, Distances& d) {
   d.planes = (other.faces() + 3) & ~3;
@@ -135,7 +129,7 @@ void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vec
         distance.store(d.of + 4 * (vectors * v + k));
         extremes.add(k, distance, inside);
       }
-      store_inside(vectors, inside, v, d);
+      d.inside[v] = inside;
     }
     extremes.finish(vectors, d);
   });
@@ -143,26 +137,11 @@ void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vec
 
 /// Edges that no plane has both ends outside of.
 std::uint32_t edges_alive(const SolidArrays& solid, const Distances& d) {
-  std::uint32_t alive = d.edges;
-  for (int s = 0; 8 * s < d.planes; ++s) {
-#ifdef ISOJAM_AVX2
-    const auto* inside = reinterpret_cast<const __m128i*>(d.inside[s]);
-    const __m256i low = _mm256_broadcastsi128_si256(_mm_load_si128(inside));
-    const __m256i high = _mm256_broadcastsi128_si256(_mm_load_si128(inside + 1));
-    const auto look_up = [&](const std::uint8_t* vertex) {
-      const __m256i at = _mm256_load_si256(reinterpret_cast<const __m256i*>(vertex));
-      // A byte index with its top bit set gives 0: that of vertices 16.. in `low`, of 0..15 in `high`.
-      return _mm256_or_si256(_mm256_shuffle_epi8(low, _mm256_add_epi8(at, _mm256_set1_epi8(0x70))),
-                             _mm256_shuffle_epi8(high, _mm256_sub_epi8(at, _mm256_set1_epi8(16))));
-    };
-    const __m256i either = _mm256_or_si256(look_up(solid.tail), look_up(solid.head));
-    alive &= static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_cmpeq_epi8(either, _mm256_set1_epi8(-1))));
-#else
-    for (int e = 0; e < solid.edges; ++e) {
-      const unsigned either = d.inside[s][solid.tail[e]] | d.inside[s][solid.head[e]];
-      alive &= ~(std::uint32_t{either != 0xFF} << e);
-    }
-#endif
+  const std::uint32_t all = first_bits(d.planes);
+  std::uint32_t alive = 0;
+  for (std::uint32_t edges = d.edges; edges; edges &= edges - 1) {
+    const int e = std::countr_zero(edges);
+    alive |= std::uint32_t{(d.inside[solid.tail[e]] | d.inside[solid.head[e]]) == all} << e;
   }
   return alive;
 }
@@ -185,10 +164,11 @@ bool has_vertex_on_plane(const Distances& d, double tolerance) {
 struct Side {
   const SolidArrays* solid;
   const double *x, *y, *z;
-  const double* distance;
-  const double* height;  ///< of the solid's vertices over the reference plane,
+  const double* distance;  ///< the table
+  int planes;              ///< and its columns
+  const double* height;    ///< of the solid's vertices over the reference plane,
   int height_stride;
-  int reference;  ///< column of the reference plane; −1 if it is one of the solid's own
+  std::uint32_t reference;  ///< column of the reference plane; −1 if it is one of the solid's own
   const std::uint32_t*
       leaving;            ///< per edge, the pairs that begin and end where it leaves, without the face it pierces
   std::uint32_t pierced;  ///< what face 1 of the other solid adds to them
@@ -233,51 +213,62 @@ struct HeightMask {
 };
 constexpr HeightMask height_mask;
 
+/// An edge that passes through the other solid: bit 0..31 for those of A, 32.. of B; the planes where it enters and
+/// leaves (0 if it does not).
+struct Crossing {
+  std::uint32_t bit, into, out_of, ends;
+};
+
+struct Crossings {
+  Crossing at[ContactLoop::max_spans + 1];
+  int count = 0;
+};
+
 /// `alive`: edges of A, and from bit 32 on of B.
 template <class Count>
-void clip_edges(Count vectors, const Side* sides, std::uint64_t alive, ContactLoop& loop, Piercings& piercings) {
-  const Lanes whole = Lanes::of(0, -1, -1, 0), untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
-  std::uint64_t kept_edges = 0;
-  unsigned spans = static_cast<unsigned>(loop.spans);
-  int count = piercings.count;
+void find_crossings(Count vectors, const Side* sides, std::uint64_t alive, Crossings& crossings) {
+  const Lanes untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
+  int count = crossings.count;
   for (; alive; alive &= alive - 1) {
-    const int bit = std::countr_zero(alive), e = bit % 32;
+    const auto bit = static_cast<std::uint32_t>(std::countr_zero(alive));
     const Side& side = sides[bit / 32];
-    const int t = side.solid->tail[e], h = side.solid->head[e];
-    const double *tail = side.distance + 4 * vectors * t, *head = side.distance + 4 * vectors * h;
+    const double* tail = side.distance + 4 * vectors * side.solid->tail[bit % 32];
+    const double* head = side.distance + 4 * vectors * side.solid->head[bit % 32];
     const Interval inside = clip(vectors, tail, head);
-    const Lanes whole_ends = equal(halves(inside.enter, inside.leave), untouched);
-    const unsigned ends = ~sign_bits(whole_ends);
-    const bool kept = inside.enter.first() < inside.leave.first();
-    const unsigned enters = ends & 1, leaves = ends >> 3 & 1;
-    const int into = tag_of(inside.enter.first()), out_of = tag_of(inside.leave.first());
-
-    // Weights of tail and head at either end: products of distances, each right to its own last bits however small.
-    const Lanes d = where_negative(whole_ends, whole, Lanes::of(tail[into], head[into], tail[out_of], head[out_of]));
-    const Lanes exchanged = swapped_pairs(d);
-    alignas(32) double weight[4];
-    (exchanged / (exchanged - d)).store(weight);
-    const Lanes p = side.vertex(t), q = side.vertex(h);
-    const Lanes from = fma(p, Lanes::all(weight[0]), q * Lanes::all(weight[1]));
-    const Lanes to = fma(p, Lanes::all(weight[2]), q * Lanes::all(weight[3]));
-    (from * Lanes::load(height_mask.of[enters & unsigned{into == side.reference}])).store(loop.corner[2 * spans]);
-    (to * Lanes::load(height_mask.of[leaves & unsigned{out_of == side.reference}])).store(loop.corner[2 * spans + 1]);
-    loop.span[spans] = static_cast<std::uint16_t>(side.solid->sides[e] + side.first_faces);
-
-    const std::uint32_t leaving = side.leaving[e], entering = std::rotl(leaving, 16);
-    const std::uint64_t corner = std::uint64_t{2 * spans} << 32;
-    piercings.at[count] = corner | (entering + side.pierced * static_cast<unsigned>(into));
-    count += static_cast<int>(kept & enters);
-    piercings.at[count] =
-        (corner + (std::uint64_t{1} << 32)) | (leaving + side.pierced * static_cast<unsigned>(out_of));
-    count += static_cast<int>(kept & leaves);
-    spans += kept;
-    kept_edges |= std::uint64_t{kept} << bit;
+    crossings.at[count] = {bit, tag_of(inside.enter.first()), tag_of(inside.leave.first()),
+                           ~sign_bits(equal(halves(inside.enter, inside.leave), untouched))};
+    count += inside.enter.first() < inside.leave.first();
   }
-  loop.spans = static_cast<int>(spans);
-  loop.edges_a |= static_cast<std::uint32_t>(kept_edges);
-  loop.edges_b |= static_cast<std::uint32_t>(kept_edges >> 32);
-  piercings.count = count;
+  crossings.count = count;
+}
+
+struct EndMask {
+  alignas(32) double of[4][4];
+};
+/// Negative where an end of an edge is its own vertex, by bit 0: it enters, bit 1: it leaves.
+constexpr EndMask own_end = {{{-1, -1, -1, -1}, {1, 1, -1, -1}, {-1, -1, 1, 1}, {1, 1, 1, 1}}};
+
+void add_span(const Side& side, const Crossing& c, int k, ContactLoop& loop, Piercings& piercings) {
+  const std::uint32_t e = c.bit % 32, enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+  const int t = side.solid->tail[e], h = side.solid->head[e];
+  const double *tail = side.distance + side.planes * t, *head = side.distance + side.planes * h;
+  // Weights of tail and head at either end: products of distances, each right to its own last bits however small.
+  const Lanes pierced = Lanes::of(tail[c.into], head[c.into], tail[c.out_of], head[c.out_of]);
+  const Lanes d = where_negative(Lanes::load(own_end.of[enters + 2 * leaves]), Lanes::of(0, -1, -1, 0), pierced);
+  const Lanes exchanged = swapped_pairs(d);
+  const Lanes weight = exchanged / (exchanged - d);
+  const Lanes p = side.vertex(t), q = side.vertex(h);
+  const Lanes from = fma(p, lane<0>(weight), q * lane<1>(weight)), to = fma(p, lane<2>(weight), q * lane<3>(weight));
+  (from * Lanes::load(height_mask.of[enters & std::uint32_t{c.into == side.reference}])).store(loop.corner[2 * k]);
+  (to * Lanes::load(height_mask.of[leaves & std::uint32_t{c.out_of == side.reference}])).store(loop.corner[2 * k + 1]);
+  loop.span[k] = static_cast<std::uint16_t>(side.solid->sides[e] + side.first_faces);
+
+  const std::uint32_t leaving = side.leaving[e], entering = std::rotl(leaving, 16);
+  const std::uint64_t corner = std::uint64_t(2 * k) << 32;
+  piercings.at[piercings.count] = corner | (entering + side.pierced * c.into);
+  piercings.count += static_cast<int>(enters);
+  piercings.at[piercings.count] = (corner + (std::uint64_t{1} << 32)) | (leaving + side.pierced * c.out_of);
+  piercings.count += static_cast<int>(leaves);
 }
 
 /// Joins every end to the beginning of the same face pair. False if the loop does not close.
@@ -292,9 +283,9 @@ bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
     const unsigned from = beginning[pair];
     beginning[pair] = 0;
     open |= from == 0;
-    loop.segment[k] = {static_cast<std::uint8_t>((from - 1) % ContactLoop::max_corners),
-                       static_cast<std::uint8_t>(piercings.at[k] >> 32), static_cast<std::uint8_t>(pair / capacity),
-                       static_cast<std::uint8_t>(face_of_b + pair % capacity)};
+    loop.segment[k] = {static_cast<std::uint16_t>((from - 1) % ContactLoop::max_corners),
+                       static_cast<std::uint16_t>(piercings.at[k] >> 32), static_cast<std::uint16_t>(pair / capacity),
+                       static_cast<std::uint16_t>(face_of_b + pair % capacity)};
   }
   loop.segments = piercings.count;
   return !open;
@@ -323,20 +314,30 @@ void clip_both(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d
   const int plane = over_b ? of_a.least_penetrated : of_b.least_penetrated;
   loop.reference = over_b ? face_of_b + plane : plane;
   const Side sides[2] = {
-      {&solid_a, a.x(), a.y(), a.z(), of_a.of, over_b ? of_a.of + plane : solid_a.height[plane],
-       over_b ? of_a.planes : 1, over_b ? plane : -1, solid_a.pairs_as_a, 0x00010001, 0, Lanes::all(0)},
-      {&solid_b, b.x(), b.y(), b.z(), of_b.of, over_b ? solid_b.height[plane] : of_b.of + plane,
-       over_b ? 1 : of_b.planes, over_b ? -1 : plane, solid_b.pairs_as_b, 0x00010001 * capacity, 0x0101 * face_of_b,
-       Lanes::of(r.x(), r.y(), r.z(), 0)}};
+      {&solid_a, a.x(), a.y(), a.z(), of_a.of, of_a.planes, over_b ? of_a.of + plane : solid_a.height[plane],
+       over_b ? of_a.planes : 1, static_cast<std::uint32_t>(over_b ? plane : none), solid_a.pairs_as_a, 0x00010001, 0,
+       Lanes::all(0)},
+      {&solid_b, b.x(), b.y(), b.z(), of_b.of, of_b.planes, over_b ? solid_b.height[plane] : of_b.of + plane,
+       over_b ? 1 : of_b.planes, static_cast<std::uint32_t>(over_b ? none : plane), solid_b.pairs_as_b,
+       0x00010001 * capacity, 0x0101 * face_of_b, Lanes::of(r.x(), r.y(), r.z(), 0)}};
   const std::uint64_t alive_a = edges_alive(solid_a, of_a), alive_b = std::uint64_t{edges_alive(solid_b, of_b)} << 32;
-  Piercings piercings;
+  Crossings crossings;
   if (of_a.planes == of_b.planes) {
     // One loop, so that its end is mispredicted once.
-    for_vectors(of_a.planes / 4, [&](auto n) { clip_edges(n, sides, alive_a | alive_b, loop, piercings); });
+    for_vectors(of_a.planes / 4, [&](auto n) { find_crossings(n, sides, alive_a | alive_b, crossings); });
   } else {
-    for_vectors(of_a.planes / 4, [&](auto n) { clip_edges(n, sides, alive_a, loop, piercings); });
-    for_vectors(of_b.planes / 4, [&](auto n) { clip_edges(n, sides, alive_b, loop, piercings); });
+    for_vectors(of_a.planes / 4, [&](auto n) { find_crossings(n, sides, alive_a, crossings); });
+    for_vectors(of_b.planes / 4, [&](auto n) { find_crossings(n, sides, alive_b, crossings); });
   }
+  Piercings piercings;
+  std::uint64_t kept = 0;
+  for (int k = 0; k < crossings.count; ++k) {
+    const std::uint32_t bit = crossings.at[k].bit;
+    kept |= std::uint64_t{1} << bit;
+    add_span(sides[bit / 32], crossings.at[k], k, loop, piercings);
+  }
+  loop.spans = crossings.count;
+  loop.edges_a = static_cast<std::uint32_t>(kept), loop.edges_b = static_cast<std::uint32_t>(kept >> 32);
   if (piercings.count == 0) {
     // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
     if (loop.spans == 0) loop.verdict = LoopVerdict::separated;

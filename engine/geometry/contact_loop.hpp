@@ -20,7 +20,7 @@ struct Distances {
   int least_penetrated = 0;      ///< the plane that is penetrated least,
   double least_penetration = 0;  ///< and how deep: not positive if it separates. Its last 6 bits are noise
   alignas(32) double of[capacity * capacity];
-  alignas(32) std::uint8_t inside[capacity / 8][capacity];  ///< bit k of [s][v]: vertex v is inside plane 8s + k
+  std::uint32_t inside[capacity];  ///< per vertex with a row: the planes it lies inside of
 
   double* row(int v) { return of + v * planes; }
   const double* row(int v) const { return of + v * planes; }
@@ -31,8 +31,8 @@ inline constexpr int face_of_b = SolidArrays::capacity;
 
 /// A segment of the loop; corners by index, faces by number.
 struct LoopSegment {
-  std::uint8_t from, to;
-  std::uint8_t face_a, face_b;
+  std::uint16_t from, to;
+  std::uint16_t face_a, face_b;
 };
 
 enum class LoopVerdict : std::uint8_t {

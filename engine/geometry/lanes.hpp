@@ -47,7 +47,10 @@ inline Lanes yzx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11001001)}; }
 inline Lanes swapped_pairs(Lanes a) { return {_mm256_permute_pd(a.v, 0b0101)}; }
 /// Lanes 2, 3, 0, 1.
 inline Lanes swapped_halves(Lanes a) { return {_mm256_permute2f128_pd(a.v, a.v, 1)}; }
-inline Lanes fourth(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11111111)}; }
+template <int k>
+Lanes lane(Lanes a) {
+  return {_mm256_permute4x64_pd(a.v, 0b01010101 * k)};
+}
 /// The last bits of every lane replaced by `tag` (of which only those bits may be set).
 inline Lanes tagged(Lanes a, std::uint64_t bits, const std::uint64_t* tag) {
   const __m256d mask = _mm256_castsi256_pd(_mm256_set1_epi64x(static_cast<long long>(bits)));
@@ -111,7 +114,10 @@ inline unsigned sign_bits(Lanes a) {
 inline Lanes yzx(Lanes a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
 inline Lanes swapped_pairs(Lanes a) { return {{a.v[1], a.v[0], a.v[3], a.v[2]}}; }
 inline Lanes swapped_halves(Lanes a) { return {{a.v[2], a.v[3], a.v[0], a.v[1]}}; }
-inline Lanes fourth(Lanes a) { return Lanes::all(a.v[3]); }
+template <int k>
+Lanes lane(Lanes a) {
+  return Lanes::all(a.v[k]);
+}
 inline Lanes tagged(Lanes a, std::uint64_t bits, const std::uint64_t* tag) {
   return each([&](int k) { return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a.v[k]) & ~bits) | tag[k]); });
 }

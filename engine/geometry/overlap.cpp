@@ -26,11 +26,11 @@ Lanes move_origin(std::uint64_t faces, ContactLoop& loop) {
 
 /// A corner of each face of the intersection, and the set of these faces.
 struct Hubs {
-  std::uint8_t corner[2 * SolidArrays::capacity];
+  std::uint16_t corner[2 * SolidArrays::capacity];
   std::uint64_t faces = 0;
 
   void add(int at, int left, int right) {
-    corner[left] = corner[right] = static_cast<std::uint8_t>(at);
+    corner[left] = corner[right] = static_cast<std::uint16_t>(at);
     faces |= std::uint64_t{1} << left | std::uint64_t{1} << right;
   }
 };
@@ -38,8 +38,8 @@ struct Hubs {
 /// Σ (v−o)×(w−o) (h_o+h_v+h_w), as cross_zxy() has it, for the face left of an edge v → w with o = l, minus the same
 /// for the right with o = r: v×w (h_l−h_r) + (l (h_l+h_v+h_w) − r (h_r+h_v+h_w)) × (v−w).
 Lanes fan(Lanes v_cross_w, Lanes v_plus_w, Lanes w_minus_v, Lanes l, Lanes r) {
-  const Lanes lever = r * fourth(v_plus_w + r) - l * fourth(v_plus_w + l);
-  return fma(v_cross_w, fourth(l - r), cross_zxy(lever, w_minus_v));
+  const Lanes lever = r * lane<3>(v_plus_w + r) - l * lane<3>(v_plus_w + l);
+  return fma(v_cross_w, lane<3>(l - r), cross_zxy(lever, w_minus_v));
 }
 
 Eigen::Vector3d vector_of(Lanes a) {
