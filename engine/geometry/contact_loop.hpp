@@ -3,28 +3,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "engine/geometry/distances.hpp"
 #include "engine/geometry/placed_solid.hpp"
 #include "engine/geometry/separating_axis.hpp"
 
 namespace isojam {
-
-/// Signed distances of the vertices of one solid from the planes of the other, > 0 outside. Rows of vertices that lie
-/// certainly outside, with every edge that ends there, may be missing.
-struct Distances {
-  static constexpr int capacity = SolidArrays::capacity;
-
-  int planes = 0;                ///< columns, padded to a multiple of 4 with planes that everything lies inside of
-  std::uint32_t rows = 0;        ///< vertices that have a row
-  std::uint32_t edges = 0;       ///< edges with a row for both ends; the others lie outside
-  double nearest = 0;            ///< least |distance| in the table
-  int least_penetrated = 0;      ///< the plane that is penetrated least,
-  double least_penetration = 0;  ///< and how deep: not positive if it separates. Its last 6 bits are noise
-  alignas(32) double of[capacity * capacity];
-  std::uint32_t inside[capacity];  ///< per vertex with a row: the planes it lies inside of
-
-  double* row(int v) { return of + v * planes; }
-  const double* row(int v) const { return of + v * planes; }
-};
 
 /// Face i of A has number i in the intersection, face j of B number face_of_b + j.
 inline constexpr int face_of_b = SolidArrays::capacity;

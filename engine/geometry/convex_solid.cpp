@@ -153,9 +153,11 @@ void flatten_edges(const std::vector<Edge>& edges, SolidArrays& flat) {
   for (int k = 0; k < SolidArrays::capacity; ++k) {
     const Edge& e = flat.edge[k] = edges[k < flat.edges ? k : 0];
     flat.tail[k] = static_cast<std::uint8_t>(e.tail), flat.head[k] = static_cast<std::uint8_t>(e.head);
-    flat.sides[k] = static_cast<std::uint16_t>(e.left | e.right << 8);
     const auto left = static_cast<std::uint32_t>(e.left), right = static_cast<std::uint32_t>(e.right);
-    flat.pairs_as_a[k] = left << 5 | right << 21, flat.pairs_as_b[k] = right | left << 16;
+    flat.record[k] = {flat.tail[k],
+                      flat.head[k],
+                      static_cast<std::uint16_t>(left | right << 8),
+                      {left << 5 | right << 21, right | left << 16}};
     if (k >= flat.edges) continue;
     flat.around[e.tail] |= std::uint32_t{1} << e.head, flat.around[e.head] |= std::uint32_t{1} << e.tail;
     flat.edges_at[e.tail] |= std::uint32_t{1} << k, flat.edges_at[e.head] |= std::uint32_t{1} << k;

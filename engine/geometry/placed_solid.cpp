@@ -4,25 +4,30 @@ namespace isojam {
 
 namespace {
 
-constexpr int padded(int n) { return (n + 3) & ~3; }
+struct Arrays {
+  double *x, *y, *z;
+};
 
-void turn(const Eigen::Matrix3d& rotation, const double* x, const double* y, const double* z, int n, double* turned) {
-  for (int row = 0; row < 3; ++row, turned += n) {
-    const double a = rotation(row, 0), b = rotation(row, 1), c = rotation(row, 2);
-    for (int k = 0; k < n; ++k) turned[k] = a * x[k] + b * y[k] + c * z[k];
+void turn(const Eigen::Matrix3d& q, const double* x, const double* y, const double* z, int n, Arrays turned) {
+  const double q00 = q(0, 0), q01 = q(0, 1), q02 = q(0, 2);
+  const double q10 = q(1, 0), q11 = q(1, 1), q12 = q(1, 2);
+  const double q20 = q(2, 0), q21 = q(2, 1), q22 = q(2, 2);
+  for (int k = 0; k < (n + 3) / 4 * 4; ++k) {
+    turned.x[k] = q00 * x[k] + q01 * y[k] + q02 * z[k];
+    turned.y[k] = q10 * x[k] + q11 * y[k] + q12 * z[k];
+    turned.z[k] = q20 * x[k] + q21 * y[k] + q22 * z[k];
   }
 }
 
 }  // namespace
 
 PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation)
-    : rotation_(rotation),
-      solid_(&solid),
-      vertex_stride_(padded(solid.arrays().vertices)),
-      face_stride_(padded(solid.arrays().faces)) {
+    : solid_(&solid), rotation_(rotation) {
   const SolidArrays& body = solid.arrays();
-  turn(rotation, body.x, body.y, body.z, vertex_stride_, pool_);
-  turn(rotation, body.nx, body.ny, body.nz, face_stride_, pool_ + 3 * vertex_stride_);
+  turn(rotation, body.x, body.y, body.z, body.vertices, {x_, y_, z_});
+  turn(rotation, body.nx, body.ny, body.nz, body.faces, {nx_, ny_, nz_});
+  for (int v = 0; v < body.vertices; ++v)
+    rows_[v][0] = x_[v], rows_[v][1] = y_[v], rows_[v][2] = z_[v], rows_[v][3] = 0;
 }
 
 }  // namespace isojam
