@@ -156,7 +156,9 @@ void flatten_edges(const std::vector<Edge>& edges, SolidArrays& flat) {
     const auto left = static_cast<std::uint32_t>(e.left), right = static_cast<std::uint32_t>(e.right);
     flat.record[k] = {flat.tail[k],
                       flat.head[k],
-                      static_cast<std::uint16_t>(left | right << 8),
+                      static_cast<std::uint16_t>(left),
+                      static_cast<std::uint16_t>(right),
+                      std::uint32_t{1} << left | std::uint32_t{1} << right,
                       {left << 5 | right << 21, right | left << 16}};
     if (k >= flat.edges) continue;
     flat.around[e.tail] |= std::uint32_t{1} << e.head, flat.around[e.head] |= std::uint32_t{1} << e.tail;

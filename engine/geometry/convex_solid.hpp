@@ -32,8 +32,8 @@ struct Edge {
 /// An edge as the contact loop needs it. A pair of faces (i of a solid A, j of a solid B) is 32i + j. Where an edge
 /// leaves the other solid, one segment of the loop begins and another ends; their pairs, with 0 for the face pierced:
 struct EdgeRecord {
-  std::uint16_t tail, head;
-  std::uint16_t sides;  ///< left + 256·right
+  std::uint16_t tail, head, left, right;
+  std::uint32_t faces;  ///< left and right, as bits
   /// [0] as an edge of A: 32·left + 2^16·32·right; [1] as an edge of B: right + 2^16·left.
   std::uint32_t pairs[2];
 };

@@ -7,37 +7,15 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/geometry/contact_loop.hpp"
 #include "engine/geometry/lanes.hpp"
 
 namespace isojam {
 
 namespace {
 
-/// Moves the origin to a corner of the loop, so that nothing large cancels. Heights lose that corner's height only if
-/// the reference plane does not bound the intersection: if it does, they are small already, and 0 on the plane.
-Lanes move_origin(std::uint64_t faces, ContactLoop& loop) {
-  double* first = loop.corner[loop.segment[0].from];
-  Lanes origin = Lanes::load(first);
-  if (faces >> loop.reference & 1) origin = origin * Lanes::of(1, 1, 1, 0);
-  for (int k = 0; k < 2 * loop.spans; ++k) (Lanes::load(loop.corner[k]) - origin).store(loop.corner[k]);
-  return origin;
-}
-
-/// A corner of each face of the intersection, and the set of these faces.
-struct Hubs {
-  std::uint16_t corner[2 * SolidArrays::capacity];
-  std::uint64_t faces = 0;
-
-  void add(int at, int left, int right) {
-    corner[left] = corner[right] = static_cast<std::uint16_t>(at);
-    faces |= std::uint64_t{1} << left | std::uint64_t{1} << right;
-  }
-};
-
 /// Σ (v−o)×(w−o) (h_o+h_v+h_w), as cross_zxy() has it, for the face left of an edge v → w with o = l, minus the same
 /// for the right with o = r: v×w (h_l−h_r) + (l (h_l+h_v+h_w) − r (h_r+h_v+h_w)) × (v−w).
-Lanes fan(Lanes v_cross_w, Lanes v_plus_w, Lanes w_minus_v, Lanes l, Lanes r) {
+inline Lanes fan(Lanes v_cross_w, Lanes v_plus_w, Lanes w_minus_v, Lanes l, Lanes r) {
   const Lanes lever = r * lane<3>(v_plus_w + r) - l * lane<3>(v_plus_w + l);
   return fma(v_cross_w, lane<3>(l - r), cross_zxy(lever, w_minus_v));
 }
@@ -48,38 +26,67 @@ Eigen::Vector3d vector_of(Lanes a) {
   return {lane[0], lane[1], lane[2]};
 }
 
-Overlap integrate(const PlacedSolid& a, const PlacedSolid& b, ContactLoop& loop) {
-  Hubs hubs;
-  for (int k = 0; k < loop.spans; ++k) hubs.add(2 * k, loop.span[k] & 0xFF, loop.span[k] >> 8);
-  for (int k = 0; k < loop.segments; ++k)
-    hubs.add(loop.segment[k].from, loop.segment[k].face_a, loop.segment[k].face_b);
-  const Eigen::Vector3d origin = vector_of(move_origin(hubs.faces, loop));
-  const auto hub = [&](int face) { return Lanes::load(loop.corner[hubs.corner[face]]); };
-  Lanes twice_area = Lanes::all(0), moment = twice_area, prisms = twice_area;
-  for (int k = 0; k < loop.segments; ++k) {
-    const LoopSegment& s = loop.segment[k];
-    const Lanes v = Lanes::load(loop.corner[s.from]), w = Lanes::load(loop.corner[s.to]);
-    const Lanes cross = cross_zxy(v, w), both = v + w, along = w - v;
-    twice_area = twice_area + cross;
-    moment = fma(along, sum(without_fourth(fma(v, both, w * w))), moment);
-    prisms = prisms + fan(cross, both, along, hub(s.face_a), hub(s.face_b));
-  }
-  for (int k = 0; k < loop.spans; ++k) {
-    const Lanes v = Lanes::load(loop.corner[2 * k]), w = Lanes::load(loop.corner[2 * k + 1]);
-    prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, hub(loop.span[k] & 0xFF), hub(loop.span[k] >> 8));
-  }
+/// Sums over the edges of one intersection, cross products as cross_zxy() has them.
+struct Sums {
+  Lanes twice_area = Lanes::all(0), moment = Lanes::all(0), prisms = Lanes::all(0);
+};
 
+void integrate_loops(const ContactLoops& loops, Sums* sums) {
+  const auto corner = [&](std::uint32_t k) { return Lanes::load(loops.corner[k]); };
+  for (int k = 0; k < loops.segments; ++k) {
+    const ContactLoops::Segment s = loops.segment[k];
+    Sums& sum = sums[s.faces / (SolidArrays::capacity * SolidArrays::capacity)];
+    const Lanes v = corner(s.from), w = corner(s.to);
+    const Lanes cross = cross_zxy(v, w), both = v + w, along = w - v;
+    const Lanes a = corner(loops.hub[s.faces / SolidArrays::capacity]), b = corner(loops.hub[number_of_b(s.faces)]);
+    sum.twice_area = sum.twice_area + cross;
+    sum.moment = fma(along, isojam::sum(without_fourth(fma(v, both, w * w))), sum.moment);
+    sum.prisms = sum.prisms + fan(cross, both, along, a, b);
+  }
+  for (int k = 0; k < loops.spans; ++k) {
+    const ContactLoops::Span& s = loops.span[k];
+    const Lanes v = Lanes::load(loops.corner[2 * k]), w = Lanes::load(loops.corner[2 * k + 1]);
+    Lanes& prisms = sums[s.solid / 2].prisms;
+    prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, corner(loops.hub[s.left]), corner(loops.hub[s.right]));
+  }
+}
+
+Overlap finished(const ContactLoops& loops, int p, const Eigen::Vector3d& r, const Sums& sums) {
   Overlap result;
   result.path = OverlapPath::loop;
-  result.edges_a = loop.edges_a, result.edges_b = loop.edges_b;
-  result.faces_a = static_cast<std::uint32_t>(hubs.faces);
-  result.faces_b = static_cast<std::uint32_t>(hubs.faces >> face_of_b);
-  const Eigen::Vector3d up =
-      loop.reference < face_of_b ? a.normal(loop.reference) : b.normal(loop.reference - face_of_b);
-  result.volume = up.dot(vector_of(yzx(prisms))) / 6;
-  result.area = vector_of(yzx(twice_area)) / 2;
-  result.moment = origin.cross(result.area) - vector_of(moment) / 6;
+  result.faces_a = loops.faces[2 * p], result.faces_b = loops.faces[2 * p + 1];
+  result.edges_a = loops.edges[2 * p], result.edges_b = loops.edges[2 * p + 1];
+  result.volume = loops.up[p].dot(vector_of(yzx(sums.prisms))) / 6;
+  result.area = vector_of(yzx(sums.twice_area)) / 2;
+  result.moment = (r / 2).cross(result.area) - vector_of(sums.moment) / 6;
   return result;
+}
+
+Overlap clipped(const PlacedPair& pair) {
+  const Eigen::Matrix3d to_a = pair.a->rotation().transpose();
+  Overlap result = clipped_overlap(pair.a->solid(), pair.b->solid(), {to_a * pair.b->rotation(), to_a * pair.r});
+  result.area = pair.a->rotation() * result.area;
+  result.moment = pair.a->rotation() * result.moment;
+  return result;
+}
+
+/// At most max_pairs.
+void overlap_few(std::span<const PlacedPair> pairs, ContactLoops& loops, std::span<SeparatingAxis> axes,
+                 std::span<Overlap> out) {
+  find_contact_loops(pairs, loops);
+  Sums sums[ContactLoops::max_pairs];
+  integrate_loops(loops, sums);
+  for (int p = 0; p < loops.pairs; ++p) {
+    const auto k = static_cast<std::size_t>(p);
+    out[k] = {};
+    if (loops.verdict[p] == LoopVerdict::separated) {
+      axes[k] = loops.axis[p];
+      continue;
+    }
+    if (loops.verdict[p] == LoopVerdict::closed) out[k] = finished(loops, p, pairs[k].r, sums[p]);
+    // Rounding may eat a sliver.
+    if (!(out[k].volume > 0)) out[k] = clipped(pairs[k]);
+  }
 }
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
@@ -90,22 +97,18 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
-  ContactLoop loop;
-  find_contact_loop(a, b, r, loop);
-  switch (loop.verdict) {
-    case LoopVerdict::separated: axis = loop.axis; return {};
-    case LoopVerdict::closed: {
-      const Overlap result = integrate(a, b, loop);
-      if (result.volume > 0) return result;
-      break;  // rounding ate a sliver
-    }
-    case LoopVerdict::degenerate: break;
+void overlaps(std::span<const PlacedPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out) {
+  ContactLoops loops;
+  for (std::size_t k = 0; k < pairs.size(); k += ContactLoops::max_pairs) {
+    const std::size_t n = std::min<std::size_t>(ContactLoops::max_pairs, pairs.size() - k);
+    overlap_few(pairs.subspan(k, n), loops, axes.subspan(k, n), out.subspan(k, n));
   }
-  const Eigen::Matrix3d to_a = a.rotation().transpose();
-  Overlap result = clipped_overlap(a.solid(), b.solid(), {to_a * b.rotation(), to_a * r});
-  result.area = a.rotation() * result.area;
-  result.moment = a.rotation() * result.moment;
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
+  const PlacedPair pair{&a, &b, r};
+  Overlap result;
+  overlaps({&pair, 1}, {&axis, 1}, {&result, 1});
   return result;
 }
 
@@ -119,21 +122,22 @@ Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& 
 }
 
 Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
-  ContactLoop loop;
-  find_contact_loop(a, b, r, loop);
+  ContactLoops loops;
+  const PlacedPair pair{&a, &b, r};
+  find_contact_loops({&pair, 1}, loops);
   Matrix6d hessian = Matrix6d::Zero();
-  if (loop.verdict != LoopVerdict::closed) return hessian;
+  if (loops.verdict[0] != LoopVerdict::closed) return hessian;
   const double gauss = 0.5 / std::sqrt(3.0);
-  for (int k = 0; k < loop.segments; ++k) {
-    const LoopSegment& s = loop.segment[k];
-    const Eigen::Vector3d n = a.normal(s.face_a), m = b.normal(s.face_b - face_of_b);
-    const Eigen::Vector3d from(loop.corner[s.from]), to(loop.corner[s.to]);
+  for (int k = 0; k < loops.segments; ++k) {
+    const ContactLoops::Segment& s = loops.segment[k];
+    const Eigen::Vector3d n = a.normal(static_cast<int>(s.faces / 32)), m = b.normal(static_cast<int>(s.faces % 32));
+    const Eigen::Vector3d from(loops.corner[s.from]), to(loops.corner[s.to]);
     const double sine = n.cross(m).norm();
     const Eigen::Vector3d along = to - from;
     if (!(sine > 0)) continue;
     const double weight = along.norm() / (2 * sine);
     for (const double t : {0.5 - gauss, 0.5 + gauss}) {
-      const Eigen::Vector3d y = from + t * along;
+      const Eigen::Vector3d y = r / 2 + from + t * along;
       const Vector6d ua = joined(n, y.cross(n));
       const Vector6d ub = joined(m, (y - r).cross(m));
       hessian.noalias() += (weight * ua) * ub.transpose();
