@@ -5,262 +5,275 @@
 #include <cmath>
 #include <limits>
 
-// Phase 1 tabulates the signed distances of either solid's vertices from the other's planes. Phase 2 sees nothing but
-// this table: every edge of one solid is clipped by the planes of the other. Where it enters or leaves it pierces a
-// face, and there the loop passes from one of the edge's two faces to the other: one segment of the loop ends and the
-// next begins. Segments are identified by their pair of faces, so the loop closes if and only if every pair that
-// begins also ends, once. No segment is ever found by intersecting two planes, which is ill-conditioned when they
-// are nearly parallel.
+#include "engine/geometry/refine.hpp"
+
+// Phase 1 (distances.cpp) tabulates the signed distances of either solid's vertices from the other's planes. Phase 2,
+// here, sees nothing but this table: every edge of one solid is clipped by the planes of the other. Where it enters or
+// leaves it pierces a face, and there the loop passes from one of the edge's two faces to the other: one segment of the
+// loop ends and the next begins. Segments are identified by their pair of faces, so the loop closes if and only if
+// every pair that begins also ends, once. No segment is ever found by intersecting two planes, which is ill-conditioned
+// when they are nearly parallel.
 
 namespace isojam {
 
 namespace {
 
 constexpr int capacity = SolidArrays::capacity;
+constexpr std::uint32_t face_pairs = capacity * capacity;
+constexpr std::uint32_t none = 2 * capacity;
 
-/// The segments that meet where an edge pierces a face: face pairs, capacity·i + j.
-struct Piercing {
-  std::uint16_t begins, ends;
-  std::uint8_t corner;
-};
-
-struct Piercings {
-  std::array<Piercing, ContactLoop::max_corners> at;
+/// Edges of all pairs: 32·solid + edge.
+struct EdgeList {
+  std::uint32_t at[ContactLoops::max_pairs * capacity + capacity];
   int count = 0;
+
+  void add(std::uint32_t first, std::uint32_t edges) {
+    constexpr int usual = 6;  // written without asking how many there are
+    std::uint32_t* end = at + count;
+    count += std::popcount(edges);
+    for (int k = 0; k < usual; ++k, edges &= edges - 1)
+      end[k] = first + static_cast<std::uint32_t>(std::countr_zero(edges));
+    for (end += usual; edges; edges &= edges - 1) *end++ = first + static_cast<std::uint32_t>(std::countr_zero(edges));
+  }
 };
-
-int padded(int n) { return (n + 3) & ~3; }
-
-/// `shift` is the position of `body`'s centre seen from that of `other`.
-void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& shift, Distances& d) {
-  const int planes = padded(other.faces());
-  const double *nx = other.nx(), *ny = other.ny(), *nz = other.nz(), *offset = other.offset();
-  alignas(32) double constant[capacity];
-  for (int f = 0; f < planes; ++f) constant[f] = nx[f] * shift.x() + ny[f] * shift.y() + nz[f] * shift.z() - offset[f];
-  for (int v = 0; v < body.vertices(); ++v) {
-    const double x = body.x()[v], y = body.y()[v], z = body.z()[v];
-    for (int f = 0; f < planes; ++f) d.of[v][f] = nx[f] * x + ny[f] * y + nz[f] * z + constant[f];
-  }
-}
-
-void classify(int vertices, int planes, double tolerance, Distances& d) {
-  for (int v = 0; v < vertices; ++v) {
-    std::uint32_t outside = 0, uncertain = 0;
-    for (int f = 0; f < planes; ++f) {
-      outside |= std::uint32_t{d.of[v][f] > 0} << f;
-      uncertain |= std::uint32_t{std::abs(d.of[v][f]) < tolerance} << f;
-    }
-    d.outside[v] = outside;
-    d.uncertain[v] = uncertain;
-  }
-}
-
-/// Signed distance of a vertex from a plane in two doubles: n·(y + shift) − offset, with products of high parts exact
-/// and low parts to first order.
-double precise_distance(const PlacedSolid& body, int vertex, const PlacedSolid& other, int plane,
-                        const TwoDoubleVector& shift) {
-  const TwoDoubleVector n = other.precise_normal(plane), y = body.precise_vertex(vertex);
-  TwoDouble sum = -other.precise_offset(plane);
-  for (int c = 0; c < 3; ++c) {
-    const TwoDouble p = two_sum(y.high[c], shift.high[c]);
-    const TwoDouble product = two_product(n.high[c], p.high);
-    const TwoDouble next = two_sum(sum.high, product.high);
-    const double first_order = n.high[c] * (p.low + y.low[c] + shift.low[c]) + n.low[c] * p.high;
-    sum = {next.high, sum.low + (next.low + product.low + first_order)};
-  }
-  return sum.high + sum.low;
-}
-
-/// Takes the distances marked uncertain again in two doubles, and leaves those marked that are zero to their rounding.
-void refine(const PlacedSolid& body, const PlacedSolid& other, const TwoDoubleVector& shift, double tolerance,
-            Distances& d) {
-  for (int v = 0; v < body.vertices(); ++v) {
-    std::uint32_t still = 0;
-    for (std::uint32_t near = d.uncertain[v]; near; near &= near - 1) {
-      const int f = std::countr_zero(near);
-      const double distance = precise_distance(body, v, other, f, shift);
-      d.of[v][f] = distance;
-      d.outside[v] = (d.outside[v] & ~(std::uint32_t{1} << f)) | std::uint32_t{distance > 0} << f;
-      still |= std::uint32_t{std::abs(distance) < tolerance} << f;
-    }
-    d.uncertain[v] = still;
-  }
-}
-
-/// Planes with every vertex outside: each separates.
-std::uint32_t separating_planes(const Distances& d, int vertices) {
-  std::uint32_t all = ~std::uint32_t{0};
-  for (int v = 0; v < vertices; ++v) all &= d.outside[v];
-  return all;
-}
 
 /// A vertex on a plane, to within rounding, and not certainly outside of another one.
-bool has_vertex_on_plane(const Distances& d, int vertices) {
-  for (int v = 0; v < vertices; ++v) {
-    if (d.uncertain[v] != 0 && (d.outside[v] & ~d.uncertain[v]) == 0) return true;
+bool has_vertex_on_plane(const Distances& d, double tolerance) {
+  if (d.nearest >= tolerance) return false;
+  for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
+    const double* row = d.row(std::countr_zero(rows));
+    bool on = false, outside = false;
+    for (int f = 0; f < d.planes; ++f) {
+      on |= std::abs(row[f]) < tolerance;
+      outside |= row[f] >= tolerance;
+    }
+    if (on && !outside) return true;
   }
   return false;
 }
 
-/// The interval [enter, leave] of an edge (parameter 0 at the tail, 1 at the head) inside the other solid.
-struct Interval {
-  double enter = 0, leave = 1;
-  int enter_plane = -1, leave_plane = -1;
-};
-
-/// False if the edge lies outside.
-bool clip_edge(const Distances& d, const Edge& edge, Interval& inside) {
-  std::uint32_t tail = d.outside[edge.tail], head = d.outside[edge.head];
-  if (tail & head) return false;
-  for (; tail; tail &= tail - 1) {
-    const int f = std::countr_zero(tail);
-    const double s = d.of[edge.tail][f] / (d.of[edge.tail][f] - d.of[edge.head][f]);
-    if (inside.enter_plane < 0 || s > inside.enter) inside.enter = s, inside.enter_plane = f;
-  }
-  for (; head; head &= head - 1) {
-    const int f = std::countr_zero(head);
-    const double s = d.of[edge.tail][f] / (d.of[edge.tail][f] - d.of[edge.head][f]);
-    if (inside.leave_plane < 0 || s < inside.leave) inside.leave = s, inside.leave_plane = f;
-  }
-  return inside.enter < inside.leave;
+/// The axis of the face that separates, if it does so beyond the rows of the table and rounding.
+SeparatingAxis separating_face(const PlacedPair& pair, const Distances& of_a, const Distances& of_b) {
+  using Kind = SeparatingAxis::Kind;
+  SeparatingAxis axis{Kind::face_a, static_cast<std::uint8_t>(of_b.least_penetrated), 0};
+  if (of_a.least_penetration <= 0) axis = {Kind::face_b, 0, static_cast<std::uint8_t>(of_a.least_penetrated)};
+  return separates(*pair.a, *pair.b, pair.r, axis) ? axis : SeparatingAxis{};
 }
 
-/// Where an edge pierces `plane`, or its own vertex if plane < 0.
-Corner corner_at(const PlacedSolid& body, const Distances& d, const Edge& edge, int plane, bool leaving, bool of_a) {
-  Corner corner{};
-  corner.tail = static_cast<std::uint8_t>(edge.tail), corner.head = static_cast<std::uint8_t>(edge.head);
-  corner.plane = static_cast<std::int8_t>(plane);
-  corner.of_a = of_a;
-  corner.weight_tail = leaving ? 0 : 1, corner.weight_head = leaving ? 1 : 0;
-  if (plane >= 0) {
-    const double tail = d.of[edge.tail][plane], head = d.of[edge.head][plane], all = tail - head;
-    corner.weight_tail = -head / all, corner.weight_head = tail / all;
+/// Chooses the plane that heights are measured from: the one penetrated least.
+void set_sides(const PlacedPair& pair, int p, ContactLoops& loops) {
+  const Distances &of_a = loops.distances[2 * p], &of_b = loops.distances[2 * p + 1];
+  const SolidArrays &a = pair.a->solid().arrays(), &b = pair.b->solid().arrays();
+  const int plane_a = of_b.least_penetrated, plane_b = of_a.least_penetrated;
+  // Either way is as likely: indices instead of branches.
+  const int over_b = of_a.least_penetration < of_b.least_penetration;
+  const double* height_a[2] = {a.height[plane_a], of_a.of + plane_b};
+  const double* height_b[2] = {of_b.of + plane_a, b.height[plane_b]};
+  const auto planes_a = static_cast<std::uint32_t>(of_a.planes), planes_b = static_cast<std::uint32_t>(of_b.planes);
+  const std::uint32_t stride_a[2] = {1, planes_a}, stride_b[2] = {planes_b, 1};
+  const std::uint32_t column_a[2] = {none, static_cast<std::uint32_t>(plane_b)};
+  const std::uint32_t column_b[2] = {static_cast<std::uint32_t>(plane_a), none};
+  const PlacedSolid* solid[2] = {pair.a, pair.b};
+  const int plane[2] = {plane_a, plane_b};
+  const std::uint32_t first_pair = face_pairs * 0x00010001 * static_cast<std::uint32_t>(p);
+  const Lanes half = Lanes::of(pair.r.x() / 2, pair.r.y() / 2, pair.r.z() / 2, 0);
+  loops.up[p] = solid[over_b]->normal(plane[over_b]);
+  loops.side[2 * p] = {a.record,         pair.a,           of_a.of,    height_a[over_b],    planes_a,
+                       stride_a[over_b], column_a[over_b], first_pair, Lanes::all(0) - half};
+  loops.side[2 * p + 1] = {b.record,         pair.b,     of_b.of, height_b[over_b], planes_b, stride_b[over_b],
+                           column_b[over_b], first_pair, half};
+}
+
+/// Phase 1 of pair p. Unless a face separates, its edges join the lists.
+void begin(const PlacedPair& pair, int p, ContactLoops& loops, EdgeList& of_a, EdgeList& of_b) {
+  Distances &distances_a = loops.distances[2 * p], &distances_b = loops.distances[2 * p + 1];
+  measure(*pair.a, *pair.b, pair.r, distances_a);
+  measure(*pair.b, *pair.a, -pair.r, distances_b);
+  double tolerance = gap_tolerance(pair.a->solid(), pair.b->solid(), pair.r);
+  if (pair.is_precise()) {
+    refine(*pair.a, *pair.b, pair.precise_r(), distances_a);
+    refine(*pair.b, *pair.a, -pair.precise_r(), distances_b);
+    tolerance *= std::numeric_limits<double>::epsilon();
   }
-  corner.position = corner.weight_tail * body.vertex(edge.tail) + corner.weight_head * body.vertex(edge.head);
-  return corner;
-}
-
-std::uint16_t face_pair(int face_a, int face_b) { return static_cast<std::uint16_t>(capacity * face_a + face_b); }
-
-/// The loop turns the same way round on both surfaces, so seen from outside B it runs clockwise: beginnings and
-/// ends are exchanged.
-Piercing pierce(int corner, const Edge& edge, int plane, bool leaving, bool of_a) {
-  const int first = leaving ? edge.left : edge.right;
-  const int second = leaving ? edge.right : edge.left;
-  const auto at = static_cast<std::uint8_t>(corner);
-  if (of_a) return {face_pair(first, plane), face_pair(second, plane), at};
-  return {face_pair(plane, second), face_pair(plane, first), at};
-}
-
-/// `shift`: where the solid's centre is, from that of A.
-void clip_edges(const PlacedSolid& body, const Eigen::Vector3d& shift, const Distances& d, bool of_a, ContactLoop& loop,
-                Piercings& piercings) {
-  const SolidArrays& solid = body.solid().arrays();
-  std::uint32_t& edges_inside = of_a ? loop.edges_a : loop.edges_b;
-  const int first_face = of_a ? 0 : face_of_b;
-  for (int e = 0; e < solid.edges; ++e) {
-    const Edge& edge = solid.edge[e];
-    Interval inside;
-    if (!clip_edge(d, edge, inside)) continue;
-    edges_inside |= std::uint32_t{1} << e;
-    const int from = 2 * loop.spans, to = from + 1;
-    loop.corner[from] = corner_at(body, d, edge, inside.enter_plane, false, of_a);
-    loop.corner[to] = corner_at(body, d, edge, inside.leave_plane, true, of_a);
-    loop.corner[from].position += shift;
-    loop.corner[to].position += shift;
-    loop.span[loop.spans++] = {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
-                               static_cast<std::uint8_t>(first_face + edge.left),
-                               static_cast<std::uint8_t>(first_face + edge.right)};
-    if (inside.enter_plane >= 0) piercings.at[piercings.count++] = pierce(from, edge, inside.enter_plane, false, of_a);
-    if (inside.leave_plane >= 0) piercings.at[piercings.count++] = pierce(to, edge, inside.leave_plane, true, of_a);
-  }
-}
-
-/// Joins every beginning to the end of the same face pair. False if the loop does not close.
-bool close_loop(const Piercings& piercings, ContactLoop& loop) {
-  std::array<std::uint8_t, capacity * capacity> beginning{};  // piercing + 1; 0: none
-  for (int k = 0; k < piercings.count; ++k) {
-    std::uint8_t& slot = beginning[piercings.at[k].begins];
-    if (slot != 0) return false;
-    slot = static_cast<std::uint8_t>(k + 1);
-  }
-  for (int k = 0; k < piercings.count; ++k) {
-    const Piercing& end = piercings.at[k];
-    std::uint8_t& slot = beginning[end.ends];
-    if (slot == 0) return false;
-    loop.segment[loop.segments++] = {piercings.at[slot - 1].corner, end.corner,
-                                     static_cast<std::uint8_t>(end.ends / capacity),
-                                     static_cast<std::uint8_t>(face_of_b + end.ends % capacity)};
-    slot = 0;
-  }
-  return true;
-}
-
-/// By value: the origin is itself one of the corners.
-void move_origin(Eigen::Vector3d origin, ContactLoop& loop) {
-  loop.origin = origin;
-  for (int k = 0; k < 2 * loop.spans; ++k) loop.corner[k].position -= origin;
-}
-
-bool separated_by_face(const Distances& vertices_of_a, int a, const Distances& vertices_of_b, int b,
-                       SeparatingAxis& axis) {
-  if (const std::uint32_t planes = separating_planes(vertices_of_a, a); planes != 0) {
-    axis = {SeparatingAxis::Kind::face_b, 0, static_cast<std::uint8_t>(std::countr_zero(planes))};
-    return true;
-  }
-  if (const std::uint32_t planes = separating_planes(vertices_of_b, b); planes != 0) {
-    axis = {SeparatingAxis::Kind::face_a, static_cast<std::uint8_t>(std::countr_zero(planes)), 0};
-    return true;
-  }
-  return false;
-}
-
-/// Phase 1; entries smaller than `near` are marked uncertain.
-void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, double near, ContactLoop& loop) {
-  measure(a, b, -r, loop.of_a);
-  measure(b, a, r, loop.of_b);
-  classify(a.vertices(), b.faces(), near, loop.of_a);
-  classify(b.vertices(), a.faces(), near, loop.of_b);
-}
-
-/// Phase 2.
-void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
-  loop.verdict = LoopVerdict::separated;
-  loop.axis = {};
-  loop.spans = loop.segments = 0;
-  loop.edges_a = loop.edges_b = 0;
-  if (separated_by_face(loop.of_a, a.vertices(), loop.of_b, b.vertices(), loop.axis)) return;
-
-  loop.verdict = LoopVerdict::degenerate;
-  if (has_vertex_on_plane(loop.of_a, a.vertices()) || has_vertex_on_plane(loop.of_b, b.vertices())) return;
-  Piercings piercings;
-  clip_edges(a, Eigen::Vector3d::Zero(), loop.of_a, true, loop, piercings);
-  clip_edges(b, r, loop.of_b, false, loop, piercings);
-  if (piercings.count == 0) {
-    // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
-    if (loop.spans == 0) loop.verdict = LoopVerdict::separated;
+  loops.faces[2 * p] = loops.faces[2 * p + 1] = loops.edges[2 * p] = loops.edges[2 * p + 1] = 0;
+  loops.axis[p] = {};
+  if (std::min(distances_a.least_penetration, distances_b.least_penetration) <= 0) {
+    loops.verdict[p] = LoopVerdict::separated;
+    loops.axis[p] = separating_face(pair, distances_a, distances_b);
     return;
   }
-  if (!close_loop(piercings, loop)) return;
-  move_origin(loop.corner[piercings.at[0].corner].position, loop);
-  loop.verdict = LoopVerdict::closed;
+  if (has_vertex_on_plane(distances_a, tolerance) || has_vertex_on_plane(distances_b, tolerance)) {
+    loops.verdict[p] = LoopVerdict::degenerate;
+    return;
+  }
+  loops.verdict[p] = LoopVerdict::closed;
+  set_sides(pair, p, loops);
+  of_a.add(static_cast<std::uint32_t>(capacity * 2 * p), distances_a.edges);
+  of_b.add(static_cast<std::uint32_t>(capacity * (2 * p + 1)), distances_b.edges);
+}
+
+constexpr double at_tail = 0;
+constexpr double at_head = 1 + 64 * std::numeric_limits<double>::epsilon();  // past every tagged parameter
+
+/// Where an edge enters and leaves the other solid, in every lane: the parameter (0 at the tail, 1 at the head), tagged
+/// by the plane.
+struct Interval {
+  Lanes enter, leave;
+};
+
+template <class Count>
+Interval clip(Count vectors, const double* tail, const double* head) {
+  const Lanes start = Lanes::all(at_tail), end = Lanes::all(at_head);
+  Lanes enter = start, leave = end;
+  for (int k = 0; k < vectors; ++k) {
+    const Lanes t = Lanes::load(tail + 4 * k), h = Lanes::load(head + 4 * k);
+    const Lanes crossing = tagged(t / (t - h), 4 * k);
+    enter = max(enter, where_negative(t, start, crossing));
+    leave = min(leave, where_negative(h, end, crossing));
+  }
+  return {greatest(enter), least(leave)};
+}
+
+/// An edge that passes through the other solid: as in EdgeList; the planes where it enters and leaves; and bits of
+/// `ends` that say whether it does: 0 and 1 for entering, 2 and 3 for leaving.
+struct Crossing {
+  std::uint32_t edge, into, out_of, ends;
+};
+
+/// Returns the number of crossings found so far.
+int find_crossings(const ContactLoops& loops, int planes, const EdgeList& edges, Crossing* crossing, int count) {
+  with_vectors((planes + 3) / 4, [&](auto vectors) {
+    const Lanes untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
+    for (int k = 0; k < edges.count; ++k) {
+      const std::uint32_t at = edges.at[k];
+      const ContactLoops::Side& side = loops.side[at / capacity];
+      const EdgeRecord& edge = side.edge[at % capacity];
+      const Interval inside =
+          clip(vectors, side.distance + 4 * vectors * edge.tail, side.distance + 4 * vectors * edge.head);
+      crossing[count] = {at, tag_of(inside.enter.first()), tag_of(inside.leave.first()),
+                         ~sign_bits(equal(halves(inside.enter, inside.leave), untouched))};
+      count += inside.enter.first() < inside.leave.first();
+    }
+  });
+  return count;
+}
+
+struct Masks {
+  /// Negative where an end of an edge is its own vertex, by bit 0: it enters, bit 1: it leaves.
+  alignas(32) double own_end[4][4] = {{-1, -1, -1, -1}, {1, 1, -1, -1}, {-1, -1, 1, 1}, {1, 1, 1, 1}};
+  alignas(32) double whole[4] = {0, -1, -1, 0};
+  /// 0 in place of a height that is 0 by construction.
+  alignas(32) double height[2][4] = {{1, 1, 1, 1}, {1, 1, 1, 0}};
+};
+constexpr Masks masks;
+
+/// The two corners of an edge that passes through the other solid.
+inline void place_corners(const ContactLoops::Side& side, const EdgeRecord& edge, const Crossing& c,
+                          double (*corner)[4]) {
+  const double *tail = side.distance + side.planes * edge.tail, *head = side.distance + side.planes * edge.head;
+  const std::uint32_t enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+  // Weights of tail and head at either end: products of distances, each right to its own last bits however small.
+  const Lanes pierced = Lanes::of(tail[c.into], head[c.into], tail[c.out_of], head[c.out_of]);
+  const Lanes d = where_negative(Lanes::load(masks.own_end[enters + 2 * leaves]), Lanes::load(masks.whole), pierced);
+  const Lanes exchanged = swapped_pairs(d), weight = exchanged / (exchanged - d);
+  const Lanes p =
+      with_fourth(Lanes::load(side.body->row(edge.tail)) + side.shift, side.height[side.stride * edge.tail]);
+  const Lanes q =
+      with_fourth(Lanes::load(side.body->row(edge.head)) + side.shift, side.height[side.stride * edge.head]);
+  const Lanes from = fma(p, lane<0>(weight), q * lane<1>(weight)), to = fma(p, lane<2>(weight), q * lane<3>(weight));
+  (from * Lanes::load(masks.height[enters & std::uint32_t{c.into == side.reference}])).store(corner[0]);
+  (to * Lanes::load(masks.height[leaves & std::uint32_t{c.out_of == side.reference}])).store(corner[1]);
+}
+
+/// Where an edge pierces a face: the faces whose segment begins there, and those whose segment ends.
+struct Piercings {
+  std::uint32_t pairs[2 * ContactLoops::max_spans + 1];  ///< begins + 2^16·ends
+  std::uint32_t corner[2 * ContactLoops::max_spans + 1];
+  int count = 0;
+
+  void add(std::uint32_t begins_and_ends, int at, std::uint32_t real) {
+    pairs[count] = begins_and_ends;
+    corner[count] = static_cast<std::uint32_t>(at);
+    count += static_cast<int>(real);
+  }
+};
+
+void place_spans(const Crossing* crossing, ContactLoops& loops, Piercings& piercings) {
+  for (int k = 0; k < loops.spans; ++k) {
+    const Crossing c = crossing[k];
+    const std::uint32_t solid = c.edge / capacity, of_b = solid % 2, e = c.edge % capacity;
+    const ContactLoops::Side& side = loops.side[solid];
+    const EdgeRecord& edge = side.edge[e];
+    place_corners(side, edge, c, loops.corner + 2 * k);
+    const std::uint32_t enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+    const std::uint32_t leaving = edge.pairs[of_b], step = std::uint32_t{0x00010001} << 5 * of_b;
+    piercings.add(std::rotl(leaving, 16) + side.first_pair + step * c.into, 2 * k, enters);
+    piercings.add(leaving + side.first_pair + step * c.out_of, 2 * k + 1, leaves);
+
+    const std::uint32_t first_face = solid / 2 * capacity + of_b * ContactLoops::face_of_b;
+    const std::uint32_t left = first_face + edge.left, right = first_face + edge.right;
+    loops.span[k] = {solid, e, left, right};
+    loops.hub[left] = loops.hub[right] = static_cast<std::uint16_t>(2 * k);
+    loops.faces[solid] |= edge.faces;
+    loops.faces[solid ^ 1] |= enters << c.into | leaves << c.out_of;
+    loops.edges[solid] |= std::uint32_t{1} << e;
+  }
+}
+
+/// Joins every end to the beginning of the same two faces.
+void close_loops(const Piercings& piercings, int faces_a, ContactLoops& loops) {
+  std::uint16_t beginning[ContactLoops::max_pairs * face_pairs];  // corner + 1; 0: none
+  for (int p = 0; p < loops.pairs; ++p) std::fill_n(beginning + face_pairs * p, capacity * faces_a, std::uint16_t{0});
+  for (int k = 0; k < piercings.count; ++k) {
+    const std::uint32_t faces = piercings.pairs[k] & 0xFFFF;
+    const auto corner = static_cast<std::uint16_t>(piercings.corner[k]);
+    beginning[faces] = static_cast<std::uint16_t>(corner + 1);
+    loops.hub[faces / capacity] = loops.hub[number_of_b(faces)] = corner;
+  }
+  std::uint32_t open = 0;
+  for (int k = 0; k < piercings.count; ++k) {
+    const std::uint32_t faces = piercings.pairs[k] >> 16;
+    const std::uint32_t from = beginning[faces];
+    beginning[faces] = 0;
+    open |= std::uint32_t{from == 0} << faces / face_pairs;
+    loops.segment[k] = {faces, (from - 1) % (2 * ContactLoops::max_spans), piercings.corner[k]};
+  }
+  loops.segments = piercings.count;
+  for (int p = 0; p < loops.pairs; ++p) {
+    if (open >> p & 1) loops.verdict[p] = LoopVerdict::degenerate;
+  }
+}
+
+/// No edge of a pair pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
+void judge_unpierced(ContactLoops& loops) {
+  for (int p = 0; p < loops.pairs; ++p) {
+    if (loops.verdict[p] != LoopVerdict::closed) continue;
+    const bool a = loops.faces[2 * p] != 0, b = loops.faces[2 * p + 1] != 0;
+    if (!a || !b) loops.verdict[p] = a || b ? LoopVerdict::degenerate : LoopVerdict::separated;
+  }
 }
 
 }  // namespace
 
-void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
-  tabulate(a, b, r, gap_tolerance(a.solid(), b.solid(), r), loop);
-  trace(a, b, r, loop);
-}
-
-double refined_below(const ConvexSolid& a, const ConvexSolid& b) { return 2e-3 * std::min(a.inradius(), b.inradius()); }
-
-void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, ContactLoop& loop) {
-  const double tolerance = std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high);
-  tabulate(a, b, r.high, refined_below(a.solid(), b.solid()), loop);
-  refine(a, b, -r, tolerance, loop.of_a);
-  refine(b, a, r, tolerance, loop.of_b);
-  trace(a, b, r.high, loop);
+void find_contact_loops(std::span<const PlacedPair> pairs, ContactLoops& loops) {
+  loops.pairs = static_cast<int>(pairs.size());
+  if (pairs.empty()) return;
+  EdgeList of_a, of_b;
+  double* table = loops.tables;
+  for (int p = 0; p < 2 * loops.pairs; ++p) {
+    const PlacedPair& pair = pairs[static_cast<std::size_t>(p / 2)];
+    loops.distances[p].of = table;
+    table += Distances::size(p % 2 == 0 ? *pair.a : *pair.b, p % 2 == 0 ? *pair.b : *pair.a);
+  }
+  for (int p = 0; p < loops.pairs; ++p) begin(pairs[static_cast<std::size_t>(p)], p, loops, of_a, of_b);
+  const PlacedPair& any = pairs.front();
+  Crossing crossing[ContactLoops::max_spans + 1];
+  loops.spans = find_crossings(loops, any.b->faces(), of_a, crossing, 0);
+  loops.spans = find_crossings(loops, any.a->faces(), of_b, crossing, loops.spans);
+  Piercings piercings;
+  place_spans(crossing, loops, piercings);
+  close_loops(piercings, any.a->faces(), loops);
+  judge_unpierced(loops);
 }
 
 }  // namespace isojam

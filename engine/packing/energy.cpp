@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "engine/geometry/contact_loop.hpp"
+#include "engine/geometry/refine.hpp"
 
 namespace isojam {
 
@@ -125,7 +125,7 @@ void PackingEnergy::refresh(const Packing& packing) {
 void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   refresh(packing);
   place_all(packing, precision, placed_);
-  totals_ += overlap_pairs(packing, precision, placed_, pairs_, axes_, overlaps_);
+  totals_ += overlap_pairs(packing, placed_, pairs_, axes_, overlaps_);
   ++evaluations_;
 }
 
@@ -151,7 +151,7 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
 SecondOrder PackingEnergy::second_order(const Packing& packing, Precision precision) {
   overlap_all(packing, precision);
   hessians_.resize(pairs_.size());
-  pair_hessians(packing, precision, placed_, pairs_, overlaps_, hessians_);
+  pair_hessians(packing, placed_, pairs_, overlaps_, hessians_);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
   std::vector<BlockMatrix::Block>& blocks = result.hessian.off_diagonal;
