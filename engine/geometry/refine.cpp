@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/geometry/lanes.hpp"
+
 namespace isojam {
 
 namespace {
@@ -23,6 +25,12 @@ double precise_distance(const PlacedSolid& body, int vertex, const PlacedSolid& 
   return sum.high + sum.low;
 }
 
+std::uint32_t columns_below(double near, const double* row, int columns) {
+  std::uint32_t below = 0;
+  for (int k = 0; k < columns; k += 4) below |= sign_bits(absolute(Lanes::load(row + k)) - Lanes::all(near)) << k;
+  return below;
+}
+
 }  // namespace
 
 double refined_below(const ConvexSolid& a, const ConvexSolid& b) { return 2e-3 * std::min(a.inradius(), b.inradius()); }
@@ -30,14 +38,20 @@ double refined_below(const ConvexSolid& a, const ConvexSolid& b) { return 2e-3 *
 void refine(const PlacedSolid& body, const PlacedSolid& other, const TwoDoubleVector& to_other, Distances& d) {
   const double near = refined_below(body.solid(), other.solid());
   if (d.nearest >= near) return;
+  bool changed_side = false;
+  d.nearest = near;
   for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
     const int v = std::countr_zero(rows);
     double* row = d.row(v);
-    for (int f = 0; f < other.faces(); ++f) {
-      if (std::abs(row[f]) < near) row[f] = precise_distance(body, v, other, f, to_other);
+    for (std::uint32_t small = columns_below(near, row, d.planes); small; small &= small - 1) {
+      const int f = std::countr_zero(small);
+      const double distance = precise_distance(body, v, other, f, to_other);
+      changed_side |= std::signbit(distance) != std::signbit(row[f]);
+      d.nearest = std::min(d.nearest, std::abs(distance));
+      row[f] = distance;
     }
   }
-  classify(body.solid(), d);
+  if (changed_side) classify(body.solid(), d);
 }
 
 }  // namespace isojam
