@@ -5,6 +5,7 @@
 
 #include "engine/packing/block_matrix.hpp"
 #include "engine/packing/pair_loop.hpp"
+#include "engine/packing/pressed_pair.hpp"
 
 namespace isojam {
 
@@ -34,9 +35,8 @@ struct Evaluation {
 /// Second derivatives of the energy, and what they leave out.
 struct SecondOrder {
   BlockMatrix hessian;  ///< ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient
-  /// The stiffness against tilt that a flat contact shows only once its section line cuts the face; until then V is
-  /// linear in the tilt and the Hessian nearly blind to it. One entry per contact.
-  std::vector<TiltStiffness> tilts;
+  /// Pairs that touch, and pairs that would if pressed together; in order of (a, b, shift).
+  std::vector<PressedPair> pairs;
 };
 
 /// A touching pair. `overlap`: area and moment in A's body frame.
@@ -47,6 +47,15 @@ struct Contact {
   Overlap overlap;
 };
 
+/// What one contact adds to an Evaluation.
+struct ContactTerms {
+  Eigen::Vector3d dx, dtheta_a, dtheta_b;  ///< to the gradient: of a (of b −dx), and of rotations over R
+  Eigen::Matrix3d stress;                  ///< times −V_cell
+  double energy = 0, force = 0;
+  double stiffness_a = 0, stiffness_b = 0;  ///< ½ |∇V|², ∇V by the coordinates of one particle
+  double error = 0;                         ///< ρ_c, see Evaluation::residual_floor
+};
+
 /// Evaluates packings of one solid. Holds caches only (neighbour list with a skin, separating axes): the same
 /// packing gives the same bits whatever was evaluated before and whatever the number of threads.
 class PackingEnergy {
@@ -55,10 +64,11 @@ class PackingEnergy {
   /// In extended precision V, S and M of every contact are computed from the low parts of the state too, at a tenth
   /// more cost; sums are in double in either.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
-  /// Analytic; where two images of a particle touch another, their blocks are summed.
-  SecondOrder second_order(const Packing& packing, Precision precision = Precision::working);
+  /// Analytic; where two images of a particle touch another, their blocks are summed. Pairs are pressed together by
+  /// `press`, a distance.
+  SecondOrder second_order(const Packing& packing, double press, Precision precision = Precision::working);
   BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working) {
-    return second_order(packing, precision).hessian;
+    return second_order(packing, 0, precision).hessian;
   }
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
@@ -74,10 +84,14 @@ class PackingEnergy {
   std::vector<SeparatingAxis> axes_;
   std::vector<PlacedSolid> placed_;
   std::vector<Overlap> overlaps_;  ///< lab frame
+  std::vector<Overlap> pressed_;
+  std::vector<ContactTerms> terms_;
   std::vector<PairHessian> hessians_;
   std::vector<Eigen::Vector3d> list_positions_;
   double list_side_ = 0, skin_ = 0;
   const ConvexSolid* list_solid_ = nullptr;
+  std::vector<Pose> seen_;  ///< the packing that overlaps_ belong to, with seen_precision_ and list_side_
+  Precision seen_precision_ = Precision::working;
   long evaluations_ = 0;
   PairCounts totals_;
 };

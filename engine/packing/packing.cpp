@@ -1,6 +1,8 @@
 #include "engine/packing/packing.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <stdexcept>
 
 namespace isojam {
@@ -17,6 +19,18 @@ Eigen::Quaterniond random_orientation(RandomStream& random) {
   return q.normalized();
 }
 
+/// Place of a position along a Z-order curve through the cell, 2^10 cells a side.
+std::uint32_t place_on_curve(const Eigen::Vector3d& position, double side) {
+  std::uint32_t place = 0;
+  for (int bit = 9; bit >= 0; --bit) {
+    for (int c = 0; c < 3; ++c) {
+      const auto cell = static_cast<std::uint32_t>(std::min(1023.0, 1024 * position[c] / side));
+      place = place << 1 | (cell >> bit & 1);
+    }
+  }
+  return place;
+}
+
 }  // namespace
 
 Packing random_packing(const ConvexSolid& solid, int n, double density, RandomStream& random) {
@@ -31,6 +45,10 @@ Packing random_packing(const ConvexSolid& solid, int n, double density, RandomSt
     for (int c = 0; c < 3; ++c) pose.position[c] = side * random.uniform();
     pose.orientation = random_orientation(random);
   }
+  // Neighbours in space become neighbours in memory, which thousands of particles need for their cost to stay linear.
+  std::stable_sort(packing.poses.begin(), packing.poses.end(), [side](const Pose& a, const Pose& b) {
+    return place_on_curve(a.position, side) < place_on_curve(b.position, side);
+  });
   return packing;
 }
 

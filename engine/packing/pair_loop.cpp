@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <vector>
 
 namespace isojam {
@@ -44,6 +45,19 @@ void overlap_pair(const Packing& packing, std::span<const PlacedSolid> placed, c
   if (out.touching()) ++counts.touching;
   // No face separates: an edge pair does, and it is worth a search once.
   if (!out.touching() && axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
+}
+
+void press_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
+                const SeparatingAxis& axis, double distance, Overlap& out) {
+  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
+  const Eigen::Vector3d r = displacement(packing, pair);
+  const double length = r.norm(), reach = 2 * packing.solid->circumradius();
+  out = {};
+  if (length - distance >= reach || length <= distance) return;
+  const Eigen::Vector3d closer = (1 - distance / length) * r;
+  if (separates(a, b, closer, axis)) return;
+  SeparatingAxis unused;
+  out = overlap(a, b, closer, unused);
 }
 
 /// Runs `run(block)` for every block of `grain` pairs.
@@ -93,15 +107,23 @@ PairCounts& PairCounts::operator+=(const PairCounts& term) {
   return *this;
 }
 
+void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run) {
+  for_each_block(block_count(slots), [&](std::size_t block) {
+    for (std::size_t k = block * grain; k < std::min(slots, (block + 1) * grain); ++k) run(k);
+  });
+}
+
 void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed) {
-  placed.clear();
-  for (const Pose& pose : packing.poses) {
+  placed.resize(packing.poses.size());
+  for_each_slot(placed.size(), [&](std::size_t k) {
+    const Pose& pose = packing.poses[k];
+    // In place of the old one, which owns nothing: a copy would cost as much again.
     if (precision == Precision::extended) {
-      placed.emplace_back(*packing.solid, rotation_matrix(pose));
+      std::construct_at(&placed[k], *packing.solid, rotation_matrix(pose));
     } else {
-      placed.emplace_back(*packing.solid, pose.orientation.toRotationMatrix());
+      std::construct_at(&placed[k], *packing.solid, pose.orientation.toRotationMatrix());
     }
-  }
+  });
 }
 
 PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
@@ -117,6 +139,16 @@ PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> pl
   PairCounts sum;
   for (const PairCounts& block : counts) sum += block;
   return sum;
+}
+
+void press_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
+                 std::span<const SeparatingAxis> axes, double distance, std::span<Overlap> out) {
+  assert(axes.size() == pairs.size() && out.size() == pairs.size());
+  const std::size_t n = pairs.size();
+  for_each_block(block_count(n), [&](std::size_t block) {
+    for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
+      press_pair(packing, placed, pairs[k], axes[k], distance, out[k]);
+  });
 }
 
 void pair_hessians(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,

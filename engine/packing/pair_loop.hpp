@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,10 @@ enum class Precision {
   extended  ///< two doubles: enough for a residual of 1e-9 at any distance from jamming
 };
 
+/// run(k) for every k < slots, parallel on oneTBB where there are enough of them. It may write to slot k only, so that
+/// the result does not depend on the number of threads.
+void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run);
+
 /// Every particle's solid in its orientation, in the order of particles. `placed` is overwritten.
 void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed);
 
@@ -38,6 +43,11 @@ void place_all(const Packing& packing, Precision precision, std::vector<PlacedSo
 /// All spans have the size of `pairs`.
 PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
+
+/// Overlap of every listed pair as it would be with B's centre closer to A's by `distance`; volume 0 where they would
+/// still be apart. `axes` as overlap_pairs left them.
+void press_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
+                 std::span<const SeparatingAxis> axes, double distance, std::span<Overlap> out);
 
 /// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
 /// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.

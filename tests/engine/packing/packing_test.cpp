@@ -87,7 +87,7 @@ TEST(PackingEnergyTest, RefusesACellTooSmall) {
     PackingEnergy energy;
     packing.cell = PeriodicCell(least_side(*packing.solid));
     EXPECT_THROW(energy.evaluate(packing), std::invalid_argument) << describe(packing);
-    EXPECT_THROW(energy.second_order(packing), std::invalid_argument) << describe(packing);
+    EXPECT_THROW(energy.second_order(packing, 0), std::invalid_argument) << describe(packing);
     packing.cell = PeriodicCell(least_side(*packing.solid) * (1 + epsilon));
     EXPECT_GT(energy.evaluate(packing).contacts, 0) << describe(packing);
   }
