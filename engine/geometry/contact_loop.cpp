@@ -118,12 +118,12 @@ template <class Count>
 Interval clip(Count vectors, const double* tail, const double* head) {
   const Lanes start = Lanes::all(at_tail), end = Lanes::all(at_head);
   Lanes enter = start, leave = end;
-  for (int k = 0; k < vectors; ++k) {
+  repeat(vectors, [&](int k) {
     const Lanes t = Lanes::load(tail + 4 * k), h = Lanes::load(head + 4 * k);
     const Lanes crossing = tagged(t / (t - h), 4 * k);
     enter = max(enter, where_negative(t, start, crossing));
     leave = min(leave, where_negative(h, end, crossing));
-  }
+  });
   return {greatest(enter), least(leave)};
 }
 

@@ -51,15 +51,14 @@ void integrate_loops(const ContactLoops& loops, Sums* sums) {
   }
 }
 
-Overlap finished(const ContactLoops& loops, int p, const Eigen::Vector3d& r, const Sums& sums) {
-  Overlap result;
+/// Writes every member of `result`.
+void finish(const ContactLoops& loops, int p, const Eigen::Vector3d& r, const Sums& sums, Overlap& result) {
   result.path = OverlapPath::loop;
   result.faces_a = loops.faces[2 * p], result.faces_b = loops.faces[2 * p + 1];
   result.edges_a = loops.edges[2 * p], result.edges_b = loops.edges[2 * p + 1];
   result.volume = loops.up[p].dot(vector_of(yzx(sums.prisms))) / 6;
   result.area = vector_of(yzx(sums.twice_area)) / 2;
   result.moment = (r / 2).cross(result.area) - vector_of(sums.moment) / 6;
-  return result;
 }
 
 Overlap clipped(const PlacedPair& pair) {
@@ -78,14 +77,16 @@ void overlap_few(std::span<const PlacedPair> pairs, ContactLoops& loops, std::sp
   integrate_loops(loops, sums);
   for (int p = 0; p < loops.pairs; ++p) {
     const auto k = static_cast<std::size_t>(p);
-    out[k] = {};
-    if (loops.verdict[p] == LoopVerdict::separated) {
-      axes[k] = loops.axis[p];
-      continue;
+    if (loops.verdict[p] == LoopVerdict::closed) {
+      finish(loops, p, pairs[k].r, sums[p], out[k]);
+      if (out[k].volume > 0) continue;  // or rounding ate a sliver
     }
-    if (loops.verdict[p] == LoopVerdict::closed) out[k] = finished(loops, p, pairs[k].r, sums[p]);
-    // Rounding may eat a sliver.
-    if (!(out[k].volume > 0)) out[k] = clipped(pairs[k]);
+    if (loops.verdict[p] == LoopVerdict::separated) {
+      out[k] = {};
+      axes[k] = loops.axis[p];
+    } else {
+      out[k] = clipped(pairs[k]);
+    }
   }
 }
 
