@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/geometry/contact_loop.hpp"
 #include "engine/geometry/lanes.hpp"
 
 namespace isojam {
@@ -26,68 +27,36 @@ Eigen::Vector3d vector_of(Lanes a) {
   return {lane[0], lane[1], lane[2]};
 }
 
-/// Sums over the edges of one intersection, cross products as cross_zxy() has them.
-struct Sums {
-  Lanes twice_area = Lanes::all(0), moment = Lanes::all(0), prisms = Lanes::all(0);
-};
-
-void integrate_loops(const ContactLoops& loops, Sums* sums) {
-  const auto corner = [&](std::uint32_t k) { return Lanes::load(loops.corner[k]); };
-  for (int k = 0; k < loops.segments; ++k) {
-    const ContactLoops::Segment s = loops.segment[k];
-    Sums& sum = sums[s.faces / (SolidArrays::capacity * SolidArrays::capacity)];
+void integrate(const ContactLoop& loop, const Eigen::Vector3d& r, Overlap& result) {
+  const auto corner = [&](std::uint32_t k) { return Lanes::load(loop.corner[k]); };
+  const auto hub = [&](std::uint32_t face) { return corner(loop.hub[face]); };
+  Lanes twice_area = Lanes::all(0), moment = twice_area, prisms = twice_area;
+  for (int k = 0; k < loop.segments; ++k) {
+    const ContactLoop::Segment& s = loop.segment[k];
     const Lanes v = corner(s.from), w = corner(s.to);
     const Lanes cross = cross_zxy(v, w), both = v + w, along = w - v;
-    const Lanes a = corner(loops.hub[s.faces / SolidArrays::capacity]), b = corner(loops.hub[number_of_b(s.faces)]);
-    sum.twice_area = sum.twice_area + cross;
-    sum.moment = fma(along, isojam::sum(without_fourth(fma(v, both, w * w))), sum.moment);
-    sum.prisms = sum.prisms + fan(cross, both, along, a, b);
+    twice_area = twice_area + cross;
+    moment = fma(along, sum(without_fourth(fma(v, both, w * w))), moment);
+    prisms = prisms + fan(cross, both, along, hub(s.face_a), hub(ContactLoop::face_of_b + s.face_b));
   }
-  for (int k = 0; k < loops.spans; ++k) {
-    const ContactLoops::Span& s = loops.span[k];
-    const Lanes v = Lanes::load(loops.corner[2 * k]), w = Lanes::load(loops.corner[2 * k + 1]);
-    Lanes& prisms = sums[s.solid / 2].prisms;
-    prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, corner(loops.hub[s.left]), corner(loops.hub[s.right]));
+  for (int k = 0; k < loop.spans; ++k) {
+    const Lanes v = Lanes::load(loop.corner[2 * k]), w = Lanes::load(loop.corner[2 * k + 1]);
+    prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, hub(loop.span[k].left), hub(loop.span[k].right));
   }
-}
-
-/// Writes every member of `result`.
-void finish(const ContactLoops& loops, int p, const Eigen::Vector3d& r, const Sums& sums, Overlap& result) {
   result.path = OverlapPath::loop;
-  result.faces_a = loops.faces[2 * p], result.faces_b = loops.faces[2 * p + 1];
-  result.edges_a = loops.edges[2 * p], result.edges_b = loops.edges[2 * p + 1];
-  result.volume = loops.up[p].dot(vector_of(yzx(sums.prisms))) / 6;
-  result.area = vector_of(yzx(sums.twice_area)) / 2;
-  result.moment = (r / 2).cross(result.area) - vector_of(sums.moment) / 6;
+  result.faces_a = loop.faces[0], result.faces_b = loop.faces[1];
+  result.edges_a = loop.edges[0], result.edges_b = loop.edges[1];
+  result.volume = loop.up.dot(vector_of(yzx(prisms))) / 6;
+  result.area = vector_of(yzx(twice_area)) / 2;
+  result.moment = (r / 2).cross(result.area) - vector_of(moment) / 6;
 }
 
-Overlap clipped(const PlacedPair& pair) {
-  const Eigen::Matrix3d to_a = pair.a->rotation().transpose();
-  Overlap result = clipped_overlap(pair.a->solid(), pair.b->solid(), {to_a * pair.b->rotation(), to_a * pair.r});
-  result.area = pair.a->rotation() * result.area;
-  result.moment = pair.a->rotation() * result.moment;
+Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
+  const Eigen::Matrix3d to_a = a.rotation().transpose();
+  Overlap result = clipped_overlap(a.solid(), b.solid(), {to_a * b.rotation(), to_a * r});
+  result.area = a.rotation() * result.area;
+  result.moment = a.rotation() * result.moment;
   return result;
-}
-
-/// At most max_pairs.
-void overlap_few(std::span<const PlacedPair> pairs, ContactLoops& loops, std::span<SeparatingAxis> axes,
-                 std::span<Overlap> out) {
-  find_contact_loops(pairs, loops);
-  Sums sums[ContactLoops::max_pairs];
-  integrate_loops(loops, sums);
-  for (int p = 0; p < loops.pairs; ++p) {
-    const auto k = static_cast<std::size_t>(p);
-    if (loops.verdict[p] == LoopVerdict::closed) {
-      finish(loops, p, pairs[k].r, sums[p], out[k]);
-      if (out[k].volume > 0) continue;  // or rounding ate a sliver
-    }
-    if (loops.verdict[p] == LoopVerdict::separated) {
-      out[k] = {};
-      axes[k] = loops.axis[p];
-    } else {
-      out[k] = clipped(pairs[k]);
-    }
-  }
 }
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
@@ -98,19 +67,19 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-void overlaps(std::span<const PlacedPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out) {
-  ContactLoops loops;
-  for (std::size_t k = 0; k < pairs.size(); k += ContactLoops::max_pairs) {
-    const std::size_t n = std::min<std::size_t>(ContactLoops::max_pairs, pairs.size() - k);
-    overlap_few(pairs.subspan(k, n), loops, axes.subspan(k, n), out.subspan(k, n));
-  }
-}
-
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
-  const PlacedPair pair{&a, &b, r};
+  ContactLoop loop;
+  find_contact_loop(a, b, r, loop);
   Overlap result;
-  overlaps({&pair, 1}, {&axis, 1}, {&result, 1});
-  return result;
+  if (loop.verdict == LoopVerdict::separated) {
+    axis = loop.axis;
+    return result;
+  }
+  if (loop.verdict == LoopVerdict::closed) {
+    integrate(loop, r, result);
+    if (result.volume > 0) return result;  // or rounding ate a sliver
+  }
+  return clipped(a, b, r);
 }
 
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
@@ -123,16 +92,15 @@ Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& 
 }
 
 Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
-  ContactLoops loops;
-  const PlacedPair pair{&a, &b, r};
-  find_contact_loops({&pair, 1}, loops);
+  ContactLoop loop;
+  find_contact_loop(a, b, r, loop);
   Matrix6d hessian = Matrix6d::Zero();
-  if (loops.verdict[0] != LoopVerdict::closed) return hessian;
+  if (loop.verdict != LoopVerdict::closed) return hessian;
   const double gauss = 0.5 / std::sqrt(3.0);
-  for (int k = 0; k < loops.segments; ++k) {
-    const ContactLoops::Segment& s = loops.segment[k];
-    const Eigen::Vector3d n = a.normal(static_cast<int>(s.faces / 32)), m = b.normal(static_cast<int>(s.faces % 32));
-    const Eigen::Vector3d from(loops.corner[s.from]), to(loops.corner[s.to]);
+  for (int k = 0; k < loop.segments; ++k) {
+    const ContactLoop::Segment& s = loop.segment[k];
+    const Eigen::Vector3d n = a.normal(static_cast<int>(s.face_a)), m = b.normal(static_cast<int>(s.face_b));
+    const Eigen::Vector3d from(loop.corner[s.from]), to(loop.corner[s.to]);
     const double sine = n.cross(m).norm();
     const Eigen::Vector3d along = to - from;
     if (!(sine > 0)) continue;

@@ -2,9 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <span>
 
-#include "engine/geometry/contact_loop.hpp"
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/placed_solid.hpp"
 #include "engine/geometry/pose.hpp"
@@ -46,10 +44,6 @@ struct Overlap {
 /// answer comes from clipped_overlap. Never silently wrong; never throws.
 /// If a face of A or B separates the solids, `axis` is set to it, for later use with separates().
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
-
-/// The same for many pairs, all of the same two solids: faster, since their branches are predicted together. Every pair
-/// gives the same bits as alone. All spans have one size.
-void overlaps(std::span<const PlacedPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
 
 /// The same of solids given by their relative pose, in A's body frame.
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
