@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <span>
 
 #include "engine/geometry/distances.hpp"
 #include "engine/geometry/lanes.hpp"
@@ -11,80 +10,50 @@
 
 namespace isojam {
 
-/// Two placed solids, B's centre at r + r_low = x_B − x_A (lab frame). If both have low parts, plane distances are
-/// right to their last bits however flat the contact; if not, r_low is not read.
-struct PlacedPair {
-  const PlacedSolid* a = nullptr;
-  const PlacedSolid* b = nullptr;
-  Eigen::Vector3d r = Eigen::Vector3d::Zero(), r_low = Eigen::Vector3d::Zero();
-
-  bool is_precise() const { return a->has_low_parts() && b->has_low_parts(); }
-  TwoDoubleVector precise_r() const { return {r, r_low}; }
-};
-
 enum class LoopVerdict : std::uint8_t {
   separated,  ///< a face separates, or no edge of one solid reaches into the other
   closed,     ///< every segment has its two ends: the loop is the boundary between A's part and B's
   degenerate  ///< a vertex lies on a plane to within rounding, the loop does not close, or one solid holds the other
 };
 
-/// The contact loops of a few pairs at once, each step one loop over all their edges or segments: a pair alone has so
-/// few of them that its every loop would end in a mispredicted branch, at a cost beyond that of the arithmetic.
-/// A workspace: only what the counts say is defined. Numbers: solid A of pair p is 2p, B 2p + 1; face i of A is 32p +
-/// i, face j of B face_of_b + 32p + j.
-struct ContactLoops {
+/// The edges of the intersection of A and B: parts of edges of either inside the other, and the loop where their
+/// surfaces cross. Only what the verdict and the counts say is defined: clearing the rest would cost as much as finding
+/// the loop. Face i of A has number i, face j of B face_of_b + j.
+struct ContactLoop {
   static constexpr int capacity = SolidArrays::capacity;
-  static constexpr int max_pairs = 8;
-  static constexpr int max_spans = max_pairs * 2 * capacity;
-  static constexpr std::uint32_t face_of_b = max_pairs * capacity;
+  static constexpr std::uint32_t face_of_b = capacity;
+  static constexpr int max_spans = 2 * capacity;
+  static constexpr int max_corners = 2 * max_spans;
 
-  /// What a solid brings to its pair.
-  struct Side {
-    const EdgeRecord* edge;
-    const PlacedSolid* body;
-    const double* distance;        ///< of its vertices from the other's planes,
-    const double* height;          ///< and over the reference plane,
-    std::uint32_t planes, stride;  ///< with these steps from vertex to vertex
-    std::uint32_t reference;       ///< column of the reference plane in `distance`; none if it is the solid's own
-    std::uint32_t first_pair;      ///< 1024p, twice: what the pair adds to EdgeRecord::pairs
-    Lanes shift;                   ///< the solid's centre; height 0
-  };
-
-  /// Part of an edge inside the other solid, from corner 2k to 2k + 1 (k its index), tail → head.
+  /// Part of an edge, tail → head, from corner 2k to 2k + 1 (k its index).
   struct Span {
-    std::uint32_t solid, edge;
-    std::uint32_t left, right;  ///< faces
+    std::uint32_t left, right;  ///< faces, by number
   };
-
-  /// Where face i of A (left) crosses face j of B (right), counter-clockwise seen from outside A.
+  /// Where face_a (left) crosses face_b (right), counter-clockwise seen from outside A.
   struct Segment {
-    std::uint32_t faces;  ///< 1024p + 32i + j
-    std::uint32_t from, to;
+    std::uint32_t face_a, face_b;  ///< i and j, not face_of_b + j
+    std::uint32_t from, to;        ///< corners
   };
 
-  int pairs = 0, spans = 0, segments = 0;
-  LoopVerdict verdict[max_pairs];
-  SeparatingAxis axis[max_pairs];  ///< of a separated pair: the face that separates, if one was found
-  Eigen::Vector3d up[max_pairs];   ///< normal of the reference plane, the one that is penetrated least
-  std::uint32_t faces[2 * max_pairs], edges[2 * max_pairs];  ///< of each solid, those of the intersection
-  Side side[2 * max_pairs];
-  Distances distances[2 * max_pairs];
-  alignas(32) double tables[2 * max_pairs * Distances::max_size];  ///< of the distances, without gaps
+  LoopVerdict verdict = LoopVerdict::degenerate;
+  SeparatingAxis axis;  ///< the face that separates, if one was found
+  Eigen::Vector3d up;   ///< normal of the reference plane: of all face planes the one penetrated least
+  int spans = 0, segments = 0;
+  std::uint32_t faces[2], edges[2];  ///< of A and of B, those of the intersection
+  Distances of_a, of_b;              ///< of the vertices of A from the planes of B, and the other way round
+  alignas(32) double tables[2 * Distances::max_size];  ///< the memory of both, without a gap
   /// x, y, z from the middle between the centres (lab frame), and the height over the reference plane, negative inside:
   /// interpolated between tabulated distances, hence 0 on that plane and never a difference of larger numbers near it.
-  alignas(32) double corner[2 * max_spans][4];
-  std::uint16_t hub[2 * face_of_b];  ///< of each face of an intersection, one of its corners
+  alignas(32) double corner[max_corners][4];
+  std::uint16_t hub[2 * capacity];  ///< of each face of the intersection, by number, one of its corners
   Span span[max_spans];
-  Segment segment[2 * max_spans];
+  Segment segment[max_corners];
 };
 
-/// Number of the face of B in 1024p + 32i + j.
-inline std::uint32_t number_of_b(std::uint32_t faces) {
-  constexpr std::uint32_t capacity = SolidArrays::capacity;
-  return ContactLoops::face_of_b + faces / (capacity * capacity) * capacity + faces % capacity;
-}
-
-/// Finds the loops of at most max_pairs pairs, all of the same two solids.
-void find_contact_loops(std::span<const PlacedPair> pairs, ContactLoops& loops);
+/// Finds the loop of A and B, B's centre at r from A's (lab frame). `loop` is overwritten.
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop);
+/// The same with small distances taken in two doubles: each is right to its last bits however flat the contact. A and B
+/// are placed in two doubles.
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, ContactLoop& loop);
 
 }  // namespace isojam

@@ -32,25 +32,25 @@ template <class Counts>
 class Scan {
  public:
   explicit Scan(const Counts& counts) : counts_(counts) {
-    for (int k = 0; k < counts.vectors; ++k) lowest_[k] = nearest_;
+    repeat(counts.vectors, [&](int k) { lowest_[k] = nearest_; });
   }
 
   /// Adds vertex v, at `distance(k)` from planes 4k..; the planes it lies inside of, one bit each.
   template <class Row>
   std::uint32_t add(const Row& distance) {
     std::uint32_t inside = 0;
-    for (int k = 0; k < counts_.vectors; ++k) {
+    repeat(counts_.vectors, [&](int k) {
       const Lanes d = distance(k);
       lowest_[k] = min(lowest_[k], d);
       nearest_ = min(nearest_, absolute(d));
       inside |= sign_bits(d) << 4 * k;
-    }
+    });
     return inside;
   }
 
   void finish(Distances& d) const {
-    Lanes highest = tagged(lowest_[0], 0);
-    for (int k = 1; k < counts_.vectors; ++k) highest = max(highest, tagged(lowest_[k], 4 * k));
+    Lanes highest = Lanes::all(-SolidArrays::far);
+    repeat(counts_.vectors, [&](int k) { highest = max(highest, tagged(lowest_[k], 4 * k)); });
     d.nearest = least(nearest_).first();
     d.least_penetration = -greatest(highest).first();
     d.least_penetrated = static_cast<int>(tag_of(d.least_penetration));
@@ -112,8 +112,8 @@ void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vec
     };
     Lanes constant[capacity / 4];
     const Lanes x = Lanes::all(-to_other.x()), y = Lanes::all(-to_other.y()), z = Lanes::all(-to_other.z());
-    for (int k = 0; k < counts.vectors; ++k)
-      constant[k] = affine(k, x, y, z, Lanes::all(0) - Lanes::load(other.offset() + 4 * k));
+    repeat(counts.vectors,
+           [&](int k) { constant[k] = affine(k, x, y, z, Lanes::all(0) - Lanes::load(other.offset() + 4 * k)); });
     const auto row = [&](int v, int k) {
       const double* p = body.row(v);
       const Lanes distance = affine(k, Lanes::all(p[0]), Lanes::all(p[1]), Lanes::all(p[2]), constant[k]);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 #include "engine/geometry/placed_solid.hpp"
 
@@ -57,6 +58,17 @@ void with_counts(const SolidArrays& body, int planes, const Function& function) 
     case 64 * 12 + 5: return function(Counts<12, 5, 30>{});
     default: return function(AnyCounts{body.vertices, vectors, body.edges});
   }
+}
+
+/// Calls function(k) for k < n, without a loop if n is known: what it accumulates stays in registers.
+template <int n, class Function>
+inline void repeat(std::integral_constant<int, n>, const Function& function) {
+  [&]<int... k>(std::integer_sequence<int, k...>) { (function(k), ...); }
+  (std::make_integer_sequence<int, n>{});
+}
+template <class Function>
+inline void repeat(int n, const Function& function) {
+  for (int k = 0; k < n; ++k) function(k);
 }
 
 /// The number of vectors alone.

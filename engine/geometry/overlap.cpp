@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/geometry/contact_loop.hpp"
 #include "engine/geometry/lanes.hpp"
 
 namespace isojam {
@@ -26,137 +27,86 @@ Eigen::Vector3d vector_of(Lanes a) {
   return {lane[0], lane[1], lane[2]};
 }
 
-/// Sums over the edges of one intersection, cross products as cross_zxy() has them.
-struct Sums {
-  Lanes twice_area = Lanes::all(0), moment = Lanes::all(0), prisms = Lanes::all(0);
-};
-
-void integrate_loops(const ContactLoops& loops, Sums* sums) {
-  const auto corner = [&](std::uint32_t k) { return Lanes::load(loops.corner[k]); };
-  for (int k = 0; k < loops.segments; ++k) {
-    const ContactLoops::Segment s = loops.segment[k];
-    Sums& sum = sums[s.faces / (SolidArrays::capacity * SolidArrays::capacity)];
+void integrate(const ContactLoop& loop, const Eigen::Vector3d& r, Overlap& result) {
+  const auto corner = [&](std::uint32_t k) { return Lanes::load(loop.corner[k]); };
+  const auto hub = [&](std::uint32_t face) { return corner(loop.hub[face]); };
+  Lanes twice_area = Lanes::all(0), moment = twice_area, prisms = twice_area;
+  for (int k = 0; k < loop.segments; ++k) {
+    const ContactLoop::Segment& s = loop.segment[k];
     const Lanes v = corner(s.from), w = corner(s.to);
     const Lanes cross = cross_zxy(v, w), both = v + w, along = w - v;
-    const Lanes a = corner(loops.hub[s.faces / SolidArrays::capacity]), b = corner(loops.hub[number_of_b(s.faces)]);
-    sum.twice_area = sum.twice_area + cross;
-    sum.moment = fma(along, isojam::sum(without_fourth(fma(v, both, w * w))), sum.moment);
-    sum.prisms = sum.prisms + fan(cross, both, along, a, b);
+    twice_area = twice_area + cross;
+    moment = fma(along, sum(without_fourth(fma(v, both, w * w))), moment);
+    prisms = prisms + fan(cross, both, along, hub(s.face_a), hub(ContactLoop::face_of_b + s.face_b));
   }
-  for (int k = 0; k < loops.spans; ++k) {
-    const ContactLoops::Span& s = loops.span[k];
-    const Lanes v = Lanes::load(loops.corner[2 * k]), w = Lanes::load(loops.corner[2 * k + 1]);
-    Lanes& prisms = sums[s.solid / 2].prisms;
-    prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, corner(loops.hub[s.left]), corner(loops.hub[s.right]));
+  for (int k = 0; k < loop.spans; ++k) {
+    const Lanes v = Lanes::load(loop.corner[2 * k]), w = Lanes::load(loop.corner[2 * k + 1]);
+    prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, hub(loop.span[k].left), hub(loop.span[k].right));
   }
-}
-
-Overlap finished(const ContactLoops& loops, int p, const Eigen::Vector3d& r, const Sums& sums) {
-  Overlap result;
   result.path = OverlapPath::loop;
-  result.faces_a = loops.faces[2 * p], result.faces_b = loops.faces[2 * p + 1];
-  result.edges_a = loops.edges[2 * p], result.edges_b = loops.edges[2 * p + 1];
-  result.volume = loops.up[p].dot(vector_of(yzx(sums.prisms))) / 6;
-  result.area = vector_of(yzx(sums.twice_area)) / 2;
-  result.moment = (r / 2).cross(result.area) - vector_of(sums.moment) / 6;
-  return result;
+  result.faces_a = loop.faces[0], result.faces_b = loop.faces[1];
+  result.edges_a = loop.edges[0], result.edges_b = loop.edges[1];
+  result.volume = loop.up.dot(vector_of(yzx(prisms))) / 6;
+  result.area = vector_of(yzx(twice_area)) / 2;
+  result.moment = (r / 2).cross(result.area) - vector_of(moment) / 6;
 }
 
-Overlap clipped_in_frame_of_a(const PlacedPair& pair) {
-  const ConvexSolid &a = pair.a->solid(), &b = pair.b->solid();
-  if (pair.is_precise()) {
-    const QuadMatrix to_a = transposed(widened(pair.a->precise_rotation()));
-    const QuadPose pose{to_a * widened(pair.b->precise_rotation()), to_a * widened(pair.precise_r())};
-    return narrowed(clipped_overlap(a, b, pose));
-  }
-  const Eigen::Matrix3d to_a = pair.a->rotation().transpose();
-  return clipped_overlap(a, b, RelativePose{to_a * pair.b->rotation(), to_a * pair.r});
+Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
+  const Eigen::Matrix3d to_a = a.rotation().transpose();
+  return clipped_overlap(a.solid(), b.solid(), RelativePose{to_a * b.rotation(), to_a * r});
 }
 
-Overlap clipped(const PlacedPair& pair) {
-  Overlap result = clipped_in_frame_of_a(pair);
-  result.area = pair.a->rotation() * result.area;
-  result.moment = pair.a->rotation() * result.moment;
-  return result;
+Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r) {
+  const QuadMatrix to_a = transposed(widened(a.precise_rotation()));
+  const QuadPose pose{to_a * widened(b.precise_rotation()), to_a * widened(r)};
+  return narrowed(clipped_overlap(a.solid(), b.solid(), pose));
 }
 
-/// At most max_pairs.
-void overlap_few(std::span<const PlacedPair> pairs, ContactLoops& loops, std::span<SeparatingAxis> axes,
-                 std::span<Overlap> out) {
-  find_contact_loops(pairs, loops);
-  Sums sums[ContactLoops::max_pairs];
-  integrate_loops(loops, sums);
-  for (int p = 0; p < loops.pairs; ++p) {
-    const auto k = static_cast<std::size_t>(p);
-    out[k] = {};
-    if (loops.verdict[p] == LoopVerdict::separated) {
-      axes[k] = loops.axis[p];
-      continue;
-    }
-    if (loops.verdict[p] == LoopVerdict::closed) out[k] = finished(loops, p, pairs[k].r, sums[p]);
-    // Rounding may eat a sliver.
-    if (!(out[k].volume > 0)) out[k] = clipped(pairs[k]);
-  }
-}
+const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
+const Eigen::Vector3d& rounded(const TwoDoubleVector& r) { return r.high; }
 
-/// |n×m| of two unit normals. In two doubles as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its
-/// last bits for parallel planes too.
-double sine(const PlacedPair& pair, int face_a, int face_b) {
-  const Eigen::Vector3d n = pair.a->normal(face_a), m = pair.b->normal(face_b);
-  if (!pair.is_precise()) return n.cross(m).norm();
-  const double sign = n.dot(m) < 0 ? 1 : -1;
-  const Eigen::Vector3d low = pair.a->precise_normal(face_a).low + sign * pair.b->precise_normal(face_b).low;
-  return n.cross(n + sign * m + low).norm();
-}
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-}  // namespace
-
-void overlaps(std::span<const PlacedPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out) {
-  ContactLoops loops;
-  for (std::size_t k = 0; k < pairs.size(); k += ContactLoops::max_pairs) {
-    const std::size_t n = std::min<std::size_t>(ContactLoops::max_pairs, pairs.size() - k);
-    overlap_few(pairs.subspan(k, n), loops, axes.subspan(k, n), out.subspan(k, n));
-  }
-}
-
-Overlap overlap(const PlacedPair& pair, SeparatingAxis& axis) {
+/// In double or in two doubles, as r is.
+template <class Displacement>
+Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis) {
+  ContactLoop loop;
+  find_contact_loop(a, b, r, loop);
   Overlap result;
-  overlaps({&pair, 1}, {&axis, 1}, {&result, 1});
+  if (loop.verdict == LoopVerdict::separated) {
+    axis = loop.axis;
+    return result;
+  }
+  if (loop.verdict == LoopVerdict::closed) {
+    integrate(loop, rounded(r), result);
+    if (result.volume > 0) return result;  // or rounding ate a sliver
+  }
+  result = clipped(a, b, r);
+  result.area = a.rotation() * result.area;
+  result.moment = a.rotation() * result.moment;
   return result;
 }
 
-Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
-  return overlap(PlacedPair{&a, &b, r}, axis);
+/// |n×m| of two unit normals.
+double sine(const Eigen::Vector3d& n, const Eigen::Vector3d& m) { return n.cross(m).norm(); }
+
+/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
+double sine(const TwoDoubleVector& n, const TwoDoubleVector& m) {
+  const double sign = n.high.dot(m.high) < 0 ? 1 : -1;
+  return n.high.cross((n.high + sign * m.high) + (n.low + sign * m.low)).norm();
 }
 
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
-  return overlap(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement, axis);
-}
-
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
-  SeparatingAxis unused;
-  return overlap(a, b, pose, unused);
-}
-
-Matrix6d overlap_cross_hessian(const PlacedPair& pair) {
-  ContactLoops loops;
-  const Eigen::Vector3d& r = pair.r;
-  find_contact_loops({&pair, 1}, loops);
+/// `sine_between(i, j)` of face i of A and face j of B.
+template <class Sine>
+Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop,
+                       const Sine& sine_between) {
   Matrix6d hessian = Matrix6d::Zero();
-  if (loops.verdict[0] != LoopVerdict::closed) return hessian;
+  if (loop.verdict != LoopVerdict::closed) return hessian;
   const double gauss = 0.5 / std::sqrt(3.0);
-  for (int k = 0; k < loops.segments; ++k) {
-    const ContactLoops::Segment& s = loops.segment[k];
-    const auto i = static_cast<int>(s.faces / 32), j = static_cast<int>(s.faces % 32);
-    const Eigen::Vector3d n = pair.a->normal(i), m = pair.b->normal(j);
-    const Eigen::Vector3d from(loops.corner[s.from]), to(loops.corner[s.to]);
-    const double sine_of_planes = sine(pair, i, j);
+  for (int k = 0; k < loop.segments; ++k) {
+    const ContactLoop::Segment& s = loop.segment[k];
+    const auto i = static_cast<int>(s.face_a), j = static_cast<int>(s.face_b);
+    const Eigen::Vector3d n = a.normal(i), m = b.normal(j);
+    const Eigen::Vector3d from(loop.corner[s.from]), to(loop.corner[s.to]);
+    const double sine_of_planes = sine_between(i, j);
     const Eigen::Vector3d along = to - from;
     if (!(sine_of_planes > 0)) continue;
     const double weight = along.norm() / (2 * sine_of_planes);
@@ -170,8 +120,42 @@ Matrix6d overlap_cross_hessian(const PlacedPair& pair) {
   return hessian;
 }
 
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
+  return overlap_at(a, b, r, axis);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis) {
+  return overlap_at(a, b, r, axis);
+}
+
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
+  return overlap(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement, axis);
+}
+
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  SeparatingAxis unused;
+  return overlap(a, b, pose, unused);
+}
+
 Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
-  return overlap_cross_hessian(PlacedPair{&a, &b, r});
+  ContactLoop loop;
+  find_contact_loop(a, b, r, loop);
+  return cross_hessian(a, b, r, loop, [&](int i, int j) { return sine(a.normal(i), b.normal(j)); });
+}
+
+Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r) {
+  ContactLoop loop;
+  find_contact_loop(a, b, r, loop);
+  return cross_hessian(a, b, r.high, loop,
+                       [&](int i, int j) { return sine(a.precise_normal(i), b.precise_normal(j)); });
 }
 
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {

@@ -2,9 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <span>
 
-#include "engine/geometry/contact_loop.hpp"
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/placed_solid.hpp"
 #include "engine/geometry/pose.hpp"
@@ -46,12 +44,8 @@ struct Overlap {
 /// answer comes from clipped_overlap. Never silently wrong; never throws.
 /// If a face of A or B separates the solids, `axis` is set to it, for later use with separates().
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
-/// The same of a pair. If its solids have low parts V, S and M are right to a few 1e-16 of themselves at any depth.
-Overlap overlap(const PlacedPair& pair, SeparatingAxis& axis);
-
-/// The same for many pairs, all of the same two solids: faster, since their branches are predicted together. Every pair
-/// gives the same bits as alone. All spans have one size.
-void overlaps(std::span<const PlacedPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
+/// In two doubles, from the low parts of A, B and r: V, S and M to a few 1e-16 of themselves however flat the contact.
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis);
 
 /// The same of solids given by their relative pose, in A's body frame.
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
@@ -73,7 +67,7 @@ inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d
 /// by 2-point Gauss quadrature, exact since the integrand is quadratic. The other blocks follow from it by rigid
 /// motion of both bodies. Zero where the loop does not close (a degenerate pair has no second derivative).
 Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
-Matrix6d overlap_cross_hessian(const PlacedPair& pair);
+Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r);
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 /// ∂²V/∂(x_A, θ_A)² from H_AB: −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised, Tr: (a, θ) → (a + θ×r, θ);

@@ -56,7 +56,7 @@ PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotati
 }
 
 PlacedSolid::PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotation)
-    : solid_(&solid), has_low_parts_(true), rotation_(rotation.high), rotation_low_(rotation.low) {
+    : solid_(&solid), rotation_(rotation.high), rotation_low_(rotation.low) {
   const SolidArrays& body = solid.arrays();
   turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, {x_, y_, z_},
        {x_low_, y_low_, z_low_});

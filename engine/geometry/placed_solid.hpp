@@ -15,8 +15,7 @@ class PlacedSolid {
   PlacedSolid() = default;
   /// Keeps a pointer to the solid, which must outlive this. `rotation`: body frame → lab frame.
   PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation);
-  /// The same in two doubles: vertices and normals have low parts. What is computed from two such solids is extended in
-  /// precision.
+  /// The same in two doubles: vertices and normals have low parts.
   PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotation);
 
   const ConvexSolid& solid() const { return *solid_; }
@@ -36,8 +35,7 @@ class PlacedSolid {
   Eigen::Vector3d vertex(int v) const { return {x_[v], y_[v], z_[v]}; }
   Eigen::Vector3d normal(int f) const { return {nx_[f], ny_[f], nz_[f]}; }
 
-  bool has_low_parts() const { return has_low_parts_; }
-  /// Only of solids that have low parts.
+  /// With low parts, of solids placed in two doubles only.
   TwoDoubleVector precise_vertex(int v) const { return {vertex(v), {x_low_[v], y_low_[v], z_low_[v]}}; }
   TwoDoubleVector precise_normal(int f) const { return {normal(f), {nx_low_[f], ny_low_[f], nz_low_[f]}}; }
   TwoDouble precise_offset(int f) const { return {offset()[f], solid_->arrays().offset_low[f]}; }
@@ -49,7 +47,6 @@ class PlacedSolid {
   void copy_rows();
 
   const ConvexSolid* solid_ = nullptr;
-  bool has_low_parts_ = false;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), rotation_low_ = Eigen::Matrix3d::Zero();
   alignas(32) double rows_[capacity][4];
   alignas(32) double nx_[capacity], ny_[capacity], nz_[capacity];

@@ -133,7 +133,7 @@ void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   seen_.clear();
   refresh(packing);
   place_all(packing, precision, placed_);
-  totals_ += overlap_pairs(packing, placed_, pairs_, axes_, overlaps_);
+  totals_ += overlap_pairs(packing, precision, placed_, pairs_, axes_, overlaps_);
   seen_ = packing.poses;
   seen_precision_ = precision;
 }
@@ -166,7 +166,7 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
 SecondOrder PackingEnergy::second_order(const Packing& packing, double press, Precision precision) {
   overlap_all(packing, precision);
   hessians_.resize(pairs_.size());
-  pair_hessians(packing, placed_, pairs_, overlaps_, hessians_);
+  pair_hessians(packing, precision, placed_, pairs_, overlaps_, hessians_);
   pressed_.assign(pairs_.size(), Overlap{});
   if (press > 0) press_pairs(packing, placed_, pairs_, axes_, press, pressed_);
   SecondOrder result;

@@ -16,16 +16,8 @@ namespace {
 /// Pairs handled as one task: some 50 µs, far more than a task costs, few enough to share out.
 constexpr std::size_t grain = 128;
 
-/// In the precision of the placed solids.
-PlacedPair placed_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair) {
-  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
-  if (!a.has_low_parts()) return {&a, &b, displacement(packing, pair)};
-  const TwoDoubleVector r = precise_displacement(packing, pair);
-  return {&a, &b, r.high, r.low};
-}
-
-void overlap_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
-                  SeparatingAxis& axis, Overlap& out, PairCounts& counts) {
+void overlap_pair(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
+                  const NeighbourPair& pair, SeparatingAxis& axis, Overlap& out, PairCounts& counts) {
   const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
   const Eigen::Vector3d r = displacement(packing, pair);
   ++counts.listed;
@@ -40,7 +32,8 @@ void overlap_pair(const Packing& packing, std::span<const PlacedSolid> placed, c
     return;
   }
   ++counts.overlapped;
-  out = overlap(placed_pair(packing, placed, pair), axis);
+  out = precision == Precision::extended ? overlap(a, b, precise_displacement(packing, pair), axis)
+                                         : overlap(a, b, r, axis);
   if (out.path == OverlapPath::clip) ++counts.clipped;
   if (out.touching()) ++counts.touching;
   // No face separates: an edge pair does, and it is worth a search once.
@@ -80,11 +73,13 @@ Matrix6d scaled(Matrix6d h, double radius) {
   return h;
 }
 
-void pair_hessian(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
-                  const Overlap& overlap, PairHessian& out) {
-  const PlacedPair both = placed_pair(packing, placed, pair);
-  const Eigen::Vector3d& r = both.r;
-  const Matrix6d cross = overlap_cross_hessian(both);
+void pair_hessian(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
+                  const NeighbourPair& pair, const Overlap& overlap, PairHessian& out) {
+  const Eigen::Vector3d r = displacement(packing, pair);
+  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
+  const Matrix6d cross = precision == Precision::extended
+                             ? overlap_cross_hessian(a, b, precise_displacement(packing, pair))
+                             : overlap_cross_hessian(a, b, r);
   const Vector6d ga = joined(overlap.area, overlap.moment);
   const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
   const Matrix6d own_a = overlap_own_hessian(cross, overlap.area, r);
@@ -126,7 +121,7 @@ void place_all(const Packing& packing, Precision precision, std::vector<PlacedSo
   });
 }
 
-PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
+PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out) {
   assert(axes.size() == pairs.size() && out.size() == pairs.size());
   const std::size_t n = pairs.size();
@@ -134,7 +129,7 @@ PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> pl
   std::vector<PairCounts> counts(blocks);
   for_each_block(blocks, [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
-      overlap_pair(packing, placed, pairs[k], axes[k], out[k], counts[block]);
+      overlap_pair(packing, precision, placed, pairs[k], axes[k], out[k], counts[block]);
   });
   PairCounts sum;
   for (const PairCounts& block : counts) sum += block;
@@ -151,13 +146,14 @@ void press_pairs(const Packing& packing, std::span<const PlacedSolid> placed, st
   });
 }
 
-void pair_hessians(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
-                   std::span<const Overlap> overlaps, std::span<PairHessian> out) {
+void pair_hessians(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
+                   std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps,
+                   std::span<PairHessian> out) {
   assert(overlaps.size() == pairs.size() && out.size() == pairs.size());
   const std::size_t n = pairs.size();
   for_each_block(block_count(n), [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k) {
-      if (overlaps[k].touching()) pair_hessian(packing, placed, pairs[k], overlaps[k], out[k]);
+      if (overlaps[k].touching()) pair_hessian(packing, precision, placed, pairs[k], overlaps[k], out[k]);
     }
   });
 }

@@ -37,11 +37,10 @@ void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& ru
 void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed);
 
 /// Overlap of every listed pair into its own slot (lab frame), parallel over pairs on
-/// oneTBB where there are enough of them. `placed` as place_all left it, which decides the
-/// precision. Slots of pairs that do
+/// oneTBB where there are enough of them. `placed` as place_all left it for the same precision. Slots of pairs that do
 /// not touch are left with volume 0. axes[k] is read and updated: a cache that changes the cost and never the result.
 /// All spans have the size of `pairs`.
-PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
+PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
 
 /// Overlap of every listed pair as it would be with B's centre closer to A's by `distance`; volume 0 where they would
@@ -56,7 +55,7 @@ struct PairHessian {
 };
 
 /// Of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left them.
-void pair_hessians(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
-                   std::span<const Overlap> overlaps, std::span<PairHessian> out);
+void pair_hessians(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
+                   std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps, std::span<PairHessian> out);
 
 }  // namespace isojam

@@ -48,10 +48,8 @@ TwoDoubleVector precise_displacement(const Pair& pair) {
 PlacedSolid placed(const ConvexSolid& solid, const Pose& pose) { return PlacedSolid(solid, rotation_matrix(pose)); }
 
 Overlap extended(const Pair& pair, const ConvexSolid& a, const ConvexSolid& b) {
-  const PlacedSolid placed_a = placed(a, pair.a), placed_b = placed(b, pair.b);
-  const TwoDoubleVector r = precise_displacement(pair);
   SeparatingAxis axis;
-  return overlap({&placed_a, &placed_b, r.high, r.low}, axis);
+  return overlap(placed(a, pair.a), placed(b, pair.b), precise_displacement(pair), axis);
 }
 
 Overlap extended(const Pair& pair) { return extended(pair, pair.solid_a(), pair.solid_b()); }
@@ -59,8 +57,7 @@ Overlap extended(const Pair& pair) { return extended(pair, pair.solid_a(), pair.
 /// The same state rounded to double.
 Overlap in_double(const Pair& pair) {
   SeparatingAxis axis;
-  return overlap(PlacedSolid(pair.solid_a(), rotation_matrix(pair.a).high),
-                 PlacedSolid(pair.solid_b(), rotation_matrix(pair.b).high), pair.displacement(), axis);
+  return overlap(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), pair.displacement(), axis);
 }
 
 /// Largest relative error of V, S and M (M relative to the greater of |M| and h |S|, h the inradius).
@@ -237,8 +234,7 @@ TEST_P(ExtendedOverlap, HessiansAreDifferencesInQuadruplePrecision) {
       const Pair pair = depth > 1e-3 ? random_contact(random, GetParam(), GetParam(), 1e-5, 3e-2)
                                      : face_contact(random, GetParam(), depth);
       const TwoDoubleVector r = precise_displacement(pair);
-      const PlacedSolid a = placed(pair.solid_a(), pair.a), b = placed(pair.solid_b(), pair.b);
-      const Matrix6d cross = overlap_cross_hessian(PlacedPair{&a, &b, r.high, r.low});
+      const Matrix6d cross = overlap_cross_hessian(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r);
       const Matrix6d own = overlap_own_hessian(cross, extended(pair).area, r.high);
       // Turns do not commute: the derivative of M by turns of its own body has an antisymmetric part, which is no
       // curvature of V.
