@@ -1,266 +1,289 @@
 #include "engine/geometry/contact_loop.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <type_traits>
 
-// Phase 1 tabulates the signed distances of either solid's vertices from the other's planes. Phase 2 sees nothing but
-// this table: every edge of one solid is clipped by the planes of the other. Where it enters or leaves it pierces a
-// face, and there the loop passes from one of the edge's two faces to the other: one segment of the loop ends and the
-// next begins. Segments are identified by their pair of faces, so the loop closes if and only if every pair that
-// begins also ends, once. No segment is ever found by intersecting two planes, which is ill-conditioned when they
-// are nearly parallel.
+#include "engine/geometry/refine.hpp"
+
+// Phase 1 (distances.cpp) tabulates the signed distances of either solid's vertices from the other's planes. Phase 2,
+// here, sees nothing but this table: every edge of one solid is clipped by the planes of the other. Where it enters or
+// leaves it pierces a face, and there the loop passes from one of the edge's two faces to the other: one segment of the
+// loop ends and the next begins. Segments are identified by their pair of faces, so the loop closes if and only if
+// every pair that begins also ends, once. No segment is ever found by intersecting two planes, which is ill-conditioned
+// when they are nearly parallel.
+//
+// Contacts are so small that mispredicted branches would cost more than the arithmetic: what differs from pair to pair
+// is chosen by masks and selection, and only the lengths of loops remain unpredictable. Each loop does one thing, so
+// that several of its steps are in flight at once.
 
 namespace isojam {
 
 namespace {
 
 constexpr int capacity = SolidArrays::capacity;
-
-/// The segments that meet where an edge pierces a face: face pairs, capacity·i + j.
-struct Piercing {
-  std::uint16_t begins, ends;
-  std::uint8_t corner;
-};
-
-struct Piercings {
-  std::array<Piercing, ContactLoop::max_corners> at;
-  int count = 0;
-};
-
-int padded(int n) { return (n + 3) & ~3; }
-
-/// `shift` is the position of `body`'s centre seen from that of `other`.
-void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& shift, Distances& d) {
-  const int planes = padded(other.faces());
-  const double *nx = other.nx(), *ny = other.ny(), *nz = other.nz(), *offset = other.offset();
-  alignas(32) double constant[capacity];
-  for (int f = 0; f < planes; ++f) constant[f] = nx[f] * shift.x() + ny[f] * shift.y() + nz[f] * shift.z() - offset[f];
-  for (int v = 0; v < body.vertices(); ++v) {
-    const double x = body.x()[v], y = body.y()[v], z = body.z()[v];
-    for (int f = 0; f < planes; ++f) d.of[v][f] = nx[f] * x + ny[f] * y + nz[f] * z + constant[f];
-  }
-}
-
-void classify(int vertices, int planes, double tolerance, Distances& d) {
-  for (int v = 0; v < vertices; ++v) {
-    std::uint32_t outside = 0, uncertain = 0;
-    for (int f = 0; f < planes; ++f) {
-      outside |= std::uint32_t{d.of[v][f] > 0} << f;
-      uncertain |= std::uint32_t{std::abs(d.of[v][f]) < tolerance} << f;
-    }
-    d.outside[v] = outside;
-    d.uncertain[v] = uncertain;
-  }
-}
-
-/// Signed distance of a vertex from a plane in two doubles: n·(y + shift) − offset, with products of high parts exact
-/// and low parts to first order.
-double precise_distance(const PlacedSolid& body, int vertex, const PlacedSolid& other, int plane,
-                        const TwoDoubleVector& shift) {
-  const TwoDoubleVector n = other.precise_normal(plane), y = body.precise_vertex(vertex);
-  TwoDouble sum = -other.precise_offset(plane);
-  for (int c = 0; c < 3; ++c) {
-    const TwoDouble p = two_sum(y.high[c], shift.high[c]);
-    const TwoDouble product = two_product(n.high[c], p.high);
-    const TwoDouble next = two_sum(sum.high, product.high);
-    const double first_order = n.high[c] * (p.low + y.low[c] + shift.low[c]) + n.low[c] * p.high;
-    sum = {next.high, sum.low + (next.low + product.low + first_order)};
-  }
-  return sum.high + sum.low;
-}
-
-/// Takes the distances marked uncertain again in two doubles, and leaves those marked that are zero to their rounding.
-void refine(const PlacedSolid& body, const PlacedSolid& other, const TwoDoubleVector& shift, double tolerance,
-            Distances& d) {
-  for (int v = 0; v < body.vertices(); ++v) {
-    std::uint32_t still = 0;
-    for (std::uint32_t near = d.uncertain[v]; near; near &= near - 1) {
-      const int f = std::countr_zero(near);
-      const double distance = precise_distance(body, v, other, f, shift);
-      d.of[v][f] = distance;
-      d.outside[v] = (d.outside[v] & ~(std::uint32_t{1} << f)) | std::uint32_t{distance > 0} << f;
-      still |= std::uint32_t{std::abs(distance) < tolerance} << f;
-    }
-    d.uncertain[v] = still;
-  }
-}
-
-/// Planes with every vertex outside: each separates.
-std::uint32_t separating_planes(const Distances& d, int vertices) {
-  std::uint32_t all = ~std::uint32_t{0};
-  for (int v = 0; v < vertices; ++v) all &= d.outside[v];
-  return all;
-}
+constexpr std::uint32_t none = 2 * capacity;
 
 /// A vertex on a plane, to within rounding, and not certainly outside of another one.
-bool has_vertex_on_plane(const Distances& d, int vertices) {
-  for (int v = 0; v < vertices; ++v) {
-    if (d.uncertain[v] != 0 && (d.outside[v] & ~d.uncertain[v]) == 0) return true;
+bool has_vertex_on_plane(const Distances& d, double tolerance) {
+  if (d.nearest >= tolerance) return false;
+  for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
+    const double* row = d.row(std::countr_zero(rows));
+    bool on = false, outside = false;
+    for (int f = 0; f < d.planes; ++f) {
+      on |= std::abs(row[f]) < tolerance;
+      outside |= row[f] >= tolerance;
+    }
+    if (on && !outside) return true;
   }
   return false;
 }
 
-/// The interval [enter, leave] of an edge (parameter 0 at the tail, 1 at the head) inside the other solid.
-struct Interval {
-  double enter = 0, leave = 1;
-  int enter_plane = -1, leave_plane = -1;
+/// What a solid brings to the loop.
+struct Side {
+  const EdgeRecord* edge;
+  const PlacedSolid* body;
+  const double* distance;  ///< of its vertices from the other's planes,
+  const double* height;    ///< and over the reference plane, with this step from vertex to vertex
+  std::uint32_t stride;
+  std::uint32_t reference;  ///< column of the reference plane in `distance`; none if it is the solid's own
+  Lanes shift;              ///< the solid's centre; height 0
 };
 
-/// False if the edge lies outside.
-bool clip_edge(const Distances& d, const Edge& edge, Interval& inside) {
-  std::uint32_t tail = d.outside[edge.tail], head = d.outside[edge.head];
-  if (tail & head) return false;
-  for (; tail; tail &= tail - 1) {
-    const int f = std::countr_zero(tail);
-    const double s = d.of[edge.tail][f] / (d.of[edge.tail][f] - d.of[edge.head][f]);
-    if (inside.enter_plane < 0 || s > inside.enter) inside.enter = s, inside.enter_plane = f;
-  }
-  for (; head; head &= head - 1) {
-    const int f = std::countr_zero(head);
-    const double s = d.of[edge.tail][f] / (d.of[edge.tail][f] - d.of[edge.head][f]);
-    if (inside.leave_plane < 0 || s < inside.leave) inside.leave = s, inside.leave_plane = f;
-  }
-  return inside.enter < inside.leave;
+struct Sides {
+  Side of[2];
+};
+
+/// Chooses the plane that heights are measured from.
+Sides choose_reference(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  const Distances &of_a = loop.of_a, &of_b = loop.of_b;
+  const SolidArrays &solid_a = a.solid().arrays(), &solid_b = b.solid().arrays();
+  const int plane_a = of_b.least_penetrated, plane_b = of_a.least_penetrated;
+  // Either way is as likely: indices instead of branches.
+  const int over_b = of_a.least_penetration < of_b.least_penetration;
+  const PlacedSolid* solid[2] = {&a, &b};
+  const int plane[2] = {plane_a, plane_b};
+  loop.up = solid[over_b]->normal(plane[over_b]);
+  const double* height_a[2] = {solid_a.height[plane_a], of_a.of + plane_b};
+  const double* height_b[2] = {of_b.of + plane_a, solid_b.height[plane_b]};
+  const auto planes_a = static_cast<std::uint32_t>(of_a.planes), planes_b = static_cast<std::uint32_t>(of_b.planes);
+  const std::uint32_t stride_a[2] = {1, planes_a}, stride_b[2] = {planes_b, 1};
+  const std::uint32_t column_a[2] = {none, static_cast<std::uint32_t>(plane_b)};
+  const std::uint32_t column_b[2] = {static_cast<std::uint32_t>(plane_a), none};
+  const Lanes half = Lanes::of(r.x() / 2, r.y() / 2, r.z() / 2, 0);
+  return {{{solid_a.record, &a, of_a.of, height_a[over_b], stride_a[over_b], column_a[over_b], Lanes::all(0) - half},
+           {solid_b.record, &b, of_b.of, height_b[over_b], stride_b[over_b], column_b[over_b], half}}};
 }
 
-/// Where an edge pierces `plane`, or its own vertex if plane < 0.
-Corner corner_at(const PlacedSolid& body, const Distances& d, const Edge& edge, int plane, bool leaving, bool of_a) {
-  Corner corner{};
-  corner.tail = static_cast<std::uint8_t>(edge.tail), corner.head = static_cast<std::uint8_t>(edge.head);
-  corner.plane = static_cast<std::int8_t>(plane);
-  corner.of_a = of_a;
-  corner.weight_tail = leaving ? 0 : 1, corner.weight_head = leaving ? 1 : 0;
-  if (plane >= 0) {
-    const double tail = d.of[edge.tail][plane], head = d.of[edge.head][plane], all = tail - head;
-    corner.weight_tail = -head / all, corner.weight_head = tail / all;
+constexpr double at_tail = 0;
+constexpr double at_head = 1 + 64 * std::numeric_limits<double>::epsilon();  // past every tagged parameter
+
+/// Where an edge enters and leaves the other solid, in every lane: the parameter (0 at the tail, 1 at the head), tagged
+/// by the plane.
+struct Interval {
+  Lanes enter, leave;
+};
+
+template <class Count>
+Interval clip(Count vectors, const double* tail, const double* head) {
+  const Lanes start = Lanes::all(at_tail), end = Lanes::all(at_head);
+  Lanes enter = start, leave = end;
+  repeat(vectors, [&](int k) {
+    const Lanes t = Lanes::load(tail + 4 * k), h = Lanes::load(head + 4 * k);
+    const Lanes crossing = tagged(t / (t - h), 4 * k);
+    enter = max(enter, where_negative(t, start, crossing));
+    leave = min(leave, where_negative(h, end, crossing));
+  });
+  return {greatest(enter), least(leave)};
+}
+
+/// An edge that passes through the other solid: 0..31 of A, 32.. of B; the planes where it enters and leaves; and bits
+/// of `ends` that say whether it does: 0 and 1 for entering, 2 and 3 for leaving.
+struct Crossing {
+  std::uint32_t edge, into, out_of, ends;
+};
+
+/// Of the edges `alive` (of B from bit 32 on). Returns the number of crossings found so far.
+template <class Count>
+int find_crossings(Count vectors, const Sides& sides, std::uint64_t alive, Crossing* crossing, int count) {
+  const Lanes untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
+  for (; alive; alive &= alive - 1) {
+    const auto at = static_cast<std::uint32_t>(std::countr_zero(alive));
+    const Side& side = sides.of[at / capacity];
+    const EdgeRecord& edge = side.edge[at % capacity];
+    const Interval inside =
+        clip(vectors, side.distance + 4 * vectors * edge.tail, side.distance + 4 * vectors * edge.head);
+    crossing[count] = {at, tag_of(inside.enter.first()), tag_of(inside.leave.first()),
+                       ~sign_bits(equal(halves(inside.enter, inside.leave), untouched))};
+    count += inside.enter.first() < inside.leave.first();
   }
-  corner.position = corner.weight_tail * body.vertex(edge.tail) + corner.weight_head * body.vertex(edge.head);
-  return corner;
+  return count;
 }
 
-std::uint16_t face_pair(int face_a, int face_b) { return static_cast<std::uint16_t>(capacity * face_a + face_b); }
+struct Masks {
+  /// Negative where an end of an edge is its own vertex, by bit 0: it enters, bit 1: it leaves.
+  alignas(32) double own_end[4][4] = {{-1, -1, -1, -1}, {1, 1, -1, -1}, {-1, -1, 1, 1}, {1, 1, 1, 1}};
+  alignas(32) double whole[4] = {0, -1, -1, 0};
+  /// 0 in place of a height that is 0 by construction.
+  alignas(32) double height[2][4] = {{1, 1, 1, 1}, {1, 1, 1, 0}};
+};
+constexpr Masks masks;
 
-/// The loop turns the same way round on both surfaces, so seen from outside B it runs clockwise: beginnings and
-/// ends are exchanged.
-Piercing pierce(int corner, const Edge& edge, int plane, bool leaving, bool of_a) {
-  const int first = leaving ? edge.left : edge.right;
-  const int second = leaving ? edge.right : edge.left;
-  const auto at = static_cast<std::uint8_t>(corner);
-  if (of_a) return {face_pair(first, plane), face_pair(second, plane), at};
-  return {face_pair(plane, second), face_pair(plane, first), at};
+/// The two corners of an edge that passes through the other solid.
+inline void place_corners(const Side& side, const EdgeRecord& edge, int planes, const Crossing& c,
+                          double (*corner)[4]) {
+  const double *tail = side.distance + planes * edge.tail, *head = side.distance + planes * edge.head;
+  const std::uint32_t enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+  // Weights of tail and head at either end: products of distances, each right to its own last bits however small.
+  const Lanes pierced = Lanes::of(tail[c.into], head[c.into], tail[c.out_of], head[c.out_of]);
+  const Lanes d = where_negative(Lanes::load(masks.own_end[enters + 2 * leaves]), Lanes::load(masks.whole), pierced);
+  const Lanes exchanged = swapped_pairs(d), weight = exchanged / (exchanged - d);
+  const auto vertex = [&](std::uint32_t v) {
+    return with_fourth(Lanes::load(side.body->row(static_cast<int>(v))) + side.shift, side.height[side.stride * v]);
+  };
+  const Lanes p = vertex(edge.tail), q = vertex(edge.head);
+  const Lanes from = fma(p, lane<0>(weight), q * lane<1>(weight)), to = fma(p, lane<2>(weight), q * lane<3>(weight));
+  (from * Lanes::load(masks.height[enters & std::uint32_t{c.into == side.reference}])).store(corner[0]);
+  (to * Lanes::load(masks.height[leaves & std::uint32_t{c.out_of == side.reference}])).store(corner[1]);
 }
 
-/// `shift`: where the solid's centre is, from that of A.
-void clip_edges(const PlacedSolid& body, const Eigen::Vector3d& shift, const Distances& d, bool of_a, ContactLoop& loop,
-                Piercings& piercings) {
-  const SolidArrays& solid = body.solid().arrays();
-  std::uint32_t& edges_inside = of_a ? loop.edges_a : loop.edges_b;
-  const int first_face = of_a ? 0 : face_of_b;
-  for (int e = 0; e < solid.edges; ++e) {
-    const Edge& edge = solid.edge[e];
-    Interval inside;
-    if (!clip_edge(d, edge, inside)) continue;
-    edges_inside |= std::uint32_t{1} << e;
-    const int from = 2 * loop.spans, to = from + 1;
-    loop.corner[from] = corner_at(body, d, edge, inside.enter_plane, false, of_a);
-    loop.corner[to] = corner_at(body, d, edge, inside.leave_plane, true, of_a);
-    loop.corner[from].position += shift;
-    loop.corner[to].position += shift;
-    loop.span[loop.spans++] = {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
-                               static_cast<std::uint8_t>(first_face + edge.left),
-                               static_cast<std::uint8_t>(first_face + edge.right)};
-    if (inside.enter_plane >= 0) piercings.at[piercings.count++] = pierce(from, edge, inside.enter_plane, false, of_a);
-    if (inside.leave_plane >= 0) piercings.at[piercings.count++] = pierce(to, edge, inside.leave_plane, true, of_a);
+/// Where an edge pierces a face: the pair of faces whose segment begins there, and the pair whose segment ends.
+struct Piercings {
+  std::uint32_t pairs[ContactLoop::max_corners + 1];  ///< begins + 2^16·ends
+  std::uint32_t corner[ContactLoop::max_corners + 1];
+  int count = 0;
+
+  void add(std::uint32_t begins_and_ends, std::uint32_t at, std::uint32_t real) {
+    pairs[count] = begins_and_ends;
+    corner[count] = at;
+    count += static_cast<int>(real);
+  }
+};
+
+/// `vectors[0]` of the planes that edges of A are clipped by, [1] of B.
+template <class Vectors>
+void place_spans(const Vectors& vectors, const Sides& sides, const Crossing* crossing, int spans, ContactLoop& loop,
+                 Piercings& piercings) {
+  std::uint64_t edges = 0, faces[2] = {};
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(spans); ++k) {
+    const Crossing& c = crossing[k];
+    const std::uint32_t of_b = c.edge / capacity;
+    const Side& side = sides.of[of_b];
+    const EdgeRecord& edge = side.edge[c.edge % capacity];
+    place_corners(side, edge, 4 * vectors(of_b), c, loop.corner + 2 * k);
+    const std::uint32_t enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+    const std::uint32_t leaving = edge.pairs[of_b], step = std::uint32_t{0x00010001} << 5 * of_b;
+    piercings.add(std::rotl(leaving, 16) + step * c.into, 2 * k, enters);
+    piercings.add(leaving + step * c.out_of, 2 * k + 1, leaves);
+    const std::uint32_t first = c.edge & capacity, left = first + edge.left, right = first + edge.right;
+    loop.span[k] = {left, right};
+    loop.hub[left] = loop.hub[right] = static_cast<std::uint16_t>(2 * k);
+    edges |= std::uint64_t{1} << c.edge;
+    faces[of_b] |= edge.faces;
+    faces[of_b ^ 1] |= enters << c.into | leaves << c.out_of;
+  }
+  loop.spans = spans;
+  for (int s = 0; s < 2; ++s) {
+    loop.edges[s] = static_cast<std::uint32_t>(edges >> capacity * s);
+    loop.faces[s] = static_cast<std::uint32_t>(faces[s]);
   }
 }
 
-/// Joins every beginning to the end of the same face pair. False if the loop does not close.
-bool close_loop(const Piercings& piercings, ContactLoop& loop) {
-  std::array<std::uint8_t, capacity * capacity> beginning{};  // piercing + 1; 0: none
+/// Joins every end to the beginning of the same pair of faces. False if the loop does not close.
+bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
+  std::uint8_t beginning[capacity * capacity];  // corner + 1; 0: none
+  std::memset(beginning, 0, static_cast<std::size_t>(capacity * faces_a));
   for (int k = 0; k < piercings.count; ++k) {
-    std::uint8_t& slot = beginning[piercings.at[k].begins];
-    if (slot != 0) return false;
-    slot = static_cast<std::uint8_t>(k + 1);
+    const std::uint32_t pair = piercings.pairs[k] & 0xFFFF, corner = piercings.corner[k];
+    beginning[pair] = static_cast<std::uint8_t>(corner + 1);
+    loop.hub[pair / capacity] = loop.hub[capacity + pair % capacity] = static_cast<std::uint16_t>(corner);
   }
+  bool open = false;
   for (int k = 0; k < piercings.count; ++k) {
-    const Piercing& end = piercings.at[k];
-    std::uint8_t& slot = beginning[end.ends];
-    if (slot == 0) return false;
-    loop.segment[loop.segments++] = {piercings.at[slot - 1].corner, end.corner,
-                                     static_cast<std::uint8_t>(end.ends / capacity),
-                                     static_cast<std::uint8_t>(face_of_b + end.ends % capacity)};
-    slot = 0;
+    const std::uint32_t pair = piercings.pairs[k] >> 16;
+    const std::uint32_t from = beginning[pair];
+    beginning[pair] = 0;
+    open |= from == 0;
+    loop.segment[k] = {pair / capacity, pair % capacity, (from - 1) % ContactLoop::max_corners, piercings.corner[k]};
   }
-  return true;
-}
-
-/// By value: the origin is itself one of the corners.
-void move_origin(Eigen::Vector3d origin, ContactLoop& loop) {
-  loop.origin = origin;
-  for (int k = 0; k < 2 * loop.spans; ++k) loop.corner[k].position -= origin;
-}
-
-bool separated_by_face(const Distances& vertices_of_a, int a, const Distances& vertices_of_b, int b,
-                       SeparatingAxis& axis) {
-  if (const std::uint32_t planes = separating_planes(vertices_of_a, a); planes != 0) {
-    axis = {SeparatingAxis::Kind::face_b, 0, static_cast<std::uint8_t>(std::countr_zero(planes))};
-    return true;
-  }
-  if (const std::uint32_t planes = separating_planes(vertices_of_b, b); planes != 0) {
-    axis = {SeparatingAxis::Kind::face_a, static_cast<std::uint8_t>(std::countr_zero(planes)), 0};
-    return true;
-  }
-  return false;
-}
-
-/// Phase 1; entries smaller than `near` are marked uncertain.
-void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, double near, ContactLoop& loop) {
-  measure(a, b, -r, loop.of_a);
-  measure(b, a, r, loop.of_b);
-  classify(a.vertices(), b.faces(), near, loop.of_a);
-  classify(b.vertices(), a.faces(), near, loop.of_b);
+  loop.segments = piercings.count;
+  return !open;
 }
 
 /// Phase 2.
 void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
-  loop.verdict = LoopVerdict::separated;
-  loop.axis = {};
-  loop.spans = loop.segments = 0;
-  loop.edges_a = loop.edges_b = 0;
-  if (separated_by_face(loop.of_a, a.vertices(), loop.of_b, b.vertices(), loop.axis)) return;
-
-  loop.verdict = LoopVerdict::degenerate;
-  if (has_vertex_on_plane(loop.of_a, a.vertices()) || has_vertex_on_plane(loop.of_b, b.vertices())) return;
+  const Sides sides = choose_reference(a, b, r, loop);
+  const std::uint64_t alive_a = loop.of_a.edges, alive_b = std::uint64_t{loop.of_b.edges} << capacity;
+  const int vectors_a = loop.of_a.planes / 4, vectors_b = loop.of_b.planes / 4;
+  Crossing crossing[ContactLoop::max_spans + 1];
   Piercings piercings;
-  clip_edges(a, Eigen::Vector3d::Zero(), loop.of_a, true, loop, piercings);
-  clip_edges(b, r, loop.of_b, false, loop, piercings);
+  if (vectors_a == vectors_b) {
+    with_vectors(vectors_a, [&](auto vectors) {
+      // One loop for both solids, so that its end is mispredicted once.
+      const int spans = find_crossings(vectors, sides, alive_a | alive_b, crossing, 0);
+      place_spans([=](std::uint32_t) { return vectors; }, sides, crossing, spans, loop, piercings);
+    });
+  } else {
+    const int of_a = find_crossings(vectors_a, sides, alive_a, crossing, 0);
+    const int spans = find_crossings(vectors_b, sides, alive_b, crossing, of_a);
+    place_spans([=](std::uint32_t of_b) { return of_b ? vectors_b : vectors_a; }, sides, crossing, spans, loop,
+                piercings);
+  }
   if (piercings.count == 0) {
     // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
-    if (loop.spans == 0) loop.verdict = LoopVerdict::separated;
-    return;
+    loop.verdict = loop.spans == 0 ? LoopVerdict::separated : LoopVerdict::degenerate;
+  } else {
+    loop.verdict = close_loop(piercings, a.faces(), loop) ? LoopVerdict::closed : LoopVerdict::degenerate;
   }
-  if (!close_loop(piercings, loop)) return;
-  move_origin(loop.corner[piercings.at[0].corner].position, loop);
-  loop.verdict = LoopVerdict::closed;
+}
+
+/// Whether a face separates; it becomes the loop's axis if it does so beyond the rows of the table and rounding.
+bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  using Kind = SeparatingAxis::Kind;
+  SeparatingAxis axis;
+  if (loop.of_a.least_penetration <= 0) {
+    axis = {Kind::face_b, 0, static_cast<std::uint8_t>(loop.of_a.least_penetrated)};
+  } else if (loop.of_b.least_penetration <= 0) {
+    axis = {Kind::face_a, static_cast<std::uint8_t>(loop.of_b.least_penetrated), 0};
+  } else {
+    return false;
+  }
+  if (separates(a, b, r, axis)) loop.axis = axis;
+  return true;
+}
+
+/// Phase 1.
+void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  loop.axis = {};
+  loop.spans = loop.segments = 0;
+  loop.of_a.of = loop.tables, loop.of_b.of = loop.tables + Distances::size(a, b);
+  measure(a, b, r, loop.of_a);
+  measure(b, a, -r, loop.of_b);
+}
+
+/// Phase 2; distances below `tolerance` may be zero.
+void judge(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, double tolerance, ContactLoop& loop) {
+  loop.verdict = LoopVerdict::separated;
+  if (separated_by_face(a, b, r, loop)) return;
+  loop.verdict = LoopVerdict::degenerate;
+  if (has_vertex_on_plane(loop.of_a, tolerance) || has_vertex_on_plane(loop.of_b, tolerance)) return;
+  trace(a, b, r, loop);
 }
 
 }  // namespace
 
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
-  tabulate(a, b, r, gap_tolerance(a.solid(), b.solid(), r), loop);
-  trace(a, b, r, loop);
+  tabulate(a, b, r, loop);
+  judge(a, b, r, gap_tolerance(a.solid(), b.solid(), r), loop);
 }
 
-double refined_below(const ConvexSolid& a, const ConvexSolid& b) { return 2e-3 * std::min(a.inradius(), b.inradius()); }
-
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, ContactLoop& loop) {
-  const double tolerance = std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high);
-  tabulate(a, b, r.high, refined_below(a.solid(), b.solid()), loop);
-  refine(a, b, -r, tolerance, loop.of_a);
-  refine(b, a, r, tolerance, loop.of_b);
-  trace(a, b, r.high, loop);
+  tabulate(a, b, r.high, loop);
+  refine(a, b, r, loop.of_a);
+  refine(b, a, -r, loop.of_b);
+  judge(a, b, r.high, std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high), loop);
 }
 
 }  // namespace isojam

@@ -145,19 +145,38 @@ double height(const Plane& plane, const Loop& face, const Quad3& vertex, int v) 
   return static_cast<double>(dot(plane.normal, vertex) - plane.offset);
 }
 
+void flatten_edges(const std::vector<Edge>& edges, SolidArrays& flat) {
+  flat.edges = static_cast<int>(edges.size());
+  for (int v = 0; v < SolidArrays::capacity; ++v) flat.around[v] = std::uint32_t{1} << v, flat.edges_at[v] = 0;
+  for (int k = 0; k < SolidArrays::capacity; ++k) {
+    const Edge& e = flat.edge[k] = edges[k < flat.edges ? k : 0];
+    flat.tail[k] = static_cast<std::uint8_t>(e.tail), flat.head[k] = static_cast<std::uint8_t>(e.head);
+    const auto left = static_cast<std::uint32_t>(e.left), right = static_cast<std::uint32_t>(e.right);
+    flat.record[k] = {flat.tail[k],
+                      flat.head[k],
+                      static_cast<std::uint16_t>(left),
+                      static_cast<std::uint16_t>(right),
+                      std::uint32_t{1} << left | std::uint32_t{1} << right,
+                      {left << 5 | right << 21, right | left << 16}};
+    if (k >= flat.edges) continue;
+    flat.around[e.tail] |= std::uint32_t{1} << e.head, flat.around[e.head] |= std::uint32_t{1} << e.tail;
+    flat.edges_at[e.tail] |= std::uint32_t{1} << k, flat.edges_at[e.head] |= std::uint32_t{1} << k;
+  }
+}
+
 SolidArrays flatten(const std::vector<Quad3>& vertices, const std::vector<Plane>& planes,
                     const std::vector<Loop>& faces, const std::vector<Edge>& edges) {
   SolidArrays flat;
   flat.vertices = static_cast<int>(vertices.size());
   flat.faces = static_cast<int>(planes.size());
-  flat.edges = static_cast<int>(edges.size());
+  const Plane nowhere{{}, SolidArrays::far};
   const auto store = [](Quad value, double& high, double& low) {
     high = narrowed(value).high;
     low = narrowed(value).low;
   };
   for (int k = 0; k < SolidArrays::capacity; ++k) {
     const Quad3& v = vertices[k < flat.vertices ? k : 0];
-    const Plane& plane = planes[k < flat.faces ? k : 0];
+    const Plane& plane = k < flat.faces ? planes[k] : nowhere;
     store(v[0], flat.x[k], flat.x_low[k]);
     store(v[1], flat.y[k], flat.y_low[k]);
     store(v[2], flat.z[k], flat.z_low[k]);
@@ -165,12 +184,12 @@ SolidArrays flatten(const std::vector<Quad3>& vertices, const std::vector<Plane>
     store(plane.normal[1], flat.ny[k], flat.ny_low[k]);
     store(plane.normal[2], flat.nz[k], flat.nz_low[k]);
     store(plane.offset, flat.offset[k], flat.offset_low[k]);
-    flat.edge[k] = edges[k < flat.edges ? k : 0];
     for (int p = 0; p < SolidArrays::capacity; ++p) {
       const int own = p < flat.vertices ? p : 0;
       flat.height[k][p] = height(plane, faces[k < flat.faces ? k : 0], vertices[own], own);
     }
   }
+  flatten_edges(edges, flat);
   return flat;
 }
 

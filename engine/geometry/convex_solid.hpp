@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,9 +31,20 @@ struct Edge {
   int left = 0, right = 0;
 };
 
-/// The same solid as flat arrays for the kernels, padded with copies of the first entry to a multiple of 4.
+/// An edge as the contact loop needs it. A pair of faces (i of a solid A, j of a solid B) is 32i + j. Where an edge
+/// leaves the other solid, one segment of the loop begins and another ends; their pairs, with 0 for the face pierced:
+struct EdgeRecord {
+  std::uint16_t tail, head, left, right;
+  std::uint32_t faces;  ///< left and right, as bits
+  /// [0] as an edge of A: 32·left + 2^16·32·right; [1] as an edge of B: right + 2^16·left.
+  std::uint32_t pairs[2];
+};
+
+/// The same solid as flat arrays for the kernels. Vertices and edges are padded with copies of the first, faces with
+/// planes 0·y = far that everything lies inside of.
 struct SolidArrays {
   static constexpr int capacity = 32;
+  static constexpr double far = 1e300;
   int vertices = 0, faces = 0, edges = 0;
   alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
   alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
@@ -40,6 +52,10 @@ struct SolidArrays {
   alignas(32) double x_low[capacity], y_low[capacity], z_low[capacity];
   alignas(32) double nx_low[capacity], ny_low[capacity], nz_low[capacity], offset_low[capacity];
   Edge edge[capacity];
+  EdgeRecord record[capacity];                              ///< of the edges, for the kernels
+  alignas(32) std::uint8_t tail[capacity], head[capacity];  ///< of the edges
+  std::uint32_t around[capacity];                           ///< per vertex: itself and its neighbours
+  std::uint32_t edges_at[capacity];                         ///< per vertex: the edges that meet there
   /// Of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the face.
   alignas(32) double height[capacity][capacity];
 

@@ -44,7 +44,7 @@ struct Overlap {
 /// answer comes from clipped_overlap. Never silently wrong; never throws.
 /// If a face of A or B separates the solids, `axis` is set to it, for later use with separates().
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
-/// In two doubles, from the low parts of A, B and r: V, S and M to a few 1e-16 of themselves down to depths of 1e-25.
+/// In two doubles, from the low parts of A, B and r: V, S and M to a few 1e-16 of themselves however flat the contact.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis);
 
 /// The same of solids given by their relative pose, in A's body frame.

@@ -4,70 +4,69 @@ namespace isojam {
 
 namespace {
 
-constexpr int padded(int n) { return (n + 3) & ~3; }
+struct Arrays {
+  double *x, *y, *z;
+};
 
-void turn(const Eigen::Matrix3d& rotation, const double* x, const double* y, const double* z, int n, double* turned) {
-  for (int row = 0; row < 3; ++row, turned += n) {
-    const double a = rotation(row, 0), b = rotation(row, 1), c = rotation(row, 2);
-    for (int k = 0; k < n; ++k) turned[k] = a * x[k] + b * y[k] + c * z[k];
+void turn(const Eigen::Matrix3d& q, const double* x, const double* y, const double* z, int n, Arrays turned) {
+  const double q00 = q(0, 0), q01 = q(0, 1), q02 = q(0, 2);
+  const double q10 = q(1, 0), q11 = q(1, 1), q12 = q(1, 2);
+  const double q20 = q(2, 0), q21 = q(2, 1), q22 = q(2, 2);
+  for (int k = 0; k < (n + 3) / 4 * 4; ++k) {
+    turned.x[k] = q00 * x[k] + q01 * y[k] + q02 * z[k];
+    turned.y[k] = q10 * x[k] + q11 * y[k] + q12 * z[k];
+    turned.z[k] = q20 * x[k] + q21 * y[k] + q22 * z[k];
   }
 }
 
-/// n vectors as arrays of their components, and of the low parts of these.
-struct VectorArrays {
-  const double *x, *y, *z, *x_low, *y_low, *z_low;
+struct ConstArrays {
+  const double *x, *y, *z;
 };
 
-/// The vectors turned in two doubles.
-void turn(const TwoDoubleMatrix& rotation, const VectorArrays& v, int n, double* turned, double* turned_low) {
-  const double *x = v.x, *y = v.y, *z = v.z, *x_low = v.x_low, *y_low = v.y_low, *z_low = v.z_low;
-  for (int row = 0; row < 3; ++row, turned += n, turned_low += n) {
-    const TwoDouble a = rotation(row, 0), b = rotation(row, 1), c = rotation(row, 2);
+/// One component of the vectors (x + x_low, …), turned in two doubles.
+void turn_row(const TwoDouble& a, const TwoDouble& b, const TwoDouble& c, ConstArrays v, ConstArrays v_low, int n,
+              double* turned, double* turned_low) {
+  const double *x = v.x, *y = v.y, *z = v.z, *x_low = v_low.x, *y_low = v_low.y, *z_low = v_low.z;
 #pragma GCC ivdep  // too many arrays for the compiler to check that they are distinct
-    for (int k = 0; k < n; ++k) {
-      const TwoDouble ax = two_product(a.high, x[k]), by = two_product(b.high, y[k]), cz = two_product(c.high, z[k]);
-      const TwoDouble two = two_sum(ax.high, by.high), three = two_sum(two.high, cz.high);
-      const double first_order =
-          (a.high * x_low[k] + a.low * x[k]) + (b.high * y_low[k] + b.low * y[k]) + (c.high * z_low[k] + c.low * z[k]);
-      const TwoDouble sum = fast_two_sum(three.high, (two.low + three.low) + (ax.low + by.low + cz.low) + first_order);
-      turned[k] = sum.high;
-      turned_low[k] = sum.low;
-    }
+  for (int k = 0; k < (n + 3) / 4 * 4; ++k) {
+    const TwoDouble ax = two_product(a.high, x[k]), by = two_product(b.high, y[k]), cz = two_product(c.high, z[k]);
+    const TwoDouble two = two_sum(ax.high, by.high), three = two_sum(two.high, cz.high);
+    const double first_order =
+        (a.high * x_low[k] + a.low * x[k]) + (b.high * y_low[k] + b.low * y[k]) + (c.high * z_low[k] + c.low * z[k]);
+    const TwoDouble sum = fast_two_sum(three.high, (two.low + three.low) + (ax.low + by.low + cz.low) + first_order);
+    turned[k] = sum.high;
+    turned_low[k] = sum.low;
   }
+}
+
+void turn(const TwoDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, Arrays turned, Arrays turned_low) {
+  turn_row(q(0, 0), q(0, 1), q(0, 2), v, v_low, n, turned.x, turned_low.x);
+  turn_row(q(1, 0), q(1, 1), q(1, 2), v, v_low, n, turned.y, turned_low.y);
+  turn_row(q(2, 0), q(2, 1), q(2, 2), v, v_low, n, turned.z, turned_low.z);
 }
 
 }  // namespace
 
 PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation)
-    : rotation_(rotation),
-      solid_(&solid),
-      vertex_stride_(padded(solid.arrays().vertices)),
-      face_stride_(padded(solid.arrays().faces)) {
+    : solid_(&solid), rotation_(rotation) {
   const SolidArrays& body = solid.arrays();
-  double* normals = pool_ + 3 * vertex_stride_;
-  turn(rotation, body.x, body.y, body.z, vertex_stride_, pool_);
-  turn(rotation, body.nx, body.ny, body.nz, face_stride_, normals);
-  for (int row = 0; row < 3; ++row) {
-    for (int k = body.faces; k < face_stride_; ++k) normals[row * face_stride_ + k] = 0;
-  }
+  turn(rotation, body.x, body.y, body.z, body.vertices, {x_, y_, z_});
+  turn(rotation, body.nx, body.ny, body.nz, body.faces, {nx_, ny_, nz_});
+  copy_rows();
 }
 
 PlacedSolid::PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotation)
-    : rotation_(rotation.high),
-      rotation_low_(rotation.low),
-      solid_(&solid),
-      vertex_stride_(padded(solid.arrays().vertices)),
-      face_stride_(padded(solid.arrays().faces)) {
+    : solid_(&solid), rotation_(rotation.high), rotation_low_(rotation.low) {
   const SolidArrays& body = solid.arrays();
-  const VectorArrays vertices{body.x, body.y, body.z, body.x_low, body.y_low, body.z_low};
-  const VectorArrays normals{body.nx, body.ny, body.nz, body.nx_low, body.ny_low, body.nz_low};
-  const int first_normal = 3 * vertex_stride_;
-  turn(rotation, vertices, vertex_stride_, pool_, low_);
-  turn(rotation, normals, face_stride_, pool_ + first_normal, low_ + first_normal);
-  for (int row = 0; row < 3; ++row) {
-    for (int k = body.faces; k < face_stride_; ++k)
-      pool_[first_normal + row * face_stride_ + k] = low_[first_normal + row * face_stride_ + k] = 0;
-  }
+  turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, {x_, y_, z_},
+       {x_low_, y_low_, z_low_});
+  turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, {nx_, ny_, nz_},
+       {nx_low_, ny_low_, nz_low_});
+  copy_rows();
+}
+
+void PlacedSolid::copy_rows() {
+  for (int v = 0; v < vertices(); ++v) rows_[v][0] = x_[v], rows_[v][1] = y_[v], rows_[v][2] = z_[v], rows_[v][3] = 0;
 }
 
 }  // namespace isojam

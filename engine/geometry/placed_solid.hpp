@@ -8,15 +8,14 @@
 namespace isojam {
 
 /// A solid turned into the lab frame, about its own centre: computed once per particle and used by all its pairs.
-/// Structure of arrays, each padded to a multiple of 4: vertices with copies of the first, normals with zeros (a plane
-/// 0·y = offset > 0 that everything lies inside of). About 1 KB, so that a packing of hundreds stays in a core's cache.
+/// Arrays are padded as in SolidArrays. A kernel touches the first rows of each: some 600 (tetrahedron) to 1400 bytes
+/// (dodecahedron, icosahedron), so that a packing of hundreds stays in a core's cache.
 class PlacedSolid {
  public:
   PlacedSolid() = default;
   /// Keeps a pointer to the solid, which must outlive this. `rotation`: body frame → lab frame.
   PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation);
-  /// The same in two doubles: vertices and normals have low parts. Without them, precise_vertex() and the like must not
-  /// be called.
+  /// The same in two doubles: vertices and normals have low parts.
   PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotation);
 
   const ConvexSolid& solid() const { return *solid_; }
@@ -24,36 +23,36 @@ class PlacedSolid {
   int vertices() const { return solid_->arrays().vertices; }
   int faces() const { return solid_->arrays().faces; }
 
-  const double* x() const { return pool_; }  ///< vertices
-  const double* y() const { return pool_ + vertex_stride_; }
-  const double* z() const { return pool_ + 2 * vertex_stride_; }
-  const double* nx() const { return pool_ + 3 * vertex_stride_; }  ///< outward unit face normals
-  const double* ny() const { return nx() + face_stride_; }
-  const double* nz() const { return nx() + 2 * face_stride_; }
+  const double* x() const { return x_; }  ///< vertices
+  const double* y() const { return y_; }
+  const double* z() const { return z_; }
+  const double* row(int v) const { return rows_[v]; }  ///< (x, y, z, 0) of a vertex
+  const double* nx() const { return nx_; }             ///< outward unit face normals
+  const double* ny() const { return ny_; }
+  const double* nz() const { return nz_; }
   const double* offset() const { return solid_->arrays().offset; }  ///< of the face planes from the centre
 
-  Eigen::Vector3d vertex(int v) const { return {x()[v], y()[v], z()[v]}; }
-  Eigen::Vector3d normal(int f) const { return {nx()[f], ny()[f], nz()[f]}; }
+  Eigen::Vector3d vertex(int v) const { return {x_[v], y_[v], z_[v]}; }
+  Eigen::Vector3d normal(int f) const { return {nx_[f], ny_[f], nz_[f]}; }
 
-  TwoDoubleVector precise_vertex(int v) const { return {vertex(v), entries(low_ + v, vertex_stride_)}; }
-  TwoDoubleVector precise_normal(int f) const {
-    return {normal(f), entries(low_ + 3 * vertex_stride_ + f, face_stride_)};
-  }
+  /// With low parts, of solids placed in two doubles only.
+  TwoDoubleVector precise_vertex(int v) const { return {vertex(v), {x_low_[v], y_low_[v], z_low_[v]}}; }
+  TwoDoubleVector precise_normal(int f) const { return {normal(f), {nx_low_[f], ny_low_[f], nz_low_[f]}}; }
   TwoDouble precise_offset(int f) const { return {offset()[f], solid_->arrays().offset_low[f]}; }
   TwoDoubleMatrix precise_rotation() const { return {rotation_, rotation_low_}; }
 
  private:
-  static Eigen::Vector3d entries(const double* first, int stride) {
-    return {first[0], first[stride], first[2 * stride]};
-  }
+  static constexpr int capacity = SolidArrays::capacity;
 
-  // Euler: vertices + faces = edges + 2 ≤ capacity + 2, and the padding of both adds at most 6.
-  static constexpr int pool_size = 3 * (SolidArrays::capacity + 8);
+  void copy_rows();
 
-  alignas(32) double pool_[pool_size], low_[pool_size];
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), rotation_low_ = Eigen::Matrix3d::Zero();
   const ConvexSolid* solid_ = nullptr;
-  int vertex_stride_ = 0, face_stride_ = 0;
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), rotation_low_ = Eigen::Matrix3d::Zero();
+  alignas(32) double rows_[capacity][4];
+  alignas(32) double nx_[capacity], ny_[capacity], nz_[capacity];
+  alignas(32) double x_[capacity], y_[capacity], z_[capacity];
+  alignas(32) double nx_low_[capacity], ny_low_[capacity], nz_low_[capacity];
+  alignas(32) double x_low_[capacity], y_low_[capacity], z_low_[capacity];
 };
 
 }  // namespace isojam

@@ -93,11 +93,6 @@ SeparatingAxis best_axis(const PlacedSolid& a, const PlacedSolid& b, const Eigen
   return best_axis(a.solid(), b.solid(), {to_a * b.rotation(), to_a * r});
 }
 
-double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r) {
-  const double reach = r.lpNorm<1>() + a.circumradius() + b.circumradius();
-  return 4 * std::numeric_limits<double>::epsilon() * reach;
-}
-
 double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   return gap_tolerance(a, b, pose.displacement);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/placed_solid.hpp"
@@ -27,7 +28,9 @@ SeparatingAxis best_axis(const ConvexSolid& a, const ConvexSolid& b, const Relat
 SeparatingAxis best_axis(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
 
 /// A gap larger than this proves separation in spite of rounding: a multiple of ulp(|r| + circumradii), r = x_B − x_A.
-double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r);
+inline double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r) {
+  return 4 * std::numeric_limits<double>::epsilon() * (r.lpNorm<1>() + a.circumradius() + b.circumradius());
+}
 double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 /// Whether the axis separates the placed solids, B's centre at r from A's, by more than gap_tolerance. False for

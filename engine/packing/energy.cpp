@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "engine/geometry/contact_loop.hpp"
+#include "engine/geometry/refine.hpp"
 
 namespace isojam {
 

@@ -27,8 +27,9 @@ constexpr int particles = 40;
 
 double true_residual(const Packing& packing) { return static_cast<double>(evaluate_in_quad(packing).residual); }
 
-/// Octahedra compressed beyond jamming, then expanded through `densities`, minimised after each strain step.
-std::vector<Packing> jammed(const std::vector<double>& densities) {
+/// Octahedra compressed beyond jamming, then expanded towards it until E/N < `least_energy`, minimised after each
+/// strain step.
+std::vector<Packing> jammed(double least_energy) {
   RandomStream random{70, 1};
   Packing packing = random_packing(platonic(SolidKind::octahedron), particles, .1, random);
   PackingEnergy energy;
@@ -36,17 +37,21 @@ std::vector<Packing> jammed(const std::vector<double>& densities) {
   relax.method = Method::lbfgs;
   relax.residual = 1e-3;
   relax.max_evaluations = 300;
-  for (double density = .1; density < .79; density += .02) {
+  for (double density = .1; density < .78; density += .02) {
     packing = strained_to(packing, density);
     minimise(packing, energy, relax);
   }
   MinimiseOptions newton;
   newton.residual = 1e-7;
   std::vector<Packing> states;
-  for (const double density : densities) {
-    packing = strained_to(packing, density);
+  while (states.size() < 20) {
     minimise(packing, energy, newton);
+    const Evaluation here = energy.evaluate(packing);
     states.push_back(packing);
+    if (here.energy < least_energy * particles) break;
+    // E ∝ Δφ⁶: the distance to jamming is 6E/(dE/dφ), dE/dφ = N p/φ².
+    const double distance = 6 * here.energy * std::pow(packing.density(), 2) / (particles * here.pressure);
+    packing = strained_to(packing, packing.density() - .35 * distance);
   }
   return states;
 }
@@ -72,7 +77,7 @@ Packing polished(Packing packing, Precision precision) {
 
 /// From far above jamming to near it.
 const std::vector<Packing>& states() {
-  static const std::vector<Packing> made = jammed({.77, .74, .72, .71, .70, .695, .69, .686});
+  static const std::vector<Packing> made = jammed(5e-13);
   return made;
 }
 
@@ -112,9 +117,11 @@ VectorXd random_direction(RandomStream& random) {
 TEST(ExtendedEnergy, FloorAndNoiseBoundTheErrors) {
   RandomStream random{70, 2};
   for (const Packing& start : states()) {
-    double worst = 0;
+    const Packing rest = polished(start, Precision::extended);
+    // What is left there is rounding; a floor far above it would say nothing.
+    EXPECT_GE(true_residual(rest), 1e-3 * PackingEnergy().evaluate(rest, Precision::extended).residual_floor);
     for (const double kick : {0.0, 1e-16, 1e-13, 1e-10, 1e-7}) {
-      const Packing packing = moved(polished(start, Precision::extended), kick * random_direction(random));
+      const Packing packing = moved(rest, kick * random_direction(random));
       const Evaluation here = PackingEnergy().evaluate(packing, Precision::extended);
       const QuadEvaluation right = evaluate_in_quad(packing);
       EXPECT_EQ(here.contacts, right.contacts);
@@ -123,9 +130,7 @@ TEST(ExtendedEnergy, FloorAndNoiseBoundTheErrors) {
       const double error = std::abs(static_cast<double>(Quad(here.residual) - right.residual));
       EXPECT_LE(error, here.residual_floor + 1e-12 * here.residual)
           << "density " << start.density() << ", kick " << kick << ", residual " << here.residual;
-      if (here.residual < 1e-3) worst = std::max(worst, error / here.residual_floor);
     }
-    EXPECT_GE(worst, 1e-3) << "a bound that says nothing, density " << start.density();
   }
 }
 

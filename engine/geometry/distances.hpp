@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "engine/geometry/placed_solid.hpp"
+
+namespace isojam {
+
+/// Signed distances of the vertices of one solid from the planes of the other, > 0 outside. Vertices that lie certainly
+/// outside, with every edge that ends there, may have no row.
+struct Distances {
+  /// The largest table: three edges end at every vertex and surround every face, so that 32 edges allow 21 of each.
+  static constexpr int max_size = 21 * 24;
+
+  int planes = 0;                ///< columns, padded to a multiple of 4 with planes that everything lies inside of
+  std::uint32_t rows = 0;        ///< vertices that have a row
+  std::uint32_t edges = 0;       ///< edges that no plane has both ends outside of
+  double nearest = 0;            ///< least |distance| in the table
+  int least_penetrated = 0;      ///< the plane that the vertices reach behind least,
+  double least_penetration = 0;  ///< and how deep; not positive if it separates. Its last bits are noise
+  double* of = nullptr;          ///< vertices × planes
+
+  static int size(const PlacedSolid& body, const PlacedSolid& other) {
+    return body.vertices() * ((other.faces() + 3) / 4 * 4);
+  }
+  double* row(int v) { return of + v * planes; }
+  const double* row(int v) const { return of + v * planes; }
+};
+
+/// Fills the table, d.of, for `body`, the centre of `other` being at `to_other` from its own.
+void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other, Distances& d);
+
+/// Everything but the rows and the table anew, after entries of the table have been changed.
+void classify(const ConvexSolid& body, Distances& d);
+
+/// Numbers of vertices and of vectors of 4 planes, known to the compiler for the Platonic solids.
+template <int v, int p, int e>
+struct Counts {
+  static constexpr std::integral_constant<int, v> vertices{};
+  static constexpr std::integral_constant<int, p> vectors{};
+  static constexpr std::integral_constant<int, e> edges{};
+};
+struct AnyCounts {
+  int vertices, vectors, edges;
+};
+
+template <class Function>
+void with_counts(const SolidArrays& body, int planes, const Function& function) {
+  const int vectors = (planes + 3) / 4;
+  switch (64 * body.vertices + vectors) {
+    case 64 * 4 + 1: return function(Counts<4, 1, 6>{});
+    case 64 * 8 + 2: return function(Counts<8, 2, 12>{});
+    case 64 * 6 + 2: return function(Counts<6, 2, 12>{});
+    case 64 * 20 + 3: return function(Counts<20, 3, 30>{});
+    case 64 * 12 + 5: return function(Counts<12, 5, 30>{});
+    default: return function(AnyCounts{body.vertices, vectors, body.edges});
+  }
+}
+
+/// Calls function(k) for k < n, without a loop if n is known: what it accumulates stays in registers.
+template <int n, class Function>
+inline void repeat(std::integral_constant<int, n>, const Function& function) {
+  [&]<int... k>(std::integer_sequence<int, k...>) { (function(k), ...); }
+  (std::make_integer_sequence<int, n>{});
+}
+template <class Function>
+inline void repeat(int n, const Function& function) {
+  for (int k = 0; k < n; ++k) function(k);
+}
+
+/// The number of vectors alone.
+template <class Function>
+void with_vectors(int vectors, const Function& function) {
+  switch (vectors) {
+    case 1: return function(std::integral_constant<int, 1>{});
+    case 2: return function(std::integral_constant<int, 2>{});
+    case 3: return function(std::integral_constant<int, 3>{});
+    case 5: return function(std::integral_constant<int, 5>{});
+    default: return function(vectors);
+  }
+}
+
+}  // namespace isojam

@@ -1,0 +1,191 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#if defined(__AVX2__) && defined(__FMA__)
+#include <immintrin.h>
+#define ISOJAM_AVX2 1
+#endif
+
+namespace isojam {
+
+/// Four doubles in one vector register where the build allows it. The portable twin rounds products of fma() before the
+/// sum, so that results of the two builds differ in last bits.
+#ifdef ISOJAM_AVX2
+
+struct Lanes {
+  __m256d v;
+
+  static Lanes load(const double* p) { return {_mm256_loadu_pd(p)}; }
+  static Lanes load(const std::uint64_t* p) {
+    return {_mm256_castsi256_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)))};
+  }
+  static Lanes all(double x) { return {_mm256_set1_pd(x)}; }
+  static Lanes of(double x, double y, double z, double w) { return {_mm256_setr_pd(x, y, z, w)}; }
+  void store(double* p) const { _mm256_storeu_pd(p, v); }
+  double first() const { return _mm256_cvtsd_f64(v); }
+};
+
+inline Lanes operator+(Lanes a, Lanes b) { return {_mm256_add_pd(a.v, b.v)}; }
+inline Lanes operator-(Lanes a, Lanes b) { return {_mm256_sub_pd(a.v, b.v)}; }
+inline Lanes operator*(Lanes a, Lanes b) { return {_mm256_mul_pd(a.v, b.v)}; }
+inline Lanes operator/(Lanes a, Lanes b) { return {_mm256_div_pd(a.v, b.v)}; }
+inline Lanes fma(Lanes a, Lanes b, Lanes c) { return {_mm256_fmadd_pd(a.v, b.v, c.v)}; }
+inline Lanes fma_minus(Lanes a, Lanes b, Lanes c) { return {_mm256_fmsub_pd(a.v, b.v, c.v)}; }
+inline Lanes min(Lanes a, Lanes b) { return {_mm256_min_pd(a.v, b.v)}; }
+inline Lanes max(Lanes a, Lanes b) { return {_mm256_max_pd(a.v, b.v)}; }
+inline Lanes absolute(Lanes a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
+/// a where the sign bit of s is set, else b.
+inline Lanes where_negative(Lanes s, Lanes a, Lanes b) { return {_mm256_blendv_pd(b.v, a.v, s.v)}; }
+/// Negative (all bits set) where a = b.
+inline Lanes equal(Lanes a, Lanes b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ)}; }
+/// Lanes 0 and 1 of a, 2 and 3 of b.
+inline Lanes halves(Lanes a, Lanes b) { return {_mm256_blend_pd(a.v, b.v, 0b1100)}; }
+inline Lanes without_fourth(Lanes a) { return {_mm256_blend_pd(a.v, _mm256_setzero_pd(), 0b1000)}; }
+inline Lanes with_fourth(Lanes a, double x) { return {_mm256_blend_pd(a.v, _mm256_set1_pd(x), 0b1000)}; }
+/// Bit k: the sign bit of lane k.
+inline unsigned sign_bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_pd(a.v)); }
+inline Lanes operator&(Lanes a, Lanes b) { return {_mm256_and_pd(a.v, b.v)}; }  ///< bit by bit
+inline Lanes operator|(Lanes a, Lanes b) { return {_mm256_or_pd(a.v, b.v)}; }
+inline Lanes yzx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11001001)}; }
+/// Lanes 1, 0, 3, 2.
+inline Lanes swapped_pairs(Lanes a) { return {_mm256_permute_pd(a.v, 0b0101)}; }
+/// Lanes 2, 3, 0, 1.
+inline Lanes swapped_halves(Lanes a) { return {_mm256_permute2f128_pd(a.v, a.v, 1)}; }
+template <int k>
+Lanes lane(Lanes a) {
+  return {_mm256_permute4x64_pd(a.v, 0b01010101 * k)};
+}
+/// Bit e, e < 16: whether byte tail[e] of `bytes` | byte head[e] is `all`.
+inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail, const std::uint8_t* head,
+                                  std::uint32_t all) {
+  const __m128i table = _mm_cvtsi64_si128(static_cast<long long>(bytes));
+  const __m128i t = _mm_shuffle_epi8(table, _mm_load_si128(reinterpret_cast<const __m128i*>(tail)));
+  const __m128i h = _mm_shuffle_epi8(table, _mm_load_si128(reinterpret_cast<const __m128i*>(head)));
+  const __m128i same = _mm_cmpeq_epi8(_mm_or_si128(t, h), _mm_set1_epi8(static_cast<char>(all)));
+  return static_cast<std::uint32_t>(_mm_movemask_epi8(same));
+}
+
+#else
+
+struct Lanes {
+  double v[4];
+
+  static Lanes load(const double* p) { return {{p[0], p[1], p[2], p[3]}}; }
+  static Lanes load(const std::uint64_t* p) {
+    return {{std::bit_cast<double>(p[0]), std::bit_cast<double>(p[1]), std::bit_cast<double>(p[2]),
+             std::bit_cast<double>(p[3])}};
+  }
+  static Lanes all(double x) { return {{x, x, x, x}}; }
+  static Lanes of(double x, double y, double z, double w) { return {{x, y, z, w}}; }
+  void store(double* p) const {
+    for (int k = 0; k < 4; ++k) p[k] = v[k];
+  }
+  double first() const { return v[0]; }
+};
+
+template <class Function>
+Lanes each(const Function& function) {
+  return {{function(0), function(1), function(2), function(3)}};
+}
+
+inline Lanes operator+(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] + b.v[k]; });
+}
+inline Lanes operator-(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] - b.v[k]; });
+}
+inline Lanes operator*(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] * b.v[k]; });
+}
+inline Lanes operator/(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] / b.v[k]; });
+}
+inline Lanes fma(Lanes a, Lanes b, Lanes c) { return a * b + c; }
+inline Lanes fma_minus(Lanes a, Lanes b, Lanes c) { return a * b - c; }
+inline Lanes min(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] < b.v[k] ? a.v[k] : b.v[k]; });
+}
+inline Lanes max(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; });
+}
+inline Lanes absolute(Lanes a) {
+  return each([&](int k) { return std::abs(a.v[k]); });
+}
+inline Lanes where_negative(Lanes s, Lanes a, Lanes b) {
+  return each([&](int k) { return std::signbit(s.v[k]) ? a.v[k] : b.v[k]; });
+}
+inline Lanes equal(Lanes a, Lanes b) {
+  return each([&](int k) { return a.v[k] == b.v[k] ? -1.0 : 1.0; });
+}
+inline Lanes halves(Lanes a, Lanes b) { return {{a.v[0], a.v[1], b.v[2], b.v[3]}}; }
+inline Lanes without_fourth(Lanes a) { return {{a.v[0], a.v[1], a.v[2], 0}}; }
+inline Lanes with_fourth(Lanes a, double x) { return {{a.v[0], a.v[1], a.v[2], x}}; }
+inline unsigned sign_bits(Lanes a) {
+  unsigned bits = 0;
+  for (int k = 0; k < 4; ++k) bits |= unsigned{std::signbit(a.v[k])} << k;
+  return bits;
+}
+inline Lanes operator&(Lanes a, Lanes b) {
+  return each([&](int k) {
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a.v[k]) & std::bit_cast<std::uint64_t>(b.v[k]));
+  });
+}
+inline Lanes operator|(Lanes a, Lanes b) {
+  return each([&](int k) {
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a.v[k]) | std::bit_cast<std::uint64_t>(b.v[k]));
+  });
+}
+inline Lanes yzx(Lanes a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
+inline Lanes swapped_pairs(Lanes a) { return {{a.v[1], a.v[0], a.v[3], a.v[2]}}; }
+inline Lanes swapped_halves(Lanes a) { return {{a.v[2], a.v[3], a.v[0], a.v[1]}}; }
+template <int k>
+Lanes lane(Lanes a) {
+  return Lanes::all(a.v[k]);
+}
+inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail, const std::uint8_t* head,
+                                  std::uint32_t all) {
+  std::uint32_t same = 0;
+  for (int e = 0; e < 16; ++e)
+    same |= std::uint32_t{((bytes >> 8 * tail[e] | bytes >> 8 * head[e]) & 0xFF) == all} << e;
+  return same;
+}
+
+#endif
+
+/// Numbers that travel in the last bits of a double, so that an extreme brings along where it was found. They cost 6 of
+/// its 52 bits.
+inline constexpr std::uint64_t tag_bits = 63;
+struct Tags {
+  alignas(32) std::uint64_t mask[4] = {~tag_bits, ~tag_bits, ~tag_bits, ~tag_bits};
+  alignas(32) std::uint64_t number[64];
+  constexpr Tags() : number() {
+    for (std::uint64_t k = 0; k < 64; ++k) number[k] = k;
+  }
+};
+inline constexpr Tags tags;
+
+/// Lane k tagged by first + k, a multiple of 4 below 64.
+inline Lanes tagged(Lanes a, int first) { return (a & Lanes::load(tags.mask)) | Lanes::load(tags.number + first); }
+inline std::uint32_t tag_of(double x) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(x) & tag_bits); }
+
+/// The extreme of all lanes, or their sum, in each of them.
+inline Lanes least(Lanes a) {
+  const Lanes pairs = min(a, swapped_pairs(a));
+  return min(pairs, swapped_halves(pairs));
+}
+inline Lanes greatest(Lanes a) {
+  const Lanes pairs = max(a, swapped_pairs(a));
+  return max(pairs, swapped_halves(pairs));
+}
+inline Lanes sum(Lanes a) {
+  const Lanes pairs = a + swapped_pairs(a);
+  return pairs + swapped_halves(pairs);
+}
+
+/// Lanes z, x, y of a×b: a cross product without its last permutation, which sums of them need but once.
+inline Lanes cross_zxy(Lanes a, Lanes b) { return fma_minus(a, yzx(b), yzx(a) * b); }
+
+}  // namespace isojam
