@@ -25,7 +25,7 @@ PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotati
     : solid_(&solid), rotation_(rotation) {
   const SolidArrays& body = solid.arrays();
   turn(rotation, body.x, body.y, body.z, body.vertices, {x_, y_, z_});
-  turn(rotation, body.nx, body.ny, body.nz, body.faces, {nx_, ny_, nz_});
+  turn(rotation, body.nx, body.ny, body.nz, body.faces, {normals_[0], normals_[1], normals_[2]});
   for (int v = 0; v < body.vertices; ++v)
     rows_[v][0] = x_[v], rows_[v][1] = y_[v], rows_[v][2] = z_[v], rows_[v][3] = 0;
 }

@@ -93,15 +93,15 @@ void PackingEnergy::refresh(const Packing& packing) {
   list_solid_ = packing.solid;
 }
 
-void PackingEnergy::overlap_all(const Packing& packing) {
-  refresh(packing);
+void PackingEnergy::overlap_all(const Packing& packing, std::span<PairHessian> hessians) {
   place_all(packing, placed_);
-  totals_ += overlap_pairs(packing, placed_, pairs_, axes_, overlaps_);
+  totals_ += overlap_pairs(packing, placed_, pairs_, axes_, overlaps_, hessians);
   ++evaluations_;
 }
 
 Evaluation PackingEnergy::evaluate(const Packing& packing) {
-  overlap_all(packing);
+  refresh(packing);
+  overlap_all(packing, {});
   Evaluation result;
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
   Accumulator on_the_way{0, std::vector<double>(packing.poses.size(), 0.0)};
@@ -125,9 +125,9 @@ Evaluation PackingEnergy::evaluate(const Packing& packing) {
 }
 
 SecondOrder PackingEnergy::second_order(const Packing& packing) {
-  overlap_all(packing);
+  refresh(packing);
   hessians_.resize(pairs_.size());
-  pair_hessians(packing, placed_, pairs_, overlaps_, hessians_);
+  overlap_all(packing, hessians_);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
   std::vector<BlockMatrix::Block>& blocks = result.hessian.off_diagonal;
@@ -146,7 +146,8 @@ SecondOrder PackingEnergy::second_order(const Packing& packing) {
 }
 
 std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
-  overlap_all(packing);
+  refresh(packing);
+  overlap_all(packing, {});
   std::vector<Contact> result;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (!overlaps_[k].touching()) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "engine/packing/block_matrix.hpp"
@@ -59,7 +60,7 @@ class PackingEnergy {
 
  private:
   void refresh(const Packing& packing);
-  void overlap_all(const Packing& packing);
+  void overlap_all(const Packing& packing, std::span<PairHessian> hessians);
 
   std::vector<NeighbourPair> pairs_;
   std::vector<SeparatingAxis> axes_;

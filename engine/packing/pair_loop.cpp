@@ -15,8 +15,21 @@ namespace {
 /// Pairs handled as one task: some 50 µs, far more than a task costs, few enough to share out.
 constexpr std::size_t grain = 128;
 
+/// Of the energy, ½ (g gᵀ + V H(V)), g = ∇V; θ → R·θ in rows and columns.
+PairHessian energy_hessian(const Overlap& overlap, const OverlapHessian& h, const Eigen::Vector3d& r, double radius) {
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1 / radius);
+  const Vector6d ga = joined(overlap.area, overlap.moment);
+  const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
+  const auto block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second) -> Matrix6d {
+    return scale.asDiagonal() * ((g * k.transpose() + overlap.volume * second) / 2) * scale.asDiagonal();
+  };
+  return {block(ga, ga, h.aa), block(ga, gb, h.ab), block(gb, gb, h.bb)};
+}
+
+/// `hessian` may be null.
 void overlap_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
-                  SeparatingAxis& axis, Overlap& out, PairCounts& counts) {
+                  SeparatingAxis& axis, Overlap& out, PairHessian* hessian, PairCounts& counts) {
   const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
   const Eigen::Vector3d r = displacement(packing, pair);
   ++counts.listed;
@@ -31,7 +44,13 @@ void overlap_pair(const Packing& packing, std::span<const PlacedSolid> placed, c
     return;
   }
   ++counts.overlapped;
-  out = overlap(a, b, r, axis);
+  if (hessian) {
+    OverlapHessian second;
+    out = overlap(a, b, r, axis, second);
+    if (out.touching()) *hessian = energy_hessian(out, second, r, packing.solid->gyration_radius());
+  } else {
+    out = overlap(a, b, r, axis);
+  }
   if (out.path == OverlapPath::clip) ++counts.clipped;
   if (out.touching()) ++counts.touching;
   // No face separates: an edge pair does, and it is worth a search once.
@@ -51,27 +70,6 @@ void for_each_block(std::size_t blocks, const Run& run) {
 
 std::size_t block_count(std::size_t pairs) { return (pairs + grain - 1) / grain; }
 
-/// θ → R·θ in rows and columns.
-Matrix6d scaled(Matrix6d h, double radius) {
-  h.bottomRows<3>() /= radius;
-  h.rightCols<3>() /= radius;
-  return h;
-}
-
-void pair_hessian(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
-                  const Overlap& overlap, PairHessian& out) {
-  const Eigen::Vector3d r = displacement(packing, pair);
-  const Matrix6d cross = overlap_cross_hessian(placed[pair.a], placed[pair.b], r);
-  const Vector6d ga = joined(overlap.area, overlap.moment);
-  const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
-  const Matrix6d own_a = overlap_own_hessian(cross, overlap.area, r);
-  const Matrix6d own_b = overlap_own_hessian(cross.transpose(), -overlap.area, -r);
-  const double radius = packing.solid->gyration_radius();
-  out.aa = scaled((ga * ga.transpose() + overlap.volume * own_a) / 2, radius);
-  out.ab = scaled((ga * gb.transpose() + overlap.volume * cross) / 2, radius);
-  out.bb = scaled((gb * gb.transpose() + overlap.volume * own_b) / 2, radius);
-}
-
 }  // namespace
 
 PairCounts& PairCounts::operator+=(const PairCounts& term) {
@@ -86,33 +84,26 @@ PairCounts& PairCounts::operator+=(const PairCounts& term) {
 
 void place_all(const Packing& packing, std::vector<PlacedSolid>& placed) {
   placed.clear();
+  placed.reserve(packing.poses.size());
   for (const Pose& pose : packing.poses) placed.emplace_back(*packing.solid, pose.orientation.toRotationMatrix());
 }
 
 PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
-                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out) {
+                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out,
+                         std::span<PairHessian> hessians) {
   assert(axes.size() == pairs.size() && out.size() == pairs.size());
+  assert(hessians.empty() || hessians.size() == pairs.size());
   const std::size_t n = pairs.size();
   const std::size_t blocks = block_count(n);
   std::vector<PairCounts> counts(blocks);
   for_each_block(blocks, [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
-      overlap_pair(packing, placed, pairs[k], axes[k], out[k], counts[block]);
+      overlap_pair(packing, placed, pairs[k], axes[k], out[k], hessians.empty() ? nullptr : &hessians[k],
+                   counts[block]);
   });
   PairCounts sum;
   for (const PairCounts& block : counts) sum += block;
   return sum;
-}
-
-void pair_hessians(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
-                   std::span<const Overlap> overlaps, std::span<PairHessian> out) {
-  assert(overlaps.size() == pairs.size() && out.size() == pairs.size());
-  const std::size_t n = pairs.size();
-  for_each_block(block_count(n), [&](std::size_t block) {
-    for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k) {
-      if (overlaps[k].touching()) pair_hessian(packing, placed, pairs[k], overlaps[k], out[k]);
-    }
-  });
 }
 
 }  // namespace isojam

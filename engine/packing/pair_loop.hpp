@@ -25,21 +25,20 @@ struct PairCounts {
 /// Every particle's solid in its orientation, in the order of particles. `placed` is overwritten.
 void place_all(const Packing& packing, std::vector<PlacedSolid>& placed);
 
-/// Overlap of every listed pair into its own slot (lab frame), parallel over pairs on
-/// oneTBB where there are enough of them. `placed` as place_all left it. Slots of pairs that do not touch are left with
-/// volume 0. axes[k] is read and updated: a cache that changes the cost and never the result. All spans have the size
-/// of `pairs`.
-PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
-                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
-
 /// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
 /// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
 struct PairHessian {
   Matrix6d aa, ab, bb;
 };
 
-/// Of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left them.
-void pair_hessians(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
-                   std::span<const Overlap> overlaps, std::span<PairHessian> out);
+/// Overlap of every listed pair into its own slot (lab frame), parallel over pairs on
+/// oneTBB where there are enough of them. `placed` as place_all left it. Slots of pairs that do not touch are left with
+/// volume 0.
+/// axes[k] is read and updated: a cache that changes the cost and never the result.
+/// `hessians` may be empty; else the slots of touching pairs are filled and the others left alone.
+/// All other spans have the size of `pairs`.
+PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
+                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out,
+                         std::span<PairHessian> hessians = {});
 
 }  // namespace isojam
