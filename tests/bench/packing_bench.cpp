@@ -1,61 +1,178 @@
-// Time of one packing's evaluation, Hessian and factorisation, and of a whole minimisation by each method, N = 100.
+// Of one packing: evaluation on one core and on two, and as N grows, with the memory it holds; Hessian; factorisation
+// beside Eigen's SimplicialLDLT; a minimisation by each method.
 
 #include <benchmark/benchmark.h>
+#include <malloc.h>
+#include <oneapi/tbb/global_control.h>
 
-#include "engine/solve/factor/block_cholesky.hpp"
+#include <Eigen/SparseCholesky>
+
+#include "engine/solve/factor/shift_invert.hpp"
 #include "engine/solve/minimise/minimise.hpp"
+#include "tests/bench/states.hpp"
 
-namespace isojam {
+namespace isojam::bench {
 namespace {
 
-/// Octahedra in equilibrium well above jamming.
-Packing compressed(int n) {
-  RandomStream random{29, static_cast<std::uint64_t>(n)};
-  Packing packing = random_packing(platonic(SolidKind::octahedron), n, 0.78, random);
-  PackingEnergy energy;
-  minimise(packing, energy, {});
-  return packing;
+std::string case_of(int n) { return "/N=" + std::to_string(n); }
+
+double bytes_in_use() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-void evaluation(benchmark::State& state) {
-  const Packing packing = compressed(static_cast<int>(state.range(0)));
-  PackingEnergy energy;
-  for (auto _ : state) benchmark::DoNotOptimize(energy.evaluate(packing).energy);
+/// As many packings in turn as make 10⁴ particles, so that branch predictors and caches learn no more of small ones
+/// than of large.
+class Turns {
+ public:
+  explicit Turns(int n) : packings_(relaxed(SolidKind::octahedron, n, 10000 / n)), energies_(packings_.size()) {}
+
+  void next() { turn_ = (turn_ + 1) % packings_.size(); }
+  const Packing& packing() const { return packings_[turn_]; }
+  PackingEnergy& energy() { return energies_[turn_]; }
+  std::size_t size() const { return packings_.size(); }
+
+ private:
+  const std::vector<Packing>& packings_;
+  std::vector<PackingEnergy> energies_;
+  std::size_t turn_ = 0;
+};
+
+/// Of packings that were evaluated before. Memory is what an evaluator holds, the Hessian's scratch included.
+void evaluate(benchmark::State& state, int n, std::size_t threads) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  Turns turns(n);
+  const double before = bytes_in_use();
+  for (std::size_t k = 0; k < turns.size(); ++k, turns.next()) turns.energy().hessian(turns.packing());
+  state.counters["bytes"] = (bytes_in_use() - before) / static_cast<double>(turns.size());
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(turns.energy().evaluate(turns.packing()).energy);
+    turns.next();
+  }
 }
 
-void hessian(benchmark::State& state) {
-  const Packing packing = compressed(static_cast<int>(state.range(0)));
-  PackingEnergy energy;
-  for (auto _ : state) benchmark::DoNotOptimize(energy.hessian(packing).diagonal.data());
+/// With a new neighbour list.
+void evaluate_afresh(benchmark::State& state, int n) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  Turns turns(n);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(PackingEnergy().evaluate(turns.packing()).energy);
+    turns.next();
+  }
 }
 
-void factorisation(benchmark::State& state) {
-  const Packing packing = compressed(static_cast<int>(state.range(0)));
-  const BlockMatrix matrix = PackingEnergy().hessian(packing);
+void hessian(benchmark::State& state, int n) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  Turns turns(n);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(turns.energy().hessian(turns.packing()).diagonal.data());
+    turns.next();
+  }
+}
+
+/// A Hessian and a shift that makes it safely positive definite.
+struct System {
+  BlockMatrix matrix;
+  double shift = 0;
+};
+
+System system_of(int n) {
+  System system{PackingEnergy().hessian(relaxed(SolidKind::octahedron, n).front()), 0};
+  for (const Matrix6d& block : system.matrix.diagonal)
+    system.shift = std::max(system.shift, block.diagonal().maxCoeff());
+  return system;
+}
+
+void block_cholesky(benchmark::State& state, int n) {
+  const System system = system_of(n);
   BlockCholesky factor;
-  for (auto _ : state) benchmark::DoNotOptimize(factor.factorise(matrix, 1e-6));
+  bool done = true;
+  for (auto _ : state) done = factor.factorise(system.matrix, system.shift) && done;
+  if (!done) state.SkipWithError("not positive definite");
 }
 
-/// To residual 1e-6 after a strain step from equilibrium.
-void minimisation(benchmark::State& state) {
-  const Packing start = strained_to(compressed(100), 0.77);
+/// As a minimiser meets it whose contacts come and go: the symbolic part is done every time.
+void block_cholesky_afresh(benchmark::State& state, int n) {
+  const System system = system_of(n);
+  bool done = true;
+  for (auto _ : state) done = BlockCholesky().factorise(system.matrix, system.shift) && done;
+  if (!done) state.SkipWithError("not positive definite");
+}
+
+/// The peer: approximate minimum degree, lower half, its symbolic part kept; only the numbers are timed.
+void simplicial_ldlt(benchmark::State& state, int n) {
+  const System system = system_of(n);
+  const Eigen::SparseMatrix<double> matrix = lower_half(system.matrix, system.shift);
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+  factor.analyzePattern(matrix);
+  for (auto _ : state) factor.factorize(matrix);
+  if (factor.info() != Eigen::Success) state.SkipWithError("failed");
+}
+
+void block_cholesky_solve(benchmark::State& state, int n) {
+  const System system = system_of(n);
+  BlockCholesky factor;
+  if (!factor.factorise(system.matrix, system.shift)) return state.SkipWithError("not positive definite");
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(6 * n, -1, 1);
+  for (auto _ : state) benchmark::DoNotOptimize(factor.solve(b).data());
+}
+
+void simplicial_ldlt_solve(benchmark::State& state, int n) {
+  const System system = system_of(n);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(lower_half(system.matrix, system.shift));
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(6 * n, -1, 1);
+  for (auto _ : state) benchmark::DoNotOptimize(Eigen::VectorXd(factor.solve(b)).data());
+}
+
+/// To residual 1e-6 after a strain step towards jamming.
+void minimisation(benchmark::State& state, Method method) {
+  const Packing start = strained_to(equilibrium(SolidKind::octahedron, 100, 0.72), 0.71);
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   MinimiseOptions options;
-  options.method = static_cast<Method>(state.range(0));
+  options.method = method;
   MinimiseSummary summary;
   for (auto _ : state) {
     Packing packing = start;
     PackingEnergy energy;
     summary = minimise(packing, energy, options);
   }
-  state.SetLabel(std::string(to_string(options.method)) + ": " + std::string(to_string(summary.reason)));
+  state.SetLabel(std::string(to_string(summary.reason)));
   state.counters["evaluations"] = static_cast<double>(summary.evaluations);
   state.counters["residual"] = summary.residual;
 }
 
-BENCHMARK(evaluation)->Arg(100)->Arg(400)->Unit(benchmark::kMicrosecond);
-BENCHMARK(hessian)->Arg(100)->Arg(400)->Unit(benchmark::kMicrosecond);
-BENCHMARK(factorisation)->Arg(100)->Arg(400)->Unit(benchmark::kMicrosecond);
-BENCHMARK(minimisation)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+template <class Function, class... Arguments>
+benchmark::internal::Benchmark* add(const std::string& name, Function function, Arguments... arguments) {
+  return benchmark::RegisterBenchmark(name.c_str(), function, arguments...)->UseRealTime();
+}
+
+bool register_all() {
+  for (const int n : {100, 1000, 10000}) {
+    add("evaluate/1_thread" + case_of(n), evaluate, n, 1);
+    add("evaluate/afresh" + case_of(n), evaluate_afresh, n);
+  }
+  for (const std::size_t threads : {1, 2})
+    add("evaluate/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads") + case_of(400), evaluate, 400,
+        threads);
+  for (const int n : {100, 400}) {
+    add("hessian/analytic" + case_of(n), hessian, n);
+    add("factorise/simplicial_ldlt" + case_of(n), simplicial_ldlt, n);
+    add("factor_solve/simplicial_ldlt" + case_of(n), simplicial_ldlt_solve, n);
+  }
+  for (const int n : {100, 400, 1000}) {
+    add("factorise/block_cholesky" + case_of(n), block_cholesky, n);
+    add("factorise/block_cholesky_afresh" + case_of(n), block_cholesky_afresh, n);
+    add("factor_solve/block_cholesky" + case_of(n), block_cholesky_solve, n);
+  }
+  for (const Method method : {Method::newton, Method::lbfgs, Method::conjugate_gradient}) {
+    const std::string name = "minimise/" + std::string(to_string(method)) + "/octahedron";
+    // One run of the slow ones says enough: nobody asks for their second digit.
+    add(name, minimisation, method)->Iterations(1)->Repetitions(method == Method::newton ? 9 : 1);
+  }
+  return true;
+}
+
+[[maybe_unused]] const bool registered = register_all();
 
 }  // namespace
-}  // namespace isojam
+}  // namespace isojam::bench

@@ -1,0 +1,54 @@
+// isojam_bench [--ratios FILE] [Google Benchmark's options]
+// Runs the benchmarks in random order, repetition by repetition, so that what else the machine does falls on all of
+// them alike; prints medians and the table of ratios, and writes both as JSON.
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+
+#include "tests/bench/reporter.hpp"
+
+namespace {
+
+/// Removes `--ratios FILE`, if it is there.
+std::string take_ratios_path(std::vector<char*>& arguments) {
+  const auto flag = std::find_if(arguments.begin(), arguments.end(),
+                                 [](const char* text) { return std::strcmp(text, "--ratios") == 0; });
+  if (flag == arguments.end() || flag + 1 == arguments.end()) return "ratios.json";
+  std::string path = flag[1];
+  arguments.erase(flag, flag + 2);
+  return path;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace isojam::bench;
+  // Options of the command line come later and win.
+  std::string defaults[] = {"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=9",
+                            "--benchmark_min_time=0.03"};
+  std::vector<char*> arguments{argv[0]};
+  for (std::string& option : defaults) arguments.push_back(option.data());
+  arguments.insert(arguments.end(), argv + 1, argv + argc);
+  const std::string path = take_ratios_path(arguments);
+  int count = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+
+  MedianReporter reporter;
+  if (benchmark::RunSpecifiedBenchmarks(&reporter) == 0) return 2;
+  const std::vector<Verdict> verdicts = judge(all_claims(), reporter.medians());
+  std::cout << reporter.machine().dump() << "\n\n";
+  print_medians(std::cout, reporter);
+  std::cout << '\n';
+  print_verdicts(std::cout, verdicts);
+  std::ofstream file(path);
+  file << to_json(reporter, verdicts).dump(2) << '\n';
+  if (!file.flush()) {
+    std::cerr << "cannot write " << path << '\n';
+    return 2;
+  }
+  return reporter.failed() ? 1 : 0;
+}

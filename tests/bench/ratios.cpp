@@ -1,0 +1,91 @@
+#include "tests/bench/ratios.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/geometry/convex_solid.hpp"
+
+namespace isojam::bench {
+
+namespace {
+
+using Kind = Claim::Kind;
+
+void claim_overlaps(std::vector<Claim>& claims) {
+  constexpr std::array<double, 5> faster_than_voro{11, 14, 17, 22, 26};  // as all_solids
+  constexpr double faster_than_cgal = 500, hessian_cost = 2.2, near_miss_ns = 15;
+  for (std::size_t k = 0; k < all_solids.size(); ++k) {
+    const std::string solid(platonic(all_solids[k]).name()), loop = "overlap/contact_loop/" + solid;
+    claims.push_back({Kind::faster, loop, "overlap/voro++/" + solid, faster_than_voro[k]});
+    claims.push_back({Kind::faster, loop, "overlap/cgal/" + solid, faster_than_cgal});
+    claims.push_back({Kind::costs, "overlap/with_hessian/" + solid, loop, hessian_cost});
+    claims.push_back({Kind::faster, loop, "overlap/quadruple_clip/" + solid, 0});
+    claims.push_back({Kind::absolute, "near_miss/cached_axis/" + solid, "", near_miss_ns});
+  }
+}
+
+void claim_factors(std::vector<Claim>& claims) {
+  for (const std::string n : {"N=100", "N=400"}) {
+    claims.push_back({Kind::faster, "factorise/block_cholesky/" + n, "factorise/simplicial_ldlt/" + n, 5});
+    claims.push_back({Kind::faster, "factor_solve/block_cholesky/" + n, "factor_solve/simplicial_ldlt/" + n, 0});
+  }
+}
+
+void claim_scaling(std::vector<Claim>& claims) {
+  claims.push_back({Kind::faster, "evaluate/2_threads/N=400", "evaluate/1_thread/N=400", 1.7});
+  // Linear in N: a particle costs the same in a packing ten or a hundred times as large, but for caches that no longer
+  // hold everything.
+  constexpr double linear = 1.25;
+  for (const double n : {1000.0, 10000.0}) {
+    const std::string many = "/N=" + std::to_string(static_cast<int>(n)), few = "/N=100";
+    claims.push_back({Kind::costs, "evaluate/1_thread" + many, "evaluate/1_thread" + few, linear, n, 100});
+    claims.push_back({Kind::costs, "evaluate/afresh" + many, "evaluate/afresh" + few, linear, n, 100});
+    claims.push_back(
+        {Kind::costs, "evaluate/1_thread" + many + "#bytes", "evaluate/1_thread" + few + "#bytes", linear, n, 100});
+  }
+}
+
+void claim_minimisers(std::vector<Claim>& claims) {
+  const std::string state = "octahedron";
+  claims.push_back({Kind::faster, "minimise/newton/" + state, "minimise/conjugate_gradient/" + state, 100});
+  claims.push_back({Kind::faster, "minimise/newton/" + state, "minimise/lbfgs/" + state, 0});
+}
+
+}  // namespace
+
+std::vector<Claim> all_claims() {
+  std::vector<Claim> claims;
+  claim_overlaps(claims);
+  claim_factors(claims);
+  claim_scaling(claims);
+  claim_minimisers(claims);
+  return claims;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+std::vector<Verdict> judge(const std::vector<Claim>& claims, const std::map<std::string, double>& medians) {
+  std::vector<Verdict> verdicts;
+  for (const Claim& claim : claims) {
+    const bool absolute = claim.kind == Claim::Kind::absolute;
+    const auto ours = medians.find(claim.ours), peer = medians.find(claim.peer);
+    if (ours == medians.end() || (!absolute && peer == medians.end())) continue;
+    Verdict verdict{claim, ours->second / claim.ours_per, absolute ? 0 : peer->second / claim.peer_per};
+    if (absolute) {
+      verdict.ratio = verdict.ours;
+    } else {
+      verdict.ratio = claim.kind == Claim::Kind::faster ? verdict.peer / verdict.ours : verdict.ours / verdict.peer;
+    }
+    verdict.holds = claim.bound == 0 ||
+                    (claim.kind == Claim::Kind::faster ? verdict.ratio >= claim.bound : verdict.ratio <= claim.bound);
+    verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
+}  // namespace isojam::bench
