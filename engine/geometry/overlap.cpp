@@ -65,11 +65,85 @@ Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVecto
 const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
 const Eigen::Vector3d& rounded(const TwoDoubleVector& r) { return r.high; }
 
+/// |n×m| of face i of A and face j of B.
+double sine(const PlacedSolid& a, const PlacedSolid& b, int i, int j, const Eigen::Vector3d&) {
+  return a.normal(i).cross(b.normal(j)).norm();
+}
+
+/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
+double sine(const PlacedSolid& a, const PlacedSolid& b, int i, int j, const TwoDoubleVector&) {
+  const TwoDoubleVector n = a.precise_normal(i), m = b.precise_normal(j);
+  const double sign = n.high.dot(m.high) < 0 ? 1 : -1;
+  return n.high.cross((n.high + sign * m.high) + (n.low + sign * m.low)).norm();
+}
+
+/// The columns of H_AB, each in two halves of three rows: Σ ∫ u_A u_Bᵀ dl / |n_i×n_j|. On a segment of length l and
+/// direction d both u are linear, so that the integral is l ū_A ū_Bᵀ + l/12 (0, d×n_i) (0, d×n_j)ᵀ, ū at its middle.
+class CrossHessian {
+ public:
+  CrossHessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r)
+      : a_(a), b_(b), half_(Lanes::of(r.x() / 2, r.y() / 2, r.z() / 2, 0)) {
+    for (Lanes& column : upper_) column = Lanes::all(0);
+    for (Lanes& column : lower_) column = Lanes::all(0);
+  }
+
+  /// `sine`: |n_i×n_j| of the planes that meet in the segment.
+  void add(const ContactLoop& loop, const ContactLoop::Segment& s, double sine) {
+    const Lanes v = without_fourth(Lanes::load(loop.corner[s.from])),
+                w = without_fourth(Lanes::load(loop.corner[s.to]));
+    const Lanes n = normal(a_, s.face_a), m = normal(b_, s.face_b);
+    const Lanes along = w - v, middle = Lanes::all(0.5) * (v + w);
+    if (!(sine > 0)) return;
+    const Lanes weight = Lanes::all(std::sqrt(sum(along * along).first()) / sine);
+    const Lanes arm_a = yzx(cross_zxy(middle + half_, n)), turn_a = yzx(cross_zxy(along, n));
+    const Lanes arm_b = weight * yzx(cross_zxy(middle - half_, m));
+    const Lanes turn_b = weight * Lanes::all(1.0 / 12) * yzx(cross_zxy(along, m)), push_b = weight * m;
+    add_column<0>(n, arm_a, push_b, 0), add_column<1>(n, arm_a, push_b, 0), add_column<2>(n, arm_a, push_b, 0);
+    add_column<0>(n, arm_a, arm_b, 3), add_column<1>(n, arm_a, arm_b, 3), add_column<2>(n, arm_a, arm_b, 3);
+    lower_[3] = fma(turn_a, lane<0>(turn_b), lower_[3]);
+    lower_[4] = fma(turn_a, lane<1>(turn_b), lower_[4]);
+    lower_[5] = fma(turn_a, lane<2>(turn_b), lower_[5]);
+  }
+
+  Matrix6d matrix() const {
+    Matrix6d h;
+    for (int c = 0; c < 6; ++c) h.col(c) = joined(vector_of(upper_[c]), vector_of(lower_[c]));
+    return h;
+  }
+
+ private:
+  static Lanes normal(const PlacedSolid& solid, std::uint32_t f) {
+    return Lanes::of(solid.nx()[f], solid.ny()[f], solid.nz()[f], 0);
+  }
+  template <int k>
+  void add_column(Lanes n, Lanes arm, Lanes factors, int first) {
+    upper_[first + k] = fma(n, lane<k>(factors), upper_[first + k]);
+    lower_[first + k] = fma(arm, lane<k>(factors), lower_[first + k]);
+  }
+
+  const PlacedSolid &a_, &b_;
+  Lanes half_;
+  Lanes upper_[6], lower_[6];
+};
+
 /// In double or in two doubles, as r is.
 template <class Displacement>
-Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis) {
+Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop) {
+  CrossHessian sum(a, b, rounded(r));
+  for (int k = 0; k < loop.segments; ++k) {
+    const ContactLoop::Segment& s = loop.segment[k];
+    sum.add(loop, s, sine(a, b, static_cast<int>(s.face_a), static_cast<int>(s.face_b), r));
+  }
+  return sum.matrix();
+}
+
+/// In double or in two doubles, as r is; `hessian` may be null.
+template <class Displacement>
+Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis,
+                   OverlapHessian* hessian) {
   ContactLoop loop;
   find_contact_loop(a, b, r, loop);
+  if (hessian) *hessian = {};
   Overlap result;
   if (loop.verdict == LoopVerdict::separated) {
     axis = loop.axis;
@@ -77,47 +151,18 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
   }
   if (loop.verdict == LoopVerdict::closed) {
     integrate(loop, rounded(r), result);
-    if (result.volume > 0) return result;  // or rounding ate a sliver
+    if (result.volume > 0) {  // or rounding ate a sliver
+      if (!hessian) return result;
+      hessian->ab = cross_hessian(a, b, r, loop);
+      hessian->aa = overlap_own_hessian(hessian->ab, result.area, rounded(r));
+      hessian->bb = overlap_own_hessian(hessian->ab.transpose(), -result.area, -rounded(r));
+      return result;
+    }
   }
   result = clipped(a, b, r);
   result.area = a.rotation() * result.area;
   result.moment = a.rotation() * result.moment;
   return result;
-}
-
-/// |n×m| of two unit normals.
-double sine(const Eigen::Vector3d& n, const Eigen::Vector3d& m) { return n.cross(m).norm(); }
-
-/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
-double sine(const TwoDoubleVector& n, const TwoDoubleVector& m) {
-  const double sign = n.high.dot(m.high) < 0 ? 1 : -1;
-  return n.high.cross((n.high + sign * m.high) + (n.low + sign * m.low)).norm();
-}
-
-/// `sine_between(i, j)` of face i of A and face j of B.
-template <class Sine>
-Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop,
-                       const Sine& sine_between) {
-  Matrix6d hessian = Matrix6d::Zero();
-  if (loop.verdict != LoopVerdict::closed) return hessian;
-  const double gauss = 0.5 / std::sqrt(3.0);
-  for (int k = 0; k < loop.segments; ++k) {
-    const ContactLoop::Segment& s = loop.segment[k];
-    const auto i = static_cast<int>(s.face_a), j = static_cast<int>(s.face_b);
-    const Eigen::Vector3d n = a.normal(i), m = b.normal(j);
-    const Eigen::Vector3d from(loop.corner[s.from]), to(loop.corner[s.to]);
-    const double sine_of_planes = sine_between(i, j);
-    const Eigen::Vector3d along = to - from;
-    if (!(sine_of_planes > 0)) continue;
-    const double weight = along.norm() / (2 * sine_of_planes);
-    for (const double t : {0.5 - gauss, 0.5 + gauss}) {
-      const Eigen::Vector3d y = r / 2 + from + t * along;
-      const Vector6d ua = joined(n, y.cross(n));
-      const Vector6d ub = joined(m, (y - r).cross(m));
-      hessian.noalias() += (weight * ua) * ub.transpose();
-    }
-  }
-  return hessian;
 }
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
@@ -129,11 +174,21 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 }  // namespace
 
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
-  return overlap_at(a, b, r, axis);
+  return overlap_at(a, b, r, axis, nullptr);
 }
 
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis) {
-  return overlap_at(a, b, r, axis);
+  return overlap_at(a, b, r, axis, nullptr);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
+                OverlapHessian& hessian) {
+  return overlap_at(a, b, r, axis, &hessian);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis,
+                OverlapHessian& hessian) {
+  return overlap_at(a, b, r, axis, &hessian);
 }
 
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
@@ -145,22 +200,12 @@ Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& 
   return overlap(a, b, pose, unused);
 }
 
-Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
-  ContactLoop loop;
-  find_contact_loop(a, b, r, loop);
-  return cross_hessian(a, b, r, loop, [&](int i, int j) { return sine(a.normal(i), b.normal(j)); });
-}
-
-Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r) {
-  ContactLoop loop;
-  find_contact_loop(a, b, r, loop);
-  return cross_hessian(a, b, r.high, loop,
-                       [&](int i, int j) { return sine(a.precise_normal(i), b.precise_normal(j)); });
-}
-
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
-  return overlap_cross_hessian(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation),
-                               pose.displacement);
+  SeparatingAxis unused;
+  OverlapHessian hessian;
+  overlap(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement, unused,
+          hessian);
+  return hessian.ab;
 }
 
 Matrix6d overlap_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r) {

@@ -62,12 +62,21 @@ inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d
   return both;
 }
 
-/// ∂²V/∂(x_A, θ_A)∂(x_B, θ_B), frame as for overlap(), rotations about each body's own centre:
-///   H_AB = Σ_C ∫ u_A u_Bᵀ dl / |n_i×n_j|,  u_A = (n_i, (y−x_A)×n_i),  u_B = (n_j, (y−x_B)×n_j)
-/// by 2-point Gauss quadrature, exact since the integrand is quadratic. The other blocks follow from it by rigid
-/// motion of both bodies. Zero where the loop does not close (a degenerate pair has no second derivative).
-Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
-Matrix6d overlap_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r);
+/// Second derivatives of V by (x_A, θ_A) and (x_B, θ_B), rotations about each body's own centre; frame as in Overlap.
+///   H_AB = ab = Σ_C ∫ u_A u_Bᵀ dl / |n_i×n_j|,  u_A = (n_i, (y−x_A)×n_i),  u_B = (n_j, (y−x_B)×n_j);
+/// the other blocks follow from it by rigid motion of both bodies, overlap_own_hessian().
+struct OverlapHessian {
+  Matrix6d aa = Matrix6d::Zero(), ab = Matrix6d::Zero(), bb = Matrix6d::Zero();
+};
+
+/// The overlap and its Hessian from one loop. Zero where the loop does not close: a degenerate pair has no second
+/// derivative.
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
+                OverlapHessian& hessian);
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis,
+                OverlapHessian& hessian);
+
+/// H_AB alone, in A's body frame.
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 /// ∂²V/∂(x_A, θ_A)² from H_AB: −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised, Tr: (a, θ) → (a + θ×r, θ);

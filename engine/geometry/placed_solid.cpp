@@ -51,7 +51,7 @@ PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotati
     : solid_(&solid), rotation_(rotation) {
   const SolidArrays& body = solid.arrays();
   turn(rotation, body.x, body.y, body.z, body.vertices, {x_, y_, z_});
-  turn(rotation, body.nx, body.ny, body.nz, body.faces, {nx_, ny_, nz_});
+  turn(rotation, body.nx, body.ny, body.nz, body.faces, {normals_[0], normals_[1], normals_[2]});
   copy_rows();
 }
 
@@ -60,7 +60,7 @@ PlacedSolid::PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotati
   const SolidArrays& body = solid.arrays();
   turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, {x_, y_, z_},
        {x_low_, y_low_, z_low_});
-  turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, {nx_, ny_, nz_},
+  turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, {normals_[0], normals_[1], normals_[2]},
        {nx_low_, ny_low_, nz_low_});
   copy_rows();
 }

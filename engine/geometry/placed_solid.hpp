@@ -27,13 +27,13 @@ class PlacedSolid {
   const double* y() const { return y_; }
   const double* z() const { return z_; }
   const double* row(int v) const { return rows_[v]; }  ///< (x, y, z, 0) of a vertex
-  const double* nx() const { return nx_; }             ///< outward unit face normals
-  const double* ny() const { return ny_; }
-  const double* nz() const { return nz_; }
+  const double* nx() const { return normals_[0]; }     ///< outward unit face normals, components `capacity` apart
+  const double* ny() const { return normals_[1]; }
+  const double* nz() const { return normals_[2]; }
   const double* offset() const { return solid_->arrays().offset; }  ///< of the face planes from the centre
 
   Eigen::Vector3d vertex(int v) const { return {x_[v], y_[v], z_[v]}; }
-  Eigen::Vector3d normal(int f) const { return {nx_[f], ny_[f], nz_[f]}; }
+  Eigen::Vector3d normal(int f) const { return {nx()[f], ny()[f], nz()[f]}; }
 
   /// With low parts, of solids placed in two doubles only.
   TwoDoubleVector precise_vertex(int v) const { return {vertex(v), {x_low_[v], y_low_[v], z_low_[v]}}; }
@@ -49,7 +49,7 @@ class PlacedSolid {
   const ConvexSolid* solid_ = nullptr;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), rotation_low_ = Eigen::Matrix3d::Zero();
   alignas(32) double rows_[capacity][4];
-  alignas(32) double nx_[capacity], ny_[capacity], nz_[capacity];
+  alignas(32) double normals_[3][capacity];
   alignas(32) double x_[capacity], y_[capacity], z_[capacity];
   alignas(32) double nx_low_[capacity], ny_low_[capacity], nz_low_[capacity];
   alignas(32) double x_low_[capacity], y_low_[capacity], z_low_[capacity];

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/geometry/lanes.hpp"
+
 namespace isojam {
 
 namespace {
@@ -22,16 +24,38 @@ Eigen::Vector3d direction(const SolidArrays& solid, int edge) {
   return {solid.x[e.head] - solid.x[e.tail], solid.y[e.head] - solid.y[e.tail], solid.z[e.head] - solid.z[e.tail]};
 }
 
-double support(const PlacedSolid& solid, const Eigen::Vector3d& u) {
-  double best = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k < solid.vertices(); ++k)
-    best = std::max(best, u.x() * solid.x()[k] + u.y() * solid.y()[k] + u.z() * solid.z()[k]);
-  return best;
-}
+/// Extremes of u·v over the vertices of a placed solid, u = (x, y, z) in every lane.
+struct Extent {
+  Lanes x, y, z;
 
-Eigen::Vector3d direction(const PlacedSolid& solid, int edge) {
-  const Edge& e = solid.solid().arrays().edge[edge];
-  return solid.vertex(e.head) - solid.vertex(e.tail);
+  Lanes along(const PlacedSolid& solid, int v) const {
+    return fma(x, Lanes::load(solid.x() + v), fma(y, Lanes::load(solid.y() + v), z * Lanes::load(solid.z() + v)));
+  }
+  double highest(const PlacedSolid& solid) const {
+    Lanes best = along(solid, 0);
+    for (int v = 4; v < solid.vertices(); v += 4) best = max(best, along(solid, v));
+    return greatest(best).first();
+  }
+  double lowest(const PlacedSolid& solid) const {
+    Lanes best = along(solid, 0);
+    for (int v = 4; v < solid.vertices(); v += 4) best = min(best, along(solid, v));
+    return least(best).first();
+  }
+};
+
+/// Direction of the axis: where its first component is, the others following at steps of SolidArrays::capacity.
+/// Which kind it is cannot be predicted: all are made, and one is picked.
+inline const double* pick_direction(const PlacedSolid& a, const PlacedSolid& b, const SeparatingAxis& axis,
+                                    double* across) {
+  const Edge &e = a.solid().arrays().edge[axis.a], &f = b.solid().arrays().edge[axis.b];
+  const double px = a.x()[e.head] - a.x()[e.tail], qx = b.x()[f.head] - b.x()[f.tail];
+  const double py = a.y()[e.head] - a.y()[e.tail], qy = b.y()[f.head] - b.y()[f.tail];
+  const double pz = a.z()[e.head] - a.z()[e.tail], qz = b.z()[f.head] - b.z()[f.tail];
+  across[0] = py * qz - pz * qy;
+  across[SolidArrays::capacity] = pz * qx - px * qz;
+  across[2 * SolidArrays::capacity] = px * qy - py * qx;
+  const double* by_kind[] = {across, a.nx() + axis.a, b.nx() + axis.b, across};
+  return by_kind[static_cast<int>(axis.kind)];
 }
 
 /// Gap along the unit vector u (A's frame) from A to B.
@@ -98,23 +122,18 @@ double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativeP
 }
 
 bool separates(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const SeparatingAxis& axis) {
+  if (axis.kind == SeparatingAxis::Kind::none) return false;
+  double across[2 * SolidArrays::capacity + 1];
+  const double* u = pick_direction(a, b, axis, across);
+  const double ux = u[0], uy = u[SolidArrays::capacity], uz = u[2 * SolidArrays::capacity];
+  const double along = ux * r.x() + uy * r.y() + uz * r.z();
+  // Towards B, if the solids are apart.
+  const double sign = std::copysign(1.0, along);
+  const Extent extent{Lanes::all(sign * ux), Lanes::all(sign * uy), Lanes::all(sign * uz)};
+  const double gap = std::abs(along) - extent.highest(a) + extent.lowest(b);
   const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
-  switch (axis.kind) {
-    case SeparatingAxis::Kind::none: return false;
-    case SeparatingAxis::Kind::face_a: {
-      const Eigen::Vector3d n = a.normal(axis.a);
-      return n.dot(r) - a.offset()[axis.a] - support(b, -n) > tolerance;
-    }
-    case SeparatingAxis::Kind::face_b: {
-      const Eigen::Vector3d n = b.normal(axis.b);
-      return -n.dot(r) - b.offset()[axis.b] - support(a, -n) > tolerance;
-    }
-    case SeparatingAxis::Kind::edge_edge: break;
-  }
-  Eigen::Vector3d u = direction(a, axis.a).cross(direction(b, axis.b));
-  if (u.dot(r) < 0) u = -u;
-  const double gap = u.dot(r) - support(a, u) - support(b, -u);
-  return gap > 0 && gap * gap > tolerance * tolerance * u.squaredNorm();
+  // Without a square root or a quotient: u is not a unit vector.
+  return gap > 0 && gap * gap > tolerance * tolerance * (ux * ux + uy * uy + uz * uz);
 }
 
 }  // namespace isojam

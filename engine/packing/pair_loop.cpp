@@ -66,28 +66,25 @@ void for_each_block(std::size_t blocks, const Run& run) {
 
 std::size_t block_count(std::size_t pairs) { return (pairs + grain - 1) / grain; }
 
-/// θ → R·θ in rows and columns.
-Matrix6d scaled(Matrix6d h, double radius) {
-  h.bottomRows<3>() /= radius;
-  h.rightCols<3>() /= radius;
-  return h;
-}
-
+/// Of the energy, ½ (g gᵀ + V H(V)), g = ∇V; θ → R·θ in rows and columns.
 void pair_hessian(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
-                  const NeighbourPair& pair, const Overlap& overlap, PairHessian& out) {
-  const Eigen::Vector3d r = displacement(packing, pair);
+                  const NeighbourPair& pair, PairHessian& out) {
   const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
-  const Matrix6d cross = precision == Precision::extended
-                             ? overlap_cross_hessian(a, b, precise_displacement(packing, pair))
-                             : overlap_cross_hessian(a, b, r);
-  const Vector6d ga = joined(overlap.area, overlap.moment);
-  const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
-  const Matrix6d own_a = overlap_own_hessian(cross, overlap.area, r);
-  const Matrix6d own_b = overlap_own_hessian(cross.transpose(), -overlap.area, -r);
-  const double radius = packing.solid->gyration_radius();
-  out.aa = scaled((ga * ga.transpose() + overlap.volume * own_a) / 2, radius);
-  out.ab = scaled((ga * gb.transpose() + overlap.volume * cross) / 2, radius);
-  out.bb = scaled((gb * gb.transpose() + overlap.volume * own_b) / 2, radius);
+  const Eigen::Vector3d r = displacement(packing, pair);
+  SeparatingAxis unused;
+  OverlapHessian h;
+  const Overlap value = precision == Precision::extended ? overlap(a, b, precise_displacement(packing, pair), unused, h)
+                                                         : overlap(a, b, r, unused, h);
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1 / packing.solid->gyration_radius());
+  const Vector6d ga = joined(value.area, value.moment);
+  const Vector6d gb = joined(-value.area, r.cross(value.area) - value.moment);
+  const auto block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second) -> Matrix6d {
+    return scale.asDiagonal() * ((g * k.transpose() + value.volume * second) / 2) * scale.asDiagonal();
+  };
+  out.aa = block(ga, ga, h.aa);
+  out.ab = block(ga, gb, h.ab);
+  out.bb = block(gb, gb, h.bb);
 }
 
 }  // namespace
@@ -153,7 +150,7 @@ void pair_hessians(const Packing& packing, Precision precision, std::span<const 
   const std::size_t n = pairs.size();
   for_each_block(block_count(n), [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k) {
-      if (overlaps[k].touching()) pair_hessian(packing, precision, placed, pairs[k], overlaps[k], out[k]);
+      if (overlaps[k].touching()) pair_hessian(packing, precision, placed, pairs[k], out[k]);
     }
   });
 }

@@ -1,71 +1,107 @@
-// Time of one pair: the contact loop on touching pairs, the slow clip on the same pairs, the cached axis on near
-// misses. Pairs are many and differ, so that the branch predictor cannot learn them.
+// Time of one pair: the contact loop on touching pairs, with and without second derivatives, beside the slow clip and
+// the peers on the same pairs; the cached axis on near misses. Solids are placed beforehand for all alike, as a packing
+// places them once per evaluation and not once per pair. Before a peer is timed its volumes are compared.
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "engine/geometry/overlap.hpp"
-#include "engine/random/stream.hpp"
+#include "tests/bench/pair_set.hpp"
+#include "tests/bench/peers.hpp"
 
-namespace isojam {
+namespace isojam::bench {
 namespace {
 
-Eigen::Quaterniond random_orientation(RandomStream& random) {
-  return Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
-}
-
-/// Random pairs: touching with V/V_p in 1e-5 … 3e-2, or apart though their circumspheres meet.
-std::vector<RelativePose> random_pairs(const ConvexSolid& solid, bool touching) {
-  constexpr std::size_t pairs = 4096;
-  RandomStream random{17, hash_text(solid.name().data(), solid.name().data() + solid.name().size())};
-  std::vector<RelativePose> poses;
-  while (poses.size() < pairs) {
-    const Eigen::Quaterniond a = random_orientation(random), b = random_orientation(random);
-    const Eigen::Vector3d direction = random_orientation(random) * Eigen::Vector3d::UnitX();
-    const double distance = 2 * (solid.inradius() + (solid.circumradius() - solid.inradius()) * random.uniform());
-    const RelativePose pose = relative_pose(a, b, distance * direction);
-    const double volume = overlap(solid, solid, pose).volume;
-    if (touching ? volume > 1e-5 && volume < 3e-2 : volume == 0) poses.push_back(pose);
-  }
-  return poses;
-}
-
-const ConvexSolid& solid_of(const benchmark::State& state) { return platonic(all_solids[state.range(0)]); }
-
-void contact_loop(benchmark::State& state) {
-  const ConvexSolid& solid = solid_of(state);
-  const std::vector<RelativePose> poses = random_pairs(solid, true);
-  std::size_t k = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(overlap(solid, solid, poses[k++ % poses.size()]).volume);
-  state.SetLabel(solid.name());
-}
-
-void quadruple_clip(benchmark::State& state) {
-  const ConvexSolid& solid = solid_of(state);
-  const std::vector<RelativePose> poses = random_pairs(solid, true);
-  std::size_t k = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(clipped_overlap(solid, solid, poses[k++ % poses.size()]).volume);
-  state.SetLabel(solid.name());
-}
-
-void cached_axis(benchmark::State& state) {
-  const ConvexSolid& solid = solid_of(state);
-  const std::vector<RelativePose> poses = random_pairs(solid, false);
-  std::vector<SeparatingAxis> axes;
-  for (const RelativePose& pose : poses) axes.push_back(best_axis(solid, solid, pose));
+/// Times `work(k)` over all pairs in turn, the first `pairs` of them if it is slow.
+template <class Work>
+void time_pairs(benchmark::State& state, std::size_t pairs, const Work& work) {
   std::size_t k = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(gap(solid, solid, poses[k % poses.size()], axes[k % poses.size()]));
-    ++k;
+    benchmark::DoNotOptimize(work(k));
+    if (++k == pairs) k = 0;
   }
-  state.SetLabel(solid.name());
 }
 
-BENCHMARK(contact_loop)->DenseRange(0, 4);
-BENCHMARK(quadruple_clip)->DenseRange(0, 4);
-BENCHMARK(cached_axis)->DenseRange(0, 4);
+/// A comparison with something that computes something else would be worthless.
+template <class Volume>
+void require_equal_volumes(std::string_view peer, const PairSet& set, std::size_t pairs, double tolerance,
+                           const Volume& volume) {
+  const double worst = worst_difference(set, pairs, volume);
+  if (worst <= tolerance) return;
+  std::cerr << peer << " and the contact loop differ by " << worst << " of a volume, " << tolerance << " allowed\n";
+  std::exit(EXIT_FAILURE);
+}
+
+void contact_loop(benchmark::State& state, SolidKind kind) {
+  const PairSet& set = touching_pairs(kind);
+  time_pairs(state, set.size(), [&](std::size_t k) {
+    SeparatingAxis axis;
+    return overlap(set.a(k), set.b(k), set.r(k), axis).volume;
+  });
+}
+
+void with_hessian(benchmark::State& state, SolidKind kind) {
+  const PairSet& set = touching_pairs(kind);
+  time_pairs(state, set.size(), [&](std::size_t k) {
+    SeparatingAxis axis;
+    OverlapHessian hessian;
+    return overlap(set.a(k), set.b(k), set.r(k), axis, hessian).volume + hessian.bb(5, 5);
+  });
+}
+
+void quadruple_clip(benchmark::State& state, SolidKind kind) {
+  const PairSet& set = touching_pairs(kind);
+  time_pairs(state, 64, [&](std::size_t k) {
+    const Eigen::Matrix3d to_a = set.a(k).rotation().transpose();
+    return clipped_overlap(set.a(k).solid(), set.b(k).solid(),
+                           RelativePose{to_a * set.b(k).rotation(), to_a * set.r(k)})
+        .volume;
+  });
+}
+
+void voropp(benchmark::State& state, SolidKind kind) {
+  const PairSet& set = touching_pairs(kind);
+  VoroCells cells(set);
+  const auto volume = [&](std::size_t k) { return cells.overlap(k); };
+  require_equal_volumes("voro++", set, set.size(), 1e-9, volume);
+  time_pairs(state, set.size(), volume);
+}
+
+void cgal(benchmark::State& state, SolidKind kind) {
+  constexpr std::size_t pairs = 256;
+  const PairSet& set = touching_pairs(kind);
+  const auto volume = [&](std::size_t k) { return cgal_overlap(set, k); };
+  require_equal_volumes("CGAL", set, pairs, 1e-6, volume);
+  time_pairs(state, pairs, volume);
+}
+
+void cached_axis(benchmark::State& state, SolidKind kind) {
+  const PairSet& set = separated_pairs(kind);
+  std::vector<SeparatingAxis> axes;
+  for (std::size_t k = 0; k < set.size(); ++k) axes.push_back(best_axis(set.a(k), set.b(k), set.r(k)));
+  time_pairs(state, set.size(), [&](std::size_t k) { return separates(set.a(k), set.b(k), set.r(k), axes[k]); });
+}
+
+void register_for_all_solids(const std::string& family_and_method, void (*run)(benchmark::State&, SolidKind)) {
+  for (const SolidKind kind : all_solids) {
+    const std::string name = family_and_method + "/" + std::string(to_string(kind));
+    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { run(state, kind); });
+  }
+}
+
+[[maybe_unused]] const bool registered = [] {
+  register_for_all_solids("overlap/contact_loop", contact_loop);
+  register_for_all_solids("overlap/with_hessian", with_hessian);
+  register_for_all_solids("overlap/quadruple_clip", quadruple_clip);
+  register_for_all_solids("overlap/voro++", voropp);
+  register_for_all_solids("overlap/cgal", cgal);
+  register_for_all_solids("near_miss/cached_axis", cached_axis);
+  return true;
+}();
 
 }  // namespace
-}  // namespace isojam
+}  // namespace isojam::bench

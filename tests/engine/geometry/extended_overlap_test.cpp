@@ -234,7 +234,10 @@ TEST_P(ExtendedOverlap, HessiansAreDifferencesInQuadruplePrecision) {
       const Pair pair = depth > 1e-3 ? random_contact(random, GetParam(), GetParam(), 1e-5, 3e-2)
                                      : face_contact(random, GetParam(), depth);
       const TwoDoubleVector r = precise_displacement(pair);
-      const Matrix6d cross = overlap_cross_hessian(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r);
+      SeparatingAxis unused;
+      OverlapHessian hessian;
+      overlap(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r, unused, hessian);
+      const Matrix6d& cross = hessian.ab;
       const Matrix6d own = overlap_own_hessian(cross, extended(pair).area, r.high);
       // Turns do not commute: the derivative of M by turns of its own body has an antisymmetric part, which is no
       // curvature of V.

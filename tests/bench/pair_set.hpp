@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/geometry/overlap.hpp"
+
+namespace isojam::bench {
+
+/// Pairs as a packing has them: particles of one solid, each placed once, and pairs in the order of a neighbour list.
+struct PairSet {
+  struct Pair {
+    int a = 0, b = 0;
+    Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< x_b − x_a
+  };
+
+  std::vector<PlacedSolid> placed;
+  std::vector<Pair> pairs;
+
+  std::size_t size() const { return pairs.size(); }
+  const PlacedSolid& a(std::size_t k) const { return placed[static_cast<std::size_t>(pairs[k].a)]; }
+  const PlacedSolid& b(std::size_t k) const { return placed[static_cast<std::size_t>(pairs[k].b)]; }
+  const Eigen::Vector3d& r(std::size_t k) const { return pairs[k].r; }
+};
+
+/// Random orientations and directions, V/V_p in 1e-5 … 3e-2. So many different pairs that no branch predictor can
+/// learn them. Kept from one call to the next.
+const PairSet& touching_pairs(SolidKind kind);
+
+/// The same apart, though their circumspheres meet.
+const PairSet& separated_pairs(SolidKind kind);
+
+}  // namespace isojam::bench

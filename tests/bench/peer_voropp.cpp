@@ -1,0 +1,50 @@
+#include <vector>
+#include <voro++/voro++.hh>
+
+#include "tests/bench/peers.hpp"
+
+namespace isojam::bench {
+
+struct VoroCells::Cells {
+  std::vector<voro::voronoicell_neighbor> of_particle;
+  voro::voronoicell_neighbor cut;
+  std::vector<int> neighbours;
+};
+
+namespace {
+
+/// Removes n·y > d. voro++ states a plane by a point at twice its distance, p·y = |p|²/2.
+bool cut(voro::voronoicell_neighbor& cell, const Eigen::Vector3d& n, double d, int id) {
+  return cell.nplane(n.x(), n.y(), n.z(), 2 * d, id);
+}
+
+}  // namespace
+
+VoroCells::VoroCells(const PairSet& set) : set_(set), cells_(std::make_unique<Cells>()) {
+  cells_->of_particle.resize(set.placed.size());
+  for (std::size_t k = 0; k < set.placed.size(); ++k) {
+    const PlacedSolid& solid = set.placed[k];
+    const double box = 2 * solid.solid().circumradius();
+    cells_->of_particle[k].init(-box, box, -box, box, -box, box);
+    for (int f = 0; f < solid.faces(); ++f)
+      cut(cells_->of_particle[k], solid.normal(f), solid.offset()[f], SolidArrays::capacity + f);
+  }
+}
+
+VoroCells::~VoroCells() = default;
+
+double VoroCells::overlap(std::size_t k) {
+  const PlacedSolid& b = set_.b(k);
+  const Eigen::Vector3d& r = set_.r(k);
+  cells_->cut = cells_->of_particle[static_cast<std::size_t>(set_.pairs[k].a)];
+  for (int f = 0; f < b.faces(); ++f) {
+    const Eigen::Vector3d n = b.normal(f);
+    if (!cut(cells_->cut, n, b.offset()[f] + n.dot(r), f)) return 0;
+  }
+  double x = 0, y = 0, z = 0;
+  cells_->cut.centroid(x, y, z);
+  cells_->cut.neighbors(cells_->neighbours);
+  return cells_->cut.volume();
+}
+
+}  // namespace isojam::bench
