@@ -44,6 +44,7 @@ void turn(const TwoDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, Arr
   turn_row(q(1, 0), q(1, 1), q(1, 2), v, v_low, n, turned.y, turned_low.y);
   turn_row(q(2, 0), q(2, 1), q(2, 2), v, v_low, n, turned.z, turned_low.z);
 }
+void set_row(const Eigen::Vector3d& v, double* row) { row[0] = v.x(), row[1] = v.y(), row[2] = v.z(), row[3] = 0; }
 
 }  // namespace
 
@@ -60,13 +61,14 @@ PlacedSolid::PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotati
   const SolidArrays& body = solid.arrays();
   turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, {x_, y_, z_},
        {x_low_, y_low_, z_low_});
-  turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, {normals_[0], normals_[1], normals_[2]},
-       {nx_low_, ny_low_, nz_low_});
+  turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces,
+       {normals_[0], normals_[1], normals_[2]}, {nx_low_, ny_low_, nz_low_});
   copy_rows();
 }
 
 void PlacedSolid::copy_rows() {
-  for (int v = 0; v < vertices(); ++v) rows_[v][0] = x_[v], rows_[v][1] = y_[v], rows_[v][2] = z_[v], rows_[v][3] = 0;
+  for (int v = 0; v < vertices(); ++v) set_row(vertex(v), rows_[v]);
+  for (int f = 0; f < faces(); ++f) set_row(normal(f), normal_rows_[f]);
 }
 
 }  // namespace isojam
