@@ -108,7 +108,7 @@ TEST_P(Jam, EndsAtTheEdgeOfJamming) {
   const JamOptions options = lax();
   std::vector<JamStep> reported;
   const JamResult result =
-      jam(start_of(GetParam(), 71, options), options, {}, [&](const JamStep& step) { reported.push_back(step); });
+      jam(start_of(GetParam(), 74, options), options, {}, [&](const JamStep& step) { reported.push_back(step); });
   std::printf("%s after %zu steps, %zu states, %ld evaluations, φ_J %.4f ± %.4f, single state %.4f, exponent %.2f\n",
               to_string(result.status).data(), result.path.size(), result.states.size(), result.evaluations,
               result.phi_j ? result.phi_j->density : 0, result.phi_j ? result.phi_j->standard_error : 0,
@@ -125,7 +125,7 @@ TEST_P(Jam, EndsAtTheEdgeOfJamming) {
   }
   EXPECT_GE(result.evaluations, spent);
 
-  const JamResult again = jam(start_of(GetParam(), 71, options), options);
+  const JamResult again = jam(start_of(GetParam(), 74, options), options);
   ASSERT_EQ(again.states.size(), result.states.size());
   for (std::size_t s = 0; s < result.states.size(); ++s) EXPECT_TRUE(same_bits(result.states[s], again.states[s])) << s;
   EXPECT_EQ(again.phi_j->density, result.phi_j->density);
