@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "engine/packing/energy.hpp"
 #include "engine/solve/factor/shift_invert.hpp"
 #include "tests/bench/states.hpp"
 

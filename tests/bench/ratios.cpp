@@ -51,15 +51,15 @@ void claim_minimisers(std::vector<Claim>& claims) {
   claims.push_back({Kind::faster, "minimise/newton/" + far, "minimise/conjugate_gradient/" + far, 100});
   claims.push_back({Kind::faster, "minimise/newton/" + far, "minimise/fire/" + far, 0});
   claims.push_back({Kind::faster, "minimise/newton/" + far, "minimise/lbfgs/" + far, 0});
-  for (const std::string name :
+  for (const std::string& name :
        {far, std::string("octahedron_.008"), std::string("tetrahedron_.033"), std::string("tetrahedron_.01")}) {
     claims.push_back({Kind::absolute, "minimise/newton/" + name + "#residual", "", 1e-6});
     claims.push_back({Kind::absolute, "minimise/newton_to_1e-9/" + name + "#residual", "", 1e-9});
     if (name == far) continue;
     // Where the others fail: what they are left with, beside it.
-    for (const std::string method : {"conjugate_gradient", "fire", "lbfgs"})
-      claims.push_back(
-          {Kind::faster, "minimise/newton/" + name + "#residual", "minimise/" + method + "/" + name + "#residual", 10});
+    for (const char* const method : {"conjugate_gradient", "fire", "lbfgs"})
+      claims.push_back({Kind::faster, "minimise/newton/" + name + "#residual",
+                        std::string("minimise/") + method + "/" + name + "#residual", 10});
   }
 }
 
