@@ -154,6 +154,7 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
     result.gradient = Eigen::VectorXd::Constant(6 * packing.size(), result.energy);
     return result;
   }
+  seen_.clear();  // an evaluation is one, whatever came before
   overlap_all(packing, precision);
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
   const std::vector<double> zeros(packing.poses.size(), 0.0);
