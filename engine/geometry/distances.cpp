@@ -70,12 +70,12 @@ void scan_all(const Counts& counts, const SolidArrays& solid, const Row& row, Di
   for (int v = 0; v < counts.vertices; ++v)
     inside |= std::uint64_t{scan.add([&](int k) { return row(v, k); })} << 8 * v;
   scan.finish(d);
-  d.edges = equal_unions(inside, solid.tail, solid.head, first_bits(4 * counts.vectors)) & first_bits(counts.edges);
+  d.edges = equal_unions(inside, solid.tail, solid.head, first_bits(4 * counts.vectors)) & d.candidates;
 }
 
-/// Rows of d.rows only, edges of `candidates`.
+/// Rows of d.rows and edges of d.candidates only.
 template <class Counts, class Row>
-void scan_rows(const Counts& counts, const SolidArrays& solid, std::uint32_t candidates, const Row& row, Distances& d) {
+void scan_rows(const Counts& counts, const SolidArrays& solid, const Row& row, Distances& d) {
   Scan scan(counts);
   std::uint32_t inside[capacity];
   for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
@@ -85,7 +85,7 @@ void scan_rows(const Counts& counts, const SolidArrays& solid, std::uint32_t can
   scan.finish(d);
   const std::uint32_t all = first_bits(4 * counts.vectors);
   d.edges = 0;
-  for (; candidates; candidates &= candidates - 1) {
+  for (std::uint32_t candidates = d.candidates; candidates; candidates &= candidates - 1) {
     const int e = std::countr_zero(candidates);
     d.edges |= std::uint32_t{(inside[solid.tail[e]] | inside[solid.head[e]]) == all} << e;
   }
@@ -121,16 +121,17 @@ void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vec
       return distance;
     };
     if constexpr (few(std::decay_t<decltype(counts)>{})) {
-      d.rows = first_bits(counts.vertices);
+      d.rows = first_bits(counts.vertices), d.candidates = first_bits(counts.edges);
       scan_all(counts, solid, row, d);
     } else {
-      std::uint32_t candidates = d.rows = 0;
+      d.rows = d.candidates = 0;
       std::uint32_t reaching = within_reach(body, to_other, other.solid().circumradius());
       for (; reaching; reaching &= reaching - 1) {
         const int v = std::countr_zero(reaching);
-        d.rows |= solid.around[v], candidates |= solid.edges_at[v];
+        d.rows |= solid.around[v], d.candidates |= solid.edges_at[v];
       }
-      scan_rows(counts, solid, candidates, row, d);
+      scan_rows(counts, solid, row, d);
+      if (d.rows == 0) d.least_penetrated = 0;  // every plane separates; none was seen
     }
   });
 }
@@ -139,9 +140,7 @@ void classify(const ConvexSolid& body, Distances& d) {
   const SolidArrays& solid = body.arrays();
   with_counts(solid, d.planes, [&](const auto& counts) {
     const auto row = [&](int v, int k) { return Lanes::load(d.of + 4 * (counts.vectors * v + k)); };
-    std::uint32_t candidates = 0;
-    for (int e = 0; e < solid.edges; ++e) candidates |= (d.rows >> solid.tail[e] & d.rows >> solid.head[e] & 1) << e;
-    scan_rows(counts, solid, candidates, row, d);
+    scan_rows(counts, solid, row, d);
   });
 }
 

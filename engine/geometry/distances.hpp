@@ -17,7 +17,8 @@ struct Distances {
 
   int planes = 0;                ///< columns, padded to a multiple of 4 with planes that everything lies inside of
   std::uint32_t rows = 0;        ///< vertices that have a row
-  std::uint32_t edges = 0;       ///< edges that no plane has both ends outside of
+  std::uint32_t candidates = 0;  ///< edges with an end that is not certainly outside: both ends have rows
+  std::uint32_t edges = 0;       ///< of these, the ones that no plane has both ends outside of
   double nearest = 0;            ///< least |distance| in the table
   int least_penetrated = 0;      ///< the plane that the vertices reach behind least,
   double least_penetration = 0;  ///< and how deep; not positive if it separates. Its last bits are noise

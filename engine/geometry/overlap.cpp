@@ -1,11 +1,7 @@
 #include "engine/geometry/overlap.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "engine/geometry/contact_loop.hpp"
 #include "engine/geometry/lanes.hpp"
@@ -101,7 +97,7 @@ class CrossHessian {
 
  private:
   static Lanes normal(const PlacedSolid& solid, std::uint32_t f) {
-    return Lanes::of(solid.nx()[f], solid.ny()[f], solid.nz()[f], 0);
+    return Lanes::load(solid.normal_row(static_cast<int>(f)));
   }
   template <int k>
   void add_column(Lanes n, Lanes arm, Lanes factors, int first) {

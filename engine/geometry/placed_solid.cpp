@@ -19,6 +19,8 @@ void turn(const Eigen::Matrix3d& q, const double* x, const double* y, const doub
   }
 }
 
+void set_row(const Eigen::Vector3d& v, double* row) { row[0] = v.x(), row[1] = v.y(), row[2] = v.z(), row[3] = 0; }
+
 }  // namespace
 
 PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation)
@@ -26,8 +28,8 @@ PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotati
   const SolidArrays& body = solid.arrays();
   turn(rotation, body.x, body.y, body.z, body.vertices, {x_, y_, z_});
   turn(rotation, body.nx, body.ny, body.nz, body.faces, {normals_[0], normals_[1], normals_[2]});
-  for (int v = 0; v < body.vertices; ++v)
-    rows_[v][0] = x_[v], rows_[v][1] = y_[v], rows_[v][2] = z_[v], rows_[v][3] = 0;
+  for (int v = 0; v < body.vertices; ++v) set_row(vertex(v), rows_[v]);
+  for (int f = 0; f < body.faces; ++f) set_row(normal(f), normal_rows_[f]);
 }
 
 }  // namespace isojam

@@ -7,8 +7,8 @@
 namespace isojam {
 
 /// A solid turned into the lab frame, about its own centre: computed once per particle and used by all its pairs.
-/// Arrays are padded as in SolidArrays. A kernel touches the first rows of each: some 600 (tetrahedron) to 1400 bytes
-/// (dodecahedron, icosahedron), so that a packing of hundreds stays in a core's cache.
+/// Arrays are padded as in SolidArrays. A kernel touches the first rows of each: some 600 (tetrahedron) to 2000 bytes
+/// (icosahedron), so that a packing of hundreds stays in a core's cache.
 class PlacedSolid {
  public:
   PlacedSolid() = default;
@@ -23,8 +23,9 @@ class PlacedSolid {
   const double* x() const { return x_; }  ///< vertices
   const double* y() const { return y_; }
   const double* z() const { return z_; }
-  const double* row(int v) const { return rows_[v]; }  ///< (x, y, z, 0) of a vertex
-  const double* nx() const { return normals_[0]; }     ///< outward unit face normals, components `capacity` apart
+  const double* row(int v) const { return rows_[v]; }                ///< (x, y, z, 0) of a vertex
+  const double* normal_row(int f) const { return normal_rows_[f]; }  ///< (x, y, z, 0) of a normal
+  const double* nx() const { return normals_[0]; }                   ///< outward unit face normals
   const double* ny() const { return normals_[1]; }
   const double* nz() const { return normals_[2]; }
   const double* offset() const { return solid_->arrays().offset; }  ///< of the face planes from the centre
@@ -37,7 +38,7 @@ class PlacedSolid {
 
   const ConvexSolid* solid_ = nullptr;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
-  alignas(32) double rows_[capacity][4];
+  alignas(32) double rows_[capacity][4], normal_rows_[capacity][4];
   alignas(32) double normals_[3][capacity];
   alignas(32) double x_[capacity], y_[capacity], z_[capacity];
 };

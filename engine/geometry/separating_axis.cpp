@@ -43,18 +43,14 @@ struct Extent {
   }
 };
 
-/// Direction of the axis: where its first component is, the others following at steps of SolidArrays::capacity.
-/// Which kind it is cannot be predicted: all are made, and one is picked.
+/// (x, y, z, 0) of the axis. Which kind it is cannot be predicted: all are made, and one is picked.
 inline const double* pick_direction(const PlacedSolid& a, const PlacedSolid& b, const SeparatingAxis& axis,
                                     double* across) {
-  const Edge &e = a.solid().arrays().edge[axis.a], &f = b.solid().arrays().edge[axis.b];
-  const double px = a.x()[e.head] - a.x()[e.tail], qx = b.x()[f.head] - b.x()[f.tail];
-  const double py = a.y()[e.head] - a.y()[e.tail], qy = b.y()[f.head] - b.y()[f.tail];
-  const double pz = a.z()[e.head] - a.z()[e.tail], qz = b.z()[f.head] - b.z()[f.tail];
-  across[0] = py * qz - pz * qy;
-  across[SolidArrays::capacity] = pz * qx - px * qz;
-  across[2 * SolidArrays::capacity] = px * qy - py * qx;
-  const double* by_kind[] = {across, a.nx() + axis.a, b.nx() + axis.b, across};
+  const EdgeRecord &e = a.solid().arrays().record[axis.a], &f = b.solid().arrays().record[axis.b];
+  const Lanes p = Lanes::load(a.row(e.head)) - Lanes::load(a.row(e.tail));
+  const Lanes q = Lanes::load(b.row(f.head)) - Lanes::load(b.row(f.tail));
+  yzx(cross_zxy(p, q)).store(across);
+  const double* by_kind[] = {across, a.normal_row(axis.a), b.normal_row(axis.b), across};
   return by_kind[static_cast<int>(axis.kind)];
 }
 
@@ -123,14 +119,15 @@ double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativeP
 
 bool separates(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const SeparatingAxis& axis) {
   if (axis.kind == SeparatingAxis::Kind::none) return false;
-  double across[2 * SolidArrays::capacity + 1];
+  alignas(32) double across[4];
   const double* u = pick_direction(a, b, axis, across);
-  const double ux = u[0], uy = u[SolidArrays::capacity], uz = u[2 * SolidArrays::capacity];
+  const double ux = u[0], uy = u[1], uz = u[2];
   const double along = ux * r.x() + uy * r.y() + uz * r.z();
-  // Towards B, if the solids are apart.
-  const double sign = std::copysign(1.0, along);
+  // From A to B. That of crossed edges may point either way.
+  const double signs[] = {1, 1, -1, std::copysign(1.0, along)};
+  const double sign = signs[static_cast<int>(axis.kind)];
   const Extent extent{Lanes::all(sign * ux), Lanes::all(sign * uy), Lanes::all(sign * uz)};
-  const double gap = std::abs(along) - extent.highest(a) + extent.lowest(b);
+  const double gap = sign * along - extent.highest(a) + extent.lowest(b);
   const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
   // Without a square root or a quotient: u is not a unit vector.
   return gap > 0 && gap * gap > tolerance * tolerance * (ux * ux + uy * uy + uz * uz);
