@@ -62,7 +62,7 @@ bench:
 	$(call install,$(BENCH_PACKAGES))
 	$(CONFIGURE) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
 	cmake --build $(BUILD) -j $(JOBS) --target isojam_bench
-	$(BUILD)/isojam_bench
+	$(BUILD)/isojam_bench --ratios $(BUILD)/ratios.json
 
 clean:
 	rm -rf $(BUILD)

@@ -8,7 +8,7 @@
 namespace isojam {
 namespace {
 
-constexpr std::array methods{Method::conjugate_gradient, Method::lbfgs, Method::newton};
+constexpr std::array methods{Method::conjugate_gradient, Method::fire, Method::lbfgs, Method::newton};
 
 constexpr Range positive_to(double high) { return {0, high, true, false}; }
 constexpr Range none{};
@@ -42,9 +42,8 @@ constexpr std::array fields{
     field<&P::target_energy>("target_energy", positive_to(1)),
     field<&P::target_before_relaxation>("target_before_relaxation", none),
     field<&P::max_density>("max_density", positive_to(2)),
-    field<&P::coarse_step>("coarse_step", positive_to(1)),
-    field<&P::coarse_above>("coarse_above", {0, 1}),
     field<&P::approach>("approach", {0, 1, true, true}),
+    field<&P::longest_step>("longest_step", positive_to(1)),
     field<&P::final_distance>("final_distance", positive_to(1)),
     field<&P::fit_window>("fit_window", positive_to(1)),
     field<&P::max_steps>("max_steps", {1, 1e6}),

@@ -182,13 +182,15 @@ Json make_packing(const Outcome& outcome) {
   json["solid"] = to_string(outcome.spec.solid);
   json["phi"] = packing.density();
   json["side"] = packing.cell.side();
-  json["positions"] = Json::array();
-  json["orientations"] = Json::array();
+  for (const auto* key : {"positions", "orientations", "positions_low", "orientations_low"}) json[key] = Json::array();
   for (const auto& pose : packing.poses) {
-    const auto& x = pose.position;
-    const auto& q = pose.orientation;
+    const auto &x = pose.position, &x_low = pose.position_low;
+    const auto& q = pose.orientation.coeffs();
+    const auto& q_low = pose.orientation_low;
     json["positions"].push_back({x[0], x[1], x[2]});
-    json["orientations"].push_back({q.w(), q.x(), q.y(), q.z()});
+    json["orientations"].push_back({q[3], q[0], q[1], q[2]});
+    json["positions_low"].push_back({x_low[0], x_low[1], x_low[2]});
+    json["orientations_low"].push_back({q_low[3], q_low[0], q_low[1], q_low[2]});
   }
   return json;
 }

@@ -29,7 +29,8 @@ inline constexpr std::array columns{
 /// by the same build.
 Json make_record(const Outcome& outcome);
 
-/// The state nearest jamming of an outcome without failure: cell side, positions, quaternions (w, x, y, z).
+/// The state nearest jamming of an outcome without failure: cell side, positions, quaternions (w, x, y, z), and the low
+/// parts of both (see Pose), without which it would not be an equilibrium to more than 1e-8 or so.
 Json make_packing(const Outcome& outcome);
 
 /// What a table needs of a record.

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "engine/geometry/refine.hpp"
+
 // Phase 1 (distances.cpp) tabulates the signed distances of either solid's vertices from the other's planes. Phase 2,
 // here, sees nothing but this table: every edge of one solid is clipped by the planes of the other. Where it enters or
 // leaves it pierces a face, and there the loop passes from one of the edge's two faces to the other: one segment of the
@@ -252,20 +254,36 @@ bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   return true;
 }
 
-}  // namespace
-
-void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+/// Phase 1.
+void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   loop.axis = {};
   loop.spans = loop.segments = 0;
   loop.of_a.of = loop.tables, loop.of_b.of = loop.tables + Distances::size(a, b);
   measure(a, b, r, loop.of_a);
   measure(b, a, -r, loop.of_b);
+}
+
+/// Phase 2; distances below `tolerance` may be zero.
+void judge(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, double tolerance, ContactLoop& loop) {
   loop.verdict = LoopVerdict::separated;
   if (separated_by_face(a, b, r, loop)) return;
   loop.verdict = LoopVerdict::degenerate;
-  const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
   if (has_vertex_on_plane(loop.of_a, tolerance) || has_vertex_on_plane(loop.of_b, tolerance)) return;
   trace(a, b, r, loop);
+}
+
+}  // namespace
+
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  tabulate(a, b, r, loop);
+  judge(a, b, r, gap_tolerance(a.solid(), b.solid(), r), loop);
+}
+
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, ContactLoop& loop) {
+  tabulate(a, b, r.high, loop);
+  refine(a, b, r, loop.of_a);
+  refine(b, a, -r, loop.of_b);
+  judge(a, b, r.high, std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high), loop);
 }
 
 }  // namespace isojam

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/geometry/quad.hpp"
+
 namespace isojam {
 
 enum class SolidKind { tetrahedron, cube, octahedron, dodecahedron, icosahedron };
@@ -46,6 +48,9 @@ struct SolidArrays {
   int vertices = 0, faces = 0, edges = 0;
   alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
   alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
+  /// What rounding left of each: value = entry + low entry to 1e-32.
+  alignas(32) double x_low[capacity], y_low[capacity], z_low[capacity];
+  alignas(32) double nx_low[capacity], ny_low[capacity], nz_low[capacity], offset_low[capacity];
   Edge edge[capacity];
   EdgeRecord record[capacity];                              ///< of the edges, for the kernels
   alignas(32) std::uint8_t tail[capacity], head[capacity];  ///< of the edges
@@ -53,6 +58,15 @@ struct SolidArrays {
   std::uint32_t edges_at[capacity];                         ///< per vertex: the edges that meet there
   /// Of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the face.
   alignas(32) double height[capacity][capacity];
+
+  /// In quadruple precision, low parts included.
+  Quad3 vertex(int v) const {
+    return {widened({x[v], x_low[v]}), widened({y[v], y_low[v]}), widened({z[v], z_low[v]})};
+  }
+  Quad3 normal(int f) const {
+    return {widened({nx[f], nx_low[f]}), widened({ny[f], ny_low[f]}), widened({nz[f], nz_low[f]})};
+  }
+  Quad plane_offset(int f) const { return widened({offset[f], offset_low[f]}); }
 };
 
 /// An immutable convex polyhedron of unit volume and unit mass (V_p = 1, ρ = 1), centred on its centroid.
@@ -64,8 +78,9 @@ class ConvexSolid {
   /// Hull of `vertices` (all of them extreme), moved and scaled to unit volume and centroid 0.
   /// Throws std::invalid_argument if a vertex is not extreme or the limits are exceeded.
   ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vertices);
-  /// The same from vertices in extended precision, so that every constant is correct to the last bit or two.
-  ConvexSolid(std::string name, std::span<const Eigen::Matrix<long double, 3, 1>> vertices);
+  /// The same from vertices in quadruple precision, so that every constant is the nearest double and its low part
+  /// correct to 1e-32.
+  ConvexSolid(std::string name, std::span<const Quad3> vertices);
 
   const std::string& name() const { return name_; }
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }

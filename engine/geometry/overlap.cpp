@@ -49,16 +49,28 @@ void integrate(const ContactLoop& loop, const Eigen::Vector3d& r, Overlap& resul
 
 Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
   const Eigen::Matrix3d to_a = a.rotation().transpose();
-  Overlap result = clipped_overlap(a.solid(), b.solid(), {to_a * b.rotation(), to_a * r});
-  result.area = a.rotation() * result.area;
-  result.moment = a.rotation() * result.moment;
-  return result;
+  return clipped_overlap(a.solid(), b.solid(), RelativePose{to_a * b.rotation(), to_a * r});
 }
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
+Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r) {
+  const QuadMatrix to_a = transposed(widened(a.precise_rotation()));
+  const QuadPose pose{to_a * widened(b.precise_rotation()), to_a * widened(r)};
+  return narrowed(clipped_overlap(a.solid(), b.solid(), pose));
+}
+
+const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
+const Eigen::Vector3d& rounded(const TwoDoubleVector& r) { return r.high; }
+
+/// |n×m| of face i of A and face j of B.
+double sine(const PlacedSolid& a, const PlacedSolid& b, int i, int j, const Eigen::Vector3d&) {
+  return a.normal(i).cross(b.normal(j)).norm();
+}
+
+/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
+double sine(const PlacedSolid& a, const PlacedSolid& b, int i, int j, const TwoDoubleVector&) {
+  const TwoDoubleVector n = a.precise_normal(i), m = b.precise_normal(j);
+  const double sign = n.high.dot(m.high) < 0 ? 1 : -1;
+  return n.high.cross((n.high + sign * m.high) + (n.low + sign * m.low)).norm();
 }
 
 /// The columns of H_AB, each in two halves of three rows: Σ ∫ u_A u_Bᵀ dl / |n_i×n_j|. On a segment of length l and
@@ -71,14 +83,14 @@ class CrossHessian {
     for (Lanes& column : lower_) column = Lanes::all(0);
   }
 
-  void add(const ContactLoop& loop, const ContactLoop::Segment& s) {
+  /// `sine`: |n_i×n_j| of the planes that meet in the segment.
+  void add(const ContactLoop& loop, const ContactLoop::Segment& s, double sine) {
     const Lanes v = without_fourth(Lanes::load(loop.corner[s.from])),
                 w = without_fourth(Lanes::load(loop.corner[s.to]));
     const Lanes n = normal(a_, s.face_a), m = normal(b_, s.face_b);
-    const Lanes along = w - v, middle = Lanes::all(0.5) * (v + w), across = cross_zxy(n, m);
-    const double sine_squared = sum(across * across).first();
-    if (!(sine_squared > 0)) return;
-    const Lanes weight = Lanes::all(std::sqrt(sum(along * along).first() / sine_squared));
+    const Lanes along = w - v, middle = Lanes::all(0.5) * (v + w);
+    if (!(sine > 0)) return;
+    const Lanes weight = Lanes::all(std::sqrt(sum(along * along).first()) / sine);
     const Lanes arm_a = yzx(cross_zxy(middle + half_, n)), turn_a = yzx(cross_zxy(along, n));
     const Lanes arm_b = weight * yzx(cross_zxy(middle - half_, m));
     const Lanes turn_b = weight * Lanes::all(1.0 / 12) * yzx(cross_zxy(along, m)), push_b = weight * m;
@@ -110,15 +122,21 @@ class CrossHessian {
   Lanes upper_[6], lower_[6];
 };
 
-Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop) {
-  CrossHessian sum(a, b, r);
-  for (int k = 0; k < loop.segments; ++k) sum.add(loop, loop.segment[k]);
+/// In double or in two doubles, as r is.
+template <class Displacement>
+Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop) {
+  CrossHessian sum(a, b, rounded(r));
+  for (int k = 0; k < loop.segments; ++k) {
+    const ContactLoop::Segment& s = loop.segment[k];
+    sum.add(loop, s, sine(a, b, static_cast<int>(s.face_a), static_cast<int>(s.face_b), r));
+  }
   return sum.matrix();
 }
 
-/// `hessian` may be null.
-Overlap overlap_with(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
-                     OverlapHessian* hessian) {
+/// In double or in two doubles, as r is; `hessian` may be null.
+template <class Displacement>
+Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis,
+                   OverlapHessian* hessian) {
   ContactLoop loop;
   find_contact_loop(a, b, r, loop);
   if (hessian) *hessian = {};
@@ -128,27 +146,45 @@ Overlap overlap_with(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Ve
     return result;
   }
   if (loop.verdict == LoopVerdict::closed) {
-    integrate(loop, r, result);
+    integrate(loop, rounded(r), result);
     if (result.volume > 0) {  // or rounding ate a sliver
       if (!hessian) return result;
       hessian->ab = cross_hessian(a, b, r, loop);
-      hessian->aa = overlap_own_hessian(hessian->ab, result.area, r);
-      hessian->bb = overlap_own_hessian(hessian->ab.transpose(), -result.area, -r);
+      hessian->aa = overlap_own_hessian(hessian->ab, result.area, rounded(r));
+      hessian->bb = overlap_own_hessian(hessian->ab.transpose(), -result.area, -rounded(r));
       return result;
     }
   }
-  return clipped(a, b, r);
+  result = clipped(a, b, r);
+  result.area = a.rotation() * result.area;
+  result.moment = a.rotation() * result.moment;
+  return result;
+}
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
 }
 
 }  // namespace
 
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
-  return overlap_with(a, b, r, axis, nullptr);
+  return overlap_at(a, b, r, axis, nullptr);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis) {
+  return overlap_at(a, b, r, axis, nullptr);
 }
 
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
                 OverlapHessian& hessian) {
-  return overlap_with(a, b, r, axis, &hessian);
+  return overlap_at(a, b, r, axis, &hessian);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis,
+                OverlapHessian& hessian) {
+  return overlap_at(a, b, r, axis, &hessian);
 }
 
 Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {

@@ -44,6 +44,12 @@ struct Overlap {
 /// answer comes from clipped_overlap. Never silently wrong; never throws.
 /// If a face of A or B separates the solids, `axis` is set to it, for later use with separates().
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
+/// In two doubles, from the low parts of A, B and r: V, S and M to a few 1e-16 of themselves however flat the contact.
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis);
+
+/// The same of solids given by their relative pose, in A's body frame.
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -67,19 +73,28 @@ struct OverlapHessian {
 /// derivative.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
                 OverlapHessian& hessian);
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const TwoDoubleVector& r, SeparatingAxis& axis,
+                OverlapHessian& hessian);
 
-/// The same of solids given by their relative pose, in A's body frame.
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
-
-/// H_AB alone.
+/// H_AB alone, in A's body frame.
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 /// ∂²V/∂(x_A, θ_A)² from H_AB: −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised, Tr: (a, θ) → (a + θ×r, θ);
 /// r = x_B − x_A. For B exchange the bodies: H_BAᵀ, S_B = −S_A, −r.
 Matrix6d overlap_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r);
 
+/// An Overlap in quadruple precision.
+struct QuadOverlap {
+  Quad volume = 0;
+  Quad3 area{}, moment{};
+  std::uint32_t faces_a = 0, faces_b = 0;
+  std::uint32_t edges_a = 0, edges_b = 0;
+};
+
+Overlap narrowed(const QuadOverlap& overlap);
+
 /// The slow path and oracle: A cut by the face planes of B one after another in quadruple precision.
+QuadOverlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
 Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 }  // namespace isojam

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -10,23 +9,13 @@
 // resolved: a vertex is on a plane exactly, or off it by far more than the rounding of this arithmetic. What lies on a
 // plane counts as inside, so that a face of A that coincides with one of B is kept once, as A's.
 //
-// The vertices of a face are planar only to the rounding of doubles. A plane that runs along a face so closely may
-// leave it and enter it more than once, and there is no one polygon to close the cut. Such a cut is noticed, and all is
-// done again with vertices counted as on a plane to within that rounding.
+// The vertices of a solid given in doubles are planar only to their rounding. A plane that runs along a face so closely
+// may leave it and enter it more than once, and there is no one polygon to close the cut. Such a cut is noticed, and
+// all is done again with vertices counted as on a plane to within that rounding.
 
 namespace isojam {
 
 namespace {
-
-__extension__ using Quad = __float128;
-using Quad3 = std::array<Quad, 3>;
-
-Quad3 operator-(const Quad3& p, const Quad3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-Quad dot(const Quad3& p, const Quad3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-Quad3 cross(const Quad3& p, const Quad3& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-Quad3 widened(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 struct Plane {
   Quad3 normal;
@@ -47,26 +36,18 @@ struct CutSolid {
 
 CutSolid whole(const ConvexSolid& a) {
   CutSolid solid;
-  for (const Eigen::Vector3d& v : a.vertices()) solid.points.push_back(widened(v));
+  for (int v = 0; v < a.arrays().vertices; ++v) solid.points.push_back(a.arrays().vertex(v));
   for (std::size_t f = 0; f < a.faces().size(); ++f)
     solid.faces.push_back({a.faces()[f].vertices, static_cast<int>(f), true});
   return solid;
 }
 
 /// Face plane of B in A's frame, through the face's first vertex.
-Plane placed_plane(const ConvexSolid& b, int face, const RelativePose& pose) {
+Plane placed_plane(const ConvexSolid& b, int face, const QuadPose& pose) {
   const Face& f = b.faces()[static_cast<std::size_t>(face)];
-  const Quad3 n = widened(f.normal), v = widened(b.vertices()[static_cast<std::size_t>(f.vertices.front())]);
-  Plane plane{};
-  Quad3 point{};
-  for (int r = 0; r < 3; ++r) {
-    point[r] = pose.displacement[r];
-    for (int c = 0; c < 3; ++c) {
-      plane.normal[r] += Quad(pose.rotation(r, c)) * n[c];
-      point[r] += Quad(pose.rotation(r, c)) * v[c];
-    }
-  }
-  plane.offset = dot(plane.normal, point);
+  Plane plane;
+  plane.normal = pose.rotation * b.arrays().normal(face);
+  plane.offset = dot(plane.normal, pose.rotation * b.arrays().vertex(f.vertices.front()) + pose.displacement);
   return plane;
 }
 
@@ -153,15 +134,9 @@ class PlaneCut {
   bool consistent_ = true;
 };
 
-struct Integrals {
-  Quad six_volume = 0;
-  Quad3 area{};    ///< of the faces on B
-  Quad3 moment{};  ///< ∫ r×n dS over the faces on B
-};
-
-Integrals integrate(const CutSolid& solid) {
-  Integrals sum;
-  if (solid.faces.empty()) return sum;
+/// Volume, and S and M as those of the faces on B, reversed.
+void integrate(const CutSolid& solid, QuadOverlap& sum) {
+  if (solid.faces.empty()) return;
   const Quad3 origin = solid.points[static_cast<std::size_t>(solid.faces.front().loop.front())];
   for (const CutFace& face : solid.faces) {
     const Quad3 p = solid.points[static_cast<std::size_t>(face.loop[0])];
@@ -169,17 +144,12 @@ Integrals integrate(const CutSolid& solid) {
       const Quad3 q = solid.points[static_cast<std::size_t>(face.loop[k])];
       const Quad3 s = solid.points[static_cast<std::size_t>(face.loop[k + 1])];
       const Quad3 twice_area = cross(q - p, s - p);
-      sum.six_volume += dot(p - origin, twice_area);
+      sum.volume += dot(p - origin, twice_area) / 6;
       if (face.of_a) continue;
-      const Quad3 centroid{(p[0] + q[0] + s[0]) / 3, (p[1] + q[1] + s[1]) / 3, (p[2] + q[2] + s[2]) / 3};
-      const Quad3 turn = cross(centroid, twice_area);
-      for (int c = 0; c < 3; ++c) {
-        sum.area[c] += twice_area[c] / 2;
-        sum.moment[c] += turn[c] / 2;
-      }
+      sum.area = sum.area - Quad(0.5) * twice_area;
+      sum.moment = sum.moment - (Quad(1) / 6) * cross(p + q + s, twice_area);
     }
   }
-  return sum;
 }
 
 std::uint32_t edges_between(const ConvexSolid& solid, const std::vector<std::pair<int, int>>& face_pairs) {
@@ -191,7 +161,7 @@ std::uint32_t edges_between(const ConvexSolid& solid, const std::vector<std::pai
   return mask;
 }
 
-void mark_features(const ConvexSolid& a, const ConvexSolid& b, const CutSolid& solid, Overlap& result) {
+void mark_features(const ConvexSolid& a, const ConvexSolid& b, const CutSolid& solid, QuadOverlap& result) {
   std::map<std::pair<int, int>, const CutFace*> face_of;
   for (const CutFace& face : solid.faces) {
     (face.of_a ? result.faces_a : result.faces_b) |= std::uint32_t{1} << face.face;
@@ -209,7 +179,7 @@ void mark_features(const ConvexSolid& a, const ConvexSolid& b, const CutSolid& s
 }
 
 /// A ∩ B; false if a cut was not consistent.
-bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, Quad tolerance, CutSolid& solid) {
+bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose, Quad tolerance, CutSolid& solid) {
   solid = whole(a);
   for (int f = 0; f < b.arrays().faces && !solid.faces.empty(); ++f) {
     if (!PlaneCut(solid, placed_plane(b, f, pose), tolerance).apply(f)) return false;
@@ -219,28 +189,39 @@ bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pos
 
 }  // namespace
 
-Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+QuadOverlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose) {
   // Between the rounding of quadruple precision (1e-34 of a coordinate) and the least distance that the rounding of
   // doubles leaves between planes that do not coincide.
   const Quad exact = Quad(a.circumradius()) * Quad(1e-28);
   CutSolid solid;
   if (!cut_all(a, b, pose, exact, solid)) {
     // With everything on every plane nothing is cut: the loop ends.
-    Quad rounding = gap_tolerance(a, b, pose);
+    Quad rounding = gap_tolerance(a, b, narrowed(pose));
     while (!cut_all(a, b, pose, rounding, solid)) rounding *= 2;
   }
-
-  Overlap result;
-  const Integrals sum = integrate(solid);
-  if (!(sum.six_volume > 0)) return result;
-  result.path = OverlapPath::clip;
-  result.volume = static_cast<double>(sum.six_volume / 6);
-  for (int c = 0; c < 3; ++c) {
-    result.area[c] = -static_cast<double>(sum.area[c]);
-    result.moment[c] = -static_cast<double>(sum.moment[c]);
-  }
+  QuadOverlap result;
+  integrate(solid, result);
+  if (!(result.volume > 0)) return {};
   mark_features(a, b, solid, result);
   return result;
+}
+
+Overlap narrowed(const QuadOverlap& exact) {
+  Overlap result;
+  if (!(exact.volume > 0)) return result;
+  result.path = OverlapPath::clip;
+  result.volume = static_cast<double>(exact.volume);
+  result.area = rounded(exact.area);
+  result.moment = rounded(exact.moment);
+  result.faces_a = exact.faces_a;
+  result.faces_b = exact.faces_b;
+  result.edges_a = exact.edges_a;
+  result.edges_b = exact.edges_b;
+  return result;
+}
+
+Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  return narrowed(clipped_overlap(a, b, widened(pose)));
 }
 
 }  // namespace isojam

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/pose.hpp"
 
 namespace isojam {
 
@@ -14,6 +15,8 @@ class PlacedSolid {
   PlacedSolid() = default;
   /// Keeps a pointer to the solid, which must outlive this. `rotation`: body frame → lab frame.
   PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation);
+  /// The same in two doubles: vertices and normals have low parts.
+  PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotation);
 
   const ConvexSolid& solid() const { return *solid_; }
   const Eigen::Matrix3d& rotation() const { return rotation_; }
@@ -33,14 +36,24 @@ class PlacedSolid {
   Eigen::Vector3d vertex(int v) const { return {x_[v], y_[v], z_[v]}; }
   Eigen::Vector3d normal(int f) const { return {nx()[f], ny()[f], nz()[f]}; }
 
+  /// With low parts, of solids placed in two doubles only.
+  TwoDoubleVector precise_vertex(int v) const { return {vertex(v), {x_low_[v], y_low_[v], z_low_[v]}}; }
+  TwoDoubleVector precise_normal(int f) const { return {normal(f), {nx_low_[f], ny_low_[f], nz_low_[f]}}; }
+  TwoDouble precise_offset(int f) const { return {offset()[f], solid_->arrays().offset_low[f]}; }
+  TwoDoubleMatrix precise_rotation() const { return {rotation_, rotation_low_}; }
+
  private:
   static constexpr int capacity = SolidArrays::capacity;
 
+  void copy_rows();
+
   const ConvexSolid* solid_ = nullptr;
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), rotation_low_ = Eigen::Matrix3d::Zero();
   alignas(32) double rows_[capacity][4], normal_rows_[capacity][4];
   alignas(32) double normals_[3][capacity];
   alignas(32) double x_[capacity], y_[capacity], z_[capacity];
+  alignas(32) double nx_low_[capacity], ny_low_[capacity], nz_low_[capacity];
+  alignas(32) double x_low_[capacity], y_low_[capacity], z_low_[capacity];
 };
 
 }  // namespace isojam

@@ -1,38 +1,38 @@
-#include <cmath>
-
 #include "engine/geometry/convex_solid.hpp"
 
 namespace isojam {
 
 namespace {
 
-using Vector3l = Eigen::Matrix<long double, 3, 1>;
+Quad golden_ratio() { return (1 + square_root(5)) / 2; }
 
-long double golden_ratio() { return (1 + std::sqrt(5.0L)) / 2; }
-
-void add_cube_vertices(std::vector<Vector3l>& points) {
-  for (int k = 0; k < 8; ++k) points.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+void add_cube_vertices(std::vector<Quad3>& points) {
+  const auto sign = [](int bit) { return Quad(bit ? 1 : -1); };
+  for (int k = 0; k < 8; ++k) points.push_back({sign(k & 1), sign(k & 2), sign(k & 4)});
 }
 
 /// (0, ±p, ±q) and its cyclic permutations.
-void add_rectangles(std::vector<Vector3l>& points, long double p, long double q) {
+void add_rectangles(std::vector<Quad3>& points, Quad p, Quad q) {
   for (int k = 0; k < 4; ++k) {
-    const long double y = k & 1 ? p : -p, z = k & 2 ? q : -q;
-    points.emplace_back(0, y, z);
-    points.emplace_back(z, 0, y);
-    points.emplace_back(y, z, 0);
+    const Quad y = k & 1 ? p : -p, z = k & 2 ? q : -q;
+    points.push_back({0, y, z});
+    points.push_back({z, 0, y});
+    points.push_back({y, z, 0});
   }
 }
 
-std::vector<Vector3l> platonic_vertices(SolidKind kind) {
-  std::vector<Vector3l> points;
+std::vector<Quad3> platonic_vertices(SolidKind kind) {
+  std::vector<Quad3> points;
   switch (kind) {
-    case SolidKind::tetrahedron: points = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}; break;
+    case SolidKind::tetrahedron: points = {Quad3{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}; break;
     case SolidKind::cube: add_cube_vertices(points); break;
     case SolidKind::octahedron:
       for (int axis = 0; axis < 3; ++axis) {
-        points.push_back(Vector3l::Unit(axis));
-        points.push_back(-Vector3l::Unit(axis));
+        Quad3 unit{};
+        for (const int sign : {1, -1}) {
+          unit[axis] = sign;
+          points.push_back(unit);
+        }
       }
       break;
     case SolidKind::dodecahedron:
@@ -45,7 +45,7 @@ std::vector<Vector3l> platonic_vertices(SolidKind kind) {
 }
 
 ConvexSolid make(SolidKind kind) {
-  const std::vector<Vector3l> points = platonic_vertices(kind);
+  const std::vector<Quad3> points = platonic_vertices(kind);
   return ConvexSolid(std::string(to_string(kind)), points);
 }
 

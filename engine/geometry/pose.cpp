@@ -1,6 +1,7 @@
 #include "engine/geometry/pose.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace isojam {
 
@@ -10,13 +11,138 @@ RelativePose relative_pose(const Eigen::Quaterniond& a, const Eigen::Quaterniond
   return {(to_a * b).toRotationMatrix(), to_a * displacement};
 }
 
+namespace {
+
+/// sin(|θ|/2)/|θ| → 1/2 without a division by zero.
+double half_sinc(double angle) { return angle > 0 ? std::sin(angle / 2) / angle : 0.5; }
+
+void store(Pose& pose, int c, const TwoDouble& value) {
+  pose.orientation.coeffs()[c] = value.high;
+  pose.orientation_low[c] = value.low;
+}
+
+TwoDouble squared_length(const Pose& pose) {
+  const TwoDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
+  return short_sum(short_sum(x * x, y * y), short_sum(z * z, w * w));
+}
+
+/// Of |q|² − 1 where q was normalised in double. Its second order then suffices for 1e-31.
+bool is_small(double excess) { return std::abs(excess) <= 4 * std::numeric_limits<double>::epsilon(); }
+
+Pose normalised(const Pose& pose) {
+  Pose result = pose;
+  const TwoDouble square = squared_length(pose);
+  const double excess = short_sum(square, -1).high;
+  if (is_small(excess)) {
+    const double correction = excess * (3.0 / 8 * excess - 0.5);
+    for (int c = 0; c < 4; ++c) {
+      const TwoDouble q = pose.component(c);
+      store(result, c, fast_two_sum(q.high, q.low + q.high * correction));
+    }
+  } else {
+    const TwoDouble inverse = reciprocal_sqrt(square);
+    for (int c = 0; c < 4; ++c) store(result, c, pose.component(c) * inverse);
+  }
+  return result;
+}
+
+}  // namespace
+
+Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta) {
+  Pose result = pose;
+  const double angle = theta.norm();
+  // exp(θ) − 1, so that a small turn is added to q and not multiplied away.
+  Eigen::Quaterniond turn;
+  turn.w() = -2 * std::pow(std::sin(angle / 4), 2);
+  turn.vec() = half_sinc(angle) * theta;
+  const Eigen::Vector4d change = (turn * pose.orientation).coeffs();
+  for (int c = 0; c < 4; ++c) store(result, c, short_sum(pose.component(c), change[c]));
+  result = normalised(result);
+  for (int c = 0; c < 3; ++c) {
+    const TwoDouble x = short_sum(pose.coordinate(c), dx[c]);
+    result.position[c] = x.high;
+    result.position_low[c] = x.low;
+  }
+  return result;
+}
+
+Pose scaled(const Pose& pose, const TwoDouble& s) {
+  Pose result = pose;
+  for (int c = 0; c < 3; ++c) {
+    const TwoDouble x = pose.coordinate(c) * s;
+    result.position[c] = x.high;
+    result.position_low[c] = x.low;
+  }
+  return result;
+}
+
+TwoDoubleMatrix rotation_matrix(const Pose& pose) {
+  const double excess = short_sum(squared_length(pose), -1).high;
+  if (!is_small(excess) && std::isfinite(excess)) return rotation_matrix(normalised(pose));
+  const TwoDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
+  const TwoDouble xx = x * x, yy = y * y, zz = z * z;
+  const double correction = excess * excess - excess;
+  const auto twice_sum = [&](const TwoDouble& p, const TwoDouble& q) {
+    const TwoDouble sum = short_sum(p, q);
+    return TwoDouble{2 * sum.high, 2 * (sum.low + sum.high * correction)};
+  };
+  const TwoDouble xy = x * y, yz = y * z, zx = z * x, wx = w * x, wy = w * y, wz = w * z;
+  TwoDoubleMatrix m;
+  m.set(0, 0, short_sum(1, -twice_sum(yy, zz))), m.set(0, 1, twice_sum(xy, -wz)), m.set(0, 2, twice_sum(zx, wy));
+  m.set(1, 0, twice_sum(xy, wz)), m.set(1, 1, short_sum(1, -twice_sum(xx, zz))), m.set(1, 2, twice_sum(yz, -wx));
+  m.set(2, 0, twice_sum(zx, -wy)), m.set(2, 1, twice_sum(yz, wx)), m.set(2, 2, short_sum(1, -twice_sum(xx, yy)));
+  return m;
+}
+
+Quad3 widened(const TwoDoubleVector& v) { return {widened(v[0]), widened(v[1]), widened(v[2])}; }
+
+QuadMatrix widened(const TwoDoubleMatrix& m) {
+  QuadMatrix result;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) result[r][c] = widened(m(r, c));
+  }
+  return result;
+}
+
+Quad3 quad_position(const Pose& pose) {
+  return {widened(pose.coordinate(0)), widened(pose.coordinate(1)), widened(pose.coordinate(2))};
+}
+
+QuadMatrix quad_rotation(const Pose& pose) {
+  const Quad x = widened(pose.component(0)), y = widened(pose.component(1)), z = widened(pose.component(2)),
+             w = widened(pose.component(3));
+  const Quad s = 2 / (x * x + y * y + z * z + w * w);
+  return {Quad3{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
+          Quad3{s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
+          Quad3{s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}};
+}
+
+QuadPose widened(const RelativePose& pose) {
+  QuadPose result;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) result.rotation[r][c] = pose.rotation(r, c);
+    result.displacement[r] = pose.displacement[r];
+  }
+  return result;
+}
+
+RelativePose narrowed(const QuadPose& pose) {
+  RelativePose result;
+  for (int r = 0; r < 3; ++r) result.rotation.row(r) = rounded(pose.rotation[r]);
+  result.displacement = rounded(pose.displacement);
+  return result;
+}
+
+QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement) {
+  const QuadMatrix to_a = transposed(quad_rotation(a));
+  return {to_a * quad_rotation(b), to_a * displacement};
+}
+
 Eigen::Quaterniond rotated(const Eigen::Quaterniond& q, const Eigen::Vector3d& theta) {
   const double angle = theta.norm();
-  // sin(θ/2)/θ → 1/2 without a division by zero.
-  const double half_sinc = angle > 0 ? std::sin(angle / 2) / angle : 0.5;
   Eigen::Quaterniond turn;
   turn.w() = std::cos(angle / 2);
-  turn.vec() = half_sinc * theta;
+  turn.vec() = half_sinc(angle) * theta;
   return (turn * q).normalized();
 }
 

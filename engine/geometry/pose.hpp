@@ -3,13 +3,54 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "engine/geometry/quad.hpp"
+
 namespace isojam {
 
-/// Position of the centre (V_p^(1/3)) and orientation (unit quaternion, body frame → lab frame) of a particle.
+/// A vector in two doubles, component by component.
+struct TwoDoubleVector {
+  Eigen::Vector3d high = Eigen::Vector3d::Zero(), low = Eigen::Vector3d::Zero();
+
+  TwoDouble operator[](int c) const { return {high[c], low[c]}; }
+  void set(int c, const TwoDouble& value) { high[c] = value.high, low[c] = value.low; }
+  TwoDoubleVector operator-() const { return {-high, -low}; }
+};
+
+/// A matrix in two doubles, entry by entry.
+struct TwoDoubleMatrix {
+  Eigen::Matrix3d high = Eigen::Matrix3d::Identity(), low = Eigen::Matrix3d::Zero();
+
+  TwoDouble operator()(int r, int c) const { return {high(r, c), low(r, c)}; }
+  void set(int r, int c, const TwoDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
+};
+
+/// Position of the centre (V_p^(1/3)) and orientation (quaternion q, body frame → lab frame) of a particle, in two
+/// doubles each: x = position + position_low, q = orientation + orientation_low, with the first the nearest double of
+/// the sum. The rotation is the one by q/|q|, whatever |q|. Whoever assigns a first part resets the second.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d position_low = Eigen::Vector3d::Zero();
+  Eigen::Vector4d orientation_low = Eigen::Vector4d::Zero();  ///< x, y, z, w, as in orientation.coeffs()
+
+  bool operator==(const Pose& other) const {
+    return position == other.position && orientation.coeffs() == other.orientation.coeffs() &&
+           position_low == other.position_low && orientation_low == other.orientation_low;
+  }
+
+  TwoDouble coordinate(int c) const { return {position[c], position_low[c]}; }
+  TwoDouble component(int c) const { return {orientation.coeffs()[c], orientation_low[c]}; }
 };
+
+/// The pose with its centre at x + dx and turned by exp(θ)·q, dx and θ in the lab frame; |q| = 1 to 1e-31. Steps far
+/// below the spacing of doubles are kept.
+Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta);
+
+/// The pose with its centre at s·x.
+Pose scaled(const Pose& pose, const TwoDouble& s);
+
+/// Rotation by q/|q|, body frame → lab frame, to 1e-31.
+TwoDoubleMatrix rotation_matrix(const Pose& pose);
 
 /// Solid B seen from the body frame of A: a point y of B's body frame lies at rotation·y + displacement.
 struct RelativePose {
@@ -20,6 +61,22 @@ struct RelativePose {
 /// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).
 RelativePose relative_pose(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b,
                            const Eigen::Vector3d& displacement);
+
+/// Relative pose in quadruple precision, see RelativePose.
+struct QuadPose {
+  QuadMatrix rotation{Quad3{1, 0, 0}, Quad3{0, 1, 0}, Quad3{0, 0, 1}};
+  Quad3 displacement{};
+};
+
+Quad3 quad_position(const Pose& pose);
+/// Rotation by q/|q|, body frame → lab frame.
+QuadMatrix quad_rotation(const Pose& pose);
+Quad3 widened(const TwoDoubleVector& v);
+QuadMatrix widened(const TwoDoubleMatrix& m);
+QuadPose widened(const RelativePose& pose);
+RelativePose narrowed(const QuadPose& pose);
+/// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).
+QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement);
 
 /// exp(θ)·q, θ a rotation vector in the lab frame (radians); the result is normalised.
 Eigen::Quaterniond rotated(const Eigen::Quaterniond& q, const Eigen::Vector3d& theta);

@@ -12,16 +12,4 @@ Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x) {
   return y;
 }
 
-BlockMatrix stiffened(const BlockMatrix& matrix, const std::vector<TiltStiffness>& tilts, double factor) {
-  BlockMatrix sum = matrix;
-  for (const TiltStiffness& tilt : tilts) {
-    const Eigen::Matrix3d stiffness = factor * tilt.value;
-    BlockMatrix::Block& block = sum.off_diagonal[tilt.block];
-    sum.diagonal[block.row].bottomRightCorner<3, 3>() += stiffness;
-    sum.diagonal[block.column].bottomRightCorner<3, 3>() += stiffness;
-    block.value.bottomRightCorner<3, 3>() -= stiffness;
-  }
-  return sum;
-}
-
 }  // namespace isojam

@@ -21,13 +21,4 @@ struct BlockMatrix {
 
 Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x);
 
-/// Stiffness against relative rotation (R·θ_B − R·θ_A) of the two particles of one off-diagonal block.
-struct TiltStiffness {
-  int block = 0;  ///< index in BlockMatrix::off_diagonal
-  Eigen::Matrix3d value;
-};
-
-/// matrix + factor · Σ tilts.
-BlockMatrix stiffened(const BlockMatrix& matrix, const std::vector<TiltStiffness>& tilts, double factor);
-
 }  // namespace isojam

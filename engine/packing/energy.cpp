@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "engine/geometry/refine.hpp"
+
 namespace isojam {
 
 namespace {
@@ -34,35 +36,65 @@ std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_p
 struct Accumulator {
   double force = 0;
   std::vector<double> stiffness;  ///< per particle, Σ ½ |∇V|² over its contacts
+  std::vector<double> noise;      ///< per particle, Σ ρ_c |F_c|, see Evaluation::residual_floor
+  double energy_noise = 0;        ///< Σ ρ_c V²/2
 };
 
-/// Adds one contact, lab frame. ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
-void add_contact(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap, Evaluation& sum,
-                 Accumulator& on_the_way) {
+/// ρ_c.
+double relative_error(const ConvexSolid& solid, const Eigen::Vector3d& r, const Overlap& overlap) {
+  const double tolerance = gap_tolerance(solid, solid, r), area = overlap.area.norm();
+  return tolerance / std::max(refined_below(solid, solid), overlap.volume / area) + tolerance / std::sqrt(area);
+}
+
+/// What one contact adds to an evaluation, lab frame. ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
+ContactTerms terms_of(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap) {
+  ContactTerms terms;
   const Eigen::Vector3d r = displacement(packing, pair);
   const double radius = packing.solid->gyration_radius();
-  const Eigen::Vector3d dx = overlap.volume / 2 * overlap.area;
   const Eigen::Vector3d dtheta = overlap.volume / 2 * overlap.moment;
-  sum.energy += overlap.volume * overlap.volume / 4;
-  sum.gradient.segment<3>(6 * pair.a) += dx;
-  sum.gradient.segment<3>(6 * pair.a + 3) += dtheta / radius;
-  sum.gradient.segment<3>(6 * pair.b) -= dx;
-  sum.gradient.segment<3>(6 * pair.b + 3) += (r.cross(dx) - dtheta) / radius;
-  sum.stress -= dx * r.transpose();
-  on_the_way.force += dx.norm();
+  terms.dx = overlap.volume / 2 * overlap.area;
+  terms.dtheta_a = dtheta / radius;
+  terms.dtheta_b = (r.cross(terms.dx) - dtheta) / radius;
+  terms.stress = terms.dx * r.transpose();
+  terms.energy = overlap.volume * overlap.volume / 4;
+  terms.force = terms.dx.norm();
   const double square = overlap.area.squaredNorm();
   const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
-  on_the_way.stiffness[pair.a] += (square + overlap.moment.squaredNorm() / (radius * radius)) / 2;
-  on_the_way.stiffness[pair.b] += (square + moment_b.squaredNorm() / (radius * radius)) / 2;
+  terms.stiffness_a = (square + overlap.moment.squaredNorm() / (radius * radius)) / 2;
+  terms.stiffness_b = (square + moment_b.squaredNorm() / (radius * radius)) / 2;
+  terms.error = relative_error(*packing.solid, r, overlap);
+  return terms;
+}
+
+void add_contact(const NeighbourPair& pair, const ContactTerms& terms, Evaluation& sum, Accumulator& on_the_way) {
+  sum.gradient.segment<3>(6 * pair.a) += terms.dx;
+  sum.gradient.segment<3>(6 * pair.a + 3) += terms.dtheta_a;
+  sum.gradient.segment<3>(6 * pair.b) -= terms.dx;
+  sum.gradient.segment<3>(6 * pair.b + 3) += terms.dtheta_b;
+  sum.energy += terms.energy;
+  sum.stress -= terms.stress;
+  on_the_way.force += terms.force;
+  on_the_way.stiffness[pair.a] += terms.stiffness_a;
+  on_the_way.stiffness[pair.b] += terms.stiffness_b;
+  on_the_way.noise[pair.a] += terms.error * terms.force;
+  on_the_way.noise[pair.b] += terms.error * terms.force;
+  on_the_way.energy_noise += 2 * terms.error * terms.energy;
   ++sum.contacts;
 }
 
-/// A flat contact of area A whose section line crosses its middle resists tilt about axes in its plane: V_τ ≈ A^(3/2)/5
-/// there, and ½ V_τ² = A³/50. Contacts of lower order have so small an area that it vanishes beside ½ |∇V|².
-Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, double radius) {
-  const double square = area.squaredNorm();
-  const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - area * area.transpose() / square;
-  return square * std::sqrt(square) / (50 * radius * radius) * in_plane;
+/// Sets residual_floor and energy_noise; mean_force > 0.
+void bound_rounding(const Packing& packing, Precision precision, const Accumulator& sums, Evaluation& result) {
+  if (precision == Precision::extended) {
+    const double levers = packing.solid->circumradius() / packing.solid->gyration_radius();
+    result.residual_floor = levers * *std::max_element(sums.noise.begin(), sums.noise.end()) / result.mean_force;
+    result.energy_noise = sums.energy_noise;
+    return;
+  }
+  // H ≤ Σ ½ ∇V ∇Vᵀ: its largest eigenvalue is at most twice the stiffest diagonal block.
+  const double lambda = 2 * *std::max_element(sums.stiffness.begin(), sums.stiffness.end());
+  const double ulp = std::numeric_limits<double>::epsilon() * packing.cell.side();
+  result.residual_floor = lambda * ulp / result.mean_force;
+  result.energy_noise = sums.force * ulp;
 }
 
 double largest_imbalance(const Eigen::VectorXd& gradient) {
@@ -93,20 +125,33 @@ void PackingEnergy::refresh(const Packing& packing) {
   list_solid_ = packing.solid;
 }
 
-void PackingEnergy::overlap_all(const Packing& packing, std::span<PairHessian> hessians) {
-  place_all(packing, placed_);
-  totals_ += overlap_pairs(packing, placed_, pairs_, axes_, overlaps_, hessians);
-  ++evaluations_;
+void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
+  // Hessians and contacts are mostly asked for in a state that was evaluated a moment ago.
+  const bool seen = list_solid_ == packing.solid && list_side_ == packing.cell.side() && seen_ == packing.poses &&
+                    seen_precision_ == precision;
+  if (seen) return;
+  seen_.clear();
+  refresh(packing);
+  place_all(packing, precision, placed_);
+  totals_ += overlap_pairs(packing, precision, placed_, pairs_, axes_, overlaps_);
+  seen_ = packing.poses;
+  seen_precision_ = precision;
 }
 
-Evaluation PackingEnergy::evaluate(const Packing& packing) {
-  refresh(packing);
-  overlap_all(packing, {});
+Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) {
+  overlap_all(packing, precision);
+  ++evaluations_;
   Evaluation result;
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
-  Accumulator on_the_way{0, std::vector<double>(packing.poses.size(), 0.0)};
+  const std::vector<double> zeros(packing.poses.size(), 0.0);
+  Accumulator on_the_way{0, zeros, zeros};
+  // The arithmetic of a contact is done in parallel; only the additions, whose order decides their rounding, are not.
+  terms_.resize(pairs_.size());
+  for_each_slot(pairs_.size(), [&](std::size_t k) {
+    if (overlaps_[k].touching()) terms_[k] = terms_of(packing, pairs_[k], overlaps_[k]);
+  });
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (overlaps_[k].touching()) add_contact(packing, pairs_[k], overlaps_[k], result, on_the_way);
+    if (overlaps_[k].touching()) add_contact(pairs_[k], terms_[k], result, on_the_way);
   }
   result.stress /= packing.cell.volume();
   result.pressure = -result.stress.trace() / 3;
@@ -114,40 +159,36 @@ Evaluation PackingEnergy::evaluate(const Packing& packing) {
   if (result.contacts > 0) result.mean_force = on_the_way.force / static_cast<double>(result.contacts);
   if (imbalance > 0)
     result.residual = result.mean_force > 0 ? imbalance / result.mean_force : std::numeric_limits<double>::infinity();
-  if (result.mean_force > 0) {
-    // H ≤ Σ ½ ∇V ∇Vᵀ: its largest eigenvalue is at most twice the stiffest diagonal block.
-    const double lambda = 2 * *std::max_element(on_the_way.stiffness.begin(), on_the_way.stiffness.end());
-    const double ulp = std::numeric_limits<double>::epsilon() * packing.cell.side();
-    result.residual_floor = lambda * ulp / result.mean_force;
-    result.energy_noise = on_the_way.force * ulp;
-  }
+  if (result.mean_force > 0) bound_rounding(packing, precision, on_the_way, result);
   return result;
 }
 
-SecondOrder PackingEnergy::second_order(const Packing& packing) {
-  refresh(packing);
+SecondOrder PackingEnergy::second_order(const Packing& packing, double press, Precision precision) {
+  overlap_all(packing, precision);
   hessians_.resize(pairs_.size());
-  overlap_all(packing, hessians_);
+  pair_hessians(packing, precision, placed_, pairs_, overlaps_, hessians_);
+  pressed_.assign(pairs_.size(), Overlap{});
+  if (press > 0) press_pairs(packing, placed_, pairs_, axes_, press, pressed_);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
   std::vector<BlockMatrix::Block>& blocks = result.hessian.off_diagonal;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (!overlaps_[k].touching()) continue;
     const NeighbourPair& pair = pairs_[k];
+    if (!overlaps_[k].touching() && !pressed_[k].touching()) continue;
+    result.pairs.push_back(pressed_pair(pair.a, pair.b, overlaps_[k], pressed_[k], displacement(packing, pair), press,
+                                        packing.solid->gyration_radius()));
+    if (!overlaps_[k].touching()) continue;
     result.hessian.diagonal[pair.a] += hessians_[k].aa;
     result.hessian.diagonal[pair.b] += hessians_[k].bb;
     if (blocks.empty() || blocks.back().row != pair.a || blocks.back().column != pair.b)
       blocks.push_back({pair.a, pair.b, Matrix6d::Zero()});
     blocks.back().value += hessians_[k].ab;
-    result.tilts.push_back(
-        {static_cast<int>(blocks.size()) - 1, tilt_stiffness(overlaps_[k].area, packing.solid->gyration_radius())});
   }
   return result;
 }
 
 std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
-  refresh(packing);
-  overlap_all(packing, {});
+  overlap_all(packing, Precision::working);
   std::vector<Contact> result;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     if (!overlaps_[k].touching()) continue;

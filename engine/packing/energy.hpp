@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 #include <vector>
 
 #include "engine/packing/block_matrix.hpp"
 #include "engine/packing/pair_loop.hpp"
+#include "engine/packing/pressed_pair.hpp"
 
 namespace isojam {
 
@@ -19,10 +19,15 @@ struct Evaluation {
   /// max over particles and both kinds of |F_i|, |T_i|/R, divided by mean_force. Infinity if mean_force is 0 and
   /// some force is not; 0 if all are.
   double residual = 0;
-  /// The residual that rounding of the coordinates alone causes: λ_max·ulp(L)/mean_force, with λ_max bounded by the
-  /// stiffest particle. No minimiser can be trusted below it in double precision.
+  /// What rounding alone can make of the residual; no minimiser can be trusted below it.
+  /// In working precision that of the coordinates: λ_max·ulp(L)/mean_force, λ_max bounded by the stiffest particle.
+  /// In extended precision that of the contacts: the largest Σ_c ρ_c |F_c| R_c/R of a particle over mean_force, where
+  /// R_c is the circumradius, longest lever of a force, and ρ_c the relative error of V and S of a contact. Plane
+  /// distances are then wrong by τ = gap_tolerance() if they exceed refined_below(), and right to their last bits
+  /// otherwise, so ρ_c = τ/max(refined_below(), V/|S|) + τ/√|S|, the second term for the corners, whose coordinates are
+  /// doubles.
   double residual_floor = 0;
-  /// What rounding of the coordinates can do to the energy: Σ|F|·ulp(L). Smaller differences mean nothing.
+  /// What the same rounding can do to the energy: Σ|F|·ulp(L), and Σ ρ_c V²/2. Smaller differences mean nothing.
   double energy_noise = 0;
   long contacts = 0;
 };
@@ -30,9 +35,8 @@ struct Evaluation {
 /// Second derivatives of the energy, and what they leave out.
 struct SecondOrder {
   BlockMatrix hessian;  ///< ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient
-  /// The stiffness against tilt that a flat contact shows only once its section line cuts the face; until then V is
-  /// linear in the tilt and the Hessian nearly blind to it. One entry per contact.
-  std::vector<TiltStiffness> tilts;
+  /// Pairs that touch, and pairs that would if pressed together; in order of (a, b, shift).
+  std::vector<PressedPair> pairs;
 };
 
 /// A touching pair. `overlap`: area and moment in A's body frame.
@@ -43,15 +47,29 @@ struct Contact {
   Overlap overlap;
 };
 
+/// What one contact adds to an Evaluation.
+struct ContactTerms {
+  Eigen::Vector3d dx, dtheta_a, dtheta_b;  ///< to the gradient: of a (of b −dx), and of rotations over R
+  Eigen::Matrix3d stress;                  ///< times −V_cell
+  double energy = 0, force = 0;
+  double stiffness_a = 0, stiffness_b = 0;  ///< ½ |∇V|², ∇V by the coordinates of one particle
+  double error = 0;                         ///< ρ_c, see Evaluation::residual_floor
+};
+
 /// Evaluates packings of one solid. Holds caches only (neighbour list with a skin, separating axes): the same
 /// packing gives the same bits whatever was evaluated before and whatever the number of threads.
 class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
-  Evaluation evaluate(const Packing& packing);
-  /// Analytic; where two images of a particle touch another, their blocks are summed.
-  SecondOrder second_order(const Packing& packing);
-  BlockMatrix hessian(const Packing& packing) { return second_order(packing).hessian; }
+  /// In extended precision V, S and M of every contact are computed from the low parts of the state too, at a tenth
+  /// more cost; sums are in double in either.
+  Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
+  /// Analytic; where two images of a particle touch another, their blocks are summed. Pairs are pressed together by
+  /// `press`, a distance.
+  SecondOrder second_order(const Packing& packing, double press, Precision precision = Precision::working);
+  BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working) {
+    return second_order(packing, 0, precision).hessian;
+  }
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
 
@@ -60,16 +78,20 @@ class PackingEnergy {
 
  private:
   void refresh(const Packing& packing);
-  void overlap_all(const Packing& packing, std::span<PairHessian> hessians);
+  void overlap_all(const Packing& packing, Precision precision);
 
   std::vector<NeighbourPair> pairs_;
   std::vector<SeparatingAxis> axes_;
   std::vector<PlacedSolid> placed_;
   std::vector<Overlap> overlaps_;  ///< lab frame
+  std::vector<Overlap> pressed_;
+  std::vector<ContactTerms> terms_;
   std::vector<PairHessian> hessians_;
   std::vector<Eigen::Vector3d> list_positions_;
   double list_side_ = 0, skin_ = 0;
   const ConvexSolid* list_solid_ = nullptr;
+  std::vector<Pose> seen_;  ///< the packing that overlaps_ belong to, with seen_precision_ and list_side_
+  Precision seen_precision_ = Precision::working;
   long evaluations_ = 0;
   PairCounts totals_;
 };

@@ -1,6 +1,8 @@
 #include "engine/packing/packing.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <stdexcept>
 
 namespace isojam {
@@ -17,6 +19,18 @@ Eigen::Quaterniond random_orientation(RandomStream& random) {
   return q.normalized();
 }
 
+/// Place of a position along a Z-order curve through the cell, 2^10 cells a side.
+std::uint32_t place_on_curve(const Eigen::Vector3d& position, double side) {
+  std::uint32_t place = 0;
+  for (int bit = 9; bit >= 0; --bit) {
+    for (int c = 0; c < 3; ++c) {
+      const auto cell = static_cast<std::uint32_t>(std::min(1023.0, 1024 * position[c] / side));
+      place = place << 1 | (cell >> bit & 1);
+    }
+  }
+  return place;
+}
+
 }  // namespace
 
 Packing random_packing(const ConvexSolid& solid, int n, double density, RandomStream& random) {
@@ -31,14 +45,18 @@ Packing random_packing(const ConvexSolid& solid, int n, double density, RandomSt
     for (int c = 0; c < 3; ++c) pose.position[c] = side * random.uniform();
     pose.orientation = random_orientation(random);
   }
+  // Neighbours in space become neighbours in memory, which thousands of particles need for their cost to stay linear.
+  std::stable_sort(packing.poses.begin(), packing.poses.end(), [side](const Pose& a, const Pose& b) {
+    return place_on_curve(a.position, side) < place_on_curve(b.position, side);
+  });
   return packing;
 }
 
 Packing strained_to(const Packing& packing, double density) {
   Packing strained = packing;
   strained.cell = PeriodicCell(side_at(packing.size(), density));
-  const double stretch = strained.cell.side() / packing.cell.side();
-  for (Pose& pose : strained.poses) pose.position *= stretch;
+  const TwoDouble stretch = TwoDouble(strained.cell.side()) / packing.cell.side();
+  for (Pose& pose : strained.poses) pose = scaled(pose, stretch);
   return strained;
 }
 
@@ -48,8 +66,7 @@ Packing moved(const Packing& packing, const Eigen::VectorXd& step) {
   const double radius = packing.solid->gyration_radius();
   for (int i = 0; i < packing.size(); ++i) {
     Pose& pose = result.poses[static_cast<std::size_t>(i)];
-    pose.position += step.segment<3>(6 * i);
-    pose.orientation = rotated(pose.orientation, step.segment<3>(6 * i + 3) / radius);
+    pose = moved(pose, step.segment<3>(6 * i), step.segment<3>(6 * i + 3) / radius);
   }
   return result;
 }

@@ -20,7 +20,8 @@ struct Packing {
   double density() const { return size() / cell.volume(); }
 };
 
-/// n particles, positions uniform in the cell, orientations uniform on SO(3), at density φ.
+/// n particles, positions uniform in the cell, orientations uniform on SO(3), at density φ. Numbered along a
+/// curve through the cell, so that neighbours have near numbers.
 /// Throws std::invalid_argument if n < 1, φ is not in (0, 1], or the cell is not larger than least_side(solid).
 Packing random_packing(const ConvexSolid& solid, int n, double density, RandomStream& random);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <vector>
 
 namespace isojam {
@@ -15,21 +16,8 @@ namespace {
 /// Pairs handled as one task: some 50 µs, far more than a task costs, few enough to share out.
 constexpr std::size_t grain = 128;
 
-/// Of the energy, ½ (g gᵀ + V H(V)), g = ∇V; θ → R·θ in rows and columns.
-PairHessian energy_hessian(const Overlap& overlap, const OverlapHessian& h, const Eigen::Vector3d& r, double radius) {
-  Vector6d scale = Vector6d::Ones();
-  scale.tail<3>().setConstant(1 / radius);
-  const Vector6d ga = joined(overlap.area, overlap.moment);
-  const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
-  const auto block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second) -> Matrix6d {
-    return scale.asDiagonal() * ((g * k.transpose() + overlap.volume * second) / 2) * scale.asDiagonal();
-  };
-  return {block(ga, ga, h.aa), block(ga, gb, h.ab), block(gb, gb, h.bb)};
-}
-
-/// `hessian` may be null.
-void overlap_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
-                  SeparatingAxis& axis, Overlap& out, PairHessian* hessian, PairCounts& counts) {
+void overlap_pair(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
+                  const NeighbourPair& pair, SeparatingAxis& axis, Overlap& out, PairCounts& counts) {
   const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
   const Eigen::Vector3d r = displacement(packing, pair);
   ++counts.listed;
@@ -44,17 +32,25 @@ void overlap_pair(const Packing& packing, std::span<const PlacedSolid> placed, c
     return;
   }
   ++counts.overlapped;
-  if (hessian) {
-    OverlapHessian second;
-    out = overlap(a, b, r, axis, second);
-    if (out.touching()) *hessian = energy_hessian(out, second, r, packing.solid->gyration_radius());
-  } else {
-    out = overlap(a, b, r, axis);
-  }
+  out = precision == Precision::extended ? overlap(a, b, precise_displacement(packing, pair), axis)
+                                         : overlap(a, b, r, axis);
   if (out.path == OverlapPath::clip) ++counts.clipped;
   if (out.touching()) ++counts.touching;
   // No face separates: an edge pair does, and it is worth a search once.
   if (!out.touching() && axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
+}
+
+void press_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
+                const SeparatingAxis& axis, double distance, Overlap& out) {
+  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
+  const Eigen::Vector3d r = displacement(packing, pair);
+  const double length = r.norm(), reach = 2 * packing.solid->circumradius();
+  out = {};
+  if (length - distance >= reach || length <= distance) return;
+  const Eigen::Vector3d closer = (1 - distance / length) * r;
+  if (separates(a, b, closer, axis)) return;
+  SeparatingAxis unused;
+  out = overlap(a, b, closer, unused);
 }
 
 /// Runs `run(block)` for every block of `grain` pairs.
@@ -70,6 +66,27 @@ void for_each_block(std::size_t blocks, const Run& run) {
 
 std::size_t block_count(std::size_t pairs) { return (pairs + grain - 1) / grain; }
 
+/// Of the energy, ½ (g gᵀ + V H(V)), g = ∇V; θ → R·θ in rows and columns.
+void pair_hessian(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
+                  const NeighbourPair& pair, PairHessian& out) {
+  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
+  const Eigen::Vector3d r = displacement(packing, pair);
+  SeparatingAxis unused;
+  OverlapHessian h;
+  const Overlap value = precision == Precision::extended ? overlap(a, b, precise_displacement(packing, pair), unused, h)
+                                                         : overlap(a, b, r, unused, h);
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1 / packing.solid->gyration_radius());
+  const Vector6d ga = joined(value.area, value.moment);
+  const Vector6d gb = joined(-value.area, r.cross(value.area) - value.moment);
+  const auto block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second) -> Matrix6d {
+    return scale.asDiagonal() * ((g * k.transpose() + value.volume * second) / 2) * scale.asDiagonal();
+  };
+  out.aa = block(ga, ga, h.aa);
+  out.ab = block(ga, gb, h.ab);
+  out.bb = block(gb, gb, h.bb);
+}
+
 }  // namespace
 
 PairCounts& PairCounts::operator+=(const PairCounts& term) {
@@ -82,28 +99,60 @@ PairCounts& PairCounts::operator+=(const PairCounts& term) {
   return *this;
 }
 
-void place_all(const Packing& packing, std::vector<PlacedSolid>& placed) {
-  placed.clear();
-  placed.reserve(packing.poses.size());
-  for (const Pose& pose : packing.poses) placed.emplace_back(*packing.solid, pose.orientation.toRotationMatrix());
+void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run) {
+  for_each_block(block_count(slots), [&](std::size_t block) {
+    for (std::size_t k = block * grain; k < std::min(slots, (block + 1) * grain); ++k) run(k);
+  });
 }
 
-PairCounts overlap_pairs(const Packing& packing, std::span<const PlacedSolid> placed,
-                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out,
-                         std::span<PairHessian> hessians) {
+void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed) {
+  placed.resize(packing.poses.size());
+  for_each_slot(placed.size(), [&](std::size_t k) {
+    const Pose& pose = packing.poses[k];
+    // In place of the old one, which owns nothing: a copy would cost as much again.
+    if (precision == Precision::extended) {
+      std::construct_at(&placed[k], *packing.solid, rotation_matrix(pose));
+    } else {
+      std::construct_at(&placed[k], *packing.solid, pose.orientation.toRotationMatrix());
+    }
+  });
+}
+
+PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
+                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out) {
   assert(axes.size() == pairs.size() && out.size() == pairs.size());
-  assert(hessians.empty() || hessians.size() == pairs.size());
   const std::size_t n = pairs.size();
   const std::size_t blocks = block_count(n);
   std::vector<PairCounts> counts(blocks);
   for_each_block(blocks, [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
-      overlap_pair(packing, placed, pairs[k], axes[k], out[k], hessians.empty() ? nullptr : &hessians[k],
-                   counts[block]);
+      overlap_pair(packing, precision, placed, pairs[k], axes[k], out[k], counts[block]);
   });
   PairCounts sum;
   for (const PairCounts& block : counts) sum += block;
   return sum;
+}
+
+void press_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
+                 std::span<const SeparatingAxis> axes, double distance, std::span<Overlap> out) {
+  assert(axes.size() == pairs.size() && out.size() == pairs.size());
+  const std::size_t n = pairs.size();
+  for_each_block(block_count(n), [&](std::size_t block) {
+    for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
+      press_pair(packing, placed, pairs[k], axes[k], distance, out[k]);
+  });
+}
+
+void pair_hessians(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
+                   std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps,
+                   std::span<PairHessian> out) {
+  assert(overlaps.size() == pairs.size() && out.size() == pairs.size());
+  const std::size_t n = pairs.size();
+  for_each_block(block_count(n), [&](std::size_t block) {
+    for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k) {
+      if (overlaps[k].touching()) pair_hessian(packing, precision, placed, pairs[k], out[k]);
+    }
+  });
 }
 
 }  // namespace isojam

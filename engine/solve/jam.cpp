@@ -45,7 +45,7 @@ class JamRun {
     step.stage = stage;
     step.summary = minimise(packing, energy_, options, stop_);
     step.density = packing.density();
-    const Evaluation value = energy_.evaluate(packing);
+    const Evaluation value = energy_.evaluate(packing, step.summary.precision);
     step.energy_per_particle = value.energy / packing.size();
     step.pressure = value.pressure;
     result_.path.push_back(step);
@@ -107,8 +107,9 @@ class JamRun {
   }
 
   double expansion_step(double distance, double approach) const {
-    if (distance > options_.coarse_above) return std::min(options_.coarse_step, distance / 2);
-    return approach * distance;
+    // Nearer than asked for costs more than it tells.
+    const double last = distance - 0.95 * options_.final_distance;
+    return std::min({options_.longest_step, approach * distance, last});
   }
 
   /// Strains down towards φ_J from equilibrium to equilibrium.
@@ -131,6 +132,7 @@ class JamRun {
       }
       packing_ = std::move(next);
       distance = distance_to_jamming(*step);
+      approach = std::min(options_.approach, 1.5 * approach);
       keep(packing_);
     }
     const bool reached = distance <= options_.final_distance;

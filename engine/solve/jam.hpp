@@ -21,10 +21,11 @@ struct JamOptions {
   /// paper, each strain step is as large as keeps the unrelaxed E/N below target_energy, and consolidation ends
   /// when minimisation no longer removes the energy.
   bool target_before_relaxation = false;
-  double max_density = 0.9;    ///< refuse to go beyond; the cell must be legal up to here
-  double coarse_step = 0.025;  ///< Δφ of an expansion step while φ − φ_J > coarse_above
-  double coarse_above = 0.08;
-  double approach = 0.25;         ///< fraction of the remaining distance taken by a step nearer than that
+  double max_density = 0.9;  ///< refuse to go beyond; the cell must be legal up to here
+  /// An expansion step is this fraction of the distance φ − φ_J as the last state shows it, halved where a step failed
+  /// and grown back where one succeeded, but no longer than longest_step, nor far beyond final_distance.
+  double approach = 0.35;
+  double longest_step = 0.05;
   double final_distance = 0.004;  ///< expansion ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this give φ_J
   int max_steps = 400;            ///< strain steps in all

@@ -1,5 +1,5 @@
 // Of one packing: evaluation on one core and on two, and as N grows, with the memory it holds; Hessian; factorisation
-// beside Eigen's SimplicialLDLT; a minimisation by each method.
+// beside Eigen's SimplicialLDLT.
 
 #include <benchmark/benchmark.h>
 #include <malloc.h>
@@ -8,7 +8,6 @@
 #include <Eigen/SparseCholesky>
 
 #include "engine/solve/factor/shift_invert.hpp"
-#include "engine/solve/minimise/minimise.hpp"
 #include "tests/bench/states.hpp"
 
 namespace isojam::bench {
@@ -38,15 +37,16 @@ class Turns {
   std::size_t turn_ = 0;
 };
 
-/// Of packings that were evaluated before. Memory is what an evaluator holds, the Hessian's scratch included.
-void evaluate(benchmark::State& state, int n, std::size_t threads) {
+/// Of packings that were evaluated before, one after the other. Memory is what an evaluator holds, the Hessian's
+/// scratch included.
+void evaluate(benchmark::State& state, int n, std::size_t threads, Precision precision) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
   Turns turns(n);
   const double before = bytes_in_use();
   for (std::size_t k = 0; k < turns.size(); ++k, turns.next()) turns.energy().hessian(turns.packing());
   state.counters["bytes"] = (bytes_in_use() - before) / static_cast<double>(turns.size());
   for (auto _ : state) {
-    benchmark::DoNotOptimize(turns.energy().evaluate(turns.packing()).energy);
+    benchmark::DoNotOptimize(turns.energy().evaluate(turns.packing(), precision).energy);
     turns.next();
   }
 }
@@ -124,23 +124,6 @@ void simplicial_ldlt_solve(benchmark::State& state, int n) {
   for (auto _ : state) benchmark::DoNotOptimize(Eigen::VectorXd(factor.solve(b)).data());
 }
 
-/// To residual 1e-6 after a strain step towards jamming.
-void minimisation(benchmark::State& state, Method method) {
-  const Packing start = strained_to(equilibrium(SolidKind::octahedron, 100, 0.72), 0.71);
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  MinimiseOptions options;
-  options.method = method;
-  MinimiseSummary summary;
-  for (auto _ : state) {
-    Packing packing = start;
-    PackingEnergy energy;
-    summary = minimise(packing, energy, options);
-  }
-  state.SetLabel(std::string(to_string(summary.reason)));
-  state.counters["evaluations"] = static_cast<double>(summary.evaluations);
-  state.counters["residual"] = summary.residual;
-}
-
 template <class Function, class... Arguments>
 benchmark::internal::Benchmark* add(const std::string& name, Function function, Arguments... arguments) {
   return benchmark::RegisterBenchmark(name.c_str(), function, arguments...)->UseRealTime();
@@ -148,12 +131,13 @@ benchmark::internal::Benchmark* add(const std::string& name, Function function, 
 
 bool register_all() {
   for (const int n : {100, 1000, 10000}) {
-    add("evaluate/1_thread" + case_of(n), evaluate, n, 1);
+    add("evaluate/1_thread" + case_of(n), evaluate, n, 1, Precision::working);
     add("evaluate/afresh" + case_of(n), evaluate_afresh, n);
   }
   for (const std::size_t threads : {1, 2})
     add("evaluate/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads") + case_of(400), evaluate, 400,
-        threads);
+        threads, Precision::working);
+  add("evaluate/extended" + case_of(100), evaluate, 100, 1, Precision::extended);
   for (const int n : {100, 400}) {
     add("hessian/analytic" + case_of(n), hessian, n);
     add("factorise/simplicial_ldlt" + case_of(n), simplicial_ldlt, n);
@@ -163,11 +147,6 @@ bool register_all() {
     add("factorise/block_cholesky" + case_of(n), block_cholesky, n);
     add("factorise/block_cholesky_afresh" + case_of(n), block_cholesky_afresh, n);
     add("factor_solve/block_cholesky" + case_of(n), block_cholesky_solve, n);
-  }
-  for (const Method method : {Method::newton, Method::lbfgs, Method::conjugate_gradient}) {
-    const std::string name = "minimise/" + std::string(to_string(method)) + "/octahedron";
-    // One run of the slow ones says enough: nobody asks for their second digit.
-    add(name, minimisation, method)->Iterations(1)->Repetitions(method == Method::newton ? 9 : 1);
   }
   return true;
 }

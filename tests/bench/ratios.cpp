@@ -32,6 +32,7 @@ void claim_factors(std::vector<Claim>& claims) {
 }
 
 void claim_scaling(std::vector<Claim>& claims) {
+  claims.push_back({Kind::costs, "evaluate/extended/N=100", "evaluate/1_thread/N=100", 1.3});
   claims.push_back({Kind::faster, "evaluate/2_threads/N=400", "evaluate/1_thread/N=400", 1.7});
   // Linear in N: a particle costs the same in a packing ten or a hundred times as large, but for caches that no longer
   // hold everything.
@@ -46,9 +47,20 @@ void claim_scaling(std::vector<Claim>& claims) {
 }
 
 void claim_minimisers(std::vector<Claim>& claims) {
-  const std::string state = "octahedron";
-  claims.push_back({Kind::faster, "minimise/newton/" + state, "minimise/conjugate_gradient/" + state, 100});
-  claims.push_back({Kind::faster, "minimise/newton/" + state, "minimise/lbfgs/" + state, 0});
+  const std::string far = "octahedron_.03";
+  claims.push_back({Kind::faster, "minimise/newton/" + far, "minimise/conjugate_gradient/" + far, 100});
+  claims.push_back({Kind::faster, "minimise/newton/" + far, "minimise/fire/" + far, 0});
+  claims.push_back({Kind::faster, "minimise/newton/" + far, "minimise/lbfgs/" + far, 0});
+  for (const std::string name :
+       {far, std::string("octahedron_.008"), std::string("tetrahedron_.033"), std::string("tetrahedron_.01")}) {
+    claims.push_back({Kind::absolute, "minimise/newton/" + name + "#residual", "", 1e-6});
+    claims.push_back({Kind::absolute, "minimise/newton_to_1e-9/" + name + "#residual", "", 1e-9});
+    if (name == far) continue;
+    // Where the others fail: what they are left with, beside it.
+    for (const std::string method : {"conjugate_gradient", "fire", "lbfgs"})
+      claims.push_back(
+          {Kind::faster, "minimise/newton/" + name + "#residual", "minimise/" + method + "/" + name + "#residual", 10});
+  }
 }
 
 }  // namespace

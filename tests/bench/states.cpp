@@ -1,6 +1,6 @@
 #include "tests/bench/states.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -31,18 +31,21 @@ const std::vector<Packing>& relaxed(SolidKind kind, int n, int packings) {
   return list;
 }
 
-const Packing& equilibrium(SolidKind kind, int n, double density) {
+const Packing& strained(SolidKind kind, int n, double distance) {
   static std::map<std::tuple<SolidKind, int, double>, Packing> known;
-  const auto found = known.find({kind, n, density});
+  const auto found = known.find({kind, n, distance});
   if (found != known.end()) return found->second;
   Packing packing = compressed(kind, n, 0, 0.78, {});
   PackingEnergy energy;
-  const int steps = static_cast<int>(std::ceil((0.78 - density) / 0.01));
-  for (int step = 1; step <= steps; ++step) {
-    packing = strained_to(packing, 0.78 + (density - 0.78) * step / steps);
+  while (true) {
+    const Evaluation value = energy.evaluate(packing);
+    const double now = 6 * value.energy / n * packing.density() * packing.density() / value.pressure;  // E ∝ Δφ⁶
+    const double step = std::min(0.3 * now, now - distance);
+    packing = strained_to(packing, packing.density() - step);
+    if (step < 0.3 * now) break;
     minimise(packing, energy, {});
   }
-  return known.emplace(std::tuple(kind, n, density), std::move(packing)).first->second;
+  return known.emplace(std::tuple(kind, n, distance), std::move(packing)).first->second;
 }
 
 }  // namespace isojam::bench

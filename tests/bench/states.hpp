@@ -10,7 +10,8 @@ namespace isojam::bench {
 /// a cost that allows 10⁴ particles. Kept from one call to the next.
 const std::vector<Packing>& relaxed(SolidKind kind, int n, int packings = 1);
 
-/// An equilibrium above jamming, reached from density .78 by strain steps. Kept from one call to the next.
-const Packing& equilibrium(SolidKind kind, int n, double density);
+/// A packing strained affinely from an equilibrium to `distance` in density above its jamming point, where it is not in
+/// equilibrium. Kept from one call to the next.
+const Packing& strained(SolidKind kind, int n, double distance);
 
 }  // namespace isojam::bench

@@ -61,7 +61,7 @@ std::vector<BadManifest> malformed() {
       set("huge number", "/protocol/max_steps", 1e300, "an integer from 1 to 1000000"),
       set("number for a truth value", "/protocol/target_before_relaxation", 1, "true or false"),
       set("misspelt method", "/minimiser/method", "lbgfs", "did you mean \"lbfgs\"?"),
-      set("method is a number", "/minimiser/method", 3, "\"conjugate_gradient\", \"lbfgs\""),
+      set("method is a number", "/minimiser/method", 3, "\"conjugate_gradient\", \"fire\""),
       set("misspelt measure", "/measure", {"contact"}, "did you mean \"contacts\"?", "/measure/0"),
       set("measure is no list", "/measure", "contacts", "a list"),
       set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
@@ -87,7 +87,7 @@ std::vector<BadManifest> malformed_sweep() {
       set("swept value out of range", "/sweep/target_energy", {1e-5, 0.0}, "(0, 1]", "/sweep/target_energy/1"),
       set("swept value of the wrong type", "/sweep/target_energy", {"x"}, "(0, 1]", "/sweep/target_energy/0"),
       set("swept value given twice", "/sweep/target_energy", {1e-5, 0.00001}, "twice", "/sweep/target_energy/1"),
-      set("swept list is empty", "/sweep/method", Json::array(), "\"conjugate_gradient\", \"lbfgs\""),
+      set("swept list is empty", "/sweep/method", Json::array(), "\"conjugate_gradient\", \"fire\""),
       set("swept method misspelt", "/sweep/method", {"lbgfs"}, "did you mean \"lbfgs\"?", "/sweep/method/0"),
       set("sweep is a list", "/sweep", Json::array(), "an object"),
   };

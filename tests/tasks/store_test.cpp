@@ -1,7 +1,7 @@
 // Facts proved here:
 // - a file is replaced whole or not at all, and a failed write leaves nothing behind;
 // - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
-// - a record without its packing is not held;
+// - a record without its packing is not held; a packing keeps every bit of its state, low parts included;
 // - a directory of another manifest is refused and left as it was, in whichever file the other manifest shows;
 // - more replicates may be asked for later, and fewer do not shrink the plan on disk;
 // - temporaries of a writer that was killed are not taken for results.
@@ -9,6 +9,8 @@
 #include "tasks/store.hpp"
 
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 #include "bad_manifests.hpp"
 #include "support.hpp"
@@ -50,6 +52,34 @@ TEST(AtomicFile, AFailedWriteLeavesNothing) {
   std::filesystem::create_directories(directory / "taken" / "inside");
   EXPECT_THROW(write_atomically(directory / "taken", "x"), FileError);
   EXPECT_TRUE(files_below(directory.path()).empty());
+}
+
+TEST(Store, PackingsKeepEveryBit) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto spec = make_plan(manifest)[0];
+  const Store store(directory / "results", manifest);
+  auto outcome = test::made_up_outcome(spec);
+  auto& state = outcome.jam.states[nearest_state(outcome.jam)];
+  state = moved(state, Eigen::VectorXd::LinSpaced(6 * state.size(), 1e-20, 2e-20));
+  store.write(outcome);
+  std::ifstream file(store.packing_path(spec));
+  const auto packing = Json::parse(file);
+  EXPECT_EQ(packing.at("side").get<double>(), state.cell.side());
+  for (int i = 0; i < state.size(); ++i) {
+    const auto& pose = state.poses[i];
+    EXPECT_NE(pose.position_low, Eigen::Vector3d::Zero());
+    EXPECT_NE(pose.orientation_low, Eigen::Vector4d::Zero());
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(packing.at("positions")[i][c].get<double>(), pose.position[c]);
+      EXPECT_EQ(packing.at("positions_low")[i][c].get<double>(), pose.position_low[c]);
+    }
+    for (int c = 0; c < 4; ++c) {
+      const int place = (c + 1) % 4;  // w first
+      EXPECT_EQ(packing.at("orientations")[i][place].get<double>(), pose.orientation.coeffs()[c]);
+      EXPECT_EQ(packing.at("orientations_low")[i][place].get<double>(), pose.orientation_low[c]);
+    }
+  }
 }
 
 TEST(Store, HoldsWhatWasWritten) {

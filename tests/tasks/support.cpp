@@ -78,7 +78,7 @@ Json tiny_manifest() {
     "name": "tiny", "seed": 7,
     "sweep": {"solid": ["dodecahedron"], "particles": [24, 28]},
     "replicates": 2,
-    "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "coarse_step": 0.03,
+    "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
                  "approach": 0.4, "final_distance": 0.03, "fit_window": 0.1, "passing_residual": 0.1},
     "minimiser": {"residual": 1e-3, "max_evaluations": 2000, "unjammed_energy": 1e-14}
   })",

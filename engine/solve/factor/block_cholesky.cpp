@@ -1,232 +1,223 @@
 #include "engine/solve/factor/block_cholesky.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 #include <algorithm>
+
+#include "engine/solve/factor/panels.hpp"
 
 namespace isojam {
 
 namespace {
 
-/// Supernodes may take in this many block rows of zeros for the sake of larger dense fronts.
-constexpr std::size_t relaxation = 2;
+constexpr int per_panel = panels::height / 6;  ///< particles
 
-/// Fill-reducing order of the graph of particles: node of each column.
-std::vector<int> minimum_degree_order(const BlockMatrix& matrix) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < matrix.size(); ++i) entries.emplace_back(i, i, 1.0);
-  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
-    entries.emplace_back(block.row, block.column, 1.0);
-    entries.emplace_back(block.column, block.row, 1.0);
-  }
-  Eigen::SparseMatrix<double> graph(matrix.size(), matrix.size());
-  graph.setFromTriplets(entries.begin(), entries.end());
-  Eigen::AMDOrdering<int>::PermutationType order;
-  Eigen::AMDOrdering<int>()(graph, order);
-  std::vector<int> node_of(static_cast<std::size_t>(matrix.size()));
-  for (int k = 0; k < matrix.size(); ++k) node_of[k] = order.indices()[k];
-  return node_of;
+int panels_of(int particles) { return (particles + per_panel - 1) / per_panel; }
+
+/// Where a row and a column of 6×6 blocks meet in panels of `width` columns.
+std::ptrdiff_t block_at(int row, int column, int width) {
+  return panels::size(row / per_panel, width) + std::ptrdiff_t{6} * panels::height * column + 6 * (row % per_panel);
 }
 
-std::vector<int> inverse(const std::vector<int>& permutation) {
-  std::vector<int> result(permutation.size());
-  for (std::size_t k = 0; k < permutation.size(); ++k) result[permutation[k]] = static_cast<int>(k);
-  return result;
-}
+using Block6 = Eigen::Map<Matrix6d, Eigen::Unaligned, Eigen::OuterStride<panels::height>>;
 
-/// Rows below the diagonal of every column of the factor, and the elimination tree (−1: a root).
-void eliminate(const BlockMatrix& matrix, const std::vector<int>& place_of, std::vector<std::vector<int>>& structure,
-               std::vector<int>& parent) {
-  const std::size_t n = place_of.size();
-  structure.assign(n, {});
-  parent.assign(n, -1);
-  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
-    const auto [low, high] = std::minmax(place_of[block.row], place_of[block.column]);
-    structure[low].push_back(high);
+/// to += from, for 6 rows and `columns` columns of panels.
+void add_columns(const double* from, int columns, double* to) {
+  for (int c = 0; c < columns; ++c, from += panels::height, to += panels::height) {
+    for (int i = 0; i < 6; ++i) to[i] += from[i];
   }
-  for (std::size_t k = 0; k < n; ++k) {
-    std::vector<int>& rows = structure[k];
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    if (rows.empty()) continue;
-    parent[k] = rows.front();
-    // Everything else that this column couples to fills in its parent.
-    structure[rows.front()].insert(structure[rows.front()].end(), rows.begin() + 1, rows.end());
-  }
-}
-
-/// Postorder of a forest whose parents have larger numbers than their children: column at each place.
-std::vector<int> postorder(const std::vector<int>& parent) {
-  std::vector<std::vector<int>> children(parent.size());
-  std::vector<int> order, stack;
-  for (int k = static_cast<int>(parent.size()) - 1; k >= 0; --k) {
-    if (parent[k] >= 0) {
-      children[parent[k]].push_back(k);
-    } else {
-      stack.push_back(k);
-    }
-  }
-  // A preorder that visits the last child first, reversed.
-  while (!stack.empty()) {
-    const int k = stack.back();
-    stack.pop_back();
-    order.push_back(k);
-    for (const int child : children[k]) stack.push_back(child);
-  }
-  std::reverse(order.begin(), order.end());
-  return order;
 }
 
 }  // namespace
+
+/// Place among the columns, then the rows of the front.
+std::ptrdiff_t BlockCholesky::Front::at(int place, int column) const {
+  return place < node.columns ? factor + block_at(place, column, width())
+                              : below + block_at(place - node.columns, column, width());
+}
+
+std::ptrdiff_t BlockCholesky::Front::update_at(int row, int column) const {
+  return update + panels::packed_size(row / per_panel) + block_at(row % per_panel, column, 0);
+}
+
+bool BlockCholesky::has_pattern_of(const BlockMatrix& matrix) const {
+  return size_ == matrix.size() &&
+         std::equal(pattern_.begin(), pattern_.end(), matrix.off_diagonal.begin(), matrix.off_diagonal.end(),
+                    [](const auto& p, const auto& block) { return p.first == block.row && p.second == block.column; });
+}
 
 void BlockCholesky::analyse(const BlockMatrix& matrix) {
   size_ = matrix.size();
   pattern_.clear();
   for (const BlockMatrix::Block& block : matrix.off_diagonal) pattern_.emplace_back(block.row, block.column);
-  std::vector<std::vector<int>> structure;
-  std::vector<int> parent;
-  node_of_ = minimum_degree_order(matrix);
-  eliminate(matrix, inverse(node_of_), structure, parent);
-  std::vector<int> ordered;
-  for (const int k : postorder(parent)) ordered.push_back(node_of_[k]);
-  node_of_ = std::move(ordered);
-  place_of_ = inverse(node_of_);
-  eliminate(matrix, place_of_, structure, parent);
-  build_fronts(structure, parent);
-  place_entries(matrix);
+  Elimination plan = plan_elimination(matrix);
+  node_of_ = std::move(plan.node_of);
+  fronts_.clear();
+  for (Supernode& node : plan.supernodes) {
+    fronts_.emplace_back();
+    fronts_.back().node = std::move(node);
+  }
+  lay_out_fronts();
+  lay_out_updates();
+  place_blocks(matrix);
   place_children();
 }
 
-void BlockCholesky::build_fronts(const std::vector<std::vector<int>>& structure, const std::vector<int>& parent) {
-  fronts_.clear();
-  std::vector<int> front_of(structure.size());
-  for (std::size_t k = 0; k < structure.size(); ++k) {
-    const bool chained = k > 0 && parent[k - 1] == static_cast<int>(k);
-    if (!chained || structure[k].size() + 1 > structure[k - 1].size() + relaxation) {
-      fronts_.emplace_back();
-      fronts_.back().first = static_cast<int>(k);
-    }
-    Front& front = fronts_.back();
-    ++front.columns;
-    front.rows = structure[k];
-    front_of[k] = static_cast<int>(fronts_.size()) - 1;
+void BlockCholesky::lay_out_fronts() {
+  std::ptrdiff_t end = 0;
+  for (Front& front : fronts_) {
+    front.panels = panels_of(static_cast<int>(front.node.rows.size()));
+    front.factor = end;
+    front.below = end + panels::size(panels_of(front.node.columns), front.width());
+    end = front.below + panels::size(front.panels, front.width());
   }
-  for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    if (!fronts_[f].rows.empty()) fronts_[front_of[fronts_[f].rows.front()]].children.push_back(static_cast<int>(f));
+  factor_.resize(end);
+  reciprocals_.resize(6 * size_);
+}
+
+/// An update lives from its own front to its parent's. Each takes the lowest gap that fits, so that what is in use
+/// stays together in the cache.
+void BlockCholesky::lay_out_updates() {
+  std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> live;  // begin and end, ascending
+  std::ptrdiff_t size = 0;
+  for (Front& front : fronts_) {
+    const std::ptrdiff_t needed = panels::packed_size(front.panels);
+    std::ptrdiff_t begin = 0;
+    auto gap = live.begin();
+    for (; gap != live.end() && gap->first - begin < needed; ++gap) begin = gap->second;
+    front.update = begin;
+    if (needed > 0) live.insert(gap, {begin, begin + needed});
+    size = std::max(size, begin + needed);
+    for (const int child : front.node.children)
+      std::erase_if(live, [&](const auto& span) { return span.first == fronts_[child].update; });
   }
+  updates_.resize(size);
 }
 
 namespace {
 
-/// Place of permuted column k among the columns and rows of a front.
-int place_in(int first, int columns, const std::vector<int>& rows, int k) {
-  if (k < first + columns) return k - first;
-  return columns + static_cast<int>(std::lower_bound(rows.begin(), rows.end(), k) - rows.begin());
+/// Which of its columns, then rows, place k of the elimination order is in a supernode.
+int place_in(const Supernode& node, int k) {
+  if (k < node.first + node.columns) return k - node.first;
+  return node.columns + static_cast<int>(std::lower_bound(node.rows.begin(), node.rows.end(), k) - node.rows.begin());
 }
 
 }  // namespace
 
-void BlockCholesky::place_entries(const BlockMatrix& matrix) {
-  std::vector<int> front_of(static_cast<std::size_t>(size_));
+void BlockCholesky::place_blocks(const BlockMatrix& matrix) {
+  std::vector<int> front_of(node_of_.size()), place_of(node_of_.size());
+  diagonal_.resize(node_of_.size());
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    for (int c = 0; c < fronts_[f].columns; ++c) front_of[fronts_[f].first + c] = static_cast<int>(f);
+    const Supernode& node = fronts_[f].node;
+    for (int c = 0; c < node.columns; ++c) {
+      front_of[node.first + c] = static_cast<int>(f);
+      place_of[node_of_[node.first + c]] = node.first + c;
+      diagonal_[node_of_[node.first + c]] = {fronts_[f].at(c, c), false};
+    }
   }
-  for (std::size_t e = 0; e < matrix.off_diagonal.size(); ++e) {
-    const int row = place_of_[matrix.off_diagonal[e].row], column = place_of_[matrix.off_diagonal[e].column];
-    const int low = std::min(row, column), high = std::max(row, column);
-    Front& front = fronts_[front_of[low]];
-    front.entries.emplace_back(static_cast<int>(e), place_in(front.first, front.columns, front.rows, high));
-    front.entry_column.push_back(low - front.first);
-    // A block is stored as (row, column); the front wants (high, low).
-    front.entry_transposed.push_back(row == low ? 1 : 0);
+  off_diagonal_.clear();
+  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
+    const int row = place_of[block.row], column = place_of[block.column];
+    const Front& front = fronts_[front_of[std::min(row, column)]];
+    // A block is stored as (row, column); the lower half wants (later, earlier).
+    off_diagonal_.push_back(
+        {front.at(place_in(front.node, std::max(row, column)), std::min(row, column) - front.node.first),
+         row < column});
   }
 }
 
 void BlockCholesky::place_children() {
   for (Front& front : fronts_) {
-    for (const int child : front.children) {
-      std::vector<int> places;
-      for (const int row : fronts_[child].rows) places.push_back(place_in(front.first, front.columns, front.rows, row));
-      front.child_places.push_back(std::move(places));
+    for (const int child : front.node.children) {
+      Handover handover{child, {}, {}};
+      for (const int row : fronts_[child].node.rows) {
+        const int place = place_in(front.node, row), k = static_cast<int>(handover.places.size());
+        const bool continues = k > 0 && place == handover.places.back() + 1 && place != front.node.columns;
+        if (!continues) handover.runs.push_back(k);
+        handover.places.push_back(place);
+      }
+      front.handovers.push_back(std::move(handover));
     }
   }
 }
 
-void BlockCholesky::assemble(Front& front, const BlockMatrix& matrix, double shift) {
-  const int rows = static_cast<int>(front.rows.size());
-  front.factor.setZero(6 * (front.columns + rows), 6 * front.columns);
-  front.update.setZero(6 * rows, 6 * rows);
-  for (int c = 0; c < front.columns; ++c) {
-    auto block = front.factor.block<6, 6>(6 * c, 6 * c);
-    block = matrix.diagonal[node_of_[front.first + c]];
-    block.diagonal().array() += shift;
+void BlockCholesky::assemble(const BlockMatrix& matrix) {
+  factor_.setZero();
+  for (int i = 0; i < size_; ++i) {
+    Block6 to(factor_.data() + diagonal_[i].at);
+    to = matrix.diagonal[i];
   }
-  for (std::size_t e = 0; e < front.entries.size(); ++e) {
-    const Matrix6d& value = matrix.off_diagonal[front.entries[e].first].value;
-    auto block = front.factor.block<6, 6>(6 * front.entries[e].second, 6 * front.entry_column[e]);
-    if (front.entry_transposed[e]) {
-      block = value.transpose();
+  for (std::size_t k = 0; k < off_diagonal_.size(); ++k) {
+    const Matrix6d& value = matrix.off_diagonal[k].value;
+    Block6 to(factor_.data() + off_diagonal_[k].at);
+    if (off_diagonal_[k].transposed) {
+      to = value.transpose();
     } else {
-      block = value;
+      to = value;
     }
   }
-  for (std::size_t k = 0; k < front.children.size(); ++k) {
-    const Eigen::MatrixXd& update = fronts_[front.children[k]].update;
-    const std::vector<int>& places = front.child_places[k];
-    for (std::size_t j = 0; j < places.size(); ++j) {
-      for (std::size_t i = j; i < places.size(); ++i) {
-        const auto value = update.block<6, 6>(6 * static_cast<int>(i), 6 * static_cast<int>(j));
-        if (places[j] < front.columns) {
-          front.factor.block<6, 6>(6 * places[i], 6 * places[j]) += value;
-        } else {
-          front.update.block<6, 6>(6 * (places[i] - front.columns), 6 * (places[j] - front.columns)) += value;
-        }
+}
+
+void BlockCholesky::add_shift(double shift) {
+  for (const Target& target : diagonal_) {
+    for (int i = 0; i < 6; ++i) factor_[target.at + i * (panels::height + 1)] += shift;
+  }
+}
+
+void BlockCholesky::gather_updates(const Front& front) {
+  std::fill_n(updates_.data() + front.update, panels::packed_size(front.panels), 0.0);
+  const int columns = front.node.columns;
+  for (const Handover& handover : front.handovers) {
+    const Front& child = fronts_[handover.child];
+    const int count = static_cast<int>(handover.places.size());
+    for (int i = 0; i < count; ++i) {
+      const double* const from = updates_.data() + child.update_at(i, 0);
+      const int row = handover.places[i];
+      for (std::size_t r = 0; r < handover.runs.size() && handover.runs[r] <= i; ++r) {
+        const int begin = handover.runs[r], place = handover.places[begin];
+        const int end = std::min(i + 1, r + 1 < handover.runs.size() ? handover.runs[r + 1] : count);
+        double* const to = place < columns ? factor_.data() + front.at(row, place)
+                                           : updates_.data() + front.update_at(row - columns, place - columns);
+        add_columns(from + std::ptrdiff_t{6} * panels::height * begin, 6 * (end - begin), to);
       }
     }
   }
 }
 
 bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
-  const bool same_pattern =
-      size_ == matrix.size() &&
-      std::equal(pattern_.begin(), pattern_.end(), matrix.off_diagonal.begin(), matrix.off_diagonal.end(),
-                 [](const auto& p, const auto& block) { return p.first == block.row && p.second == block.column; });
-  if (!same_pattern) analyse(matrix);
-  for (Front& front : fronts_) {
-    assemble(front, matrix, shift);
-    const int width = 6 * front.columns, height = static_cast<int>(front.factor.rows());
-    Eigen::Ref<Eigen::MatrixXd> top = front.factor.topRows(width);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> pivot(top);
-    if (pivot.info() != Eigen::Success || !pivot.matrixLLT().diagonal().allFinite()) return false;
-    if (height == width) continue;
-    auto below = front.factor.bottomRows(height - width);
-    top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-    front.update.selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+  if (!has_pattern_of(matrix)) analyse(matrix);
+  assemble(matrix);
+  add_shift(shift);
+  for (const Front& front : fronts_) {
+    gather_updates(front);
+    double* const below = factor_.data() + front.below;
+    if (!panels::factorise(factor_.data() + front.factor, front.width(),
+                           reciprocals_.data() + std::ptrdiff_t{6} * front.node.first, below, front.panels)) {
+      return false;
+    }
+    panels::subtract_square(below, front.width(), front.panels, updates_.data() + front.update);
   }
   return true;
 }
 
-Eigen::VectorXd BlockCholesky::solve(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd x(b.size());
+Eigen::VectorXd BlockCholesky::solve(const Eigen::Ref<const Eigen::VectorXd>& b) const {
+  Eigen::VectorXd x(b.size()), below(b.size() + 6);
   for (int k = 0; k < size_; ++k) x.segment<6>(6 * k) = b.segment<6>(6 * node_of_[k]);
-  Eigen::VectorXd gathered;
   for (const Front& front : fronts_) {
-    const int width = 6 * front.columns;
-    auto own = x.segment(6 * front.first, width);
-    front.factor.topRows(width).triangularView<Eigen::Lower>().solveInPlace(own);
-    gathered.noalias() = front.factor.bottomRows(front.factor.rows() - width) * own;
-    for (std::size_t r = 0; r < front.rows.size(); ++r)
-      x.segment<6>(6 * front.rows[r]) -= gathered.segment<6>(6 * static_cast<int>(r));
+    double* const own = x.data() + std::ptrdiff_t{6} * front.node.first;
+    const std::vector<int>& rows = front.node.rows;
+    panels::solve_forward(factor_.data() + front.factor, front.width(),
+                          reciprocals_.data() + std::ptrdiff_t{6} * front.node.first, own);
+    below.head(panels::height * front.panels).setZero();
+    panels::subtract_product(factor_.data() + front.below, front.width(), front.panels, own, below.data());
+    for (int r = 0; r < static_cast<int>(rows.size()); ++r) x.segment<6>(6 * rows[r]) += below.segment<6>(6 * r);
   }
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
-    const int width = 6 * front->columns;
-    auto own = x.segment(6 * front->first, width);
-    gathered.resize(6 * static_cast<int>(front->rows.size()));
-    for (std::size_t r = 0; r < front->rows.size(); ++r)
-      gathered.segment<6>(6 * static_cast<int>(r)) = x.segment<6>(6 * front->rows[r]);
-    own.noalias() -= front->factor.bottomRows(front->factor.rows() - width).transpose() * gathered;
-    front->factor.topRows(width).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    double* const own = x.data() + std::ptrdiff_t{6} * front->node.first;
+    const std::vector<int>& rows = front->node.rows;
+    below.head(panels::height * front->panels).setZero();
+    for (int r = 0; r < static_cast<int>(rows.size()); ++r) below.segment<6>(6 * r) = x.segment<6>(6 * rows[r]);
+    panels::subtract_transposed(factor_.data() + front->below, front->width(), front->panels, below.data(), own);
+    panels::solve_backward(factor_.data() + front->factor, front->width(),
+                           reciprocals_.data() + std::ptrdiff_t{6} * front->node.first, own);
   }
   Eigen::VectorXd result(b.size());
   for (int k = 0; k < size_; ++k) result.segment<6>(6 * node_of_[k]) = x.segment<6>(6 * k);

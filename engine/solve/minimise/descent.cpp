@@ -13,6 +13,9 @@ namespace {
 /// nothing of pairs that are farther apart.
 constexpr double trust_in_inradii = 0.4;
 
+/// Within this many times the floor of the residual its rounding errors begin to mislead.
+constexpr double floors_before_refining = 10;
+
 }  // namespace
 
 double largest_displacement(const Eigen::VectorXd& step) {
@@ -30,9 +33,19 @@ Descent::Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions&
       previous_energy_(std::numeric_limits<double>::infinity()),
       evaluations_(1) {}
 
-std::optional<StopReason> Descent::verdict() const {
+/// Doubles do until the floor of their residual is near. Then only two of them can tell whether the goal is reached.
+void Descent::refine() {
+  const bool near_floor = here_.residual <= std::max(options_.residual, floors_before_refining * here_.residual_floor);
+  if (precision_ == Precision::extended || !near_floor || here_.residual_floor <= options_.residual) return;
+  precision_ = Precision::extended;
+  here_ = energy_.evaluate(packing_, precision_);
+  ++evaluations_;
+}
+
+std::optional<StopReason> Descent::verdict() {
   if (!std::isfinite(here_.energy) || !here_.gradient.allFinite()) return StopReason::not_finite;
   if (here_.contacts == 0) return StopReason::unjammed;
+  refine();
   if (here_.residual <= options_.residual) return StopReason::residual_reached;
   if (here_.residual <= here_.residual_floor) return StopReason::precision_floor;
   if (here_.energy < options_.unjammed_energy * packing_.size()) return StopReason::unjammed;
@@ -43,10 +56,10 @@ std::optional<StopReason> Descent::verdict() const {
   return std::nullopt;
 }
 
-Evaluation Descent::probe(const Eigen::VectorXd& step, Packing& there) {
-  there = moved(packing_, step);
+Evaluation Descent::probe(const Packing& from, const Eigen::VectorXd& step, Packing& there) {
+  there = moved(from, step);
   ++evaluations_;
-  return energy_.evaluate(there);
+  return energy_.evaluate(there, precision_);
 }
 
 void Descent::accept(Packing there, Evaluation value) {
@@ -71,7 +84,7 @@ bool Descent::advance(const Eigen::VectorXd& direction, double first_step, doubl
   Evaluation at_lowest, at_trial;
   double step_of_lowest = 0, step_of_trial = 0;
   const auto at = [&](double step) {
-    at_trial = probe(step * direction, trial);
+    at_trial = probe(packing_, step * direction, trial);
     step_of_trial = step;
     const LinePoint point{step, at_trial.energy, at_trial.gradient.dot(direction)};
     // The search ends at the last point or at the lowest one; among energies equal but for noise, elsewhere.
@@ -100,6 +113,7 @@ MinimiseSummary Descent::finish(StopReason reason) const {
   summary.energy = here_.energy;
   summary.residual = here_.residual;
   summary.residual_floor = here_.residual_floor;
+  summary.precision = precision_;
   summary.evaluations = evaluations_;
   summary.iterations = iterations_;
   return summary;

@@ -20,29 +20,35 @@ class Descent {
   const MinimiseOptions& options() const { return options_; }
   long evaluations() const { return evaluations_; }
 
-  /// Why to stop in this state, if there is a reason.
-  std::optional<StopReason> verdict() const;
+  /// Why to stop in this state, if there is a reason. Goes over to extended precision where the answer needs it.
+  std::optional<StopReason> verdict();
   /// Moves along `direction` (a descent direction) by a line search from `first_step` times it; false if no lower
   /// energy was found. The step taken, as a multiple of `direction`, is in last_step().
   bool advance(const Eigen::VectorXd& direction, double first_step, double curvature);
   double last_step() const { return last_step_; }
   /// No particle moves farther than this in one trial step.
   double longest_displacement() const;
-  SecondOrder second_order() { return energy_.second_order(packing_); }
-  /// Evaluates the state at `step` from here without moving to it.
-  Evaluation probe(const Eigen::VectorXd& step, Packing& there);
+  /// Of any state; pairs pressed together by `press`.
+  SecondOrder second_order(const Packing& packing, double press) {
+    return energy_.second_order(packing, press, precision_);
+  }
+  /// Evaluates the state at `step` from another one without moving there.
+  Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
   /// Moves to a probed state.
   void accept(Packing there, Evaluation value);
 
   MinimiseSummary finish(StopReason reason) const;
 
  private:
+  void refine();
+
   Packing& packing_;
   PackingEnergy& energy_;
   const MinimiseOptions& options_;
   std::stop_token stop_;
   Evaluation here_;
   double previous_energy_;
+  Precision precision_ = Precision::working;
   double last_step_ = 0;
   long evaluations_ = 0, iterations_ = 0;
 };
@@ -51,6 +57,7 @@ class Descent {
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);
+MinimiseSummary minimise_fire(Descent& descent);
 MinimiseSummary minimise_lbfgs(Descent& descent);
 MinimiseSummary minimise_newton(Descent& descent);
 

@@ -37,6 +37,11 @@ class Search {
     return p.value <= start_.value + noise_ && p.slope <= (2 * options_.decrease - 1) * start_.slope;
   }
   bool flat_enough(const LinePoint& p) const { return std::abs(p.slope) <= -options_.curvature * start_.slope; }
+  /// Lower, or where rounding leaves that open, flatter.
+  bool better(const LinePoint& p, const LinePoint& best) const {
+    if (std::abs(p.value - best.value) > noise_) return p.value < best.value;
+    return std::abs(p.slope) < std::abs(best.slope);
+  }
   /// Higher than the best point by more than rounding.
   bool higher(const LinePoint& p, const LinePoint& best) const { return p.value > best.value + noise_; }
 
@@ -63,8 +68,9 @@ LineSearchResult line_search(const std::function<LinePoint(double)>& at, const L
     ++result.evaluations;
     const bool finite = std::isfinite(p.value) && std::isfinite(p.slope);
     if (finite && search.decreases(p)) {
-      if (p.value <= result.point.value || search.flat_enough(p)) result.point = p;
+      if (search.better(p, result.point)) result.point = p;
       if (search.flat_enough(p)) {
+        result.point = p;
         result.found = true;
         return result;
       }
@@ -99,7 +105,7 @@ LineSearchResult line_search(const std::function<LinePoint(double)>& at, const L
     }
     if (step == low.step || (bracketed && step == high.step)) break;
   }
-  result.found = result.point.step > 0 && result.point.value < start.value;
+  result.found = result.point.step > 0;
   return result;
 }
 

@@ -9,7 +9,7 @@
 namespace isojam {
 
 std::string_view to_string(Method method) {
-  static constexpr std::array<std::string_view, 3> names{"conjugate_gradient", "lbfgs", "newton"};
+  static constexpr std::array<std::string_view, 4> names{"conjugate_gradient", "fire", "lbfgs", "newton"};
   return names[static_cast<std::size_t>(method)];
 }
 
@@ -18,6 +18,7 @@ MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const Minimise
   Descent descent(packing, energy, options, std::move(stop));
   switch (options.method) {
     case Method::conjugate_gradient: return minimise_conjugate_gradient(descent);
+    case Method::fire: return minimise_fire(descent);
     case Method::lbfgs: return minimise_lbfgs(descent);
     case Method::newton: return minimise_newton(descent);
   }

@@ -9,7 +9,8 @@
 
 namespace isojam {
 
-enum class Method { conjugate_gradient, lbfgs, newton };
+/// newton is the method; the others are there to be compared with. Near jamming they do not converge.
+enum class Method { conjugate_gradient, fire, lbfgs, newton };
 std::string_view to_string(Method method);
 
 struct MinimiseOptions {

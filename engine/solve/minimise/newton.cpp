@@ -3,30 +3,34 @@
 #include <limits>
 #include <utility>
 
-#include "engine/solve/factor/block_cholesky.hpp"
 #include "engine/solve/minimise/descent.hpp"
+#include "engine/solve/minimise/step_model.hpp"
 
 // Near jamming the stiffnesses of a packing span ten orders of magnitude, which first-order methods feel as the
-// condition number and Newton's method does not. What limits Newton's is what the Hessian does not know: pairs that
-// close along the step, and flat contacts whose tilt costs nothing until their section line cuts the face. The shift μ
-// shortens every step (Levenberg, Marquardt); the tilt term, which rises with it, turns steps away from tilting flat
-// contacts long before μ has to shorten them.
+// condition number and Newton's method does not. What limits Newton's is how far its model holds, so three things are
+// done about it. The model anticipates pairs that close and contacts that tilt (step_model.hpp). A step that raises the
+// energy is followed up before it is given up: turning particles together moves flat contacts off their planes by the
+// square of the angle, far more than their depth, and one Newton step from there puts that right (Chamberlain's
+// watchdog). And the shift μ shortens what still fails (Levenberg, Marquardt).
 
 namespace isojam {
 
 namespace {
 
-/// The tilt term is complete, as it stands in SecondOrder, once μ reaches this fraction of the stiffest diagonal
-/// entry. Measured over 1e-5 … 1e-7: evaluations change little, and multiply without the term.
-constexpr double complete_at = 1e-6;
+/// Steps from a trial state of higher energy before the trial is given up.
+constexpr int follow_ups = 3;
 
-double largest_diagonal(const BlockMatrix& matrix) {
-  double largest = 0;
-  for (const Matrix6d& block : matrix.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
-  return largest;
-}
+/// A trial that raises the energy by more than this factor has left the valley.
+constexpr double hopeless = 1e6;
 
-/// The shift μ, adapted to how well the quadratic model predicted the last step.
+/// Failures in one state after which the model goes on without anticipated pairs: they can be wrong, and then no
+/// shift makes them right.
+constexpr int patience = 4;
+
+/// Pairs are pressed together by this fraction of the last step, within bounds in inradii.
+constexpr double press_per_step = 0.05, least_press = 2e-8, most_press = 2e-3;
+
+/// The shift μ, adapted to how well the model predicted the last step.
 class Shift {
  public:
   void set_scale(double stiffness) {
@@ -39,7 +43,6 @@ class Shift {
     value_ = std::max(value_, least_);
   }
   double value() const { return value_; }
-  double tilt_factor() const { return std::min(1.0, value_ / (complete_at * scale_)); }
   bool exhausted() const { return value_ > most_; }
   /// After a step that failed: faster and faster.
   void raise() {
@@ -48,7 +51,17 @@ class Shift {
   }
   /// After a step that was accepted, by the ratio of its actual to its predicted decrease (Nielsen's rule).
   void adapt(double ratio) {
-    value_ = std::max(value_ * std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3)), least_);
+    value_ = std::max(value_ * std::max(0.2, 1 - std::pow(2 * ratio - 1, 3)), least_);
+    growth_ = 2;
+  }
+  /// After a step that needed following up.
+  void ease() {
+    value_ = std::max(value_ / 2, least_);
+    growth_ = 2;
+  }
+  /// For another model in the same state.
+  void restart() {
+    value_ = std::min(value_, 1e-2 * scale_);
     growth_ = 2;
   }
 
@@ -56,46 +69,97 @@ class Shift {
   double value_ = 0, scale_ = 0, growth_ = 2, least_ = 0, most_ = 0;
 };
 
-/// Tries one step with the current shift. True if it was accepted.
-bool try_step(Descent& descent, const SecondOrder& model, BlockCholesky& factor, Shift& shift) {
-  while (!factor.factorise(stiffened(model.hessian, model.tilts, shift.tilt_factor()), shift.value())) {
-    shift.raise();
-    if (shift.exhausted()) return false;
+class Newton {
+ public:
+  explicit Newton(Descent& descent) : descent_(descent) {}
+
+  MinimiseSummary run() {
+    while (true) {
+      if (const auto reason = descent_.verdict()) return descent_.finish(*reason);
+      StepModel model = model_at(descent_.packing(), descent_.here());
+      shift_.set_scale(model.stiffness());
+      int failures = 0;
+      while (!advance(model)) {
+        if (shift_.exhausted()) return descent_.finish(StopReason::line_search_failed);
+        if (const auto reason = descent_.verdict()) return descent_.finish(*reason);
+        if (++failures == patience) {
+          model.forget_closing_pairs();
+          shift_.restart();
+        }
+      }
+    }
   }
-  const Evaluation& here = descent.here();
-  Eigen::VectorXd step = -factor.solve(here.gradient);
-  step *= std::min(1.0, descent.longest_displacement() / largest_displacement(step));
-  const double predicted = -here.gradient.dot(step) - step.dot(model.hessian * step) / 2;
-  Packing there = descent.packing();
-  Evaluation value = descent.probe(step, there);
-  const double actual = here.energy - value.energy;
-  // Where energies no longer resolve the step, the forces decide.
-  const bool resolved = predicted > here.energy_noise;
-  const bool accepted = resolved ? actual > 1e-4 * predicted
-                                 : actual > -here.energy_noise && value.gradient.norm() < here.gradient.norm();
-  if (!accepted) {
-    shift.raise();
+
+ private:
+  StepModel model_at(const Packing& packing, const Evaluation& value) {
+    const double inradius = packing.solid->inradius();
+    const double press = std::clamp(press_per_step * last_step_, least_press * inradius, most_press * inradius);
+    return StepModel(descent_.second_order(packing, press), value.gradient, descent_.longest_displacement());
+  }
+
+  /// Whether a state at energy `value` is a step forward when `predicted` was promised. Where energies no longer
+  /// resolve the step, the forces decide.
+  bool acceptable(const Evaluation& value, double predicted) const {
+    const Evaluation& here = descent_.here();
+    const double actual = here.energy - value.energy;
+    if (predicted > here.energy_noise) return actual > 1e-4 * predicted;
+    return actual > -here.energy_noise && value.gradient.norm() < here.gradient.norm();
+  }
+
+  /// Tries one step with the present shift. True if it was accepted, followed up or not.
+  bool advance(StepModel& model) {
+    const auto step = model.minimise(shift_.value(), factor_, active_);
+    if (!step) {
+      shift_.raise();
+      return false;
+    }
+    Packing there = descent_.packing();
+    Evaluation value = descent_.probe(descent_.packing(), step->displacement, there);
+    const double length = largest_displacement(step->displacement);
+    if (acceptable(value, step->decrease)) {
+      const bool resolved = step->decrease > descent_.here().energy_noise;
+      shift_.adapt(resolved ? (descent_.here().energy - value.energy) / step->decrease : 1);
+    } else if (follow_up(there, value, step->decrease, length)) {
+      shift_.ease();
+    } else {
+      shift_.raise();
+      return false;
+    }
+    last_step_ = length;
+    descent_.accept(std::move(there), std::move(value));
+    return true;
+  }
+
+  /// From a trial state that was not acceptable, at `length` from the present one: true if `there` ends in one that is.
+  bool follow_up(Packing& there, Evaluation& value, double predicted, double length) {
+    ActivePairs active = active_;
+    for (int k = 0; k < follow_ups; ++k) {
+      if (!(value.energy < hopeless * descent_.here().energy) || descent_.verdict()) return false;
+      const auto step = model_at(there, value).minimise(shift_.value(), factor_, active);
+      if (!step || largest_displacement(step->displacement) > 2 * length) return false;
+      Packing next = there;
+      Evaluation value_next = descent_.probe(there, step->displacement, next);
+      const bool lower = value_next.energy < value.energy;
+      there = std::move(next);
+      value = std::move(value_next);
+      if (acceptable(value, predicted)) {
+        active_ = std::move(active);
+        return true;
+      }
+      if (!lower) return false;
+    }
     return false;
   }
-  shift.adapt(resolved ? actual / predicted : 1);
-  descent.accept(std::move(there), std::move(value));
-  return true;
-}
+
+  Descent& descent_;
+  BlockCholesky factor_;
+  Shift shift_;
+  ActivePairs active_;
+  double last_step_ = 1e-4;
+};
 
 }  // namespace
 
-MinimiseSummary minimise_newton(Descent& descent) {
-  BlockCholesky factor;
-  Shift shift;
-  while (true) {
-    if (const auto reason = descent.verdict()) return descent.finish(*reason);
-    const SecondOrder model = descent.second_order();
-    shift.set_scale(largest_diagonal(model.hessian));
-    while (!try_step(descent, model, factor, shift)) {
-      if (shift.exhausted()) return descent.finish(StopReason::line_search_failed);
-      if (const auto reason = descent.verdict()) return descent.finish(*reason);
-    }
-  }
-}
+MinimiseSummary minimise_newton(Descent& descent) { return Newton(descent).run(); }
 
 }  // namespace isojam

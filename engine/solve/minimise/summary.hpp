@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "engine/packing/energy.hpp"
+
 namespace isojam {
 
 enum class StopReason {
@@ -10,7 +12,7 @@ enum class StopReason {
   energy_change,     ///< relative energy change below the tolerance asked for (the paper's rule); not an equilibrium by
                      ///< itself
   unjammed,          ///< energy and forces fell to the floor of the unjammed verdict
-  precision_floor,   ///< no lower residual can be resolved in double precision
+  precision_floor,   ///< no lower residual can be resolved, not even in two doubles
   budget,            ///< evaluations spent
   line_search_failed,  ///< no lower energy found along any direction tried
   not_finite,          ///< energy or gradient was not finite
@@ -23,8 +25,9 @@ std::string_view to_string(StopReason reason);
 struct MinimiseSummary {
   StopReason reason = StopReason::not_called;
   double energy = 0;
-  double residual = 0;        ///< as Evaluation::residual
-  double residual_floor = 0;  ///< as Evaluation::residual_floor, in the same state
+  double residual = 0;                       ///< as Evaluation::residual
+  double residual_floor = 0;                 ///< as Evaluation::residual_floor, in the same state
+  Precision precision = Precision::working;  ///< of the last evaluation
   long evaluations = 0;
   long iterations = 0;
 

@@ -3,7 +3,8 @@
 //   it is refused for no particle, a density outside (0, 1] and a cell too small for the minimum image; so is the
 //   energy of such a packing;
 //   in the least legal cell no particle touches two images of another, nor itself;
-//   strain moves centres affinely and leaves orientations alone; moved() adds dx and turns by dθ.
+//   strain moves centres affinely and leaves orientations alone; moved() adds dx and turns by dθ; both keep low parts,
+//   so that strain there and back returns positions to 1e-30 and a step of 1e-25 is not lost.
 
 #include "engine/packing/packing.hpp"
 
@@ -86,7 +87,7 @@ TEST(PackingEnergyTest, RefusesACellTooSmall) {
     PackingEnergy energy;
     packing.cell = PeriodicCell(least_side(*packing.solid));
     EXPECT_THROW(energy.evaluate(packing), std::invalid_argument) << describe(packing);
-    EXPECT_THROW(energy.second_order(packing), std::invalid_argument) << describe(packing);
+    EXPECT_THROW(energy.second_order(packing, 0), std::invalid_argument) << describe(packing);
     packing.cell = PeriodicCell(least_side(*packing.solid) * (1 + epsilon));
     EXPECT_GT(energy.evaluate(packing).contacts, 0) << describe(packing);
   }
@@ -132,6 +133,23 @@ TEST(MovedTest, AddsTheStepAndTurns) {
         Eigen::AngleAxisd(theta.norm(), theta.normalized()).toRotationMatrix() * packing.poses[i].orientation;
     EXPECT_LE((result.poses[i].orientation.toRotationMatrix() - turned).norm(), 32 * epsilon * (1 + theta.norm()))
         << "particle " << i;
+  }
+}
+
+TEST(MovedTest, KeepsLowParts) {
+  RandomStream random{7, 4};
+  const Packing packing = sample(SolidKind::cube, 80, .5, 7);
+  const Eigen::VectorXd step = random_step(random, packing.size());
+  const Packing there = moved(packing, 1e-25 * step), back = moved(there, -1e-25 * step);
+  const Packing strained = strained_to(strained_to(there, .7), .5);
+  for (int i = 0; i < packing.size(); ++i) {
+    const Quad3 start = quad_position(packing.poses[i]), moved_to = quad_position(there.poses[i]);
+    const Vector3d went = rounded(moved_to - start), stayed = rounded(quad_position(back.poses[i]) - start);
+    EXPECT_LE((went - 1e-25 * step.segment<3>(6 * i)).norm(), 1e-30) << "particle " << i;
+    EXPECT_LE(stayed.norm(), 1e-30) << "particle " << i;
+    const double cells = there.cell.side() / strained.cell.side();
+    EXPECT_LE(rounded(Quad(cells) * quad_position(strained.poses[i]) - moved_to).norm(), 1e-30) << "particle " << i;
+    EXPECT_NE(there.poses[i].orientation_low, packing.poses[i].orientation_low) << "particle " << i;
   }
 }
 

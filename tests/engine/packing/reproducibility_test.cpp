@@ -1,6 +1,7 @@
 // Facts proved here, bit for bit:
-//   an evaluation, a Hessian and a list of contacts are functions of the packing alone: whatever was evaluated before
-//   (other solids, sizes, densities, cells; a walk that kept or rebuilt the neighbour list) and for 1 and 2 threads.
+//   an evaluation, a Hessian (in either precision) and a list of contacts are functions of the packing alone: whatever
+//   was evaluated before (other solids, sizes, densities, cells; a walk that kept or rebuilt the neighbour list) and
+//   for 1 and 2 threads.
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -18,13 +19,14 @@ constexpr double density = .7;
 
 /// Everything the energy says of a packing.
 struct Answer {
-  Evaluation evaluation;
-  SecondOrder second;
+  Evaluation evaluation, extended;
+  SecondOrder second, extended_second;
   std::vector<Contact> contacts;
 };
 
 Answer answer(PackingEnergy& energy, const Packing& packing) {
-  return {energy.evaluate(packing), energy.second_order(packing), energy.contacts(packing)};
+  return {energy.evaluate(packing), energy.evaluate(packing, Precision::extended), energy.second_order(packing, 0.01),
+          energy.second_order(packing, 0.01, Precision::extended), energy.contacts(packing)};
 }
 
 Answer fresh(const Packing& packing) {
@@ -44,10 +46,16 @@ void expect_same_bits(const Evaluation& one, const Evaluation& two) {
   EXPECT_EQ(one.contacts, two.contacts);
 }
 
+void expect_same_bits(const VolumePlane& one, const VolumePlane& two) {
+  EXPECT_EQ(one.at_rest, two.at_rest);
+  EXPECT_EQ(one.slope_a, two.slope_a);
+  EXPECT_EQ(one.slope_b, two.slope_b);
+}
+
 void expect_same_bits(const SecondOrder& one, const SecondOrder& two) {
   ASSERT_EQ(one.hessian.size(), two.hessian.size());
   ASSERT_EQ(one.hessian.off_diagonal.size(), two.hessian.off_diagonal.size());
-  ASSERT_EQ(one.tilts.size(), two.tilts.size());
+  ASSERT_EQ(one.pairs.size(), two.pairs.size());
   for (int i = 0; i < one.hessian.size(); ++i)
     EXPECT_EQ(one.hessian.diagonal[i], two.hessian.diagonal[i]) << "particle " << i;
   for (std::size_t k = 0; k < one.hessian.off_diagonal.size(); ++k) {
@@ -55,16 +63,21 @@ void expect_same_bits(const SecondOrder& one, const SecondOrder& two) {
     EXPECT_EQ(one.hessian.off_diagonal[k].column, two.hessian.off_diagonal[k].column);
     EXPECT_EQ(one.hessian.off_diagonal[k].value, two.hessian.off_diagonal[k].value) << "block " << k;
   }
-  for (std::size_t k = 0; k < one.tilts.size(); ++k) {
-    EXPECT_EQ(one.tilts[k].block, two.tilts[k].block);
-    EXPECT_EQ(one.tilts[k].value, two.tilts[k].value) << "tilt " << k;
+  for (std::size_t k = 0; k < one.pairs.size(); ++k) {
+    EXPECT_EQ(one.pairs[k].a, two.pairs[k].a);
+    EXPECT_EQ(one.pairs[k].b, two.pairs[k].b);
+    EXPECT_EQ(one.pairs[k].tilt, two.pairs[k].tilt) << "pair " << k;
+    expect_same_bits(one.pairs[k].now, two.pairs[k].now);
+    expect_same_bits(one.pairs[k].pressed, two.pairs[k].pressed);
   }
 }
 
 void expect_same_bits(const Answer& one, const Answer& two) {
   ASSERT_GT(one.evaluation.contacts, particles);
   expect_same_bits(one.evaluation, two.evaluation);
+  expect_same_bits(one.extended, two.extended);
   expect_same_bits(one.second, two.second);
+  expect_same_bits(one.extended_second, two.extended_second);
   ASSERT_EQ(one.contacts.size(), two.contacts.size());
   for (std::size_t k = 0; k < one.contacts.size(); ++k) {
     const Contact &c = one.contacts[k], &d = two.contacts[k];

@@ -1,5 +1,5 @@
-// Facts proved here, on Hessians of random packings of 1 … 200 particles, with particles without contacts, plus a
-// shift:
+// Facts proved here, on Hessians of random packings of 1 … 200 particles, with particles without contacts, and on
+// random matrices of other shapes (a chain, a star, two clusters, everything coupled to everything), plus a shift:
 //   H x by blocks is H x by the dense matrix;
 //   the solution has a backward error of a few roundings, and agrees with Eigen's dense LLT and sparse SimplicialLDLT
 //   as far as the condition number lets two solvers agree;
@@ -53,6 +53,26 @@ Packing pair_packing(SolidKind kind) {
   return packing;
 }
 
+/// Symmetric, of random blocks; `coupled(i, j)` says which pairs i < j have one.
+template <class Coupled>
+BlockMatrix random_blocks(int n, const Coupled& coupled) {
+  RandomStream random{21, static_cast<std::uint64_t>(n)};
+  const auto block = [&random] {
+    Matrix6d value;
+    for (double& entry : value.reshaped()) entry = random.normal();
+    return value;
+  };
+  BlockMatrix matrix;
+  for (int i = 0; i < n; ++i) {
+    const Matrix6d half = block();
+    matrix.diagonal.push_back(half + half.transpose());
+    for (int j = i + 1; j < n; ++j) {
+      if (coupled(i, j)) matrix.off_diagonal.push_back({i, j, block()});
+    }
+  }
+  return matrix;
+}
+
 std::vector<System> systems() {
   std::vector<System> list;
   BlockMatrix alone;
@@ -66,6 +86,14 @@ std::vector<System> systems() {
   list.push_back(system_of("N=64 dilute", hessian_of(sized_packing(SolidKind::tetrahedron, 64, 0.15, 4))));
   list.push_back(system_of("N=64 dense", hessian_of(sized_packing(SolidKind::tetrahedron, 64, 0.75, 5))));
   list.push_back(system_of("N=200 dense", hessian_of(sized_packing(SolidKind::octahedron, 200, 0.7, 6))));
+  list.push_back(system_of("chain", random_blocks(30, [](int i, int j) { return j == i + 1; })));
+  list.push_back(system_of("star", random_blocks(25, [](int i, int j) { return i == 12 || j == 12; })));
+  // Fronts wider than the columns that are put to use at once, with rows below them.
+  const auto cluster = [](int i) { return i / 30; };
+  list.push_back(system_of("two clusters", random_blocks(65, [&](int i, int j) {
+                             return cluster(i) == cluster(j) || std::max(cluster(i), cluster(j)) == 2;
+                           })));
+  list.push_back(system_of("everything coupled", random_blocks(61, [](int, int) { return true; })));
   return list;
 }
 

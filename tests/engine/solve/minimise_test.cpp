@@ -18,7 +18,7 @@
 namespace isojam {
 namespace {
 
-constexpr std::array methods{Method::conjugate_gradient, Method::lbfgs, Method::newton};
+constexpr std::array methods{Method::conjugate_gradient, Method::fire, Method::lbfgs, Method::newton};
 
 class MinimiseWith : public testing::TestWithParam<std::tuple<Method, SolidKind>> {};
 
@@ -48,8 +48,10 @@ TEST_P(MinimiseWith, ReachesTheResidualAskedFor) {
   PackingEnergy energy;
   MinimiseOptions options;
   options.method = method;
-  // Conjugate gradients creep: an order of magnitude costs them hundreds of evaluations.
-  options.residual = method == Method::conjugate_gradient ? 1e-4 : 1e-6;
+  // Conjugate gradients creep: an order of magnitude costs them hundreds of evaluations. FIRE starts again from rest
+  // whenever a contact comes or goes.
+  if (method == Method::conjugate_gradient) options.residual = 1e-4;
+  if (method == Method::fire) options.residual = 0.2;
   const MinimiseSummary summary = minimise(packing, energy, options);
   std::printf("N = %d: %s, residual %.1e, E/N %.1e, %ld evaluations, %ld iterations\n", packing.size(),
               to_string(summary.reason).data(), summary.residual, summary.energy / packing.size(), summary.evaluations,
@@ -67,14 +69,8 @@ TEST_P(MinimiseWith, ReachesTheResidualAskedFor) {
 
   EXPECT_GT(summary.iterations, 0);
   EXPECT_LT(summary.iterations, summary.evaluations);
-  // Newton's method evaluates once more for every Hessian.
-  const long hessians = energy.evaluations() - summary.evaluations;
-  if (method == Method::newton) {
-    EXPECT_GT(hessians, 0);
-    EXPECT_LE(hessians, summary.iterations + 1);
-  } else {
-    EXPECT_EQ(hessians, 0);
-  }
+  // Hessians come from the overlaps of an evaluation.
+  EXPECT_EQ(energy.evaluations(), summary.evaluations);
 }
 
 TEST(Minimise, AnswersThreadsWithTheSameBits) {

@@ -39,7 +39,8 @@ inline double over_compressed(SolidKind kind) { return kind == SolidKind::cube ?
 inline bool same_bits(const Packing& p, const Packing& q) {
   return p.solid == q.solid && p.cell.side() == q.cell.side() &&
          std::equal(p.poses.begin(), p.poses.end(), q.poses.begin(), q.poses.end(), [](const Pose& a, const Pose& b) {
-           return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+           return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
+                  a.position_low == b.position_low && a.orientation_low == b.orientation_low;
          });
 }
 

@@ -27,7 +27,7 @@ class StopReasonOf : public testing::TestWithParam<Method> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Methods, StopReasonOf,
-                         testing::Values(Method::conjugate_gradient, Method::lbfgs, Method::newton),
+                         testing::Values(Method::conjugate_gradient, Method::fire, Method::lbfgs, Method::newton),
                          [](const auto& test) { return std::string(to_string(test.param)); });
 
 TEST(StopReasonTest, DefaultSummaryWasNotCalled) {

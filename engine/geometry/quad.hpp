@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+
+#include "engine/geometry/two_double.hpp"
+
+namespace isojam {
+
+/// Quadruple precision (113 bits), in software: for constants, for degenerate pairs and for oracles.
+__extension__ using Quad = __float128;
+using Quad3 = std::array<Quad, 3>;
+using QuadMatrix = std::array<Quad3, 3>;  ///< rows
+
+inline Quad widened(const TwoDouble& x) { return Quad(x.high) + Quad(x.low); }
+
+/// Nearest double, and nearest double of the rest.
+inline TwoDouble narrowed(Quad x) {
+  const auto high = static_cast<double>(x);
+  return {high, static_cast<double>(x - Quad(high))};
+}
+
+inline Eigen::Vector3d rounded(const Quad3& p) {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+inline Quad3 operator+(const Quad3& p, const Quad3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
+inline Quad3 operator-(const Quad3& p, const Quad3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+inline Quad3 operator*(Quad s, const Quad3& p) { return {s * p[0], s * p[1], s * p[2]}; }
+inline Quad dot(const Quad3& p, const Quad3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+inline Quad3 cross(const Quad3& p, const Quad3& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
+inline Quad3 operator*(const QuadMatrix& m, const Quad3& p) { return {dot(m[0], p), dot(m[1], p), dot(m[2], p)}; }
+inline QuadMatrix operator-(const QuadMatrix& m, const QuadMatrix& n) {
+  return {m[0] - n[0], m[1] - n[1], m[2] - n[2]};
+}
+inline QuadMatrix transposed(const QuadMatrix& m) {
+  return {Quad3{m[0][0], m[1][0], m[2][0]}, Quad3{m[0][1], m[1][1], m[2][1]}, Quad3{m[0][2], m[1][2], m[2][2]}};
+}
+inline QuadMatrix operator*(const QuadMatrix& m, const QuadMatrix& n) {
+  const QuadMatrix columns = transposed(n);
+  return transposed({m * columns[0], m * columns[1], m * columns[2]});
+}
+
+/// Newton's method doubles the digits of the best guess that the standard library has.
+inline Quad square_root(Quad x) {
+  if (!(x > 0)) return 0;
+  const Quad guess = std::sqrt(static_cast<long double>(x));
+  return (guess + x / guess) / 2;
+}
+
+inline Quad cube_root(Quad x) {
+  if (x == 0) return 0;
+  const Quad guess = std::cbrt(static_cast<long double>(x));
+  return guess - (guess - x / (guess * guess)) / 3;
+}
+
+inline Quad norm(const Quad3& p) { return square_root(dot(p, p)); }
+
+}  // namespace isojam

@@ -1,0 +1,272 @@
+#include "engine/solve/factor/panels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
+
+namespace isojam::panels {
+
+namespace {
+
+#ifdef __AVX__
+constexpr int lanes = 4;
+#else
+constexpr int lanes = 2;
+#endif
+constexpr int vectors = height / lanes;
+using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+
+/// Columns worked on together: twelve rows of them leave registers for the factors.
+constexpr int step = 3;
+
+/// Columns of the factor that are put to use at once: a panel of them stays in the cache nearest to the core.
+constexpr int depth_at_once = 144;
+
+struct Tile {
+  Lanes of[step][vectors];
+};
+
+inline void load(const double* from, Lanes (&column)[vectors]) {
+#pragma GCC unroll 6
+  for (int v = 0; v < vectors; ++v) std::memcpy(&column[v], from + lanes * v, sizeof(Lanes));
+}
+
+inline void store(const Lanes (&column)[vectors], double* to) {
+#pragma GCC unroll 6
+  for (int v = 0; v < vectors; ++v) std::memcpy(to + lanes * v, &column[v], sizeof(Lanes));
+}
+
+#ifdef __FMA__
+inline Lanes spread(double b) { return _mm256_set1_pd(b); }
+/// c −= a·b, rounded once.
+inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) { c = _mm256_fnmadd_pd(a, b, c); }
+/// Keeps a value in its register: the compiler would read it from memory again at every use, and loads would become
+/// the limit.
+inline void keep(Lanes& value) { asm("" : "+x"(value)); }
+#else
+inline Lanes spread(double b) {
+  Lanes all = {};
+  for (int lane = 0; lane < lanes; ++lane) all[lane] = b;
+  return all;
+}
+inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) { c -= a * b; }
+inline void keep(Lanes& /*value*/) {}
+#endif
+
+/// tile − A Bᵀ, A the first `depth` columns of a panel, B as many of `step` rows of a panel.
+inline void subtract_product(const double* a, const double* b, int depth, Tile& tile) {
+  for (int k = 0; k < depth; ++k, a += height, b += height) {
+    Lanes column[vectors];
+    load(a, column);
+#pragma GCC unroll 6
+    for (int v = 0; v < vectors; ++v) keep(column[v]);
+#pragma GCC unroll 3
+    for (int j = 0; j < step; ++j) {
+      const Lanes factor = spread(b[j]);
+#pragma GCC unroll 6
+      for (int v = 0; v < vectors; ++v) subtract_product(column[v], factor, tile.of[j][v]);
+    }
+  }
+}
+
+inline void load(const double* from, Tile& tile) {
+#pragma GCC unroll 3
+  for (int j = 0; j < step; ++j) load(from + height * j, tile.of[j]);
+}
+
+inline void store(const Tile& tile, double* to) {
+#pragma GCC unroll 3
+  for (int j = 0; j < step; ++j) store(tile.of[j], to + height * j);
+}
+
+/// Where rows k … k + step − 1 begin.
+inline const double* rows_at(const double* matrix, int width, int k) {
+  return matrix + size(k / height, width) + k % height;
+}
+
+/// X L⁻ᵀ for `step` columns, `l` pointing at the corresponding square of L.
+inline void solve_step(const double* l, const double* reciprocals, Tile& x) {
+#pragma GCC unroll 3
+  for (int k = 0; k < step; ++k) {
+#pragma GCC unroll 3
+    for (int j = 0; j < k; ++j) {
+#pragma GCC unroll 6
+      for (int v = 0; v < vectors; ++v) subtract_product(x.of[j][v], spread(l[height * j + k]), x.of[k][v]);
+    }
+#pragma GCC unroll 6
+    for (int v = 0; v < vectors; ++v) x.of[k][v] *= reciprocals[k];
+  }
+}
+
+/// One panel of B L⁻ᵀ, columns first … last − 1; what columns before `first` do to them has been done.
+void solve_panel(const double* l, int width, const double* reciprocals, int first, int last, double* panel) {
+  for (int k = first; k < last; k += step) {
+    const double* rows = rows_at(l, width, k);
+    Tile tile;
+    load(panel + height * k, tile);
+    subtract_product(panel + height * first, rows + height * first, k - first, tile);
+    solve_step(rows + height * k, reciprocals + k, tile);
+    store(tile, panel + height * k);
+  }
+}
+
+/// What columns first … last − 1 do to the columns of a panel from `last` on, as far as `end`.
+void update_panel(const double* l, int width, int first, int last, int end, double* panel) {
+  for (int k = last; k < end; k += step) {
+    Tile tile;
+    load(panel + height * k, tile);
+    subtract_product(panel + height * first, rows_at(l, width, k) + height * first, last - first, tile);
+    store(tile, panel + height * k);
+  }
+}
+
+/// L of the square of `step` rows and columns at `a`; its reciprocals.
+bool factorise_step(double* a, double* reciprocals) {
+  for (int k = 0; k < step; ++k) {
+    const double pivot = a[height * k + k];
+    if (!(pivot > 0 && pivot <= std::numeric_limits<double>::max())) return false;
+    const double root = std::sqrt(pivot);
+    a[height * k + k] = root;
+    reciprocals[k] = 1 / root;
+    for (int i = k + 1; i < step; ++i) a[height * k + i] *= reciprocals[k];
+    for (int j = k + 1; j < step; ++j) {
+      for (int i = j; i < step; ++i) a[height * j + i] -= a[height * k + i] * a[height * k + j];
+    }
+  }
+  return true;
+}
+
+/// Columns k … k + step − 1 of the panel that holds their diagonal, as solve_panel does those left of it.
+bool factorise_diagonal(double* panel, int first, int k, double* reciprocals) {
+  const int row = k % height;
+  double* columns = panel + height * k;
+  Tile tile;
+  load(columns, tile);
+  subtract_product(panel + height * first, panel + height * first + row, k - first, tile);
+  double square[height * step];
+  store(tile, square);
+  if (!factorise_step(square + row, reciprocals)) return false;
+  solve_step(square + row, reciprocals, tile);
+  store(tile, columns);
+  for (int j = 0; j < step; ++j) {
+    std::fill_n(columns + height * j, row + j, 0.0);
+    std::copy_n(square + height * j + row + j, step - j, columns + height * j + row + j);
+  }
+  return true;
+}
+
+/// Column −= panel · z, z of `depth` entries.
+inline void subtract_columns(const double* panel, int depth, const double* z, Lanes (&column)[vectors]) {
+  for (int k = 0; k < depth; ++k, panel += height) {
+    Lanes term[vectors];
+    load(panel, term);
+    for (int v = 0; v < vectors; ++v) subtract_product(term[v], spread(z[k]), column[v]);
+  }
+}
+
+}  // namespace
+
+bool factorise(double* a, int width, double* reciprocals, double* b, int count) {
+  for (int first = 0; first < width; first += depth_at_once) {
+    const int last = std::min(first + depth_at_once, width);
+    for (int row = first; row < width; row += height) {
+      double* panel = a + size(row / height, width);
+      const int end = std::min(row + height, width);
+      solve_panel(a, width, reciprocals, first, std::min(row, last), panel);
+      for (int k = row; k < std::min(end, last); k += step) {
+        if (!factorise_diagonal(panel, first, k, reciprocals + k)) return false;
+      }
+      update_panel(a, width, first, last, end, panel);
+    }
+    for (int p = 0; p < count; ++p) {
+      solve_panel(a, width, reciprocals, first, last, b + size(p, width));
+      update_panel(a, width, first, last, width, b + size(p, width));
+    }
+  }
+  return true;
+}
+
+void subtract_square(const double* x, int width, int count, double* c) {
+  for (int first = 0; first < width; first += depth_at_once) {
+    const int depth = std::min(depth_at_once, width - first);
+    for (int p = 0; p < count; ++p) {
+      const double* rows = x + size(p, width) + height * first;
+      double* to = c + packed_size(p);
+      for (int j = 0; j < height * (p + 1); j += step, to += height * step) {
+        Tile tile;
+        load(to, tile);
+        subtract_product(rows, rows_at(x, width, j) + height * first, depth, tile);
+        store(tile, to);
+      }
+    }
+  }
+}
+
+void solve_forward(const double* l, int width, const double* reciprocals, double* y) {
+  for (int first = 0; first < width; first += height) {
+    const double* panel = l + size(first / height, width);
+    double rows[height] = {};
+    const int count = std::min(height, width - first);
+    std::copy_n(y + first, count, rows);
+    Lanes column[vectors];
+    load(rows, column);
+    subtract_columns(panel, first, y, column);
+    for (int k = 0; k < count; ++k) {
+      store(column, rows);
+      y[first + k] = rows[k] * reciprocals[first + k];
+      subtract_columns(panel + height * (first + k), 1, y + first + k, column);
+    }
+  }
+}
+
+void solve_backward(const double* l, int width, const double* reciprocals, double* y) {
+  for (int first = (width - 1) / height * height; first >= 0; first -= height) {
+    const double* panel = l + size(first / height, width);
+    double rows[height] = {};
+    for (int k = std::min(height, width - first) - 1; k >= 0; --k) {
+      const double* column = panel + height * (first + k);
+      double sum = y[first + k];
+      for (int i = height - 1; i > k; --i) sum -= column[i] * rows[i];
+      y[first + k] = rows[k] = sum * reciprocals[first + k];
+    }
+    subtract_transposed(panel, first, 1, rows, y);
+  }
+}
+
+void subtract_product(const double* x, int width, int count, const double* z, double* y) {
+  for (int p = 0; p < count; ++p) {
+    Lanes column[vectors];
+    load(y + height * p, column);
+    subtract_columns(x + size(p, width), width, z, column);
+    store(column, y + height * p);
+  }
+}
+
+void subtract_transposed(const double* x, int width, int count, const double* y, double* z) {
+  constexpr int columns = 6;
+  for (int k = 0; k < width; k += columns) {
+    Lanes sums[columns] = {};
+    for (int p = 0; p < count; ++p) {
+      const double* from = x + size(p, width) + height * k;
+      Lanes rows[vectors];
+      load(y + height * p, rows);
+#pragma GCC unroll 6
+      for (int j = 0; j < columns; ++j) {
+        Lanes column[vectors];
+        load(from + height * j, column);
+#pragma GCC unroll 6
+        for (int v = 0; v < vectors; ++v) subtract_product(column[v], rows[v], sums[j]);
+      }
+    }
+    for (int j = 0; j < columns; ++j) {
+      for (int lane = 0; lane < lanes; ++lane) z[k + j] += sums[j][lane];
+    }
+  }
+}
+
+}  // namespace isojam::panels

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+
+// Dense kernels of the multifrontal factorisation. A matrix is kept in panels of 12 rows, two particles each, so that
+// every kernel reads both of its factors as one stream: entry (i, j) of a matrix of c columns is at
+//   12·c·(i / 12) + 12·j + i mod 12.
+// A symmetric matrix is kept as its lower half, panel by panel: panel p has 12·(p + 1) columns. The last panel of an
+// odd number of particles is half padding, which has to be zero and stays so. All sizes in doubles but for panels.
+
+namespace isojam::panels {
+
+inline constexpr int height = 12;
+
+constexpr std::ptrdiff_t size(int count, int columns) { return std::ptrdiff_t{height} * count * columns; }
+constexpr std::ptrdiff_t packed_size(int count) { return std::ptrdiff_t{height} * height * count * (count + 1) / 2; }
+
+/// L of A = L Lᵀ in place of the lower half of A, which has `width` rows and columns, a multiple of 6; what was above
+/// the diagonal becomes zero. `reciprocals` receives 1/L_kk. B L⁻ᵀ in place of B, which has `count` panels.
+/// False if a pivot was not a positive number.
+bool factorise(double* a, int width, double* reciprocals, double* b, int count);
+
+/// The lower half of C − X Xᵀ in place of C, which is packed; X has `count` panels of `width` columns.
+void subtract_square(const double* x, int width, int count, double* c);
+
+/// L⁻¹ y in place of y, which has `width` entries.
+void solve_forward(const double* l, int width, const double* reciprocals, double* y);
+
+/// L⁻ᵀ y in place of y.
+void solve_backward(const double* l, int width, const double* reciprocals, double* y);
+
+/// y −= X z, z of `width` entries, y of 12·count.
+void subtract_product(const double* x, int width, int count, const double* z, double* y);
+
+/// z −= Xᵀ y.
+void subtract_transposed(const double* x, int width, int count, const double* y, double* z);
+
+}  // namespace isojam::panels

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "engine/solve/factor/block_cholesky.hpp"
+
+namespace isojam {
+
+/// (H − σ·1)⁻¹ for any σ that is not an eigenvalue: by BlockCholesky while the shifted matrix is positive definite, by
+/// Eigen's SimplicialLDLT where it is not. The operator that Spectra's shift-invert solvers ask for; H must outlive it.
+///
+///   ShiftInvert operation(hessian);
+///   Spectra::SymEigsShiftSolver<ShiftInvert> solver(operation, 53, 120, -1e-9 * stiffness);
+class ShiftInvert {
+ public:
+  using Scalar = double;
+
+  explicit ShiftInvert(const BlockMatrix& matrix) : matrix_(matrix) {}
+
+  Eigen::Index rows() const { return 6 * Eigen::Index{matrix_.size()}; }
+  Eigen::Index cols() const { return rows(); }
+  /// Factorises. Throws std::domain_error if a pivot is zero or not finite: σ is an eigenvalue (of a leading part) of H
+  /// to working precision, or H holds what is not a number.
+  void set_shift(double sigma);
+  /// y = (H − σ·1)⁻¹ x, both of rows() entries.
+  void perform_op(const double* x, double* y) const;
+
+  bool positive_definite() const { return positive_definite_; }  ///< of H − σ·1
+  /// Eigenvalues of H below σ, by Sylvester's law of inertia.
+  int negative_pivots() const { return negative_pivots_; }
+
+ private:
+  const BlockMatrix& matrix_;
+  BlockCholesky cholesky_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt_;
+  bool positive_definite_ = false;
+  int negative_pivots_ = 0;
+};
+
+/// H + shift·1, its lower half.
+Eigen::SparseMatrix<double> lower_half(const BlockMatrix& matrix, double shift);
+
+}  // namespace isojam

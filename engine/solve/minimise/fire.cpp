@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/solve/minimise/descent.hpp"
+
+// Damped dynamics that stops whenever it goes uphill (Bitzek, Koskinen, Gähler, Moseler & Gumbsch 2006), with unit
+// masses in (x, R·θ) and the constants of that paper.
+
+namespace isojam {
+
+namespace {
+
+constexpr double grow = 1.1, shrink = 0.5, first_mixing = 0.1, mixing_decay = 0.99;
+constexpr int downhill_before_growth = 5;
+
+/// Time steps in units of the period scale 1/√λ of the stiffest particle.
+constexpr double first_time = 0.1, longest_time = 100;
+
+struct Motion {
+  Eigen::VectorXd velocity;
+  double time = 0, mixing = first_mixing;
+  int downhill = 0;
+};
+
+/// Turns the velocity towards the force, or stops it where it leads uphill.
+void steer(const Eigen::VectorXd& force, double longest, Motion& motion) {
+  if (force.dot(motion.velocity) > 0) {
+    motion.velocity =
+        (1 - motion.mixing) * motion.velocity + motion.mixing * motion.velocity.norm() / force.norm() * force;
+    if (++motion.downhill > downhill_before_growth) {
+      motion.time = std::min(grow * motion.time, longest);
+      motion.mixing *= mixing_decay;
+    }
+  } else {
+    motion.velocity.setZero();
+    motion.time *= shrink;
+    motion.mixing = first_mixing;
+    motion.downhill = 0;
+  }
+}
+
+}  // namespace
+
+MinimiseSummary minimise_fire(Descent& descent) {
+  if (const auto reason = descent.verdict()) return descent.finish(*reason);
+  Packing current = descent.packing();
+  Evaluation value = descent.here();
+  double stiffest = 0;
+  for (const Matrix6d& block : descent.second_order(current, 0).hessian.diagonal)
+    stiffest = std::max(stiffest, block.diagonal().maxCoeff());
+  const double period = 1 / std::sqrt(stiffest);
+  Motion motion{Eigen::VectorXd::Zero(value.gradient.size()), first_time * period};
+  while (true) {
+    if (const auto reason = descent.verdict()) return descent.finish(*reason);
+    if (!std::isfinite(value.energy)) return descent.finish(StopReason::not_finite);
+    const Eigen::VectorXd force = -value.gradient;
+    steer(force, longest_time * period, motion);
+    motion.velocity += motion.time * force;
+    Eigen::VectorXd step = motion.time * motion.velocity;
+    step *= std::min(1.0, descent.longest_displacement() / largest_displacement(step));
+    Packing next = current;
+    value = descent.probe(current, step, next);
+    current = std::move(next);
+    // Dynamics may go uphill for a while; the best state seen is kept.
+    if (value.energy < descent.here().energy || value.residual <= descent.options().residual)
+      descent.accept(current, value);
+  }
+}
+
+}  // namespace isojam

@@ -1,0 +1,154 @@
+// Facts proved here:
+//   in a state without pairs to come, the step is Newton's: −(H + μ)⁻¹ g with the tilt terms that μ calls for, and the
+//   decrease that of E + g·s + ½ s·H s;
+//   a face pushed across a gap stops where it meets the other: the pressed plane is as deep there as the spring of its
+//   area balances the push, whatever the first guess; the model without closing pairs runs through;
+//   the pairs found are handed back as the next first guess;
+//   the promised decrease of an anticipated contact is the one that the energy delivers, and without anticipation
+//   the same state promises what it cannot keep;
+//   a step is never longer than allowed; an indefinite matrix is refused until the shift makes it positive.
+
+#include "engine/solve/minimise/step_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <limits>
+
+#include "engine/solve/minimise/descent.hpp"
+#include "tests/engine/solve/solve_support.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double unlimited = std::numeric_limits<double>::max();
+
+/// Three unit cubes in a row along x: the first two overlap by `depth`, the third stands `gap` away.
+Packing row_of_cubes(double depth, double gap) {
+  Packing packing{&platonic(SolidKind::cube), PeriodicCell(10), std::vector<Pose>(3)};
+  packing.poses[0].position = Vector3d(3, 5, 5);
+  packing.poses[1].position = Vector3d(4 - depth, 5, 5);
+  packing.poses[2].position = Vector3d(5 - depth + gap, 5, 5);
+  return packing;
+}
+
+struct Case {
+  Packing packing;
+  Evaluation value;
+  SecondOrder second;
+};
+
+Case case_of(const Packing& packing, double press) {
+  PackingEnergy energy;
+  Evaluation value = energy.evaluate(packing);
+  SecondOrder second = energy.second_order(packing, press);
+  return {packing, std::move(value), std::move(second)};
+}
+
+TEST(StepModel, IsNewtonsWithoutPairsToCome) {
+  for (const SolidKind kind : all_solids) {
+    const Case state = case_of(small_packing(kind, 0.8, 31), 0);
+    StepModel model(state.second, state.value.gradient, unlimited);
+    double shift = 2 * model.stiffness();  // large: all tilt terms complete, no contact tilts by itself
+    BlockCholesky factor;
+    ActivePairs active;
+    std::optional<ModelStep> step;
+    while (!(step = model.minimise(shift, factor, active))) shift *= 2;
+    EXPECT_TRUE(active.pressed.empty());
+    const Eigen::MatrixXd hessian = dense(state.second.hessian);
+    Eigen::MatrixXd matrix = hessian + shift * Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols());
+    for (const PressedPair& pair : state.second.pairs) {
+      matrix.block<3, 3>(6 * pair.a + 3, 6 * pair.a + 3) += pair.tilt;
+      matrix.block<3, 3>(6 * pair.b + 3, 6 * pair.b + 3) += pair.tilt;
+      matrix.block<3, 3>(6 * pair.a + 3, 6 * pair.b + 3) -= pair.tilt;
+      matrix.block<3, 3>(6 * pair.b + 3, 6 * pair.a + 3) -= pair.tilt;
+    }
+    const VectorXd expected = -matrix.llt().solve(state.value.gradient);
+    EXPECT_LE((step->displacement - expected).norm(), 1e-12 * expected.norm()) << platonic(kind).name();
+    const double decrease = -state.value.gradient.dot(expected) - expected.dot(hessian * expected) / 2;
+    EXPECT_NEAR(step->decrease, decrease, 1e-12 * decrease) << platonic(kind).name();
+  }
+}
+
+/// The middle cube is pushed away by the first, across the gap, to the third.
+TEST(StepModel, StopsWhereFacesMeet) {
+  const double depth = 1e-4, gap = 1e-6;
+  const Case state = case_of(row_of_cubes(depth, gap), 1e-5);
+  ASSERT_EQ(state.value.contacts, 1);
+  StepModel model(state.second, state.value.gradient, unlimited);
+  const double shift = 1e-3 * model.stiffness();
+  BlockCholesky factor;
+  ActivePairs found, none, wrong{{{0, 1}, {1, 2}}, {{0, 1}}};
+  const auto step = model.minimise(shift, factor, found);
+  ASSERT_TRUE(step);
+  ASSERT_EQ(found.pressed, (std::vector<std::pair<int, int>>{{1, 2}}));
+  // Springs of equal area in a row, the outer cubes free: what the middle one leaves, the third one takes.
+  const VolumePlane& plane = state.second.pairs.at(1).pressed;
+  const double first = state.second.pairs[0].now.at(step->displacement, 0, 1);
+  const double second = plane.at(step->displacement, 1, 2);
+  EXPECT_GT(second, -1e-6 * gap);
+  EXPECT_LT(first, depth);
+  for (ActivePairs guess : {found, wrong}) {
+    const auto again = model.minimise(shift, factor, guess);
+    ASSERT_TRUE(again);
+    EXPECT_LE((again->displacement - step->displacement).norm(), 1e-6 * step->displacement.norm());
+    EXPECT_EQ(guess.pressed, found.pressed);
+  }
+  model.forget_closing_pairs();
+  const auto blind = model.minimise(shift, factor, none);
+  ASSERT_TRUE(blind);
+  EXPECT_TRUE(none.pressed.empty());
+  EXPECT_GT(plane.at(blind->displacement, 1, 2), 10 * gap) << "nothing in its way";
+}
+
+/// With a shift that keeps the outer cubes in place, the middle one settles between them.
+TEST(StepModel, PromisesWhatTheEnergyDelivers) {
+  const double depth = 1e-4, gap = 1e-6;
+  const Packing packing = row_of_cubes(depth, gap);
+  const auto outcome = [&](bool anticipate) {
+    const Case state = case_of(packing, 1e-5);
+    StepModel model(state.second, state.value.gradient, unlimited);
+    if (!anticipate) model.forget_closing_pairs();
+    BlockCholesky factor;
+    ActivePairs active;
+    const auto step = model.minimise(0.01 * model.stiffness(), factor, active);
+    const double actual = state.value.energy - PackingEnergy().evaluate(moved(packing, step->displacement)).energy;
+    return std::pair(step->decrease, actual);
+  };
+  const auto [promised, actual] = outcome(true);
+  EXPECT_GT(actual, 0);
+  EXPECT_NEAR(promised, actual, 0.01 * actual);
+  const auto [hoped, got] = outcome(false);
+  EXPECT_GT(hoped - got, 0.1 * hoped) << "promised " << hoped << ", got " << got;
+}
+
+TEST(StepModel, KeepsToTheLongestStep) {
+  const Case state = case_of(small_packing(SolidKind::octahedron, 0.8, 33), 0.01);
+  for (const double longest : {1e-2, 1e-4, 1e-8}) {
+    StepModel model(state.second, state.value.gradient, longest);
+    BlockCholesky factor;
+    ActivePairs active;
+    for (double shift = 1e-6 * model.stiffness(); shift <= 1e3 * model.stiffness(); shift *= 10) {
+      const auto step = model.minimise(shift, factor, active);
+      if (!step) continue;
+      EXPECT_LE(largest_displacement(step->displacement), longest * (1 + 1e-12)) << "shift " << shift;
+    }
+  }
+}
+
+TEST(StepModel, RefusesAnIndefiniteMatrix) {
+  Case state = case_of(small_packing(SolidKind::dodecahedron, 0.8, 34), 0);
+  StepModel sound(state.second, state.value.gradient, unlimited);
+  for (Matrix6d& block : state.second.hessian.diagonal) block.diagonal().array() -= 2 * sound.stiffness();
+  StepModel model(state.second, state.value.gradient, unlimited);
+  BlockCholesky factor;
+  ActivePairs active;
+  EXPECT_FALSE(model.minimise(0, factor, active));
+  EXPECT_TRUE(model.minimise(100 * sound.stiffness(), factor, active));
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,69 @@
+#include "tests/oracle/quad_packing.hpp"
+
+#include <algorithm>
+
+#include "engine/packing/neighbours.hpp"
+
+namespace isojam::oracle {
+
+namespace {
+
+Quad3 quad_displacement(const Packing& packing, const NeighbourPair& pair) {
+  Quad3 r = quad_position(packing.poses[pair.b]) - quad_position(packing.poses[pair.a]);
+  for (int c = 0; c < 3; ++c) r[c] += Quad(packing.cell.side()) * pair.shift[c];
+  return r;
+}
+
+}  // namespace
+
+QuadEvaluation evaluate_in_quad(const Packing& packing) {
+  const ConvexSolid& solid = *packing.solid;
+  QuadEvaluation sum;
+  sum.force.resize(packing.poses.size());
+  sum.torque.resize(packing.poses.size());
+  for (const NeighbourPair& pair : find_neighbours_brute_force(packing, 2.001 * solid.circumradius())) {
+    const Pose &a = packing.poses[pair.a], &b = packing.poses[pair.b];
+    const Quad3 r = quad_displacement(packing, pair);
+    const QuadOverlap overlap = clipped_overlap(solid, solid, relative_pose(a, b, r));
+    if (!(overlap.volume > 0)) continue;
+    const QuadMatrix q = quad_rotation(a);
+    const Quad3 force = -overlap.volume / 2 * (q * overlap.area);
+    const Quad3 torque = -overlap.volume / 2 * (q * overlap.moment);
+    sum.energy += overlap.volume * overlap.volume / 4;
+    sum.force[pair.a] = sum.force[pair.a] + force;
+    sum.force[pair.b] = sum.force[pair.b] - force;
+    sum.torque[pair.a] = sum.torque[pair.a] + torque;
+    // The same line of action seen from B's centre.
+    sum.torque[pair.b] = sum.torque[pair.b] - torque + cross(r, force);
+    sum.mean_force += norm(force);
+    ++sum.contacts;
+  }
+  if (sum.contacts == 0) return sum;
+  sum.mean_force /= sum.contacts;
+  Quad imbalance = 0;
+  for (const Quad3& force : sum.force) imbalance = std::max(imbalance, norm(force));
+  for (const Quad3& torque : sum.torque) imbalance = std::max(imbalance, norm(torque) / solid.gyration_radius());
+  sum.residual = imbalance / sum.mean_force;
+  return sum;
+}
+
+std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing) {
+  std::vector<Quad> gradient;
+  for (std::size_t i = 0; i < packing.poses.size(); ++i) {
+    for (const Quad f : evaluation.force[i]) gradient.push_back(-f);
+    for (const Quad t : evaluation.torque[i]) gradient.push_back(-t / packing.solid->gyration_radius());
+  }
+  return gradient;
+}
+
+Eigen::VectorXd difference_of_gradients(const Packing& packing, const Eigen::VectorXd& direction, double h) {
+  const Packing ahead = moved(packing, h * direction), behind = moved(packing, -h * direction);
+  const std::vector<Quad> there = gradient_of(evaluate_in_quad(ahead), ahead),
+                          back = gradient_of(evaluate_in_quad(behind), behind);
+  Eigen::VectorXd result(direction.size());
+  for (Eigen::Index k = 0; k < result.size(); ++k)
+    result[k] = static_cast<double>((there[k] - back[k]) / (2 * Quad(h)));
+  return result;
+}
+
+}  // namespace isojam::oracle
