@@ -44,6 +44,7 @@ void turn(const TwoDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, Arr
   turn_row(q(1, 0), q(1, 1), q(1, 2), v, v_low, n, turned.y, turned_low.y);
   turn_row(q(2, 0), q(2, 1), q(2, 2), v, v_low, n, turned.z, turned_low.z);
 }
+void set_row(const Eigen::Vector3d& v, double* row) { row[0] = v.x(), row[1] = v.y(), row[2] = v.z(), row[3] = 0; }
 
 void set_row(const Eigen::Vector3d& v, double* row) { row[0] = v.x(), row[1] = v.y(), row[2] = v.z(), row[3] = 0; }
 

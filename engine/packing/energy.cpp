@@ -97,6 +97,13 @@ void bound_rounding(const Packing& packing, Precision precision, const Accumulat
   result.energy_noise = sums.force * ulp;
 }
 
+bool is_finite(const Packing& packing) {
+  return std::all_of(packing.poses.begin(), packing.poses.end(), [](const Pose& pose) {
+    return pose.position.allFinite() && pose.orientation.coeffs().allFinite() && pose.position_low.allFinite() &&
+           pose.orientation_low.allFinite();
+  });
+}
+
 double largest_imbalance(const Eigen::VectorXd& gradient) {
   double largest = 0;
   for (Eigen::Index k = 0; k < gradient.size(); k += 3) largest = std::max(largest, gradient.segment<3>(k).norm());
@@ -139,9 +146,15 @@ void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
 }
 
 Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) {
-  overlap_all(packing, precision);
   ++evaluations_;
   Evaluation result;
+  if (!is_finite(packing)) {
+    // Comparisons with what is not a number would call every pair apart.
+    result.energy = std::numeric_limits<double>::quiet_NaN();
+    result.gradient = Eigen::VectorXd::Constant(6 * packing.size(), result.energy);
+    return result;
+  }
+  overlap_all(packing, precision);
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
   const std::vector<double> zeros(packing.poses.size(), 0.0);
   Accumulator on_the_way{0, zeros, zeros};

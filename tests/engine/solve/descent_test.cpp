@@ -66,7 +66,7 @@ TEST_P(DescentOf, TakesTheStepItReports) {
   options.residual = 1e-7;
   PackingEnergy energy;
   minimise(packing, energy, options);
-  const int unresolved = wander(packing, 100, random);
+  const int unresolved = wander(packing, 300, random);
   std::printf("%d steps below the noise of the energy\n", unresolved);
   EXPECT_GT(unresolved, 0);
 }

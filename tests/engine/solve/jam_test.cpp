@@ -24,8 +24,9 @@ JamOptions lax() {
   JamOptions options;
   options.initial_density = 0.2;
   options.consolidation_step = 0.03;
-  options.approach = 0.35;
+  options.approach = 0.25;
   options.final_distance = 0.02;
+  options.longest_step = 0.025;
   options.fit_window = 0.06;
   options.passing_evaluations = 200;
   options.minimise.residual = 1e-5;
