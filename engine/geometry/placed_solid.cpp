@@ -46,8 +46,6 @@ void turn(const TwoDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, Arr
 }
 void set_row(const Eigen::Vector3d& v, double* row) { row[0] = v.x(), row[1] = v.y(), row[2] = v.z(), row[3] = 0; }
 
-void set_row(const Eigen::Vector3d& v, double* row) { row[0] = v.x(), row[1] = v.y(), row[2] = v.z(), row[3] = 0; }
-
 }  // namespace
 
 PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation)
