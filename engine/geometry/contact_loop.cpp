@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 
 #include "engine/geometry/refine.hpp"
 
@@ -81,7 +80,8 @@ constexpr double at_tail = 0;
 constexpr double at_head = 1 + 64 * std::numeric_limits<double>::epsilon();  // past every tagged parameter
 
 /// Where an edge enters and leaves the other solid, in every lane: the parameter (0 at the tail, 1 at the head), tagged
-/// by the plane.
+/// by the plane. Parameters closer than 64 ulp are told apart by their tags: then an edge of the intersection that
+/// short is gained or lost, or the loop does not close.
 struct Interval {
   Lanes enter, leave;
 };

@@ -1,11 +1,7 @@
 #include "engine/geometry/overlap.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "engine/geometry/contact_loop.hpp"
 #include "engine/geometry/lanes.hpp"
