@@ -28,9 +28,11 @@ void append_images(const Packing& packing, int a, int b, double reach, std::vect
   }
 }
 
-void sort_canonically(std::vector<NeighbourPair>& pairs) {
+/// From the `first` on, in order of (a, b, shift).
+void sort_canonically(std::vector<NeighbourPair>& pairs, std::size_t first) {
   const auto key = [](const NeighbourPair& p) { return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]); };
-  std::sort(pairs.begin(), pairs.end(), [&](const auto& p, const auto& q) { return key(p) < key(q); });
+  std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
+            [&](const auto& p, const auto& q) { return key(p) < key(q); });
 }
 
 /// Particles by cell of a grid with `cells` ≥ 3 cells a side.
@@ -96,7 +98,7 @@ std::vector<NeighbourPair> find_neighbours_brute_force(const Packing& packing, d
   for (int a = 0; a < packing.size(); ++a) {
     for (int b = a + 1; b < packing.size(); ++b) append_images(packing, a, b, reach, pairs);
   }
-  sort_canonically(pairs);
+  sort_canonically(pairs, 0);
   return pairs;
 }
 
@@ -106,11 +108,12 @@ std::vector<NeighbourPair> find_neighbours(const Packing& packing, double reach)
   const CellGrid grid(packing, cells);
   std::vector<NeighbourPair> pairs;
   for (int a = 0; a < packing.size(); ++a) {
+    const std::size_t first = pairs.size();
     grid.for_each_near(a, [&](int b) {
       if (a < b) append_images(packing, a, b, reach, pairs);
     });
+    sort_canonically(pairs, first);
   }
-  sort_canonically(pairs);
   return pairs;
 }
 

@@ -41,7 +41,6 @@ bool register_all() {
                                 {"tetrahedron_.01", SolidKind::tetrahedron, .01}};
   const auto add = [](const std::string& name, const Case& which, Method method, double residual, int repetitions) {
     benchmark::RegisterBenchmark(name.c_str(), minimisation, which, method, residual)
-        ->UseRealTime()
         ->Iterations(1)
         ->Repetitions(repetitions);
   };

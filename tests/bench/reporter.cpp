@@ -58,7 +58,7 @@ std::string_view word(const Verdict& verdict) {
 std::string required(const Claim& claim) {
   if (claim.bound == 0) return "";
   return (claim.kind == Claim::Kind::faster ? ">= " : "<= ") +
-         readable(claim.bound, claim.kind == Claim::Kind::absolute);
+         readable(claim.bound, claim.kind == Claim::Kind::absolute && is_time(claim.ours));
 }
 
 }  // namespace
@@ -87,7 +87,9 @@ void MedianReporter::ReportRuns(const std::vector<Run>& runs) {
       continue;
     }
     const double unit = benchmark::GetTimeUnitMultiplier(run.time_unit) / 1e9;
-    samples_[name].push_back(run.GetAdjustedRealTime() / unit);
+    // What runs on one thread is measured in its own CPU time: another process on the machine then hardly shows.
+    const bool wall_clock = run.run_name.time_type == "real_time";
+    samples_[name].push_back((wall_clock ? run.GetAdjustedRealTime() : run.GetAdjustedCPUTime()) / unit);
     if (!run.report_label.empty()) labels_[name] = run.report_label;
     for (const auto& [counter, value] : run.counters) samples_[name + '#' + counter].push_back(value.value);
   }
