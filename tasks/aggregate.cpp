@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "tasks/input_error.hpp"
 #include "tasks/plan.hpp"
@@ -19,6 +21,21 @@ using Point = std::map<ReplicateKey, const RecordSummary*>;
 std::string describe(const RecordSummary& record) {
   return fmt::format("{} replicate {} of manifest {}", point_text(record.solid, record.particles, record.parameters),
                      record.replicate, record.manifest_digest);
+}
+
+/// Linear in ln Δφ between the states on either side of `distance`, column by column; nothing where they do not enclose
+/// it or one lacks the value.
+Values interpolated(std::span<const StateValues> states, double distance) {
+  const auto above =
+      std::find_if(states.begin(), states.end(), [=](const StateValues& s) { return s.delta_phi >= distance; });
+  if (above == states.begin() || above == states.end()) return {};
+  const StateValues &low = above[-1], &high = *above;
+  const double weight = std::log(distance / low.delta_phi) / std::log(high.delta_phi / low.delta_phi);
+  Values values;
+  for (std::size_t i = 0; i < all_columns.size(); ++i) {
+    if (low.values[i] && high.values[i]) values[i] = (1 - weight) * *low.values[i] + weight * *high.values[i];
+  }
+  return values;
 }
 
 /// First path at which two JSON values differ.
@@ -41,25 +58,56 @@ void add(Point& point, const RecordSummary& record) {
   }
 }
 
+/// The values of a sweep point's replicates, column by column.
+class Samples {
+ public:
+  void add(const Values& values, bool flagged) {
+    for (std::size_t i = 0; i < all_columns.size(); ++i) {
+      if (!values[i]) continue;
+      all_[i].push_back(*values[i]);
+      if (!flagged) unflagged_[i].push_back(*values[i]);
+    }
+  }
+  bool empty() const {
+    return std::all_of(all_.begin(), all_.end(), [](const auto& values) { return values.empty(); });
+  }
+  /// With the flagged replicates, and without.
+  std::pair<Estimates, Estimates> estimates(const std::string& point) const {
+    std::pair<Estimates, Estimates> result;
+    for (std::size_t i = 0; i < all_columns.size(); ++i) {
+      const auto seed = hash_of(point + std::string(all_columns[i].name));
+      result.first[i] = estimate(all_[i], seed);
+      result.second[i] = estimate(unflagged_[i], seed);
+    }
+    return result;
+  }
+
+ private:
+  std::array<std::vector<double>, all_columns.size()> all_, unflagged_;
+};
+
 Row make_row(const Point& point) {
   const auto& first = *point.begin()->second;
-  Row row{first.solid, first.particles, first.parameters, static_cast<int>(point.size()), 0, 0, {}, {}, {}};
-  std::array<std::vector<double>, columns.size()> values, unflagged;
+  Row row;
+  row.solid = first.solid;
+  row.particles = first.particles;
+  row.parameters = first.parameters;
+  row.replicates = static_cast<int>(point.size());
+  Samples nearest;
   for (const auto& [key, record] : point) {
     row.failed += record->failed;
     row.flagged += record->flagged;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (!record->values[i]) continue;
-      values[i].push_back(*record->values[i]);
-      if (!record->flagged) unflagged[i].push_back(*record->values[i]);
-    }
+    nearest.add(record->values, record->flagged);
     if (record->residual) row.residual = std::max(row.residual.value_or(0), *record->residual);
   }
   const auto text = point_text(first.solid, first.particles, first.parameters);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const auto seed = hash_of(text + std::string(columns[i].name));
-    row.estimates[i] = estimate(std::move(values[i]), seed);
-    row.unflagged[i] = estimate(std::move(unflagged[i]), seed);
+  std::tie(row.estimates, row.unflagged) = nearest.estimates(text);
+  for (const double distance : series_distances) {
+    Samples there;
+    for (const auto& [key, record] : point) there.add(interpolated(record->states, distance), record->flagged);
+    if (there.empty()) continue;
+    row.series.push_back({distance, {}, {}});
+    std::tie(row.series.back().estimates, row.series.back().unflagged) = there.estimates(text);
   }
   return row;
 }

@@ -10,6 +10,14 @@
 
 namespace isojam {
 
+using Estimates = std::array<Estimate, all_columns.size()>;
+
+/// Estimates at one distance above jamming; those of replicates are empty.
+struct SeriesPoint {
+  double delta_phi = 0;
+  Estimates estimates, unflagged;
+};
+
 /// One sweep point.
 struct Row {
   SolidKind solid = SolidKind::tetrahedron;
@@ -17,10 +25,11 @@ struct Row {
   Json parameters;     ///< the other swept values
   int replicates = 0;  ///< recorded, the failed ones included
   int failed = 0;
-  int flagged = 0;  ///< did not fail, count in the estimates, but their records hold a reservation
-  std::array<Estimate, columns.size()> estimates;  ///< over replicates that did not fail and have the value
-  std::array<Estimate, columns.size()> unflagged;  ///< the same without the flagged replicates
-  std::optional<double> residual;                  ///< worst of the states behind φ_J; nullopt if all failed
+  int flagged = 0;                  ///< did not fail, count in the estimates, but their records hold a reservation
+  Estimates estimates;              ///< over replicates that did not fail and have the value
+  Estimates unflagged;              ///< the same without the flagged replicates
+  std::vector<SeriesPoint> series;  ///< at those of series_distances that a replicate's states enclose
+  std::optional<double> residual;   ///< worst of the states behind φ_J; nullopt if all failed
 };
 
 /// Rows in order of solid, particles, parameters.

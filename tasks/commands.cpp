@@ -59,14 +59,14 @@ std::size_t run_missing(const std::vector<ReplicateSpec>& missing, const Store& 
 
 void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
-std::string formatted(const Table& table, TableFormat format) {
+std::string formatted(const Table& table, TableFormat format, View view) {
   switch (format) {
     case TableFormat::json: return pretty(to_json(table));
-    case TableFormat::csv: return to_csv(table);
-    case TableFormat::latex: return to_latex(table);
+    case TableFormat::csv: return to_csv(table, view);
+    case TableFormat::latex: return to_latex(table, view);
     case TableFormat::text: break;
   }
-  return to_text(table);
+  return to_text(table, view);
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ ExitCode aggregate_directories(const AggregateCommand& command) {
   }
   const auto table = aggregate(records);
   if (!command.output.empty()) write_atomically(command.output, pretty(to_json(table)));
-  print(formatted(table, command.format));
+  print(formatted(table, command.format, command.series ? View::series : View::nearest));
   return ExitCode::done;
 }
 

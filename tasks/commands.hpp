@@ -29,6 +29,7 @@ struct AggregateCommand {
   std::vector<std::string> directories;
   std::string output;  ///< tables.json to write; empty: none
   TableFormat format = TableFormat::text;
+  bool series = false;  ///< quantities against Δφ instead of those nearest jamming; JSON has both
 };
 
 /// Reads only, but for the output asked for. The table goes to stdout in the format asked for.

@@ -10,10 +10,12 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <exception>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -33,7 +35,7 @@ struct Passed {
 
 using Placed = Passed<Packing>;
 using Jammed = Passed<JamResult>;
-using Measured = Passed<std::vector<ContactAnalysis>>;
+using Measured = Passed<Measurement>;  ///< neither value nor failure: not asked for, or stopped
 
 double thread_cpu_seconds() {
   timespec now{};
@@ -43,7 +45,7 @@ double thread_cpu_seconds() {
 
 /// Runs a stage of a replicate: measures its time and turns what it throws into a failure.
 template <class T, class Stage>
-Passed<T> guarded(std::size_t index, const char* where, const Stage& stage) {
+Passed<T> guarded(std::size_t index, std::string_view where, const Stage& stage) {
   Passed<T> passed;
   passed.index = index;
   const auto wall = std::chrono::steady_clock::now();
@@ -51,9 +53,9 @@ Passed<T> guarded(std::size_t index, const char* where, const Stage& stage) {
   try {
     passed.value = stage();
   } catch (const std::exception& error) {
-    passed.failure = Failure{where, error.what()};
+    passed.failure = Failure{std::string(where), error.what()};
   } catch (...) {
-    passed.failure = Failure{where, "an exception of unknown type"};
+    passed.failure = Failure{std::string(where), "an exception of unknown type"};
   }
   passed.timing = {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(),
                    thread_cpu_seconds() - cpu};
@@ -95,22 +97,28 @@ class Run {
     return jammed;
   }
 
-  Measured contacts(const Jammed& jammed) const {
-    const auto& spec = plan_[jammed.index];
-    const bool wanted = std::find(spec.measures.begin(), spec.measures.end(), Measure::contacts) != spec.measures.end();
-    if (!wanted || !jammed.value || stop_.stop_requested()) return {jammed.index, {}, {}, {}};
-    return guarded<std::vector<ContactAnalysis>>(jammed.index, "contacts",
-                                                 [&] { return stages_.contacts(spec, *jammed.value); });
+  Measured measure(Measure what, const Jammed& jammed) const {
+    if (!asked(what, jammed) || stop_.stop_requested()) return {jammed.index, {}, {}, {}};
+    return guarded<Measurement>(jammed.index, to_string(what),
+                                [&] { return stages_.measure(plan_[jammed.index], what, *jammed.value); });
   }
 
-  void store(const Jammed& jammed, const Measured& measured) {
+  /// `measured[k]` is that of all_measures[k].
+  void store(const Jammed& jammed, const std::array<const Measured*, all_measures.size()>& measured) {
     Outcome outcome;
     outcome.spec = plan_[jammed.index];
-    outcome.failure = jammed.failure ? jammed.failure : measured.failure;
-    outcome.timing = jammed.timing + measured.timing;
+    outcome.failure = jammed.failure;
+    outcome.timing = jammed.timing;
     if (jammed.value) outcome.jam = *jammed.value;
-    if (measured.value) outcome.contacts = *measured.value;
-    outcome.interrupted = outcome.jam.status == JamStatus::interrupted || skipped(jammed, measured);
+    outcome.interrupted = outcome.jam.status == JamStatus::interrupted;
+    for (std::size_t k = 0; k < measured.size(); ++k) {
+      const Measured& one = *measured[k];
+      outcome.timing = outcome.timing + one.timing;
+      if (one.value) outcome.measured[all_measures[k]] = *one.value;
+      if (one.failure && !outcome.failure) outcome.failure = one.failure;
+      // Left out because of a stop request.
+      outcome.interrupted |= asked(all_measures[k], jammed) && !one.value && !one.failure;
+    }
     try {
       on_outcome_(outcome);
     } catch (...) {
@@ -124,9 +132,9 @@ class Run {
   }
 
  private:
-  /// A measurement was left out because of a stop request.
-  bool skipped(const Jammed& jammed, const Measured& measured) const {
-    return jammed.value && !plan_[jammed.index].measures.empty() && !measured.value && !measured.failure;
+  bool asked(Measure what, const Jammed& jammed) const {
+    const auto& measures = plan_[jammed.index].measures;
+    return jammed.value && std::find(measures.begin(), measures.end(), what) != measures.end();
   }
 
   std::span<const ReplicateSpec> plan_;
@@ -139,29 +147,55 @@ class Run {
   std::exception_ptr error_;  // touched by the serial store node alone
 };
 
+/// What meets before it is stored: the result of jam, and that of every measurement.
+template <class>
+struct Meeting;
+template <std::size_t... k>
+struct Meeting<std::index_sequence<k...>> {
+  template <std::size_t>
+  using MeasuredAt = Measured;
+  using Joined = std::tuple<Jammed, MeasuredAt<k>...>;
+  using Node = flow::join_node<Joined, flow::key_matching<std::size_t>>;
+  using MeasureNode = flow::function_node<Jammed, Measured>;
+
+  Run& run;
+  std::array<MeasureNode, sizeof...(k)> measure;
+  Node join;
+
+  Meeting(flow::graph& graph, Run& the_run)
+      : run(the_run),
+        measure{MeasureNode(graph, flow::unlimited,
+                            [this](const Jammed& j) { return run.measure(all_measures[k], j); })...},
+        join(
+            graph, [](const Jammed& j) { return j.index; }, ((void)k, [](const Measured& m) { return m.index; })...) {
+    (flow::make_edge(measure[k], flow::input_port<k + 1>(join)), ...);
+  }
+
+  void follow(flow::function_node<Placed, Jammed>& jam) {
+    flow::make_edge(jam, flow::input_port<0>(join));
+    for (auto& node : measure) flow::make_edge(jam, node);
+  }
+  void store(const Joined& joined) const { run.store(std::get<0>(joined), {&std::get<k + 1>(joined)...}); }
+};
+
 void build_and_wait(Run& run, int in_flight) {
-  using Both = std::tuple<Jammed, Measured>;
+  using AllMeet = Meeting<std::make_index_sequence<all_measures.size()>>;
   flow::graph graph;
   flow::input_node<std::size_t> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
   flow::limiter_node<std::size_t> limiter(graph, static_cast<std::size_t>(in_flight));
   flow::function_node<std::size_t, Placed> place(graph, flow::unlimited, [&](std::size_t i) { return run.place(i); });
   flow::function_node<Placed, Jammed> jam(graph, flow::unlimited, [&](const Placed& p) { return run.jam(p); });
-  flow::function_node<Jammed, Measured> contacts(graph, flow::unlimited,
-                                                 [&](const Jammed& j) { return run.contacts(j); });
-  flow::join_node<Both, flow::key_matching<std::size_t>> join(
-      graph, [](const Jammed& j) { return j.index; }, [](const Measured& m) { return m.index; });
-  flow::function_node<Both> store(graph, flow::serial, [&](const Both& both) {
-    run.store(std::get<Jammed>(both), std::get<Measured>(both));
+  AllMeet all(graph, run);
+  flow::function_node<AllMeet::Joined> store(graph, flow::serial, [&](const AllMeet::Joined& joined) {
+    all.store(joined);
     return flow::continue_msg();
   });
 
   flow::make_edge(input, limiter);
   flow::make_edge(limiter, place);
   flow::make_edge(place, jam);
-  flow::make_edge(jam, flow::input_port<0>(join));
-  flow::make_edge(jam, contacts);
-  flow::make_edge(contacts, flow::input_port<1>(join));
-  flow::make_edge(join, store);
+  all.follow(jam);
+  flow::make_edge(all.join, store);
   flow::make_edge(store, limiter.decrementer());
   input.activate();
   graph.wait_for_all();

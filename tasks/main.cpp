@@ -66,6 +66,7 @@ void add_aggregate(CLI::App& app, AggregateCommand& command) {
                            {"csv", TableFormat::csv},
                            {"latex", TableFormat::latex}},
                           "Format on stdout");
+  aggregate->add_flag("--series", command.series, "Quantities against the distance above jamming (JSON has both)");
 }
 
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments, Console& console) {

@@ -21,8 +21,16 @@ constexpr std::size_t longest_name = 64;
 
 constexpr std::array<std::string_view, 8> keys{"$schema",    "name",     "seed",      "sweep",
                                                "replicates", "protocol", "minimiser", "measure"};
-constexpr std::array measures{Measure::contacts};
-constexpr std::array<std::string_view, 1> measure_names{"contacts"};
+constexpr std::array default_measures{Measure::contacts};
+
+const std::vector<std::string_view>& measure_names() {
+  static const auto names = [] {
+    std::vector<std::string_view> list;
+    for (const auto measure : all_measures) list.push_back(to_string(measure));
+    return list;
+  }();
+  return names;
+}
 
 std::vector<std::string_view> solid_names() {
   std::vector<std::string_view> names;
@@ -169,8 +177,6 @@ Json values_of(const std::vector<Measure>& list) {
 
 }  // namespace
 
-std::string_view to_string(Measure measure) { return measure_names[static_cast<std::size_t>(measure)]; }
-
 std::vector<OptionSet> option_sets(const Manifest& manifest) {
   std::vector<OptionSet> sets{{Json::object(), manifest.protocol}};
   for (const auto& swept : manifest.swept) {
@@ -200,10 +206,10 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
   manifest.replicates = static_cast<int>(root.at("replicates").integer(replicate_range));
   read_group(root, Group::protocol, manifest);
   read_group(root, Group::minimiser, manifest);
-  manifest.measures.assign(measures.begin(), measures.end());
+  manifest.measures.assign(default_measures.begin(), default_measures.end());
   if (root.has("measure")) {
-    manifest.measures = read_list(root.at("measure"), quoted_list(measure_names),
-                                  [](const JsonPlace& entry) { return measures[entry.choice(measure_names)]; });
+    manifest.measures = read_list(root.at("measure"), quoted_list(measure_names()),
+                                  [](const JsonPlace& entry) { return all_measures[entry.choice(measure_names())]; });
     std::sort(manifest.measures.begin(), manifest.measures.end());
   }
   check_together(root, manifest);

@@ -8,12 +8,9 @@
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/solve/jam.hpp"
 #include "tasks/json_text.hpp"
+#include "tasks/measure/measure.hpp"
 
 namespace isojam {
-
-/// What is measured on the states of an expansion, beyond φ_J.
-enum class Measure { contacts };
-std::string_view to_string(Measure measure);
 
 /// A parameter of the protocol or the minimiser that takes several values.
 struct SweptField {

@@ -33,40 +33,6 @@ Json step_record(const JamStep& step, const JamResult& jam) {
   return json;
 }
 
-Json fit_record(const CdfFit& fit) {
-  Json json;
-  json["verdict"] = to_string(fit.verdict);
-  if (fit.verdict != FitVerdict::fitted) return json;
-  put_number(json, "cutoff", fit.cutoff);
-  put_number(json, "alpha", fit.alpha);
-  put_number(json, "a_0", fit.a[0]);
-  put_number(json, "a_0_error", fit.a0_error);
-  put_number(json, "error", fit.error);
-  return json;
-}
-
-/// A cut-off that a fit did not give decides nothing: numbers that hang on it are absent rather than zero.
-void put_contacts(Json& json, const ContactAnalysis& analysis) {
-  const auto& n = analysis.numbers;
-  put_number(json, "Z", n.Z);
-  put_number(json, "Q6", analysis.Q6);
-  const bool faces = analysis.face_face.verdict == FitVerdict::fitted;
-  const bool edges = analysis.edge_face.verdict == FitVerdict::fitted;
-  const auto put = [&](const std::string& key, double value, bool decided) {
-    if (decided) {
-      put_number(json, key, value);
-    } else {
-      put_absent(json, key, faces ? "no edge-face cut-off" : "no face-face cut-off");
-    }
-  };
-  put("Z_ff", n.Z_ff, faces);
-  put("Z_ef", n.Z_ef, faces && edges);
-  put("Z_l", n.Z_l, faces && edges);
-  put("C", n.C, faces && edges);
-  json["face_face_fit"] = fit_record(analysis.face_face);
-  json["edge_face_fit"] = fit_record(analysis.edge_face);
-}
-
 Json state_record(const Outcome& outcome, std::size_t index) {
   const auto& jam = outcome.jam;
   auto json = step_record(jam.path[jam.state_steps[index]], jam);
@@ -74,7 +40,7 @@ Json state_record(const Outcome& outcome, std::size_t index) {
   json.erase("evaluations");
   json.erase("iterations");
   json["step"] = jam.state_steps[index];
-  if (index < outcome.contacts.size()) put_contacts(json, outcome.contacts[index]);
+  for (const auto& [what, measurement] : outcome.measured) json.update(measurement.states.at(index));
   return json;
 }
 
@@ -134,14 +100,41 @@ std::optional<double> number_or_null(const JsonPlace& place) {
   return place.number({-1e300, 1e300});
 }
 
+std::optional<double> value_below(const JsonPlace& place, std::string_view pointer) {
+  if (pointer.empty()) return number_or_null(place);
+  const auto end = std::min(pointer.find('/', 1), pointer.size());
+  return value_below(place.at(std::string(pointer.substr(1, end - 1))), pointer.substr(end));
+}
+
+/// nullopt if it was not measured, that is, if the first key of its pointer is missing; any other must be there.
+std::optional<double> column_value(const JsonPlace& place, const Column& column) {
+  const auto end = std::min(column.pointer.find('/', 1), column.pointer.size());
+  if (!place.has(std::string(column.pointer.substr(1, end - 1)))) return std::nullopt;
+  return value_below(place, column.pointer);
+}
+
 void read_values(const JsonPlace& root, RecordSummary& summary) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const std::string section(columns[i].section), name(columns[i].name);
-    const auto place = root.at(section);
-    // Contacts are there only if they were measured.
-    if (section == "phi_j" || place.has(name)) summary.values[i] = number_or_null(place.at(name));
+  for (std::size_t i = 0; i < all_columns.size(); ++i) {
+    const bool of_replicate = all_columns[i].of == Column::Of::replicate;
+    summary.values[i] = column_value(of_replicate ? root : root.at("nearest"), all_columns[i]);
   }
   summary.residual = number_or_null(root.at("phi_j").at("residual"));
+}
+
+void read_states(const JsonPlace& states, RecordSummary& summary) {
+  const auto count = states.expect_list("a list of states");
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto state = states.at(k);
+    const auto distance = number_or_null(state.at("delta_phi"));
+    if (!distance || *distance <= 0) continue;
+    StateValues values{*distance, {}};
+    for (std::size_t i = 0; i < all_columns.size(); ++i) {
+      if (all_columns[i].of == Column::Of::state) values.values[i] = column_value(state, all_columns[i]);
+    }
+    summary.states.push_back(values);
+  }
+  std::sort(summary.states.begin(), summary.states.end(),
+            [](const StateValues& a, const StateValues& b) { return a.delta_phi < b.delta_phi; });
 }
 
 }  // namespace
@@ -164,7 +157,8 @@ Json make_record(const Outcome& outcome) {
   json["pairs"] = pair_record(jam.counts);
   if (!outcome.failure) {
     json["phi_j"] = jamming_record(jam);
-    json["nearest"] = state_record(outcome, nearest_state(jam));
+    json["nearest"] = state_record(outcome, *nearest_state(jam));
+    for (const auto& [what, measurement] : outcome.measured) json.update(measurement.replicate);
   }
   json["states"] = Json::array();
   for (std::size_t i = 0; i < jam.states.size(); ++i) json["states"].push_back(state_record(outcome, i));
@@ -175,7 +169,7 @@ Json make_record(const Outcome& outcome) {
 
 Json make_packing(const Outcome& outcome) {
   assert(!outcome.failure && !outcome.interrupted);
-  const auto& packing = outcome.jam.states[nearest_state(outcome.jam)];
+  const auto& packing = outcome.jam.states[*nearest_state(outcome.jam)];
   Json json;
   json["schema"] = packing_schema;
   json["manifest_digest"] = outcome.spec.manifest_digest;
@@ -215,6 +209,7 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
     root.at("failure").at("why").text();
   } else {
     read_values(root, summary);
+    read_states(root.at("states"), summary);
     summary.flagged = root.at("flags").expect_list("a list of flags") > 0;
   }
   summary.result = record;

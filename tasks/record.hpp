@@ -4,7 +4,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "tasks/columns.hpp"
 #include "tasks/json_text.hpp"
 #include "tasks/replicate.hpp"
 
@@ -13,18 +15,6 @@ namespace isojam {
 inline constexpr std::string_view record_schema = "isojam.replicate.v1";
 inline constexpr std::string_view packing_schema = "isojam.packing.v1";
 
-/// A quantity that tables average over replicates.
-struct Column {
-  std::string_view name;     ///< key in records and tables: the paper's symbol
-  std::string_view section;  ///< object of the record that holds it
-  std::string_view latex;
-};
-
-inline constexpr std::array columns{
-    Column{"phi_j", "phi_j", "\\phi_J"}, Column{"Z", "nearest", "Z"},     Column{"Z_ff", "nearest", "Z_{ff}"},
-    Column{"Z_ef", "nearest", "Z_{ef}"}, Column{"Z_l", "nearest", "Z_l"}, Column{"C", "nearest", "C"},
-};
-
 /// The record of an outcome that was not interrupted. Only `timing` may differ between two runs of the same replicate
 /// by the same build.
 Json make_record(const Outcome& outcome);
@@ -32,6 +22,15 @@ Json make_record(const Outcome& outcome);
 /// The state nearest jamming of an outcome without failure: cell side, positions, quaternions (w, x, y, z), and the low
 /// parts of both (see Pose), without which it would not be an equilibrium to more than 1e-8 or so.
 Json make_packing(const Outcome& outcome);
+
+/// Of each column: nullopt where it was not measured, or not decided.
+using Values = std::array<std::optional<double>, all_columns.size()>;
+
+/// A state's place above jamming and its columns, those of replicates left out.
+struct StateValues {
+  double delta_phi = 0;
+  Values values;
+};
 
 /// What a table needs of a record.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
@@ -44,8 +43,9 @@ struct RecordSummary {
   Json settings;  ///< protocol, minimiser and measure
   Json result;    ///< all but timing and provenance: equal for two runs of the same replicate
   bool failed = false, flagged = false;
-  std::array<std::optional<double>, columns.size()> values;  ///< nullopt: not measured, or not decided
-  std::optional<double> residual;                            ///< worst of the states behind φ_J
+  Values values;                    ///< of the replicate, and of its state nearest jamming
+  std::vector<StateValues> states;  ///< above jamming, in order of Δφ
+  std::optional<double> residual;   ///< worst of the states behind φ_J
 };
 
 /// Throws InputError if the record is not one of ours or lacks what a table needs.

@@ -1,21 +1,22 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/analysis/contacts.hpp"
 #include "engine/solve/jam.hpp"
+#include "tasks/measure/measure.hpp"
 #include "tasks/plan.hpp"
 
 namespace isojam {
 
 /// Where and why a replicate failed.
 struct Failure {
-  std::string where;  ///< place, jam, contacts
+  std::string where;  ///< place, jam, or a measurement
   std::string why;
 };
 
@@ -28,7 +29,7 @@ struct Timing {
 struct Outcome {
   ReplicateSpec spec;
   JamResult jam;
-  std::vector<ContactAnalysis> contacts;  ///< of each state of jam.states; empty if not measured
+  std::map<Measure, Measurement> measured;  ///< what the specification asks for, unless it failed or was interrupted
   std::optional<Failure> failure;
   bool interrupted = false;
   Timing timing;
@@ -40,7 +41,7 @@ using OnStep = std::function<void(const JamStep&)>;
 struct Stages {
   std::function<Packing(const ReplicateSpec&)> place;
   std::function<JamResult(const ReplicateSpec&, Packing, std::stop_token, const OnStep&)> jam;
-  std::function<std::vector<ContactAnalysis>(const ReplicateSpec&, const JamResult&)> contacts;
+  std::function<Measurement(const ReplicateSpec&, Measure, const JamResult&)> measure;
 };
 
 /// The engine's.
@@ -50,12 +51,7 @@ Stages engine_stages();
 std::optional<Failure> failure_of(const JamResult& jam);
 
 /// Reservations about an outcome without failure, in a fixed order: short_of_goal (expansion did not come as near to
-/// jamming as asked), classes_undecided (a CDF fit in the nearest state gave no cut-off), crystalline (Q6 of its
-/// contacts is above crystalline_q6).
-std::vector<std::string_view> flags_of(const Outcome& outcome);
-
-/// Index in jam.states of the state nearest jamming: the one of lowest density among those of positive energy.
-/// Requires a result without failure.
-std::size_t nearest_state(const JamResult& jam);
+/// jamming as asked), then those of the measurements.
+std::vector<std::string> flags_of(const Outcome& outcome);
 
 }  // namespace isojam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "tasks/aggregate.hpp"
@@ -11,14 +12,18 @@ inline constexpr std::string_view table_schema = "isojam.tables.v1";
 /// tables.json.
 Json to_json(const Table& table);
 
-/// For people: aligned columns, mean ± half width of the 95 % interval, (n) where fewer replicates have the value
-/// than did not fail.
-std::string to_text(const Table& table);
+/// Which states of the replicates: those nearest jamming, or those at each of series_distances.
+enum class View : std::uint8_t { nearest, series };
 
-/// One line per row; for each quantity mean, ci95 low and high, sd, n, bootstrap95 low and high. Empty: no value.
-std::string to_csv(const Table& table);
+/// For people: one table for each group of columns that has values, aligned; mean ± half width of the 95 % interval,
+/// (n) where fewer replicates have the value than did not fail.
+std::string to_text(const Table& table, View view = View::nearest);
 
-/// A tabular environment.
-std::string to_latex(const Table& table);
+/// One line per row or point of a series; for each quantity mean, ci95 low and high, sd, n, bootstrap95 low and high.
+/// Empty: no value.
+std::string to_csv(const Table& table, View view = View::nearest);
+
+/// A tabular environment for each group of columns that has values.
+std::string to_latex(const Table& table, View view = View::nearest);
 
 }  // namespace isojam

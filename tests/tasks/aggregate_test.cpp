@@ -1,6 +1,7 @@
 // Facts proved here:
 // - the table does not depend on the order of the records, nor on a record being given twice;
 // - failed replicates are counted and in no mean; flagged ones are counted and in the means they have a value for;
+// - against Δφ, quantities are interpolated in ln Δφ between the states of a replicate and not beyond them;
 // - the residual of a row is the worst of its replicates;
 // - records of other settings, and two results of one replicate, are refused;
 // - a record that lacks something the table needs is refused with its pointer.
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "bad_manifests.hpp"
@@ -76,7 +78,11 @@ TEST(Aggregate, CountsFailedAndFlagged) {
     auto outcome = test::made_up_outcome(specs[i]);
     if (i == 1) outcome.failure = Failure{"jam", "made up"};
     if (i == 2) outcome.jam.status = JamStatus::short_of_goal;
-    if (i == 3) outcome.contacts.back().edge_face.verdict = FitVerdict::too_few;
+    if (i == 3) {
+      auto undecided = test::made_up_contacts(9);
+      undecided.edge_face.verdict = FitVerdict::too_few;
+      test::set_nearest_contacts(outcome, undecided);
+    }
     if (i != 1) {
       expected_sum += outcome.jam.phi_j->density;
       for (const auto& step : outcome.jam.path) worst = std::max(worst, step.summary.residual);
@@ -88,7 +94,7 @@ TEST(Aggregate, CountsFailedAndFlagged) {
   EXPECT_EQ(row.failed, 1);
   EXPECT_EQ(row.flagged, 2);
   std::map<std::string_view, int> n;
-  for (std::size_t i = 0; i < columns.size(); ++i) n[columns[i].name] = row.estimates[i].n;
+  for (std::size_t i = 0; i < all_columns.size(); ++i) n[all_columns[i].name] = row.estimates[i].n;
   const std::map<std::string_view, int> expected{{"phi_j", 4}, {"Z", 4},   {"Z_ff", 4},
                                                  {"Z_ef", 3},  {"Z_l", 3}, {"C", 3}};
   EXPECT_EQ(n, expected);
@@ -98,6 +104,44 @@ TEST(Aggregate, CountsFailedAndFlagged) {
       test::made_up_outcome(specs[0]).jam.phi_j->density + test::made_up_outcome(specs[4]).jam.phi_j->density;
   EXPECT_NEAR(*row.unflagged[0].mean, kept / 2, 1e-15);
   EXPECT_EQ(row.residual, worst);
+}
+
+std::size_t column(std::string_view name) {
+  return static_cast<std::size_t>(
+      std::find_if(all_columns.begin(), all_columns.end(), [&](const Column& c) { return c.name == name; }) -
+      all_columns.begin());
+}
+
+TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
+  const auto z = column("Z");
+  RecordSummary record;
+  record.particles = 100;
+  std::vector<RecordSummary> records;
+  // Z = a + b ln Δφ is interpolated exactly wherever the states lie.
+  const auto law = [](int replicate, double distance) { return 9 + 0.1 * replicate + 0.3 * std::log(distance); };
+  const std::vector<std::vector<double>> distances{{.003, .011, .07}, {.0049, .0051, .2}, {.021, .039}, {.01}};
+  for (int k = 0; k < 4; ++k) {
+    record.replicate = k;
+    record.states.clear();
+    for (const double distance : distances[static_cast<std::size_t>(k)]) {
+      record.states.push_back({distance, {}});
+      record.states.back().values[z] = law(k, distance);
+    }
+    if (k == 1) record.states[1].values[z].reset();
+    records.push_back(record);
+  }
+  const auto series = aggregate(records).rows.at(0).series;
+  // Replicate 1 lacks the value between its outer states; replicate 2 encloses no point, replicate 3 has one state.
+  std::vector<std::pair<double, std::vector<int>>> expected{{.04, {0}}, {.02, {0}}, {.01, {0}}, {.005, {0}}};
+  ASSERT_EQ(series.size(), expected.size());
+  for (std::size_t p = 0; p < expected.size(); ++p) {
+    EXPECT_EQ(series[p].delta_phi, expected[p].first);
+    EXPECT_EQ(series[p].estimates[z].n, 1) << expected[p].first;
+    EXPECT_NEAR(*series[p].estimates[z].mean, law(0, expected[p].first), 1e-14) << expected[p].first;
+    EXPECT_EQ(series[p].estimates[column("phi_j")].n, 0);
+  }
+  const auto text = to_text(aggregate(records), View::series);
+  EXPECT_NE(text.find(" 0.02 "), std::string::npos) << text;
 }
 
 TEST(Aggregate, ARowOfFailuresHasNoMean) {

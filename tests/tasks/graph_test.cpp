@@ -36,7 +36,9 @@ Stages quiet_stages() {
           [](const ReplicateSpec& spec, const Packing&, std::stop_token, const OnStep&) {
             return test::made_up_outcome(spec).jam;
           },
-          [](const ReplicateSpec& spec, const JamResult&) { return test::made_up_outcome(spec).contacts; }};
+          [](const ReplicateSpec& spec, Measure what, const JamResult&) {
+            return test::made_up_outcome(spec).measured.at(what);
+          }};
 }
 
 /// What the made-up stages do to a replicate.
@@ -59,10 +61,10 @@ Stages fateful_stages() {
     if (fate_of(spec) == Fate::jam_ends_early) result.status = JamStatus::density_limit;
     return result;
   };
-  stages.contacts = [contacts = stages.contacts](const ReplicateSpec& spec, const JamResult& jam) {
+  stages.measure = [measure = stages.measure](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
     if (fate_of(spec) == Fate::contacts_throw) throw std::runtime_error("no contacts");
     if (fate_of(spec) == Fate::contacts_throw_int) throw 5;
-    return contacts(spec, jam);
+    return measure(spec, what, jam);
   };
   return stages;
 }
@@ -104,7 +106,7 @@ TEST(Graph, NoMeasurementWhereNoneIsAsked) {
   auto plan = plan_of(3);
   for (auto& spec : plan) spec.measures.clear();
   auto stages = quiet_stages();
-  stages.contacts = [](const ReplicateSpec&, const JamResult&) -> std::vector<ContactAnalysis> {
+  stages.measure = [](const ReplicateSpec&, Measure, const JamResult&) -> Measurement {
     throw std::logic_error("not asked for");
   };
   int outcomes = 0;
@@ -112,7 +114,7 @@ TEST(Graph, NoMeasurementWhereNoneIsAsked) {
     ++outcomes;
     EXPECT_FALSE(outcome.failure);
     EXPECT_FALSE(outcome.interrupted);
-    EXPECT_TRUE(outcome.contacts.empty());
+    EXPECT_TRUE(outcome.measured.empty());
   });
   EXPECT_EQ(outcomes, 3);
 }

@@ -2,6 +2,7 @@
 // - defaults, ranges, choices and places of the manifest's schema are those of the program;
 // - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
 // - of the bad corpus the schema refuses all that it can express;
+// - the schema of tables knows every column;
 // - records and tables conform, failed and flagged ones too; a damaged one does not.
 
 #include <gtest/gtest.h>
@@ -60,13 +61,15 @@ TEST(ManifestSchema, SaysWhatTheProgramSays) {
   EXPECT_EQ(properties.at("protocol").at("properties").size() + properties.at("minimiser").at("properties").size(),
             described);
   EXPECT_EQ(properties.at("sweep").at("properties").size(), described + 2);
-  Json solids = Json::array(), measures = Json::array();
+  Json solids = Json::array(), measures = Json::array(), all = Json::array();
   for (const auto kind : all_solids) solids.push_back(to_string(kind));
   EXPECT_EQ(schema.at("definitions").at("solid").at("enum"), solids);
   for (const auto measure : parse_manifest(test::good_manifest().dump(), "good").measures) {
     measures.push_back(to_string(measure));
   }
   EXPECT_EQ(properties.at("measure").at("default"), measures);
+  for (const auto measure : all_measures) all.push_back(to_string(measure));
+  EXPECT_EQ(properties.at("measure").at("items").at("enum"), all);
 }
 
 TEST(ManifestSchema, AcceptsWhatTheProgramAccepts) {
@@ -110,15 +113,17 @@ std::vector<Json> made_up_records() {
   std::vector<Json> records;
   for (const auto& spec : make_plan(parse_manifest(manifest.dump(), "good"))) {
     auto outcome = test::made_up_outcome(spec);
-    if (records.empty()) outcome.contacts.back().Q6 = 0.5;
-    if (records.size() == 1) outcome.contacts.back().face_face.verdict = FitVerdict::collapsed;
+    auto contacts = test::made_up_contacts(9);
+    if (records.empty()) contacts.Q6 = 0.5;
+    if (records.size() == 1) contacts.face_face.verdict = FitVerdict::collapsed;
+    test::set_nearest_contacts(outcome, contacts);
     if (records.size() == 2) {
       outcome.jam.status = JamStatus::step_limit;
       outcome.jam.phi_j.reset();
       outcome.jam.path.front().summary.residual = std::numeric_limits<double>::infinity();
       outcome.failure = failure_of(outcome.jam);
     }
-    if (records.size() == 3) outcome.contacts.clear();
+    if (records.size() == 3) outcome.measured.clear();
     records.push_back(make_record(outcome));
   }
   return records;
@@ -150,6 +155,19 @@ TEST(RecordSchema, RefusesDamagedRecords) {
   auto both = record;
   both["failure"] = {{"where", "jam"}, {"why", "because"}};
   EXPECT_NE(violations("replicate", both), "");
+}
+
+TEST(TableSchema, NamesEveryColumn) {
+  const auto schema = test::schema("tables");
+  const auto& row = schema.at("properties").at("rows").at("items");
+  const auto& series = row.at("properties").at("series").at("items").at("properties");
+  for (const auto& column : all_columns) {
+    const std::string name(column.name);
+    EXPECT_TRUE(row.at("properties").contains(name)) << name;
+    EXPECT_TRUE(row.at("properties").at("unflagged").at("properties").contains(name)) << name;
+    EXPECT_EQ(series.contains(name), column.of == Column::Of::state) << name;
+    EXPECT_EQ(series.at("unflagged").at("properties").contains(name), column.of == Column::Of::state) << name;
+  }
 }
 
 TEST(TableSchema, AcceptsTables) {

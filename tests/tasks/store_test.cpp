@@ -60,7 +60,7 @@ TEST(Store, PackingsKeepEveryBit) {
   const auto spec = make_plan(manifest)[0];
   const Store store(directory / "results", manifest);
   auto outcome = test::made_up_outcome(spec);
-  auto& state = outcome.jam.states[nearest_state(outcome.jam)];
+  auto& state = outcome.jam.states[*nearest_state(outcome.jam)];
   state = moved(state, Eigen::VectorXd::LinSpaced(6 * state.size(), 1e-20, 2e-20));
   store.write(outcome);
   std::ifstream file(store.packing_path(spec));

@@ -85,6 +85,19 @@ Json tiny_manifest() {
                     "tiny");
 }
 
+ContactAnalysis made_up_contacts(double z) {
+  ContactAnalysis analysis;
+  analysis.face_face.verdict = analysis.edge_face.verdict = FitVerdict::fitted;
+  analysis.numbers = {z, 0.5, 2, z - 2.5, z - 2.5 + 1.5 + 4};
+  return analysis;
+}
+
+void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis) {
+  auto& measured = outcome.measured.at(Measure::contacts);
+  measured.states.back() = contact_record(analysis);
+  measured.flags = contact_flags(analysis);
+}
+
 Outcome made_up_outcome(const ReplicateSpec& spec) {
   auto random = replicate_stream(spec, Purpose::placement);
   const auto start = random_packing(platonic(spec.solid), spec.particles, 0.5, random);
@@ -109,11 +122,7 @@ Outcome made_up_outcome(const ReplicateSpec& spec) {
     jam.state_steps.push_back(static_cast<int>(jam.path.size()));
     jam.path.push_back(step);
     jam.states.push_back(strained_to(start, step.density));
-    ContactAnalysis analysis;
-    analysis.face_face.verdict = analysis.edge_face.verdict = FitVerdict::fitted;
-    const double z = 9 + random.uniform();
-    analysis.numbers = {z, 0.5, 2, z - 2.5, z - 2.5 + 1.5 + 4};
-    outcome.contacts.push_back(analysis);
+    outcome.measured[Measure::contacts].states.push_back(contact_record(made_up_contacts(9 + random.uniform())));
   }
   jam.phi_j = point;
   jam.status = JamStatus::jammed;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tasks/measure/parts.hpp"
 #include "tasks/replicate.hpp"
 
 namespace isojam::test {
@@ -45,6 +46,11 @@ std::map<std::string, std::string> results_below(const std::filesystem::path& di
 
 /// Real packings in about a second each: 24 or 28 dodecahedra, loosely converged.
 Json tiny_manifest();
+
+/// Contacts of which both fits gave a cut-off.
+ContactAnalysis made_up_contacts(double z);
+/// In place of those of the state nearest jamming of a made-up outcome.
+void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis);
 
 /// A made-up outcome without failure, a function of the specification.
 Outcome made_up_outcome(const ReplicateSpec& spec);

@@ -18,7 +18,7 @@ Row row(SolidKind solid, int particles, const std::vector<double>& values) {
   row.particles = particles;
   row.parameters = Json{{"target_energy", 1e-5}};
   row.replicates = static_cast<int>(values.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) row.estimates[i] = estimate(values, i);
+  for (std::size_t i = 0; i < all_columns.size(); ++i) row.estimates[i] = estimate(values, i);
   row.residual = 1.25e-7;
   return row;
 }

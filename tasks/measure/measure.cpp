@@ -1,0 +1,32 @@
+#include "tasks/measure/measure.hpp"
+
+#include <cassert>
+
+#include "tasks/measure/parts.hpp"
+
+namespace isojam {
+
+std::string_view to_string(Measure measure) {
+  static constexpr std::array<std::string_view, all_measures.size()> names{"contacts"};
+  return names[static_cast<std::size_t>(measure)];
+}
+
+Measurement measure(Measure what, const JamResult& jam) {
+  switch (what) {
+    case Measure::contacts: return measure_contacts(jam);
+  }
+  assert(false);
+  return {};
+}
+
+std::optional<std::size_t> nearest_state(const JamResult& jam) {
+  assert(jam.states.size() == jam.state_steps.size());
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = 0; i < jam.states.size(); ++i) {
+    if (jam.path[jam.state_steps[i]].energy_per_particle <= 0) continue;
+    if (!nearest || jam.states[i].density() < jam.states[*nearest].density()) nearest = i;
+  }
+  return nearest;
+}
+
+}  // namespace isojam
