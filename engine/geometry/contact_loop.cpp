@@ -194,7 +194,7 @@ void place_spans(const Vectors& vectors, const Sides& sides, const Crossing* cro
 /// Joins every end to the beginning of the same pair of faces. False if the loop does not close.
 bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
   std::uint8_t beginning[capacity * capacity];  // corner + 1; 0: none
-  std::memset(beginning, 0, static_cast<std::size_t>(capacity * faces_a));
+  std::memset(beginning, 0, std::size_t{capacity} * static_cast<std::size_t>(faces_a));
   for (int k = 0; k < piercings.count; ++k) {
     const std::uint32_t pair = piercings.pairs[k] & 0xFFFF, corner = piercings.corner[k];
     beginning[pair] = static_cast<std::uint8_t>(corner + 1);

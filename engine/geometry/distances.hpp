@@ -27,8 +27,7 @@ struct Distances {
   static int size(const PlacedSolid& body, const PlacedSolid& other) {
     return body.vertices() * ((other.faces() + 3) / 4 * 4);
   }
-  double* row(int v) { return of + v * planes; }
-  const double* row(int v) const { return of + v * planes; }
+  double* row(int v) const { return of + v * planes; }
 };
 
 /// Fills the table, d.of, for `body`, the centre of `other` being at `to_other` from its own.

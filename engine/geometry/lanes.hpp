@@ -20,6 +20,7 @@ struct Lanes {
 
   static Lanes load(const double* p) { return {_mm256_loadu_pd(p)}; }
   static Lanes load(const std::uint64_t* p) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the intrinsic's own idiom
     return {_mm256_castsi256_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)))};
   }
   static Lanes all(double x) { return {_mm256_set1_pd(x)}; }
@@ -62,8 +63,10 @@ Lanes lane(Lanes a) {
 inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail, const std::uint8_t* head,
                                   std::uint32_t all) {
   const __m128i table = _mm_cvtsi64_si128(static_cast<long long>(bytes));
+  // NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast): the intrinsic's own idiom
   const __m128i t = _mm_shuffle_epi8(table, _mm_load_si128(reinterpret_cast<const __m128i*>(tail)));
   const __m128i h = _mm_shuffle_epi8(table, _mm_load_si128(reinterpret_cast<const __m128i*>(head)));
+  // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
   const __m128i same = _mm_cmpeq_epi8(_mm_or_si128(t, h), _mm_set1_epi8(static_cast<char>(all)));
   return static_cast<std::uint32_t>(_mm_movemask_epi8(same));
 }

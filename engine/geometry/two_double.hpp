@@ -11,6 +11,7 @@ struct TwoDouble {
   double high = 0, low = 0;
 
   TwoDouble() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a double is a two-double, exactly, and formulae mix them.
   TwoDouble(double value) : high(value) {}
   TwoDouble(double head, double tail) : high(head), low(tail) {}
 };

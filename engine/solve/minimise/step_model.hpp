@@ -50,7 +50,10 @@ class StepModel {
   ActivePairs active_pairs(const Eigen::VectorXd& step) const;
   bool closing(const PressedPair& pair, double shift) const;
   bool revise(const Eigen::VectorXd& step, double shift, bool may_release);
+  double tilt_weight(const PressedPair& pair, const State& state, double shift) const;
   BlockMatrix assembled(double shift) const;
+  std::optional<Eigen::MatrixXd> gained(const std::vector<State>& before, double shift) const;
+  Eigen::VectorXd column(const PressedPair& pair, const Vector6d& of_a, const Vector6d& of_b) const;
   Eigen::VectorXd gradient() const;
   double decrease(const Eigen::VectorXd& step) const;
 
