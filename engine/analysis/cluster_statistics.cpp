@@ -99,7 +99,7 @@ std::vector<Point> piece_sizes(const Network& network) {
   return points;
 }
 
-/// Least-squares slope of log_size over log_radius; too_small if the radii do not differ.
+/// Least-squares slope of log_size over log_radius; too_small if the radii do not differ or are 0.
 FractalDimension fit_line(std::span<const Point> points) {
   const auto n = static_cast<double>(points.size());
   double x = 0, y = 0;
@@ -113,7 +113,7 @@ FractalDimension fit_line(std::span<const Point> points) {
     xy += (point.log_radius - x) * (point.log_size - y);
   }
   FractalDimension result{.verdict = DimensionVerdict::too_small, .points = static_cast<int>(points.size())};
-  if (!(xx > 0)) return result;
+  if (!(xx > 0)) return result;  // all centres on one point: logarithms of 0
   result.verdict = DimensionVerdict::fitted;
   result.D = xy / xx;
   for (const Point& point : points) {
@@ -139,9 +139,7 @@ std::string_view to_string(DimensionVerdict verdict) {
 FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluster,
                                    std::span<const NeighbourPair> bonds) {
   if (cluster.winding_rank() > 0) return {.verdict = DimensionVerdict::winds};
-  const Network network = unwrapped(packing, cluster, bonds);
-  if (!(network.square_bond > 0)) return {.verdict = DimensionVerdict::too_small};
-  const std::vector<Point> points = piece_sizes(network);
+  const std::vector<Point> points = piece_sizes(unwrapped(packing, cluster, bonds));
   if (points.size() < 3) return {.verdict = DimensionVerdict::too_small, .points = static_cast<int>(points.size())};
   return fit_line(points);
 }
