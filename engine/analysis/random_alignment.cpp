@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -69,22 +69,15 @@ class Features {
   std::vector<Vector3d> edges_;
 };
 
-/// Tail sums of a binomial distribution from ratios of neighbouring terms. Terms far from the mode underflow to 0.
 struct Tails {
   double at_most = 0, at_least = 0;
 };
 
+/// Probabilities of at most and of at least k of n.
 Tails binomial_tails(long n, double p, long k) {
-  double log_term = static_cast<double>(n) * std::log1p(-p);
-  const double log_odds = std::log(p) - std::log1p(-p);
-  Tails tails;
-  for (long i = 0; i <= n; ++i) {
-    const double term = std::exp(log_term);
-    if (i <= k) tails.at_most += term;
-    if (i >= k) tails.at_least += term;
-    log_term += std::log(static_cast<double>(n - i) / static_cast<double>(i + 1)) + log_odds;
-  }
-  return tails;
+  const boost::math::binomial count(static_cast<double>(n), p);
+  const auto above = k == 0 ? 1 : boost::math::cdf(boost::math::complement(count, static_cast<double>(k - 1)));
+  return {boost::math::cdf(count, static_cast<double>(k)), above};
 }
 
 }  // namespace
