@@ -27,9 +27,9 @@ double orientation_order(const Eigen::MatrixXd& harmonics);
 /// Steinhardt's Q_l of each particle's own contacts, none for particles without.
 std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contact> contacts, int particles, unsigned l);
 
-/// Near jamming at N = 64 and 100, S was .03 to .05 for tetrahedra, .14 to .18 for octahedra, .16 to .37 for
-/// dodecahedra and icosahedra; where Q6 of icosahedra was above crystalline_q6, it was .41 to .71. Order of a packing
-/// in the directions of its contacts and in its orientations.
+/// Order of a packing in the directions of its contacts and in its orientations. Near jamming at N = 64 and 100, S was
+/// .03 to .05 for tetrahedra, .14 to .18 for octahedra, .16 to .41 for dodecahedra and icosahedra; where Q6 of
+/// icosahedra was above crystalline_q6, it was .41 to .71.
 struct Order {
   double Q4 = 0, Q6 = 0;                     ///< over all contacts; 0 without
   std::optional<double> local_Q4, local_Q6;  ///< means over particles with contacts; none without
@@ -50,7 +50,7 @@ struct OrientationCorrelation {
 };
 
 struct OrientationCorrelationOptions {
-  double width = 0.1;  ///< a fifth of the least inradius or so: shells of neighbours take several bins
+  double width = 0.1;  ///< a quarter of the least inradius: a shell of neighbours takes several bins
   /// Greatest distance. By default half the side of the cell, where images begin to repeat.
   std::optional<double> reach = std::nullopt;
 };
