@@ -217,19 +217,25 @@ TEST(EmpiricalCdf, IsACount) {
 TEST(EmpiricalCdf, DistanceIsTheGreatest) {
   RandomStream random{55};
   const auto square = [](double x) { return x * x; };
+  const auto root = [](double x) { return std::sqrt(x); };
   for (const int n : {1, 5, 100}) {
     std::vector<double> values;
     for (int k = 0; k < n; ++k) values.push_back(random.uniform());
     const EmpiricalCdf cdf = empirical_cdf(values);
-    double greatest = 0;
-    for (int k = 0; k <= 100000; ++k) greatest = std::max(greatest, std::abs(cdf(k * 1e-5) - square(k * 1e-5)));
-    EXPECT_NEAR(kolmogorov_distance(cdf, square), greatest, 3e-5) << n;
+    // One that lies below the values, one above.
+    for (const auto& distribution : {+square, +root}) {
+      double greatest = 0;
+      for (int k = 0; k <= 100000; ++k) greatest = std::max(greatest, std::abs(cdf(k * 1e-5) - distribution(k * 1e-5)));
+      EXPECT_NEAR(kolmogorov_distance(cdf, distribution), greatest, 1e-3) << n;
+    }
   }
   EXPECT_EQ(kolmogorov_distance(EmpiricalCdf(), square), 0);
 }
 
 TEST(EmpiricalCdf, ProbabilityIsKolmogorovs) {
-  // Percentage points of the limit.
+  // Median and percentage points of the limit.
+  EXPECT_NEAR(kolmogorov_probability(0.82757 / 1e4, 100000000), 0.5, 1e-4);
+  EXPECT_NEAR(kolmogorov_probability(0.5 / 1e4, 100000000), 0.96394, 1e-4);
   EXPECT_NEAR(kolmogorov_probability(1.3581 / 1e4, 100000000), 0.05, 1e-4);
   EXPECT_NEAR(kolmogorov_probability(1.6276 / 1e4, 100000000), 0.01, 1e-4);
   EXPECT_EQ(kolmogorov_probability(0, 100), 1);
