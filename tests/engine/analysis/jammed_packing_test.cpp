@@ -5,7 +5,10 @@
 //      constraints than either; the pool of all states classifies as many contacts as there are;
 //   3. θ_ef is hyper-random at small angles, as the paper found, and more contacts are aligned than random ones are;
 //   4. clusters of face-face contacts partition the particles, hold every bond, and give the S of their sizes;
-//   5. the packing is disordered: Q6 below the crystalline threshold, orientations no more aligned than chance allows.
+//   5. the packing is disordered: Q6 below the crystalline threshold, orientations no more aligned than chance allows;
+//   6. a perfect crystal of cubes, slightly pressed, has an answer everywhere: all contacts face-face by either method,
+//   one
+//      cluster that winds in all directions and so has neither length nor dimension, perfect order.
 
 #include <gtest/gtest.h>
 
@@ -161,6 +164,33 @@ TEST(JammedPacking, IsDisordered) {
   EXPECT_LT(order.Q6, crystalline_q6);
   EXPECT_LT(order.S, 3 * order.random_S);
   EXPECT_GT(order.local_Q6.value(), order.Q6);
+}
+
+TEST(PerfectCrystal, OfCubesHasAnswers) {
+  constexpr int n = 4;
+  Packing crystal{&platonic(SolidKind::cube), PeriodicCell(0.98 * n), {}};
+  for (int k = 0; k < n * n * n; ++k)
+    crystal.poses.push_back({.position = 0.98 * Eigen::Vector3d(k % n, k / n % n, k / n / n)});
+  const std::vector<Contact> contacts = contacts_of(crystal);
+  const std::vector<Alignment> all = alignments(*crystal.solid, contacts);
+  const ContactAnalysis analysis = analyse_contacts(*crystal.solid, crystal.size(), all);
+  EXPECT_EQ(analysis.face_face.verdict, FitVerdict::fitted);
+  EXPECT_EQ(analysis.face_face_gap.verdict, GapVerdict::all_alike);
+  EXPECT_EQ(analysis.numbers.Z, 26) << "neighbours across faces, edges and corners";
+  EXPECT_EQ(analysis.numbers.Z_ff, 26);
+  EXPECT_EQ(analysis.disagreement(), 0);
+  const std::vector<NeighbourPair> bonds = bonds_of(contacts, analysis.classes);
+  const std::vector<Cluster> clusters = find_clusters(crystal, bonds);
+  ASSERT_EQ(clusters.size(), 1U);
+  const ClusterStatistics statistics = cluster_statistics(crystal, bonds, clusters);
+  EXPECT_EQ(statistics.S, n * n * n);
+  EXPECT_EQ(statistics.winding_rank, 3);
+  EXPECT_TRUE(statistics.spans);
+  EXPECT_FALSE(statistics.l_max);
+  EXPECT_EQ(statistics.D_max.verdict, DimensionVerdict::winds);
+  const Order order = measure_order(crystal, contacts);
+  EXPECT_NEAR(order.S, 1, 1e-12);
+  EXPECT_NEAR(order.local_Q6.value(), order.Q6, 1e-12);
 }
 
 }  // namespace
