@@ -172,13 +172,40 @@ double fit_error(const CdfFit& fit, const Window& window) {
   return error;
 }
 
+/// Steps meet the curve from both sides, and a cubic turns twice at most between angles: 16 points of each stretch find
+/// what exceeds the noise of a step.
+double largest_deviation(const CdfFit& fit, const Window& window) {
+  double largest = 0, from = std::max(fit.alpha, window.end_of_step(fit.a[0]));
+  for (long k = window.count_at(from); k <= window.inside(); ++k) {
+    const double to = k < window.inside() ? window.angle(k) : window.upper();
+    for (int i = 0; i <= 16; ++i) {
+      const double x = from + (to - from) * i / 16 - fit.alpha;
+      const double value = fit.a[0] - x * (fit.a[1] + x * (fit.a[2] + x * fit.a[3]));
+      largest = std::max(largest, std::abs(value - window.height(k)));
+    }
+    from = to;
+  }
+  return largest;
+}
+
+FitVerdict judge(const CdfFit& fit, const Window& window) {
+  constexpr double kolmogorov = 1.358;  // 5 % of sup |F_n − F| √n lie above
+  // A fit to a CDF without a jump finds one of the size of the noise.
+  if (fit.a[0] < std::max(window.height(1), 2 * fit.a0_error)) return FitVerdict::collapsed;
+  if (fit.alpha >= window.upper() / 2) return FitVerdict::alpha_out_of_range;
+  if (fit.deviation > kolmogorov * std::sqrt(window.height(1))) return FitVerdict::bimodal;
+  return FitVerdict::fitted;
+}
+
 }  // namespace
 
 std::string_view to_string(FitVerdict verdict) {
   switch (verdict) {
     case FitVerdict::not_called: return "not_called";
     case FitVerdict::fitted: return "fitted";
+    case FitVerdict::bimodal: return "bimodal";
     case FitVerdict::collapsed: return "collapsed";
+    case FitVerdict::alpha_out_of_range: return "alpha_out_of_range";
     case FitVerdict::too_few: return "too_few";
   }
   throw std::invalid_argument("not a verdict of a fit");
@@ -205,13 +232,10 @@ CdfFit fit_cdf(std::span<const double> angles, double upper) {
   fit.a0_error = standard_error(window, fit);
   fit.error = fit_error(fit, window);
 
-  // A fit to a CDF without a jump finds one of the size of the noise.
-  if (fit.a[0] < std::max(window.height(1), 2 * fit.a0_error)) {
-    fit.verdict = FitVerdict::collapsed;
-  } else {
-    fit.verdict = FitVerdict::fitted;
+  fit.deviation = largest_deviation(fit, window);
+  fit.verdict = judge(fit, window);
+  if (fit.verdict == FitVerdict::fitted || fit.verdict == FitVerdict::bimodal)
     fit.cutoff = window.end_of_step(fit.a[0]);
-  }
   return fit;
 }
 

@@ -8,8 +8,12 @@ namespace isojam {
 enum class FitVerdict {
   not_called,
   fitted,
-  collapsed,  ///< c shows no jump: a_0 is within 2 standard errors of 0, or worth less than one angle
-  too_few     ///< fewer angles below `upper` than the five free parameters α, a_0..a_3
+  /// The basis does not describe c: they differ by more than Kolmogorov's 5 % bound somewhere, as where there is a
+  /// second jump. The cut-off is given, but not to be trusted.
+  bimodal,
+  collapsed,           ///< c shows no jump: a_0 is within 2 standard errors of 0, or worth less than one angle
+  alpha_out_of_range,  ///< the jump is in the upper half of the window: nothing is near alignment
+  too_few              ///< fewer angles below `upper` than the five free parameters α, a_0..a_3
 };
 std::string_view to_string(FitVerdict verdict);
 
@@ -20,8 +24,11 @@ struct CdfFit {
   double a[4] = {0, 0, 0, 0};  ///< a_0 ≤ c(upper)
   double a0_error = 0;         ///< standard error of a_0 from the angles above the jump, taken as independent
   double error = 0;            ///< ∫ (c_f − c)² dθ
+  /// sup |c_f − c| beyond the jump, where c ≥ a_0. Noise of n independent angles exceeds 1.358/√n in one set of twenty,
+  /// more rarely about a curve fitted to them.
+  double deviation = 0;
   /// θ_cut: c = a_0. As c has steps, the end of the step nearest to a_0, at most `upper`: the fraction of angles
-  /// below θ_cut is a_0 to within half a step. 0 unless fitted.
+  /// below θ_cut is a_0 to within half a step. 0 unless fitted or bimodal.
   double cutoff = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "engine/analysis/contacts.hpp"
 
+#include <array>
+#include <numbers>
 #include <stdexcept>
 
 namespace isojam {
@@ -45,19 +47,68 @@ ContactNumbers contact_numbers(int particles, std::span<const ContactClass> clas
           .C = per_particle(3 * face_face + 2 * edge_face + lower_order)};
 }
 
-ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments) {
+ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> alignments) {
+  constexpr std::array degrees{5, 15, 25, 35, 45, 55};
+  ContactNumbers mean;
+  for (const int angle : degrees) {
+    const double cutoff = angle * std::numbers::pi / 180;
+    const ContactNumbers numbers = contact_numbers(particles, classify(alignments, cutoff, cutoff));
+    mean.Z += numbers.Z / degrees.size();
+    mean.Z_ff += numbers.Z_ff / degrees.size();
+    mean.Z_ef += numbers.Z_ef / degrees.size();
+    mean.Z_l += numbers.Z_l / degrees.size();
+    mean.C += numbers.C / degrees.size();
+  }
+  return mean;
+}
+
+std::optional<double> ContactAnalysis::disagreement() const {
+  const bool by_fit = face_face.verdict == FitVerdict::fitted || face_face.verdict == FitVerdict::bimodal;
+  if (!by_fit || !Z_ff_gap) return std::nullopt;
+  return *Z_ff_gap - numbers.Z_ff;
+}
+
+namespace {
+
+/// All but what belongs to one packing.
+ContactAnalysis cutoffs_of(const ConvexSolid& solid, std::span<const std::vector<Alignment>> packings) {
   std::vector<double> face_face, edge_face;
-  for (const Alignment& alignment : alignments) {
-    face_face.push_back(alignment.face_face);
-    edge_face.push_back(alignment.edge_face);
+  for (const std::vector<Alignment>& alignments : packings) {
+    for (const Alignment& alignment : alignments) {
+      face_face.push_back(alignment.face_face);
+      edge_face.push_back(alignment.edge_face);
+    }
   }
   ContactAnalysis analysis;
   analysis.critical = critical_angles(solid);
   analysis.face_face = fit_cdf(face_face, analysis.critical.ff_min() / 2);
   analysis.edge_face = fit_cdf(edge_face, analysis.critical.ef_min() / 2);
-  analysis.classes = classify(alignments, analysis.face_face.cutoff, analysis.edge_face.cutoff);
-  analysis.numbers = contact_numbers(particles, analysis.classes);
+  analysis.face_face_gap = split_at_gap(face_face, analysis.critical.ff_min() / 2);
+  analysis.edge_face_gap = split_at_gap(edge_face, analysis.critical.ef_min() / 2);
+  analysis.pooled_over = static_cast<int>(packings.size());
   return analysis;
+}
+
+}  // namespace
+
+std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
+                                            std::span<const std::vector<Alignment>> packings) {
+  std::vector<ContactAnalysis> analyses(packings.size(), cutoffs_of(solid, packings));
+  for (std::size_t k = 0; k < packings.size(); ++k) {
+    ContactAnalysis& analysis = analyses[k];
+    const std::vector<Alignment>& alignments = packings[k];
+    analysis.classes = classify(alignments, analysis.face_face.cutoff, analysis.edge_face.cutoff);
+    analysis.numbers = contact_numbers(particles, analysis.classes);
+    analysis.fixed_cutoffs = fixed_cutoff_numbers(particles, alignments);
+    if (analysis.face_face_gap.cutoff > 0)
+      analysis.Z_ff_gap = contact_numbers(particles, classify(alignments, analysis.face_face_gap.cutoff, 0)).Z_ff;
+  }
+  return analyses;
+}
+
+ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments) {
+  const std::vector<Alignment> own(alignments.begin(), alignments.end());
+  return analyse_pooled(solid, particles, std::span(&own, 1)).front();
 }
 
 }  // namespace isojam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "engine/analysis/alignment.hpp"
 #include "engine/analysis/cdf_fit.hpp"
 #include "engine/analysis/critical_angles.hpp"
+#include "engine/analysis/gap_split.hpp"
 
 namespace isojam {
 
@@ -20,15 +22,30 @@ struct ContactNumbers {
 
 struct ContactAnalysis {
   CdfFit face_face, edge_face;
+  GapSplit face_face_gap, edge_face_gap;  ///< the other method, in the same windows
+  /// Packings whose angles, taken together, gave the fits, the gaps and so the cut-offs. 1: its own alone.
+  int pooled_over = 1;
   CriticalAngles critical;
-  std::vector<ContactClass> classes;  ///< per contact, in the order given
-  ContactNumbers numbers;
+  std::vector<ContactClass> classes;  ///< per contact, in the order given, by the fits
+  ContactNumbers numbers;             ///< by the fits
+  std::optional<double> Z_ff_gap;     ///< Z_ff by the gap in θ_ff; none if there is no gap
+  ContactNumbers fixed_cutoffs;       ///< fixed_cutoff_numbers of the contacts
+  /// Z_ff_gap − Z_ff; none unless the fit gives a cut-off too.
+  std::optional<double> disagreement() const;
   double Q6 = 0;  ///< contact_q6 of the state, for whoever has its contacts and not just their angles
 };
 
 /// Classifies by the cut-offs of the two CDF fits on [0, θ_c,min/2] each: face-face if θ_ff < its cut-off,
 /// edge-face if θ_ef < its cut-off and not face-face, lower order otherwise. A collapsed fit leaves its cut-off at 0.
 ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments);
+
+/// The same of several packings of as many particles each (replicates of a sweep point): fits and gaps are found from
+/// the angles of all, and each packing is classified by the common cut-offs. Results in the order given.
+std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
+                                            std::span<const std::vector<Alignment>> packings);
+
+/// Means over the cut-offs 5°, 15°, ..., 55°, each used for both angles: column 2 of the paper's Table III.
+ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> alignments);
 
 /// Classes for given cut-offs (radians).
 std::vector<ContactClass> classify(std::span<const Alignment> alignments, double ff_cutoff, double ef_cutoff);

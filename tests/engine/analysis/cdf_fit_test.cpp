@@ -6,6 +6,7 @@
 //      and the angles below the cut-off are the fraction a_0 to within half an angle;
 //   4. a CDF without a jump and a jump worth one angle are called collapsed, a real jump is not; fewer angles than
 //      parameters are too few; a_0 never exceeds what c reaches in the window;
+//      two jumps in the window are bimodal, one jump in its upper half is out of range;
 //   5. neither the order of the angles nor the unit matters, bit by bit, nor counting every angle twice;
 //   6. equal angles at the jump, also at 0, fall below the cut-off; angles that are none are refused.
 
@@ -236,6 +237,52 @@ TEST(CdfFit, JumpOfOneAngleCollapses) {
   };
   EXPECT_EQ(with_jump(1), FitVerdict::collapsed);
   EXPECT_EQ(with_jump(200), FitVerdict::fitted);
+}
+
+TEST(CdfFit, TwoJumpsAreBimodal) {
+  RandomStream random{23};
+  for (const double second : {0.0, 0.05, 0.2, 0.4}) {
+    int bimodal = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+      std::vector<double> angles = mixture(400, 0.2, 1, random);
+      for (int k = 0; k < second * 400; ++k) angles.push_back(upper * (0.5 + 0.01 * random.uniform()));
+      const CdfFit fit = fit_cdf(angles, upper);
+      bimodal += fit.verdict == FitVerdict::bimodal;
+      EXPECT_GT(fit.cutoff, 0) << "second jump of " << second << ", trial " << trial;
+      EXPECT_EQ(fit.verdict == FitVerdict::bimodal, fit.deviation * std::sqrt(angles.size()) > 1.358);
+    }
+    EXPECT_LE(bimodal, second < 0.1 ? 5 : 100) << "second jump of " << second;
+    EXPECT_GE(bimodal, second < 0.1 ? 0 : 100) << "second jump of " << second;
+  }
+}
+
+TEST(CdfFit, DeviationIsTheLargestDistanceBeyondTheJump) {
+  RandomStream random{24};
+  for (const std::vector<double>& angles : families(random)) {
+    const CdfFit fit = fit_cdf(angles, upper);
+    if (fit.verdict != FitVerdict::fitted && fit.verdict != FitVerdict::bimodal) continue;
+    double largest = 0;
+    constexpr int samples = 20000;
+    const double from = std::max(fit.alpha, fit.cutoff);
+    for (int i = 0; i < samples; ++i) {
+      const double theta = from + (upper - from) * (i + 0.5) / samples, x = theta - fit.alpha;
+      const auto below = std::count_if(angles.begin(), angles.end(), [&](double angle) { return angle <= theta; });
+      const double value = fit.a[0] - x * (fit.a[1] + x * (fit.a[2] + x * fit.a[3]));
+      largest = std::max(largest, std::abs(value - static_cast<double>(below) / static_cast<double>(angles.size())));
+    }
+    EXPECT_GE(fit.deviation, largest * 0.99) << angles.size() << " angles";
+    EXPECT_LE(fit.deviation, largest * 1.01 + 1.0 / static_cast<double>(angles.size()));
+  }
+}
+
+TEST(CdfFit, AJumpFarFromAlignmentIsOutOfRange) {
+  for (const double at : {0.1, 0.45, 0.55, 0.8}) {
+    std::vector<double> angles(60, at * upper);
+    for (int k = 0; k < 340; ++k) angles.push_back(upper * (1 + (k + 0.5) / 100));
+    const CdfFit fit = fit_cdf(angles, upper);
+    EXPECT_EQ(fit.verdict, at < 0.5 ? FitVerdict::fitted : FitVerdict::alpha_out_of_range) << at;
+    EXPECT_EQ(fit.cutoff > 0, at < 0.5) << at;
+  }
 }
 
 TEST(CdfFit, AnglesBeyondTheWindowCountInTheCdfOnly) {

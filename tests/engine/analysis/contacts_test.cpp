@@ -5,7 +5,13 @@
 //   3. contacts of all four topologies, put together at random and overlapped by the kernel, are recognised, for every
 //      Platonic solid, in whatever order they come;
 //   4. both angles are fitted on [0, θ_c,min/2], each its own;
-//   5. a fit that collapses or has too few angles leaves its class empty.
+//   5. a fit that collapses or has too few angles leaves its class empty;
+//   6. the gap finds the same face-face contacts where they lie decades below; where there is no gap it says so;
+//   7. fixed cut-offs are the means over six classifications, and count far more constraints;
+//   8. a pool of packings is fitted once, as one packing with all contacts would be, and classified one by one; a pool
+//   of
+//      one is the packing itself;
+//   9. no contact, one contact and contacts all perfectly aligned have defined answers.
 
 #include "engine/analysis/contacts.hpp"
 
@@ -203,6 +209,95 @@ TEST_P(ContactsOf, CollapsedAndEmptyFitsLeaveTheirClassEmpty) {
   EXPECT_EQ(analysis.numbers.Z, 8);
   EXPECT_EQ(analysis.numbers.Z_l, 8);
   EXPECT_EQ(analysis.numbers.C, 8);
+}
+
+TEST_P(ContactsOf, TheGapFindsTheSameFaceFaceContacts) {
+  const int contacts = 1000, particles = 200;
+  const std::vector<Alignment> all = alignments(solid, mixture(contacts));
+  const ContactAnalysis analysis = analyse_contacts(solid, particles, all);
+  ASSERT_EQ(analysis.face_face_gap.verdict, GapVerdict::separated);
+  ASSERT_TRUE(analysis.Z_ff_gap && analysis.disagreement());
+  EXPECT_EQ(analysis.disagreement(), *analysis.Z_ff_gap - analysis.numbers.Z_ff);
+  // Some of the other contacts are as well aligned by chance: those that lie within the decades of the face-face ones.
+  int below = 0, by_chance = 0;
+  for (int k = 0; k < contacts; ++k) {
+    const bool aligned = all[k].face_face < analysis.face_face_gap.cutoff;
+    below += aligned;
+    by_chance += aligned && k % 10 != 0;
+    EXPECT_TRUE(aligned || k % 10 != 0) << "face-face contact " << k << " at " << all[k].face_face;
+  }
+  EXPECT_LE(by_chance, 0.02 * contacts);
+  EXPECT_EQ(*analysis.Z_ff_gap, 2.0 * below / particles);
+  EXPECT_NEAR(*analysis.disagreement(), 0, 4 * analysis.face_face.a0_error * analysis.numbers.Z);
+}
+
+TEST_P(ContactsOf, WithoutAGapThereIsNoDisagreement) {
+  std::vector<Alignment> all;
+  for (int k = 0; k < 400; ++k) all.push_back(angles((k + 0.5) / 400 * critical.ff_min(), critical.ef_min()));
+  const ContactAnalysis analysis = analyse_contacts(solid, 100, all);
+  EXPECT_EQ(analysis.face_face_gap.verdict, GapVerdict::no_gap);
+  EXPECT_FALSE(analysis.Z_ff_gap);
+  EXPECT_FALSE(analysis.disagreement());
+}
+
+TEST_P(ContactsOf, FixedCutoffsCountMoreConstraints) {
+  const std::vector<Alignment> all = alignments(solid, mixture(400));
+  const ContactAnalysis analysis = analyse_contacts(solid, 100, all);
+  double face_face = 0, constraints = 0;
+  for (const double degrees : {5, 15, 25, 35, 45, 55}) {
+    for (const Alignment& alignment : all) {
+      const bool ff = alignment.face_face < degrees / 180 * pi, ef = alignment.edge_face < degrees / 180 * pi;
+      face_face += 2 * ff / 600.0;
+      constraints += 2 * (ff ? 3 : ef ? 2 : 1) / 600.0;
+    }
+  }
+  EXPECT_NEAR(analysis.fixed_cutoffs.Z_ff, face_face, 1e-12 * face_face);
+  EXPECT_NEAR(analysis.fixed_cutoffs.C, constraints, 1e-12 * constraints);
+  EXPECT_NEAR(analysis.fixed_cutoffs.Z, analysis.numbers.Z, 1e-12 * analysis.numbers.Z);
+  EXPECT_GT(analysis.fixed_cutoffs.C, 1.3 * analysis.numbers.C);
+}
+
+TEST_P(ContactsOf, APoolIsFittedOnceAndClassifiedOneByOne) {
+  std::vector<std::vector<Alignment>> packings;
+  std::vector<Alignment> together;
+  for (const int n : {150, 300, 40, 0}) {
+    packings.push_back(alignments(solid, mixture(n)));
+    together.insert(together.end(), packings.back().begin(), packings.back().end());
+  }
+  const std::vector<ContactAnalysis> pooled = analyse_pooled(solid, 50, packings);
+  const ContactAnalysis one = analyse_contacts(solid, 50, together);
+  EXPECT_EQ(one.pooled_over, 1);
+  ASSERT_EQ(pooled.size(), packings.size());
+  std::vector<ContactClass> classes;
+  double face_face = 0;
+  for (std::size_t k = 0; k < pooled.size(); ++k) {
+    EXPECT_EQ(pooled[k].pooled_over, 4);
+    EXPECT_EQ(pooled[k].face_face.cutoff, one.face_face.cutoff);
+    EXPECT_EQ(pooled[k].edge_face.cutoff, one.edge_face.cutoff);
+    EXPECT_EQ(pooled[k].face_face_gap.cutoff, one.face_face_gap.cutoff);
+    EXPECT_EQ(pooled[k].numbers.Z, 2.0 * static_cast<double>(packings[k].size()) / 50);
+    classes.insert(classes.end(), pooled[k].classes.begin(), pooled[k].classes.end());
+    face_face += pooled[k].Z_ff_gap.value();
+  }
+  EXPECT_EQ(classes, one.classes);
+  EXPECT_NEAR(face_face, one.Z_ff_gap.value(), 1e-12 * face_face);
+  EXPECT_TRUE(analyse_pooled(solid, 50, {}).empty());
+}
+
+TEST_P(ContactsOf, FewOrPerfectContactsHaveAnswers) {
+  for (const int contacts : {0, 1}) {
+    const ContactAnalysis analysis = analyse_contacts(solid, 3, std::vector<Alignment>(contacts, angles(0, 0)));
+    EXPECT_EQ(analysis.face_face.verdict, FitVerdict::too_few);
+    EXPECT_EQ(analysis.face_face_gap.verdict, GapVerdict::too_few);
+    EXPECT_EQ(analysis.numbers.C, 2.0 * contacts / 3);
+    EXPECT_FALSE(analysis.disagreement());
+  }
+  const ContactAnalysis crystal = analyse_contacts(solid, 10, std::vector<Alignment>(30, angles(0, 0)));
+  EXPECT_EQ(crystal.face_face.verdict, FitVerdict::fitted);
+  EXPECT_EQ(crystal.face_face_gap.verdict, GapVerdict::all_alike);
+  EXPECT_EQ(crystal.numbers.Z_ff, 6);
+  EXPECT_EQ(crystal.numbers.C, 18);
+  EXPECT_EQ(crystal.disagreement(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, ContactsOf, testing::ValuesIn(all_solids),

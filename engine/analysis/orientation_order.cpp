@@ -1,0 +1,126 @@
+#include "engine/analysis/orientation_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/analysis/order.hpp"
+
+namespace isojam {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr unsigned greatest_rank = 10;
+
+/// Real Y_lm(direction), m = −l..l.
+VectorXd real_harmonics(const Vector3d& direction, unsigned l) {
+  const double polar = std::atan2(std::hypot(direction.x(), direction.y()), direction.z());
+  const double azimuth = std::atan2(direction.y(), direction.x());
+  VectorXd values(2 * l + 1);
+  values[l] = std::sph_legendre(l, 0, polar);
+  for (unsigned m = 1; m <= l; ++m) {
+    const double amplitude = std::sqrt(2.0) * std::sph_legendre(l, m, polar);
+    values[l + m] = amplitude * std::cos(m * azimuth);
+    values[l - m] = amplitude * std::sin(m * azimuth);
+  }
+  return values;
+}
+
+/// Mean of P_l over all pairs of vertex directions, by the addition theorem their squared length in rank l. Not
+/// negative; rounding of as many terms leaves it at 1e-15 or so where it vanishes.
+double strength(const ConvexSolid& solid, unsigned l) {
+  double sum = 0;
+  for (const Vector3d& v : solid.vertices()) {
+    for (const Vector3d& w : solid.vertices())
+      sum += std::legendre(l, std::clamp(v.normalized().dot(w.normalized()), -1.0, 1.0));
+  }
+  const auto n = static_cast<double>(solid.vertices().size());
+  return sum / (n * n);
+}
+
+std::optional<double> mean_of(const std::vector<std::optional<double>>& values) {
+  double sum = 0;
+  long count = 0;
+  for (const std::optional<double>& value : values) {
+    sum += value.value_or(0);
+    count += value.has_value();
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+unsigned orientation_rank(const ConvexSolid& solid) {
+  constexpr double vanishing = 1e-10;  // far above rounding, far below the .1 and more of the ranks that do not vanish
+  for (unsigned l = 1; l <= greatest_rank; ++l) {
+    if (strength(solid, l) > vanishing) return l;
+  }
+  throw std::invalid_argument("the vertices of " + solid.name() + " show no orientation up to rank 10");
+}
+
+Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l) {
+  Eigen::MatrixXd harmonics = Eigen::MatrixXd::Zero(2 * l + 1, packing.size());
+  for (int i = 0; i < packing.size(); ++i) {
+    const Eigen::Matrix3d rotation = rotation_matrix(packing.poses[i]).high;
+    for (const Vector3d& vertex : packing.solid->vertices()) harmonics.col(i) += real_harmonics(rotation * vertex, l);
+    harmonics.col(i).normalize();
+  }
+  return harmonics;
+}
+
+double orientation_order(const Eigen::MatrixXd& harmonics) { return harmonics.rowwise().mean().norm(); }
+
+std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contact> contacts, int particles,
+                                                          unsigned l) {
+  std::vector<std::vector<Vector3d>> bonds(particles);
+  for (const Contact& contact : contacts) {
+    bonds.at(contact.pair.a).push_back(contact.displacement);
+    bonds.at(contact.pair.b).push_back(-contact.displacement);
+  }
+  std::vector<std::optional<double>> values(particles);
+  for (int i = 0; i < particles; ++i) {
+    if (!bonds[i].empty()) values[i] = steinhardt_order(bonds[i], l);
+  }
+  return values;
+}
+
+Order measure_order(const Packing& packing, std::span<const Contact> contacts) {
+  std::vector<Vector3d> bonds;
+  for (const Contact& contact : contacts) bonds.push_back(contact.displacement);
+  Order order;
+  order.Q4 = steinhardt_order(bonds, 4);
+  order.Q6 = steinhardt_order(bonds, 6);
+  order.local_Q4 = mean_of(local_steinhardt_order(contacts, packing.size(), 4));
+  order.local_Q6 = mean_of(local_steinhardt_order(contacts, packing.size(), 6));
+  order.rank = orientation_rank(*packing.solid);
+  order.S = orientation_order(orientation_harmonics(packing, order.rank));
+  order.random_S = 1 / std::sqrt(static_cast<double>(packing.size()));
+  return order;
+}
+
+OrientationCorrelation orientation_correlation(const Packing& packing, const Eigen::MatrixXd& harmonics,
+                                               const OrientationCorrelationOptions& options) {
+  const double reach = options.reach.value_or(packing.cell.side() / 2);
+  if (!(options.width > 0) || !(reach > 0) || !std::isfinite(reach))
+    throw std::invalid_argument("orientational correlation needs bins and a reach of positive size");
+  OrientationCorrelation result{options.width, {}};
+  result.bins.resize(static_cast<std::size_t>(std::max(1.0, std::floor(reach / options.width))));
+  const double end = options.width * static_cast<double>(result.bins.size());
+  std::vector<double> sums(result.bins.size(), 0.0);
+  for (const NeighbourPair& pair : find_neighbours(packing, end)) {
+    const auto bin = static_cast<std::size_t>(displacement(packing, pair).norm() / options.width);
+    if (bin >= result.bins.size()) continue;
+    sums[bin] += harmonics.col(pair.a).dot(harmonics.col(pair.b));
+    ++result.bins[bin].pairs;
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (result.bins[k].pairs > 0) result.bins[k].mean = sums[k] / static_cast<double>(result.bins[k].pairs);
+  }
+  return result;
+}
+
+}  // namespace isojam

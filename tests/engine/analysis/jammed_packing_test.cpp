@@ -1,0 +1,197 @@
+// Facts proved on a jammed packing of octahedra (N = 48) near its jamming point, and on those above it:
+//   1. contacts whose features make them vertex-face or edge-edge stay below the critical angles of Table II, and come
+//      near the greater ones;
+//   2. the fit and the gap agree on the face-face contacts, within their errors; fixed cut-offs count far more
+//      constraints than either; the pool of all states classifies as many contacts as there are;
+//   3. θ_ef is hyper-random at small angles, as the paper found, and more contacts are aligned than random ones are;
+//   4. clusters of face-face contacts partition the particles, hold every bond, and give the S of their sizes;
+//   5. the packing is disordered: Q6 below the crystalline threshold, orientations no more aligned than chance allows;
+//   6. a perfect crystal of cubes, slightly pressed, has an answer everywhere: all contacts face-face by either method,
+//   one
+//      cluster that winds in all directions and so has neither length nor dimension, perfect order.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/analysis/cluster_statistics.hpp"
+#include "engine/analysis/order.hpp"
+#include "engine/analysis/orientation_order.hpp"
+#include "engine/analysis/random_alignment.hpp"
+#include "engine/solve/jam.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr int particles = 48;
+
+const ConvexSolid& solid() { return platonic(SolidKind::octahedron); }
+
+/// Jammed once for all tests.
+const JamResult& jammed() {
+  static const JamResult result = [] {
+    JamOptions options;
+    options.initial_density = 0.2;
+    options.consolidation_step = 0.03;
+    options.final_distance = 0.015;
+    RandomStream random{81};
+    return jam(random_packing(solid(), particles, options.initial_density, random), options);
+  }();
+  return result;
+}
+
+std::vector<Contact> contacts_of(const Packing& packing) {
+  PackingEnergy energy;
+  return energy.contacts(packing);
+}
+
+const Packing& nearest() { return jammed().states.back(); }
+
+std::vector<double> edge_face_angles(const std::vector<Alignment>& alignments) {
+  std::vector<double> angles;
+  for (const Alignment& alignment : alignments) angles.push_back(alignment.edge_face);
+  return angles;
+}
+
+TEST(JammedPacking, IsAtHand) {
+  ASSERT_TRUE(jammed().status == JamStatus::jammed || jammed().status == JamStatus::short_of_goal)
+      << to_string(jammed().status);
+  ASSERT_GE(jammed().states.size(), 2U);
+}
+
+TEST(JammedPacking, CriticalAnglesBoundItsContacts) {
+  const CriticalAngles critical = critical_angles(solid());
+  constexpr int valence = 4;
+  double vf_ff = 0, vf_ef = 0, ee_ff = 0, ee_ef = 0;
+  int vertex_face = 0, edge_edge = 0;
+  for (const Packing& state : jammed().states) {
+    for (const Contact& contact : contacts_of(state)) {
+      const Overlap& o = contact.overlap;
+      const int edges_a = std::popcount(o.edges_a), edges_b = std::popcount(o.edges_b);
+      const int faces_a = std::popcount(o.faces_a), faces_b = std::popcount(o.faces_b);
+      const Alignment found = alignment(solid(), contact);
+      if (std::max(edges_a, edges_b) == valence && std::min(edges_a, edges_b) == 0 &&
+          faces_a + faces_b == valence + 1) {
+        ++vertex_face;
+        vf_ff = std::max(vf_ff, found.face_face);
+        vf_ef = std::max(vf_ef, found.edge_face);
+      } else if (edges_a == 1 && edges_b == 1 && faces_a == 2 && faces_b == 2) {
+        ++edge_edge;
+        ee_ff = std::max(ee_ff, found.face_face);
+        ee_ef = std::max(ee_ef, found.edge_face);
+      }
+    }
+  }
+  const double degree = std::acos(-1) / 180;
+  std::printf(
+      "%d vertex-face: θ_ef %.1f of %.1f, θ_ff %.1f of %.1f; %d edge-edge: θ_ef %.1f of %.1f, θ_ff %.1f of %.1f\n",
+      vertex_face, vf_ef / degree, critical.ef_vertex_face / degree, vf_ff / degree, critical.ff_vertex_face / degree,
+      edge_edge, ee_ef / degree, critical.ef_edge_edge / degree, ee_ff / degree, critical.ff_edge_edge / degree);
+  EXPECT_GT(vertex_face, 50);
+  EXPECT_GT(edge_edge, 50);
+  EXPECT_LE(vf_ff, critical.ff_vertex_face);
+  EXPECT_LE(vf_ef, critical.ef_vertex_face);
+  EXPECT_LE(ee_ff, critical.ff_edge_edge);
+  EXPECT_LE(ee_ef, critical.ef_edge_edge);
+  EXPECT_GT(vf_ff, 0.8 * critical.ff_vertex_face);
+  EXPECT_GT(ee_ff, 0.8 * critical.ff_edge_edge);
+}
+
+TEST(JammedPacking, MethodsAgreeWhereTheyShould) {
+  const std::vector<Alignment> all = alignments(solid(), contacts_of(nearest()));
+  const ContactAnalysis analysis = analyse_contacts(solid(), particles, all);
+  std::printf(
+      "Z %.2f, Z_ff %.2f by the fit (%s, %.1e rad), %.2f by the gap (%s, η %.3f > %.3f), C %.2f, %.2f with fixed "
+      "cut-offs\n",
+      analysis.numbers.Z, analysis.numbers.Z_ff, to_string(analysis.face_face.verdict).data(),
+      analysis.face_face.cutoff, analysis.Z_ff_gap.value_or(-1), to_string(analysis.face_face_gap.verdict).data(),
+      analysis.face_face_gap.separation, analysis.face_face_gap.critical, analysis.numbers.C, analysis.fixed_cutoffs.C);
+  ASSERT_EQ(analysis.face_face.verdict, FitVerdict::fitted);
+  ASSERT_EQ(analysis.face_face_gap.verdict, GapVerdict::separated);
+  EXPECT_NEAR(*analysis.disagreement(), 0, 2 * analysis.face_face.a0_error * analysis.numbers.Z + 4.0 / particles);
+  EXPECT_GT(analysis.fixed_cutoffs.C, 1.3 * analysis.numbers.C);
+  EXPECT_NEAR(analysis.numbers.C, 12, 1.5);
+
+  std::vector<std::vector<Alignment>> pool;
+  for (const Packing& state : jammed().states) pool.push_back(alignments(solid(), contacts_of(state)));
+  for (const ContactAnalysis& pooled : analyse_pooled(solid(), particles, pool)) {
+    EXPECT_EQ(pooled.pooled_over, static_cast<int>(jammed().states.size()));
+    EXPECT_NEAR(pooled.numbers.Z, pooled.numbers.Z_ff + pooled.numbers.Z_ef + pooled.numbers.Z_l, 1e-12);
+  }
+}
+
+TEST(JammedPacking, EdgesLieInFacesMoreOftenThanByChance) {
+  const RandomAlignment ideal(solid());
+  const std::vector<double> angles = edge_face_angles(alignments(solid(), contacts_of(nearest())));
+  const Randomness found = compare_with_random(
+      angles, [&](double theta) { return ideal.edge_face(theta); }, ideal.ef_max());
+  std::printf("%ld of %zu contacts below %.3f rad, %.1f expected, P %.1e\n", found.below, angles.size(), found.angle,
+              found.expected, found.probability);
+  EXPECT_EQ(found.verdict, RandomnessVerdict::hyper_random);
+}
+
+TEST(JammedPacking, ClustersHoldItsFaceFaceContacts) {
+  const std::vector<Contact> contacts = contacts_of(nearest());
+  const ContactAnalysis analysis = analyse_contacts(solid(), particles, alignments(solid(), contacts));
+  const std::vector<NeighbourPair> bonds = bonds_of(contacts, analysis.classes);
+  const std::vector<Cluster> clusters = find_clusters(nearest(), bonds);
+  const std::vector<int> labels = cluster_labels(clusters, particles);
+  EXPECT_EQ(std::count(labels.begin(), labels.end(), -1), 0);
+  for (const NeighbourPair& bond : bonds) EXPECT_EQ(labels[bond.a], labels[bond.b]);
+  EXPECT_DOUBLE_EQ(analysis.numbers.Z_ff, 2.0 * static_cast<double>(bonds.size()) / particles);
+  double mean = 0;
+  for (int k = 0; k < particles; ++k) {
+    mean += static_cast<double>(std::count(labels.begin(), labels.end(), labels[k])) / particles;
+    EXPECT_LE(labels[k], k) << "a label is its cluster's smallest particle";
+  }
+  const ClusterStatistics statistics = cluster_statistics(nearest(), bonds, clusters);
+  std::printf("%zu bonds, S %.2f, largest %d, l_max/L %.3f, D %.2f ± %.2f (%s)\n", bonds.size(), statistics.S,
+              statistics.largest, statistics.l_max.value_or(-1), statistics.D_max.D, statistics.D_max.error,
+              to_string(statistics.D_max.verdict).data());
+  EXPECT_NEAR(statistics.S, mean, 1e-12 * mean);
+  EXPECT_EQ(statistics.winding_rank, 0);
+  // Touching centres are nearer than two circumradii.
+  const double longest_bond = 2 * solid().circumradius() / nearest().cell.side();
+  EXPECT_LE(statistics.l_max.value(), (statistics.largest - 1) * longest_bond);
+}
+
+TEST(JammedPacking, IsDisordered) {
+  const Order order = measure_order(nearest(), contacts_of(nearest()));
+  std::printf("Q4 %.3f, Q6 %.3f, local %.3f, %.3f, S_%u %.3f against %.3f by chance\n", order.Q4, order.Q6,
+              order.local_Q4.value_or(-1), order.local_Q6.value_or(-1), order.rank, order.S, order.random_S);
+  EXPECT_LT(order.Q6, crystalline_q6);
+  EXPECT_LT(order.S, 3 * order.random_S);
+  EXPECT_GT(order.local_Q6.value(), order.Q6);
+}
+
+TEST(PerfectCrystal, OfCubesHasAnswers) {
+  constexpr int n = 4;
+  Packing crystal{&platonic(SolidKind::cube), PeriodicCell(0.98 * n), {}};
+  for (int k = 0; k < n * n * n; ++k)
+    crystal.poses.push_back({.position = 0.98 * Eigen::Vector3d(k % n, k / n % n, k / n / n)});
+  const std::vector<Contact> contacts = contacts_of(crystal);
+  const std::vector<Alignment> all = alignments(*crystal.solid, contacts);
+  const ContactAnalysis analysis = analyse_contacts(*crystal.solid, crystal.size(), all);
+  EXPECT_EQ(analysis.face_face.verdict, FitVerdict::fitted);
+  EXPECT_EQ(analysis.face_face_gap.verdict, GapVerdict::all_alike);
+  EXPECT_EQ(analysis.numbers.Z, 26) << "neighbours across faces, edges and corners";
+  EXPECT_EQ(analysis.numbers.Z_ff, 26);
+  EXPECT_EQ(analysis.disagreement(), 0);
+  const std::vector<NeighbourPair> bonds = bonds_of(contacts, analysis.classes);
+  const std::vector<Cluster> clusters = find_clusters(crystal, bonds);
+  ASSERT_EQ(clusters.size(), 1U);
+  const ClusterStatistics statistics = cluster_statistics(crystal, bonds, clusters);
+  EXPECT_EQ(statistics.S, n * n * n);
+  EXPECT_EQ(statistics.winding_rank, 3);
+  EXPECT_TRUE(statistics.spans);
+  EXPECT_FALSE(statistics.l_max);
+  EXPECT_EQ(statistics.D_max.verdict, DimensionVerdict::winds);
+  const Order order = measure_order(crystal, contacts);
+  EXPECT_NEAR(order.S, 1, 1e-12);
+  EXPECT_NEAR(order.local_Q6.value(), order.Q6, 1e-12);
+}
+
+}  // namespace
+}  // namespace isojam
