@@ -111,17 +111,38 @@ TEST(StabilityTest, NamesWhatItsContactsDoNotHold) {
     const Eigen::SelfAdjointEigenSolver<Matrix6d> block(matrix.diagonal[particle]);
     const Vector6d soft = block.eigenvectors().col(0);
     pushed.diagonal[particle] -= 2 * block.eigenvalues()[0] * soft * soft.transpose();
-    const Stability stability = assess(pushed, spectrum_ends(pushed));
-    EXPECT_GE(stability.negative, 1);
-    EXPECT_EQ(stability.verdict, Verdict::unstable);
-    const auto named = std::find_if(stability.near_rattlers.begin(), stability.near_rattlers.end(),
-                                    [&](const NearRattler& found) { return found.particle == particle; });
-    ASSERT_NE(named, stability.near_rattlers.end()) << "particle " << particle;
-    EXPECT_LT(named->stiffness, 0);
-    if (named->contacts >= 4) {
-      EXPECT_EQ(named->reason, NearRattler::Reason::vanishing_stiffness);
+    for (const SpectrumEnds& ends : {spectrum_ends(pushed), SpectrumEnds{}}) {
+      const Stability stability = assess(pushed, ends);
+      EXPECT_GE(stability.negative, 1);
+      EXPECT_EQ(stability.verdict, Verdict::unstable);
+      const auto named = std::find_if(stability.near_rattlers.begin(), stability.near_rattlers.end(),
+                                      [&](const NearRattler& found) { return found.particle == particle; });
+      ASSERT_NE(named, stability.near_rattlers.end()) << "particle " << particle;
+      EXPECT_LT(named->stiffness, 0);
+      if (named->contacts >= 4) {
+        EXPECT_EQ(named->reason, NearRattler::Reason::vanishing_stiffness);
+      }
     }
   }
+}
+
+TEST(StabilityTest, NamesWhatCarriesAModeThoughOthersWouldHoldIt) {
+  // Particle 0 is held while particle 1 rests; together they give way, 0 by far the more.
+  BlockMatrix matrix;
+  matrix.diagonal.assign(8, 100 * Matrix6d::Identity());
+  matrix.diagonal[0] = Matrix6d::Identity();
+  matrix.off_diagonal.push_back({0, 1, 11 * Matrix6d::Identity()});
+  for (int row = 0; row < 8; ++row) {
+    for (int column = std::max(2, row + 1); column < 8; ++column)
+      matrix.off_diagonal.push_back({row, column, Matrix6d::Zero()});
+  }
+  const Stability stability = assess(matrix, spectrum_ends(matrix));
+  EXPECT_EQ(stability.negative, 6);
+  ASSERT_EQ(stability.near_rattlers.size(), 1U);
+  EXPECT_EQ(stability.near_rattlers[0].particle, 0);
+  EXPECT_EQ(stability.near_rattlers[0].reason, NearRattler::Reason::vanishing_stiffness);
+  EXPECT_NEAR(stability.near_rattlers[0].stiffness, 1, 1e-14);
+  EXPECT_TRUE(assess(matrix, {}).near_rattlers.empty()) << "without modes nobody can tell";
 }
 
 TEST(StabilityTest, FewContacts) {
