@@ -1,43 +1,16 @@
 #include "engine/solve/jamming_point.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
+
+#include "engine/solve/straight_line.hpp"
 
 namespace isojam {
 
 namespace {
-
-/// Least-squares line y = intercept + slope·x.
-struct Line {
-  double intercept = 0, slope = 0;
-  double squared_residual = 0;
-  double intercept_variance = 0;  ///< 0 with two points
-};
-
-Line fit_line(std::span<const double> x, std::span<const double> y) {
-  const auto n = static_cast<double>(x.size());
-  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
-  const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
-  double xx = 0, xy = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    xx += (x[k] - mean_x) * (x[k] - mean_x);
-    xy += (x[k] - mean_x) * (y[k] - mean_y);
-  }
-  Line line;
-  line.slope = xy / xx;
-  line.intercept = mean_y - line.slope * mean_x;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double r = y[k] - line.intercept - line.slope * x[k];
-    line.squared_residual += r * r;
-  }
-  if (x.size() > 2) line.intercept_variance = line.squared_residual / (n - 2) * (1 / n + mean_x * mean_x / xx);
-  return line;
-}
 
 double sixth_root(double energy) { return std::cbrt(std::sqrt(energy)); }
 
@@ -99,10 +72,7 @@ std::optional<JammingPoint> fit_jamming_point(std::span<const EnergyPoint> state
   JammingPoint point;
   point.density = line.intercept;
   point.standard_error = std::sqrt(line.intercept_variance);
-  if (used > 2) {
-    const boost::math::students_t student(static_cast<double>(used - 2));
-    point.ci95_half_width = boost::math::quantile(student, 0.975) * point.standard_error;
-  }
+  if (used > 2) point.ci95_half_width = student_95(static_cast<double>(used - 2)) * point.standard_error;
   point.single_state = nearest.density - 6 * nearest.energy_per_particle / nearest.slope;
   point.exponent = free_exponent(states, chosen, window);
   point.states.assign(chosen.begin(), chosen.end());

@@ -4,7 +4,8 @@
 #   1. engine/ includes only engine/, the standard library, Eigen, Spectra and Boost.Math: nothing of tasks/, no JSON,
 #      no formatting or command-line library, no file, clock, stream or environment; nor does it name these by
 #      way of a header that happens to bring them.
-#   2. inside engine/, includes never point upwards: random < geometry < packing < solve < analysis.
+#   2. inside engine/, includes never point upwards: random < geometry < packing < solve < analysis <
+#      vibration < rigidity.
 #   3. oneTBB (also by way of <execution>) enters engine/packing/pair_loop.cpp and tasks/graph.cpp, nothing else.
 #   4. no source of engine/, tasks/ or tests/ is longer than 400 lines.
 # Prints one line per breach, `file:line: why: text`, and exits 1 if there is one.
@@ -13,7 +14,7 @@ export LC_ALL=C
 cd "${1:?usage: check_tree.sh ROOT}"
 
 readonly max_lines=400
-readonly ranks='random geometry packing solve analysis'
+readonly ranks='random geometry packing solve analysis vibration rigidity'
 readonly tbb_sources=' engine/packing/pair_loop.cpp tasks/graph.cpp '
 readonly banned_headers=' filesystem chrono ctime fstream iostream istream ostream sstream syncstream cstdio iomanip execution '
 readonly system_headers=' quadmath.h immintrin.h '

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+namespace isojam {
+
+/// Least-squares line y = intercept + slope·x.
+struct Line {
+  double intercept = 0, slope = 0;
+  double squared_residual = 0;
+  double intercept_variance = 0, slope_variance = 0;  ///< 0 with two points
+};
+
+/// At least two points, not all at the same x.
+Line fit_line(std::span<const double> x, std::span<const double> y);
+
+/// t with P(|T| < t) = .95, T Student's with `degrees` ≥ 1 of freedom.
+double student_95(double degrees);
+
+}  // namespace isojam

@@ -1,0 +1,70 @@
+#include "engine/vibration/dynamical_matrix.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "engine/solve/factor/shift_invert.hpp"
+
+namespace isojam {
+
+Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix) {
+  return lower_half(matrix, 0).selfadjointView<Eigen::Lower>();
+}
+
+Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix) {
+  const Eigen::Index n = 6 * Eigen::Index{matrix.size()};
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 0; k < matrix.size(); ++k) dense.block<6, 6>(6 * k, 6 * k) = matrix.diagonal[k];
+  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
+    dense.block<6, 6>(6 * block.row, 6 * block.column) = block.value;
+    dense.block<6, 6>(6 * block.column, 6 * block.row) = block.value.transpose();
+  }
+  return dense;
+}
+
+Eigen::MatrixXd translations(int particles) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(6 * Eigen::Index{particles}, 3);
+  const double entry = 1 / std::sqrt(static_cast<double>(particles));
+  for (int k = 0; k < particles; ++k) result.block<3, 3>(6 * k, 0).diagonal().setConstant(entry);
+  return result;
+}
+
+double norm_bound(const BlockMatrix& matrix) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(6 * Eigen::Index{matrix.size()});
+  for (int k = 0; k < matrix.size(); ++k) sums.segment<6>(6 * k) = matrix.diagonal[k].cwiseAbs().rowwise().sum();
+  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
+    sums.segment<6>(6 * block.row) += block.value.cwiseAbs().rowwise().sum();
+    sums.segment<6>(6 * block.column) += block.value.cwiseAbs().colwise().sum().transpose();
+  }
+  if (!sums.allFinite()) return std::numeric_limits<double>::infinity();
+  return sums.size() == 0 ? 0 : sums.maxCoeff();
+}
+
+double rounding_bound(const BlockMatrix& matrix, double stiffness) {
+  std::vector<int> blocks(matrix.diagonal.size(), 1);
+  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
+    ++blocks[block.row];
+    ++blocks[block.column];
+  }
+  const int most = blocks.empty() ? 0 : *std::max_element(blocks.begin(), blocks.end());
+  return std::numeric_limits<double>::epsilon() * std::sqrt(6.0 * matrix.size()) * most * stiffness;
+}
+
+Eigen::MatrixXd difference_hessian(const Packing& packing, double h, Precision precision) {
+  if (!(h > 0)) throw std::invalid_argument("differences need a step");
+  PackingEnergy energy;
+  const Eigen::Index n = 6 * Eigen::Index{packing.size()};
+  Eigen::MatrixXd slopes(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(n, k);
+    slopes.col(k) = (energy.evaluate(moved(packing, step), precision).gradient -
+                     energy.evaluate(moved(packing, -step), precision).gradient) /
+                    (2 * h);
+  }
+  return (slopes + slopes.transpose()) / 2;
+}
+
+}  // namespace isojam

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <stop_token>
+#include <string_view>
+
+#include "engine/packing/packing.hpp"
+#include "engine/solve/minimise/minimise.hpp"
+#include "engine/vibration/stability.hpp"
+
+namespace isojam {
+
+enum class DownhillEnd {
+  not_called,
+  was_minimum,      ///< no negative mode to begin with: the packing is as it came
+  reached_minimum,  ///< a minimum was found below a saddle
+  lost_balance,     ///< a minimisation ended without equilibrium
+  still_unstable,   ///< negative modes left: descents spent, or no lower energy found along the mode
+  undetermined      ///< no verdict on stability, or no modes
+};
+std::string_view to_string(DownhillEnd end);
+
+struct DownhillOptions {
+  int max_descents = 5;  ///< a saddle below a saddle is seldom, three of them are unheard of
+  /// Largest displacement of a particle in the first trial along the mode, in inradii; halved until the energy falls.
+  double first_step = 0.1;
+  MinimiseOptions minimise;
+  ModeOptions modes{.highest = 1};  ///< only the lowest is followed; λ_max is for the tolerance
+};
+
+struct DownhillResult {
+  DownhillEnd ended = DownhillEnd::not_called;
+  Packing packing;
+  MinimiseSummary summary{};  ///< of the last minimisation
+  Stability stability{};      ///< of `packing`; not called where balance was lost
+  int descents = 0;           ///< saddles left behind
+  double energy_drop = 0;     ///< from the first equilibrium to the last
+
+  bool was_unstable() const { return descents > 0 || stability.negative > 0; }
+};
+
+/// Follows an unstable equilibrium along its lowest mode, on the side where the energy falls more, to a minimum, and
+/// looks again, a few times at most. What comes is minimised first: an equilibrium stays as it is.
+DownhillResult follow_downhill(const Packing& packing, const DownhillOptions& options = {}, std::stop_token stop = {});
+
+}  // namespace isojam

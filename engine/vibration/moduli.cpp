@@ -1,0 +1,162 @@
+#include "engine/vibration/moduli.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/pinned_matrix.hpp"
+
+namespace isojam {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Strains = Eigen::Matrix<double, 3, 6>;
+
+/// Symmetric tensor of the I-th unit vector.
+Matrix3d unit_strain(int i) {
+  Matrix3d strain = Matrix3d::Zero();
+  if (i < 3) {
+    strain(i, i) = 1;
+  } else {
+    const int a = (i + 1) % 3, b = (i + 2) % 3;
+    strain(a, b) = strain(b, a) = 1 / std::numbers::sqrt2;
+  }
+  return strain;
+}
+
+/// Column I: the change of r by the I-th unit strain.
+Strains strained(const Vector3d& r) {
+  Strains changes;
+  for (int i = 0; i < 6; ++i) changes.col(i) = unit_strain(i) * r;
+  return changes;
+}
+
+/// x_b − x_a of every block off the diagonal, by a merge of two lists in the order of pairs.
+std::vector<Vector3d> displacements(const Packing& packing, const BlockMatrix& hessian,
+                                    std::span<const Contact> contacts) {
+  std::vector<Vector3d> result;
+  result.reserve(hessian.off_diagonal.size());
+  const auto pair_of = [](const Contact& contact) { return std::tie(contact.pair.a, contact.pair.b); };
+  auto contact = contacts.begin();
+  for (const BlockMatrix::Block& block : hessian.off_diagonal) {
+    const auto pair = std::tie(block.row, block.column);
+    while (contact != contacts.end() && pair_of(*contact) < pair) ++contact;
+    const bool listed = contact != contacts.end() && pair_of(*contact) == pair;
+    const Vector3d d = packing.poses[static_cast<std::size_t>(block.column)].position -
+                       packing.poses[static_cast<std::size_t>(block.row)].position;
+    result.push_back(listed ? contact->displacement : packing.cell.nearest_image(d));
+  }
+  return result;
+}
+
+/// What strain does before anything relaxes.
+struct Affine {
+  Matrix6d stiffness = Matrix6d::Zero();  ///< d²E/dε², not over V
+  Eigen::MatrixXd forces;                 ///< Ξ = ∂²E/∂r∂ε, 6N × 6
+};
+
+/// A pair's energy depends on positions through r = x_b − x_a only: its derivatives by r are those by x_b, and, up to
+/// sign, those by x_a, which the block H_ab of the Hessian holds. Beside r, exp(ε) r has a second order ½ ε² r, on
+/// which the stress does work: V σ:ε².
+Affine affine_response(const Packing& packing, const BlockMatrix& hessian, std::span<const Contact> contacts,
+                       const Evaluation& evaluation) {
+  Affine response;
+  response.forces = Eigen::MatrixXd::Zero(6 * Index{packing.size()}, 6);
+  const std::vector<Vector3d> all = displacements(packing, hessian, contacts);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const BlockMatrix::Block& block = hessian.off_diagonal[k];
+    const Strains dr = strained(all[k]);
+    response.stiffness -= dr.transpose() * block.value.topLeftCorner<3, 3>() * dr;
+    response.forces.middleRows<6>(6 * block.row) += block.value.leftCols<3>() * dr;
+    response.forces.middleRows<6>(6 * block.column) -= block.value.topRows<3>().transpose() * dr;
+  }
+  const Matrix3d stress = packing.cell.volume() * (evaluation.stress + evaluation.stress.transpose()) / 2;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const Matrix3d product = unit_strain(i) * unit_strain(j);
+      response.stiffness(i, j) += stress.cwiseProduct(product + product.transpose()).sum() / 2;
+    }
+  }
+  return response;
+}
+
+/// Of the traceless tensors, orthonormal.
+Eigen::Matrix<double, 6, 5> traceless_basis() {
+  Eigen::Matrix<double, 6, 5> basis = Eigen::Matrix<double, 6, 5>::Zero();
+  basis.col(0).head<3>() = Vector3d(1, -1, 0).normalized();
+  basis.col(1).head<3>() = Vector3d(1, 1, -2).normalized();
+  basis.bottomRightCorner<3, 3>().setIdentity();
+  return basis;
+}
+
+/// From d²E/ds² of r → e^s r, which is 9V(K − p).
+double bulk(const Matrix6d& tensor, double pressure) { return tensor.topLeftCorner<3, 3>().sum() / 9 + pressure; }
+
+}  // namespace
+
+double ElasticTensor::affine_bulk_modulus() const { return bulk(affine, pressure); }
+double ElasticTensor::bulk_modulus() const { return bulk(relaxed, pressure); }
+
+std::array<double, 5> ElasticTensor::shear_moduli() const {
+  const Eigen::Matrix<double, 6, 5> basis = traceless_basis();
+  const Eigen::Matrix<double, 5, 5> traceless = basis.transpose() * relaxed * basis / 2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 5, 5>> solver(traceless, Eigen::EigenvaluesOnly);
+  std::array<double, 5> moduli{};
+  for (int k = 0; k < 5; ++k) moduli[static_cast<std::size_t>(k)] = solver.eigenvalues()[k];
+  return moduli;
+}
+
+double ElasticTensor::mean_shear_modulus() const {
+  const Eigen::Matrix<double, 6, 5> basis = traceless_basis();
+  return (basis.transpose() * relaxed * basis).trace() / 10;
+}
+
+std::optional<ElasticTensor> elastic_tensor(const Packing& packing, const BlockMatrix& hessian,
+                                            std::span<const Contact> contacts, const Evaluation& evaluation) {
+  const double stiffness = norm_bound(hessian);
+  if (!(stiffness > 0) || !std::isfinite(stiffness)) return std::nullopt;
+  BlockCholesky cholesky;
+  if (!cholesky.factorise(pinned_matrix(hessian, stiffness, Pinning::translations_and_untouched), 0))
+    return std::nullopt;
+  const Affine affine = affine_response(packing, hessian, contacts, evaluation);
+  Eigen::MatrixXd moves(affine.forces.rows(), 6), reactions(affine.forces.rows(), 6);
+  for (int i = 0; i < 6; ++i) {
+    Eigen::VectorXd force = -affine.forces.col(i);
+    force.head<3>().setZero();  // pinned; the others' resultant is what it was
+    moves.col(i) = cholesky.solve(force);
+    reactions.col(i) = hessian * Eigen::VectorXd(moves.col(i));
+  }
+  // Stationary in the moves: an error of theirs counts by its square only, where affine − Ξᵀ D⁺ Ξ would cancel to few
+  // digits.
+  const Matrix6d cross = affine.forces.transpose() * moves;
+  const Matrix6d relaxed = affine.stiffness + cross + cross.transpose() + moves.transpose() * reactions;
+  ElasticTensor tensor;
+  tensor.pressure = evaluation.pressure;
+  const double twice = 2 * packing.cell.volume();
+  tensor.affine = (affine.stiffness + affine.stiffness.transpose()) / twice;
+  tensor.relaxed = (relaxed + relaxed.transpose()) / twice;
+  return tensor;
+}
+
+std::optional<PressureSlope> pressure_slope(const Packing& packing, const PressureSlopeOptions& options) {
+  PressureSlope slope;
+  PackingEnergy energy;
+  const auto pressure_at = [&](double density, MinimiseSummary& summary) {
+    Packing neighbour = strained_to(packing, density);
+    summary = minimise(neighbour, energy, options.minimise);
+    return energy.evaluate(neighbour, summary.precision).pressure;
+  };
+  const double phi = packing.density(), step = options.strain * phi;
+  const double below = pressure_at(phi - step, slope.below), above = pressure_at(phi + step, slope.above);
+  if (!is_equilibrium(slope.below) || !is_equilibrium(slope.above)) return std::nullopt;
+  slope.bulk_modulus = phi * (above - below) / (2 * step);
+  return slope;
+}
+
+}  // namespace isojam

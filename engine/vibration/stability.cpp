@@ -1,0 +1,134 @@
+#include "engine/vibration/stability.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "engine/solve/factor/shift_invert.hpp"
+#include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/pinned_matrix.hpp"
+
+namespace isojam {
+
+namespace {
+
+/// Eigenvalues of D below σ; nullopt if σ is one, or D is not finite.
+std::optional<int> count_below(const BlockMatrix& matrix, double sigma) {
+  ShiftInvert inverse(matrix);
+  try {
+    inverse.set_shift(sigma);
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+  return inverse.negative_pivots();
+}
+
+bool all_above(const BlockMatrix& matrix, double sigma) { return BlockCholesky().factorise(matrix, -sigma); }
+
+void count_modes(const BlockMatrix& matrix, double stiffness, Stability& stability) {
+  const int all = 6 * matrix.size();
+  const double tolerance = stability.tolerance;
+  // Pinning one particle cuts a space of 6N − 3 dimensions out of 6N: the least eigenvalue there is at most the fourth
+  // of D. The first three belong to the translations.
+  if (all_above(pinned_matrix(matrix, stiffness, Pinning::translations), tolerance)) {
+    stability.zero = 3;
+    stability.positive = all - 3;
+    stability.verdict = Verdict::stable;
+    return;
+  }
+  const std::optional<int> negative = count_below(matrix, -tolerance), not_positive = count_below(matrix, tolerance);
+  if (!negative || !not_positive) {
+    stability.verdict = Verdict::undetermined;
+    return;
+  }
+  stability.negative = *negative;
+  stability.zero = *not_positive - *negative;
+  stability.positive = all - *not_positive;
+  stability.verdict = *negative > 0 ? Verdict::unstable : (stability.zero > 3 ? Verdict::marginal : Verdict::stable);
+}
+
+std::vector<int> contacts_of(const BlockMatrix& matrix) {
+  std::vector<int> contacts(matrix.diagonal.size(), 0);
+  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
+    ++contacts[block.row];
+    ++contacts[block.column];
+  }
+  return contacts;
+}
+
+/// Particles that carry more than half of a mode which is not positive.
+std::vector<char> carriers(const ModeSet& modes, double tolerance, int particles) {
+  std::vector<char> carries(static_cast<std::size_t>(particles), 0);
+  for (Eigen::Index k = 0; k < modes.size() && modes.eigenvalues[k] <= tolerance; ++k) {
+    for (int i = 0; i < particles; ++i) {
+      if (modes.vectors.col(k).segment<6>(6 * i).squaredNorm() > 0.5) carries[i] = 1;
+    }
+  }
+  return carries;
+}
+
+std::vector<NearRattler> find_near_rattlers(const BlockMatrix& matrix, const ModeSet& lowest, double tolerance) {
+  const std::vector<int> contacts = contacts_of(matrix);
+  const std::vector<char> carries = carriers(lowest, tolerance, matrix.size());
+  std::vector<NearRattler> found;
+  for (int i = 0; i < matrix.size(); ++i) {
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> own(matrix.diagonal[i], Eigen::EigenvaluesOnly);
+    const double stiffness = own.eigenvalues()[0];
+    const bool few = contacts[i] < 4;
+    if (!few && stiffness > tolerance && !carries[i]) continue;
+    using enum NearRattler::Reason;
+    found.push_back({i, few ? few_contacts : vanishing_stiffness, contacts[i], stiffness});
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string_view to_string(Verdict verdict) {
+  static constexpr std::array<std::string_view, 5> names{"not_called", "stable", "marginal", "unstable",
+                                                         "undetermined"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+std::string_view to_string(NearRattler::Reason reason) {
+  return reason == NearRattler::Reason::few_contacts ? "few_contacts" : "vanishing_stiffness";
+}
+
+double zero_tolerance(const BlockMatrix& matrix, double stiffness, double unbalanced_torque) {
+  return rounding_bound(matrix, stiffness) + unbalanced_torque;
+}
+
+double unbalanced_torque(const Evaluation& evaluation, double gyration_radius) {
+  double largest = 0;
+  for (Eigen::Index k = 3; k < evaluation.gradient.size(); k += 6)
+    largest = std::max(largest, evaluation.gradient.segment<3>(k).norm());
+  return largest / gyration_radius;
+}
+
+Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque) {
+  Stability stability;
+  const double bound = norm_bound(matrix);
+  if (!std::isfinite(bound)) {
+    stability.verdict = Verdict::undetermined;
+    return stability;
+  }
+  // Without the highest modes their bound serves.
+  const double stiffness = ends.stiffness > 0 ? ends.stiffness : bound;
+  if (stiffness == 0) {
+    stability.zero = 6 * matrix.size();
+    stability.verdict = Verdict::marginal;
+  } else {
+    stability.tolerance = zero_tolerance(matrix, stiffness, unbalanced_torque);
+    count_modes(matrix, stiffness, stability);
+    const Eigen::MatrixXd moves = translations(matrix.size());
+    for (int c = 0; c < 3; ++c)
+      stability.translation_error = std::max(stability.translation_error, (matrix * moves.col(c)).norm());
+  }
+  stability.near_rattlers = find_near_rattlers(matrix, ends.lowest, stability.tolerance);
+  return stability;
+}
+
+}  // namespace isojam

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <vector>
+
+#include "engine/packing/energy.hpp"
+#include "engine/vibration/modes.hpp"
+
+namespace isojam {
+
+enum class Verdict {
+  not_called,
+  stable,       ///< three zero modes, no negative one: a strict minimum but for translations
+  marginal,     ///< further zero modes, none negative
+  unstable,     ///< negative modes
+  undetermined  ///< inertia could not be had: D is not finite, or singular wherever it was tried
+};
+std::string_view to_string(Verdict verdict);
+
+/// A particle that its contacts may not hold.
+struct NearRattler {
+  enum class Reason {
+    few_contacts,        ///< fewer than four
+    vanishing_stiffness  ///< a zero or negative mode with all others at rest, or one that is mostly its own
+  };
+  int particle = 0;
+  Reason reason = Reason::few_contacts;
+  int contacts = 0;
+  double stiffness = 0;  ///< least eigenvalue of its own block of D
+};
+std::string_view to_string(NearRattler::Reason reason);
+
+struct Stability {
+  Verdict verdict = Verdict::not_called;
+  int zero = 0, negative = 0, positive = 0;  ///< of all 6N modes, exact by Sylvester's inertia
+  double tolerance = 0;                      ///< |λ| up to this is zero
+  double translation_error = 0;              ///< max ‖D t‖ over the three translations; below tolerance
+  std::vector<NearRattler> near_rattlers;    ///< ascending by particle; at most one entry for each
+};
+
+/// What separates zero from small: rounding_bound(D, λ_max) + the largest |T_i|/R² of an unbalanced torque. The second,
+/// because turns do not commute: the Hessian of a particle that feels a torque T depends by up to T/2 on what is meant
+/// by a small turn.
+double zero_tolerance(const BlockMatrix& matrix, double stiffness, double unbalanced_torque = 0);
+
+/// max_i |T_i|/R² of an evaluation, the second argument of zero_tolerance.
+double unbalanced_torque(const Evaluation& evaluation, double gyration_radius);
+
+/// Counts all modes of D, by the number of eigenvalues below −tolerance and above +tolerance, and names near-rattlers.
+/// A packing whose D with one particle pinned is above the tolerance has 6N − 3 positive modes (eigenvalues
+/// interlace), which a Cholesky factorisation shows; anything else is counted by LDLᵀ.
+/// Four: forces on fewer than four points balance in a plane, and nothing opposes a motion out of it to first order.
+Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque = 0);
+
+}  // namespace isojam

@@ -1,0 +1,288 @@
+// Facts proved here:
+//   rows are of unit length, blind to translations, and rowsᵀ·forces is the gradient of the energy;
+//   class rows let a constructed contact move as its shape lets it (slides and spins; turns about an edge), and oppose
+//   the rest; their number is C·N/2;
+//   in every state of jammed octahedra, tetrahedra and icosahedra, and of cubes: Maxwell–Calladine closes, ranks are
+//   those of the singular values, and what counts is orders of magnitude from what does not; nearest jamming the
+//   normals have exactly one state of self-stress, and the forces of the equilibrium are it; cubes have more than one
+//   redundant constraint per particle; bases of states of self-stress are orthonormal and balance; known ranks:
+//   repeated rows, rows of a tree, no rows.
+
+#include "engine/rigidity/rigidity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <stdexcept>
+
+#include "engine/solve/minimise/minimise.hpp"
+#include "tests/engine/analysis/constructed_contacts.hpp"
+#include "tests/engine/solve/solve_support.hpp"
+#include "tests/engine/vibration/jammed_states.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// A state with what is known of its contacts.
+struct Known {
+  explicit Known(const Packing& packing) : state(packing) {
+    PackingEnergy energy;
+    gradient = energy.evaluate(state).gradient;
+    contacts = energy.contacts(state);
+    angles = alignments(*state.solid, contacts);
+    analysis = analyse_contacts(*state.solid, state.size(), angles);
+  }
+  RigidityMatrix normals() const { return normal_constraints(state, contacts); }
+  RigidityMatrix by_class() const { return class_constraints(state, contacts, angles, analysis.classes); }
+
+  const Packing& state;
+  VectorXd gradient;
+  std::vector<Contact> contacts;
+  std::vector<Alignment> angles;
+  ContactAnalysis analysis;
+};
+
+TEST(RigidityMatrixTest, RowsAreUnitAndForcesGiveTheGradient) {
+  for (const SolidKind kind : all_solids) {
+    const Packing packing = small_packing(kind, 0.7, 91);
+    const Known known(packing);
+    for (const RigidityMatrix& matrix : {known.normals(), known.by_class()}) {
+      const MatrixXd rows = matrix.rows;
+      EXPECT_LE((rows.rowwise().norm().array() - 1).abs().maxCoeff(), 16 * eps);
+      const VectorXd gradient = rows.transpose() * matrix.forces;
+      EXPECT_LE((gradient - known.gradient).norm(), 1e-10 * known.gradient.norm()) << to_string(kind);
+      EXPECT_NEAR(matrix.imbalance, gradient.norm() / matrix.forces.norm(), 16 * eps);
+      for (int c = 0; c < 3; ++c) {
+        VectorXd shift = VectorXd::Zero(rows.cols());
+        for (int i = 0; i < packing.size(); ++i) shift[6 * i + c] = 1;
+        EXPECT_LE((rows * shift).cwiseAbs().maxCoeff(), 16 * eps);
+      }
+    }
+    EXPECT_NEAR(known.analysis.numbers.C * packing.size() / 2, static_cast<double>(known.by_class().rows.rows()), 1e-9);
+  }
+}
+
+/// Two bodies in touch, A turned at random, and the motions of B about the point of touch.
+struct Pair {
+  Pair(const ConvexSolid& solid, const Contact& in_frame_of_a, const Vector3d& touch, RandomStream& random)
+      : packing{&solid, PeriodicCell(100), std::vector<Pose>(2)},
+        contact(constructed::overlapped(solid, in_frame_of_a)) {
+    packing.poses[0].orientation = constructed::random_orientation(random);
+    const Eigen::Quaterniond& q = packing.poses[0].orientation;
+    lever = q * (touch - contact.pose.displacement);
+    contact.pair = {0, 1};
+    contact.displacement = q * contact.pose.displacement;
+  }
+
+  /// |rows · dr| where B moves by `slide` and turns by `turn` (frame of A) about the point of touch; |dr| = 1.
+  double opposed(const RigidityMatrix& matrix, const Vector3d& slide, const Vector3d& turn) const {
+    const Eigen::Quaterniond& q = packing.poses[0].orientation;
+    const Vector3d theta = q * turn;
+    VectorXd step = VectorXd::Zero(12);
+    step.segment<3>(6) = q * slide - theta.cross(lever);
+    step.segment<3>(9) = packing.solid->gyration_radius() * theta;
+    return (matrix.rows * step.normalized()).norm();
+  }
+
+  Packing packing;
+  Contact contact;
+  Vector3d lever;  ///< from B's centre to the point of touch, lab frame
+};
+
+constexpr double depth = 1e-4;
+constexpr double free_motion = 30 * depth;  ///< what finite depth leaves of a row where there should be nothing
+constexpr double opposed_motion = 0.1;
+
+TEST(RigidityMatrixTest, FaceOnFaceSlidesAndSpins) {
+  RandomStream random{92};
+  for (const SolidKind kind : all_solids) {
+    const ConvexSolid& solid = platonic(kind);
+    for (int face = 0; face < 4; ++face) {
+      const constructed::Site a = constructed::face_and_edges_site(solid, face);
+      const Contact touching = constructed::contact(a, constructed::face_and_edges_site(solid, 1), random.uniform(),
+                                                    1e-7 * a.outward.unitOrthogonal(), depth);
+      const Pair pair(solid, touching, a.point, random);
+      const std::vector<Alignment> angles{alignment(solid, pair.contact)};
+      const RigidityMatrix matrix =
+          class_constraints(pair.packing, std::vector{pair.contact}, angles, std::vector{ContactClass::face_face});
+      ASSERT_EQ(matrix.rows.rows(), 3);
+      const Vector3d n = a.outward, t = n.unitOrthogonal(), s = n.cross(t), none = Vector3d::Zero();
+      for (const Vector3d& in_plane : {t, s}) {
+        EXPECT_LE(pair.opposed(matrix, in_plane, none), free_motion) << to_string(kind);
+        EXPECT_GE(pair.opposed(matrix, none, in_plane), opposed_motion) << to_string(kind);
+      }
+      EXPECT_LE(pair.opposed(matrix, none, n), free_motion) << to_string(kind);
+      EXPECT_GE(pair.opposed(matrix, n, none), opposed_motion) << to_string(kind);
+    }
+  }
+}
+
+TEST(RigidityMatrixTest, EdgeInFaceTurnsAboutItself) {
+  RandomStream random{93};
+  for (const SolidKind kind : all_solids) {
+    const ConvexSolid& solid = platonic(kind);
+    for (int edge = 0; edge < 6; ++edge) {
+      const constructed::Site a = constructed::edge_site(solid, edge);
+      const Contact touching = constructed::contact(a, constructed::face_site(solid, 2), random.uniform(),
+                                                    0.1 * constructed::direction(solid, edge), depth);
+      const bool swap = edge % 2 == 1;  // B's edge in A's face
+      const Contact seen = swap ? constructed::exchanged(touching) : touching;
+      const Eigen::Matrix3d to_frame = swap ? seen.pose.rotation : Eigen::Matrix3d::Identity().eval();
+      const Vector3d touch = swap ? Vector3d(seen.pose.displacement + to_frame * a.point) : a.point;
+      const Pair pair(solid, seen, touch, random);
+      const std::vector<Alignment> angles{alignment(solid, pair.contact)};
+      ASSERT_EQ(angles[0].edge_of_a, !swap);
+      const RigidityMatrix matrix =
+          class_constraints(pair.packing, std::vector{pair.contact}, angles, std::vector{ContactClass::edge_face});
+      ASSERT_EQ(matrix.rows.rows(), 2);
+      const Vector3d& face = solid.faces()[static_cast<std::size_t>(angles[0].face)].normal;
+      const Vector3d n = swap ? face : Vector3d(pair.contact.pose.rotation * face);
+      const Vector3d e = to_frame * constructed::direction(solid, edge), s = e.cross(n).normalized();
+      const Vector3d none = Vector3d::Zero();
+      EXPECT_LE(pair.opposed(matrix, e, none), free_motion) << to_string(kind);
+      EXPECT_LE(pair.opposed(matrix, s, none), free_motion) << to_string(kind);
+      EXPECT_LE(pair.opposed(matrix, none, e), free_motion) << to_string(kind) << ": about the edge";
+      EXPECT_LE(pair.opposed(matrix, none, n), free_motion) << to_string(kind) << ": about the normal";
+      EXPECT_GE(pair.opposed(matrix, n, none), opposed_motion) << to_string(kind);
+      EXPECT_GE(pair.opposed(matrix, none, s), opposed_motion) << to_string(kind) << ": lifting an end";
+    }
+  }
+}
+
+TEST(RigidityMatrixTest, RefusesWhatDoesNotMatch) {
+  const Packing packing = small_packing(SolidKind::octahedron, 0.6, 94);
+  const Known known(packing);
+  EXPECT_THROW(class_constraints(packing, known.contacts, {}, known.analysis.classes), std::invalid_argument);
+  EXPECT_THROW(class_constraints(packing, known.contacts, known.angles, {}), std::invalid_argument);
+  const std::vector<Alignment> blank(known.contacts.size());
+  for (const ContactClass flat : {ContactClass::edge_face, ContactClass::face_face}) {
+    const std::vector<ContactClass> classes(known.contacts.size(), flat);
+    EXPECT_THROW(class_constraints(packing, known.contacts, blank, classes), std::invalid_argument);
+  }
+}
+
+void expect_closed(const Rigidity& rigidity, const RigidityMatrix& matrix, int particles) {
+  EXPECT_EQ(rigidity.constraints, matrix.rows.rows());
+  EXPECT_EQ(6 * particles - rigidity.constraints, rigidity.floppy - rigidity.self_stress);
+  EXPECT_EQ(rigidity.floppy + rigidity.rank, 6 * particles);
+  EXPECT_GE(rigidity.floppy, 3);
+  const VectorXd sigma = singular_values(matrix);
+  EXPECT_EQ((sigma.array() > rigidity.tolerance).count(), rigidity.rank);
+  EXPECT_GT(rigidity.least_kept, 1e3 * std::max(rigidity.tolerance, rigidity.largest_dropped))
+      << "the rank is a matter of opinion";
+}
+
+void expect_stresses(const Rigidity& rigidity, const RigidityMatrix& matrix) {
+  ASSERT_EQ(rigidity.stresses.rows(), rigidity.constraints);
+  ASSERT_EQ(rigidity.stresses.cols(), rigidity.self_stress);
+  const MatrixXd& basis = rigidity.stresses;
+  EXPECT_LE((basis.transpose() * basis - MatrixXd::Identity(basis.cols(), basis.cols())).norm(), 1e4 * eps);
+  EXPECT_LE((matrix.rows.transpose() * basis).norm(), rigidity.self_stress * rigidity.tolerance);
+}
+
+struct System {
+  SolidKind kind;
+  int n;
+  double final_distance;
+};
+
+/// Cubes order rather than jam: one compressed state of theirs.
+std::vector<Packing> states_of(const System& system) {
+  if (system.kind != SolidKind::cube) return jammed(system.kind, system.n, system.final_distance).states;
+  Packing packing = small_packing(system.kind, over_compressed(system.kind), 96, system.n);
+  PackingEnergy energy;
+  EXPECT_TRUE(is_equilibrium(minimise(packing, energy, {})));
+  return {packing};
+}
+
+class RigidityOf : public testing::TestWithParam<System> {};
+
+INSTANTIATE_TEST_SUITE_P(Systems, RigidityOf,
+                         testing::Values(System{SolidKind::octahedron, 48, .01},
+                                         System{SolidKind::tetrahedron, 64, .02},
+                                         System{SolidKind::icosahedron, 32, .01}, System{SolidKind::cube, 48, 0}),
+                         [](const auto& test) { return std::string(to_string(test.param.kind)); });
+
+TEST_P(RigidityOf, EveryState) {
+  const int n = GetParam().n;
+  const std::vector<Packing> states = states_of(GetParam());
+  ASSERT_FALSE(states.empty());
+  RigidityOptions options;
+  options.stresses = true;
+  for (const Packing& state : states) {
+    const Known known(state);
+    const RigidityMatrix normals = known.normals(), by_class = known.by_class();
+    const Rigidity of_normals = analyse_rigidity(normals, options), of_classes = analyse_rigidity(by_class, options);
+    std::printf(
+        "φ %.4f Z %.2f C %.2f: %d normals, %d states of self-stress; %d rows, rank %d of %d, %d states; "
+        "pivots %.0e | %.0e\n",
+        state.density(), known.analysis.numbers.Z, known.analysis.numbers.C, of_normals.constraints,
+        of_normals.self_stress, of_classes.constraints, of_classes.rank, 6 * n - 3, of_classes.self_stress,
+        of_normals.least_kept, of_normals.largest_dropped);
+    for (const auto& [rigidity, matrix] : {std::pair(&of_normals, &normals), std::pair(&of_classes, &by_class)}) {
+      expect_closed(*rigidity, *matrix, n);
+      expect_stresses(*rigidity, *matrix);
+    }
+    EXPECT_GE(of_classes.rank, of_normals.rank);
+    EXPECT_EQ(of_classes.full_rank(), of_classes.rank == 6 * n - 3);
+    EXPECT_GE(of_normals.self_stress, 1) << "an equilibrium is a state of self-stress";
+    // The forces are within the states of self-stress: nothing of them is left without their projection.
+    const VectorXd forces = normals.forces.normalized();
+    const VectorXd rest = forces - of_normals.stresses * (of_normals.stresses.transpose() * forces);
+    EXPECT_LE(rest.norm(), normals.imbalance / of_normals.least_kept * 100);
+  }
+}
+
+TEST_P(RigidityOf, NearestJamming) {
+  const auto [kind, n, final_distance] = GetParam();
+  if (kind == SolidKind::cube) {
+    const Packing packing = states_of(GetParam())[0];
+    const Rigidity rigidity = analyse_rigidity(Known(packing).by_class());
+    EXPECT_GT(rigidity.self_stress, n) << "constraints of cubes are redundant: counting them says nothing";
+    return;
+  }
+  const Known known(nearest_state(jammed(kind, n, final_distance)));
+  const RigidityMatrix normals = known.normals();
+  RigidityOptions options;
+  options.stresses = true;
+  const Rigidity rigidity = analyse_rigidity(normals, options);
+  EXPECT_EQ(rigidity.self_stress, 1);
+  ASSERT_EQ(rigidity.stresses.cols(), 1);
+  const double along = std::abs(rigidity.stresses.col(0).dot(normals.forces.normalized()));
+  EXPECT_NEAR(along, 1, 1e-6) << "the forces of the equilibrium are that state";
+}
+
+TEST(RigidityTest, KnownRanks) {
+  RigidityMatrix none;
+  none.rows.resize(0, 18);
+  const Rigidity free = analyse_rigidity(none);
+  EXPECT_EQ(free.floppy, 18);
+  EXPECT_EQ(free.rank, 0);
+  EXPECT_EQ(free.self_stress, 0);
+
+  RandomStream random{95};
+  for (int rank = 1; rank < 15; ++rank) {
+    // More rows than their rank, each a mixture.
+    MatrixXd basis(rank, 18), mixture(rank + 4, rank);
+    for (double& entry : basis.reshaped()) entry = random.normal();
+    for (double& entry : mixture.reshaped()) entry = random.normal();
+    RigidityMatrix matrix;
+    matrix.rows = (mixture * basis).rowwise().normalized().sparseView();
+    matrix.forces = VectorXd::Zero(rank + 4);
+    const Rigidity rigidity = analyse_rigidity(matrix);
+    EXPECT_EQ(rigidity.rank, rank);
+    EXPECT_EQ(rigidity.self_stress, 4);
+    EXPECT_EQ(rigidity.floppy, 18 - rank);
+  }
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,99 @@
+// Facts proved here:
+//   octahedra on a cubic lattice, all turned alike, balance by symmetry at a saddle with many negative modes; they are
+//   followed to a minimum of less energy, without negative modes, and the same start gives the same bits;
+//   a minimum stays as it is, bit for bit;
+//   without descents to spend the saddle is reported as one; what falls apart, and what is interrupted, has lost
+//   balance.
+
+#include "engine/vibration/follow_downhill.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/engine/solve/solve_support.hpp"
+#include "tests/engine/vibration/jammed_states.hpp"
+
+namespace isojam {
+namespace {
+
+/// side³ particles on a cubic lattice, all in one random orientation.
+Packing lattice(SolidKind kind, int side, double density, std::uint64_t seed) {
+  RandomStream random{seed};
+  Eigen::Quaterniond orientation(random.normal(), random.normal(), random.normal(), random.normal());
+  orientation.normalize();
+  const int n = side * side * side;
+  Packing packing{&platonic(kind), PeriodicCell(side_at(n, density)), {}};
+  const double spacing = packing.cell.side() / side;
+  for (int k = 0; k < n; ++k) {
+    Pose pose;
+    pose.position = spacing * Eigen::Vector3d(k / (side * side), k / side % side, k % side);
+    pose.orientation = orientation;
+    packing.poses.push_back(pose);
+  }
+  return packing;
+}
+
+TEST(FollowDownhill, LeavesASaddle) {
+  const Packing start = lattice(SolidKind::octahedron, 4, 0.95, 0);
+  DownhillOptions none;
+  none.minimise.residual = 1e-8;
+  none.max_descents = 0;
+  const DownhillResult saddle = follow_downhill(start, none);
+  ASSERT_EQ(saddle.ended, DownhillEnd::still_unstable) << to_string(saddle.ended);
+  EXPECT_TRUE(saddle.was_unstable());
+  EXPECT_EQ(saddle.descents, 0);
+  EXPECT_GT(saddle.stability.negative, 0);
+  EXPECT_TRUE(is_equilibrium(saddle.summary));
+  EXPECT_LE(balance_of(saddle.packing).residual, 1e-6) << "a saddle is in balance";
+
+  DownhillOptions options;
+  options.minimise.residual = 1e-8;
+  const DownhillResult found = follow_downhill(saddle.packing, options);
+  std::printf("%d negative modes, E/N %.3e; after %d descents %d, E/N %.3e\n", saddle.stability.negative,
+              saddle.summary.energy / start.size(), found.descents, found.stability.negative,
+              found.summary.energy / start.size());
+  ASSERT_EQ(found.ended, DownhillEnd::reached_minimum) << to_string(found.ended);
+  EXPECT_TRUE(found.was_unstable());
+  EXPECT_GE(found.descents, 1);
+  EXPECT_EQ(found.stability.negative, 0);
+  EXPECT_NE(found.stability.verdict, Verdict::unstable);
+  EXPECT_LE(balance_of(found.packing).residual, 1e-6);
+  EXPECT_LT(found.summary.energy, saddle.summary.energy);
+  EXPECT_NEAR(found.energy_drop, saddle.summary.energy - found.summary.energy, 1e-12 * saddle.summary.energy);
+  EXPECT_TRUE(same_bits(found.packing, follow_downhill(saddle.packing, options).packing));
+}
+
+TEST(FollowDownhill, LeavesAMinimumAlone) {
+  const Packing& minimum = nearest_state(jammed(SolidKind::octahedron, 48, .01));
+  const DownhillResult result = follow_downhill(minimum);
+  EXPECT_EQ(result.ended, DownhillEnd::was_minimum) << to_string(result.ended);
+  EXPECT_FALSE(result.was_unstable());
+  EXPECT_EQ(result.descents, 0);
+  EXPECT_EQ(result.energy_drop, 0);
+  EXPECT_EQ(result.stability.verdict, Verdict::stable);
+  EXPECT_TRUE(same_bits(result.packing, minimum));
+}
+
+TEST(FollowDownhill, SaysThatBalanceWasLost) {
+  const DownhillResult apart = follow_downhill(small_packing(SolidKind::octahedron, 0.2, 111));
+  EXPECT_EQ(apart.ended, DownhillEnd::lost_balance) << to_string(apart.ended);
+  EXPECT_EQ(apart.summary.reason, StopReason::unjammed);
+  EXPECT_EQ(apart.stability.verdict, Verdict::not_called);
+  std::stop_source source;
+  source.request_stop();
+  const DownhillResult stopped =
+      follow_downhill(small_packing(SolidKind::octahedron, 0.7, 111), {}, source.get_token());
+  EXPECT_EQ(stopped.ended, DownhillEnd::lost_balance);
+  EXPECT_EQ(stopped.summary.reason, StopReason::interrupted);
+}
+
+TEST(FollowDownhill, NamesAreDistinct) {
+  std::set<std::string_view> names;
+  for (int k = 0; k <= static_cast<int>(DownhillEnd::undetermined); ++k)
+    names.insert(to_string(static_cast<DownhillEnd>(k)));
+  EXPECT_EQ(names.size(), 6U);
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,213 @@
+// Facts proved here, on jammed octahedra (N = 48) and tetrahedra (N = 64):
+//   K from the Hessian is φ dp/dφ of neighbouring minimised states, in every state; it lies below the affine one;
+//   the affine tensor is the second difference of the energy of the contacts at explicitly strained displacements, and
+//   the relaxed one what is left when the forces that strain brings up, again by differences, are relaxed by a dense
+//   solver; isotropic tensors give their moduli, under pressure too; shear moduli do not depend on the axes; response
+//   is not defined where a particle is loose against others or nothing touches, and is where one touches nothing.
+
+#include "engine/vibration/moduli.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cmath>
+#include <numbers>
+
+#include "engine/vibration/dynamical_matrix.hpp"
+#include "tests/engine/solve/solve_support.hpp"
+#include "tests/engine/vibration/jammed_states.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Measured {
+  explicit Measured(const Packing& packing) : state(packing) {
+    PackingEnergy energy;
+    evaluation = energy.evaluate(state, Precision::extended);
+    hessian = energy.hessian(state, Precision::extended);
+    contacts = energy.contacts(state);
+  }
+  std::optional<ElasticTensor> tensor() const { return elastic_tensor(state, hessian, contacts, evaluation); }
+
+  Packing state;
+  Evaluation evaluation;
+  BlockMatrix hessian;
+  std::vector<Contact> contacts;
+};
+
+struct System {
+  SolidKind kind;
+  int n;
+  double final_distance;
+};
+
+class Moduli : public testing::TestWithParam<System> {
+ protected:
+  const JamResult& result = jammed(GetParam().kind, GetParam().n, GetParam().final_distance);
+};
+
+INSTANTIATE_TEST_SUITE_P(Systems, Moduli,
+                         testing::Values(System{SolidKind::octahedron, 48, .01},
+                                         System{SolidKind::tetrahedron, 64, .02}),
+                         [](const auto& test) { return std::string(to_string(test.param.kind)); });
+
+TEST_P(Moduli, BulkModulusIsThePressuresSlope) {
+  for (const Packing& state : result.states) {
+    const Measured measured(state);
+    const auto tensor = measured.tensor();
+    const auto slope = pressure_slope(state);
+    ASSERT_TRUE(tensor && slope);
+    const auto shear = tensor->shear_moduli();
+    std::printf("φ %.4f p %.2e: K %.6e, from pressures %.6e, affine %.2e; G %.2e … %.2e, mean %.2e\n", state.density(),
+                tensor->pressure, tensor->bulk_modulus(), slope->bulk_modulus, tensor->affine_bulk_modulus(), shear[0],
+                shear[4], tensor->mean_shear_modulus());
+    EXPECT_NEAR(tensor->bulk_modulus(), slope->bulk_modulus, 1e-5 * slope->bulk_modulus);
+    EXPECT_GT(tensor->bulk_modulus(), 0);
+    EXPECT_LT(tensor->bulk_modulus(), tensor->affine_bulk_modulus());
+    EXPECT_TRUE(tensor->relaxed == tensor->relaxed.transpose());
+    double sum = 0;
+    for (const double g : shear) sum += g;
+    EXPECT_NEAR(sum / 5, tensor->mean_shear_modulus(), 1e-10 * std::abs(shear[4]));
+    EXPECT_TRUE(std::is_sorted(shear.begin(), shear.end()));
+  }
+}
+
+/// Energy, and gradient by the 6N coordinates, of given contacts whose displacements are deformed by F.
+struct Strained {
+  double energy = 0;
+  VectorXd gradient;
+};
+
+Strained strained(const Measured& measured, const Matrix3d& deformation) {
+  const Packing& packing = measured.state;
+  const double radius = packing.solid->gyration_radius();
+  Strained sum{0, VectorXd::Zero(6 * packing.size())};
+  for (const Contact& contact : measured.contacts) {
+    const Pose &a = packing.poses[contact.pair.a], &b = packing.poses[contact.pair.b];
+    const Eigen::Vector3d d = deformation * contact.displacement;
+    const Overlap o = overlap(*packing.solid, *packing.solid, relative_pose(a.orientation, b.orientation, d));
+    const Eigen::Vector3d push = a.orientation * (o.volume / 2 * o.area),
+                          turn = a.orientation * (o.volume / 2 * o.moment);
+    sum.energy += o.volume * o.volume / 4;
+    sum.gradient.segment<6>(6 * contact.pair.a) += joined(push, turn / radius);
+    sum.gradient.segment<6>(6 * contact.pair.b) += joined(-push, (d.cross(push) - turn) / radius);
+  }
+  return sum;
+}
+
+/// Unit tensors in the header's order.
+Matrix3d basis_tensor(int i) {
+  static constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
+  Matrix3d tensor = Matrix3d::Zero();
+  tensor(pairs[i][0], pairs[i][1]) = tensor(pairs[i][1], pairs[i][0]) = i < 3 ? 1 : 1 / std::numbers::sqrt2;
+  return tensor;
+}
+
+/// exp(ε), by its series: ε is small.
+Matrix3d exponential(const Matrix3d& strain) {
+  return Matrix3d::Identity() + strain + strain * strain / 2 + strain * strain * strain / 6;
+}
+
+struct Differences {
+  Matrix6d affine;
+  MatrixXd forces;  ///< 6N × 6
+};
+
+Differences by_differences(const Measured& measured, double h) {
+  const auto energy = [&](const Matrix3d& strain) { return strained(measured, exponential(strain)).energy; };
+  Differences result;
+  result.forces.resize(6 * measured.state.size(), 6);
+  for (int i = 0; i < 6; ++i) {
+    const Matrix3d e_i = h * basis_tensor(i);
+    result.forces.col(i) =
+        (strained(measured, exponential(e_i)).gradient - strained(measured, exponential(-e_i)).gradient) / (2 * h);
+    for (int j = 0; j < 6; ++j) {
+      const Matrix3d e_j = h * basis_tensor(j);
+      result.affine(i, j) =
+          (energy(e_i + e_j) - energy(e_i - e_j) - energy(e_j - e_i) + energy(-e_i - e_j)) / (4 * h * h);
+    }
+  }
+  return result;
+}
+
+TEST_P(Moduli, TensorIsThatOfExplicitStrains) {
+  // Where contacts are deep enough for differences.
+  for (const std::size_t s : {std::size_t{0}, std::size_t{2}}) {
+    const Measured measured(result.states[s]);
+    const double volume = measured.state.cell.volume();
+    const auto tensor = measured.tensor();
+    ASSERT_TRUE(tensor);
+    const Differences differences = by_differences(measured, 2e-6);
+    const Matrix6d affine = differences.affine / volume;
+    const double scale = tensor->affine.norm();
+    EXPECT_LE((tensor->affine - affine).norm(), 3e-4 * scale) << tensor->affine - affine;
+    // Pseudo-inverse, which drops translations.
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> dense(dense_matrix(measured.hessian));
+    ASSERT_EQ(dense.rank(), 6 * measured.state.size() - 3);
+    const Matrix6d relaxed =
+        affine - differences.forces.transpose() * MatrixXd(dense.solve(differences.forces)) / volume;
+    EXPECT_LE((tensor->relaxed - relaxed).norm(), 3e-4 * scale) << tensor->relaxed - relaxed;
+    EXPECT_GT((tensor->relaxed - tensor->affine).norm(), 0.1 * tensor->affine.norm()) << "relaxation matters";
+  }
+}
+
+TEST_P(Moduli, ShearModuliDoNotDependOnTheAxes) {
+  // Cyclic exchange of the axes is the turn that a cubic cell allows.
+  Packing turned = result.states.front();
+  const Eigen::Quaterniond turn(0.5, 0.5, 0.5, 0.5);
+  for (Pose& pose : turned.poses) {
+    pose.position = Eigen::Vector3d(turn * pose.position);
+    pose.position_low.setZero();
+    pose.orientation = turn * pose.orientation;
+    pose.orientation_low.setZero();
+  }
+  const auto before = Measured(result.states.front()).tensor(), after = Measured(turned).tensor();
+  ASSERT_TRUE(before && after);
+  EXPECT_GT((before->relaxed - after->relaxed).norm(), 1e-3 * before->relaxed.norm()) << "the axes did change";
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_NEAR(before->shear_moduli()[k], after->shear_moduli()[k], 1e-8 * before->relaxed.norm());
+  EXPECT_NEAR(before->bulk_modulus(), after->bulk_modulus(), 1e-8 * before->bulk_modulus());
+}
+
+TEST(ElasticTensor, IsotropicTensorsGiveTheirModuli) {
+  ElasticTensor tensor;
+  tensor.pressure = 0.25;
+  const double bulk = 3, shear = 0.5;
+  tensor.relaxed = 2 * shear * Matrix6d::Identity();
+  tensor.relaxed.topLeftCorner<3, 3>().array() += (3 * (bulk - tensor.pressure) - 2 * shear) / 3;
+  tensor.affine = 2 * tensor.relaxed;
+  EXPECT_NEAR(tensor.bulk_modulus(), bulk, 1e-14);
+  EXPECT_NEAR(tensor.affine_bulk_modulus(), 2 * bulk - tensor.pressure, 1e-14);
+  EXPECT_NEAR(tensor.mean_shear_modulus(), shear, 1e-14);
+  for (const double g : tensor.shear_moduli()) EXPECT_NEAR(g, shear, 1e-14);
+  // Shear in one plane made soft, to below 0.
+  tensor.relaxed(5, 5) = -2;
+  EXPECT_NEAR(tensor.shear_moduli()[0], -1, 1e-14);
+  EXPECT_NEAR(tensor.shear_moduli()[1], shear, 1e-14);
+}
+
+TEST_P(Moduli, NotDefinedWhereNothingHolds) {
+  const Measured measured(result.states.front());
+  Measured free = measured;
+  for (Matrix6d& block : free.hessian.diagonal) block.setZero();
+  free.hessian.off_diagonal.clear();
+  EXPECT_FALSE(free.tensor());
+  Measured loose = measured;
+  loose.hessian.diagonal[7](4, 4) = -1;
+  EXPECT_FALSE(loose.tensor());
+  // A particle that touches nothing takes no part.
+  Measured more = measured;
+  more.state.poses.push_back(Pose{});
+  more.hessian.diagonal.push_back(Matrix6d::Zero());
+  ASSERT_TRUE(more.tensor());
+  EXPECT_EQ(more.tensor()->relaxed, measured.tensor()->relaxed);
+}
+
+}  // namespace
+}  // namespace isojam
