@@ -4,8 +4,8 @@
 
 namespace isojam {
 
-/// The states that one run of the protocol leaves on its way to φ − φ_J < final_distance, and the forces' balance that
-/// they were minimised to. Made once per program and argument.
+/// The states that one run of the protocol leaves on its way to φ − φ_J < final_distance, minimised to a residual of
+/// 1e-9. Made once per program and argument.
 const JamResult& jammed(SolidKind kind, int particles, double final_distance, std::uint64_t seed = 1);
 
 /// The state nearest jamming.
