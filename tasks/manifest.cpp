@@ -21,7 +21,7 @@ constexpr std::size_t longest_name = 64;
 
 constexpr std::array<std::string_view, 8> keys{"$schema",    "name",     "seed",      "sweep",
                                                "replicates", "protocol", "minimiser", "measure"};
-constexpr std::array default_measures{Measure::contacts};
+constexpr std::array default_measures{Measure::contacts, Measure::order, Measure::clusters};
 
 const std::vector<std::string_view>& measure_names() {
   static const auto names = [] {

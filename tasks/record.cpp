@@ -30,6 +30,7 @@ Json step_record(const JamStep& step, const JamResult& jam) {
   json["stopped"] = to_string(step.summary.reason);
   json["evaluations"] = step.summary.evaluations;
   json["iterations"] = step.summary.iterations;
+  json["descents"] = step.descents;
   return json;
 }
 

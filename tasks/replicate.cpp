@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
+
+#include "engine/vibration/settle.hpp"
 
 namespace isojam {
 namespace {
@@ -13,7 +16,12 @@ Packing place(const ReplicateSpec& spec) {
 }
 
 JamResult run_jam(const ReplicateSpec& spec, Packing start, std::stop_token stop, const OnStep& on_step) {
-  return jam(std::move(start), spec.options, std::move(stop), on_step);
+  JamResult result = jam(std::move(start), spec.options, stop, on_step);
+  // Modes and moduli mean something at minima only.
+  const auto asked = [&](Measure what) { return std::count(spec.measures.begin(), spec.measures.end(), what) > 0; };
+  if (result.status != JamStatus::interrupted && (asked(Measure::modes) || asked(Measure::moduli)))
+    settle(result, spec.options, stop);
+  return result;
 }
 
 }  // namespace

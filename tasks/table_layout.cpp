@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
+#include "engine/analysis/critical_angles.hpp"
 #include "tasks/tables.hpp"
 
 namespace isojam {
@@ -37,8 +39,26 @@ int decimals_for(const Estimate& estimate) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(*estimate.half_width))), 0, 12);
 }
 
+/// Of values that would be mostly zeros.
+bool small(const Estimate& estimate) {
+  return *estimate.mean != 0 && std::abs(*estimate.mean) < 1e-3 && estimate.half_width.value_or(0) < 1e-2;
+}
+
+/// With a common power of ten.
+std::string small_text(const Estimate& estimate, std::string_view plus_minus, int expected) {
+  const double largest = std::max(std::abs(*estimate.mean), estimate.half_width.value_or(0));
+  const int power = static_cast<int>(std::floor(std::log10(largest)));
+  const double unit = std::pow(10.0, power);
+  auto text = fmt::format("({:.2f}", *estimate.mean / unit);
+  if (estimate.half_width) text += fmt::format("{}{:.2f}", plus_minus, *estimate.half_width / unit);
+  text += fmt::format(")e{:+03d}", power);
+  if (estimate.n < expected) text += fmt::format(" ({})", estimate.n);
+  return text;
+}
+
 std::string estimate_text(const Estimate& estimate, std::string_view plus_minus, int expected) {
   if (!estimate.mean) return "-";
+  if (small(estimate)) return small_text(estimate, plus_minus, expected);
   const int decimals = decimals_for(estimate);
   auto text = fmt::format("{:.{}f}", *estimate.mean, decimals);
   if (estimate.half_width) text += fmt::format("{}{:.{}f}", plus_minus, *estimate.half_width, decimals);
@@ -142,6 +162,23 @@ Cells cells_of(const Line& line, const Group& group, const std::vector<std::stri
   return cells;
 }
 
+/// The paper's Table II, in degrees: a property of the solids.
+std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
+  const auto head = [&](std::string_view text, std::string_view latex) { return symbol(text, latex, format); };
+  std::vector<Cells> lines{{"solid", head("ef vertex-face", "\\theta_{ef}^{vf}"),
+                            head("ef edge-edge", "\\theta_{ef}^{ee}"), head("ff vertex-face", "\\theta_{ff}^{vf}"),
+                            head("ff edge-edge", "\\theta_{ff}^{ee}"), head("ff edge-face", "\\theta_{ff}^{ef}")}};
+  for (const auto& row : table.rows) {
+    if (lines.back().front() == to_string(row.solid)) continue;
+    const auto angles = critical_angles(platonic(row.solid));
+    lines.push_back({std::string(to_string(row.solid))});
+    for (const double angle :
+         {angles.ef_vertex_face, angles.ef_edge_edge, angles.ff_vertex_face, angles.ff_edge_edge, angles.ff_edge_face})
+      lines.back().push_back(fmt::format("{:.2f}", angle * 180 / std::numbers::pi));
+  }
+  return lines;
+}
+
 /// The tables of all groups: head first, then lines.
 std::vector<std::pair<std::string_view, std::vector<Cells>>> laid_out(const Table& table, View view, Format format) {
   const auto parameters = parameter_names(table);
@@ -151,6 +188,8 @@ std::vector<std::pair<std::string_view, std::vector<Cells>>> laid_out(const Tabl
     std::vector<Cells> cells{head_of(group, parameters, view, format)};
     for (const Line& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
     tables.emplace_back(group.name, std::move(cells));
+    if (group.name == contact_group && view == View::nearest)
+      tables.emplace_back("critical angles, degrees", critical_angle_lines(table, format));
   }
   return tables;
 }

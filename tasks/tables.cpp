@@ -1,6 +1,8 @@
 #include "tasks/tables.hpp"
 
-#include <algorithm>
+#include <numbers>
+
+#include "engine/analysis/critical_angles.hpp"
 
 namespace isojam {
 namespace {
@@ -50,6 +52,19 @@ Json to_json(const SeriesPoint& point, bool with_unflagged) {
   return json;
 }
 
+/// Degrees.
+Json critical_angle_record(SolidKind solid) {
+  const auto angles = critical_angles(platonic(solid));
+  const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
+  Json json;
+  json["ef_vertex_face"] = degrees(angles.ef_vertex_face);
+  json["ef_edge_edge"] = degrees(angles.ef_edge_edge);
+  json["ff_vertex_face"] = degrees(angles.ff_vertex_face);
+  json["ff_edge_edge"] = degrees(angles.ff_edge_edge);
+  json["ff_edge_face"] = degrees(angles.ff_edge_face);
+  return json;
+}
+
 }  // namespace
 
 Json to_json(const Table& table) {
@@ -66,6 +81,7 @@ Json to_json(const Table& table) {
     entry["flagged"] = row.flagged;
     put_estimates(entry, row.estimates);
     if (row.flagged > 0) put_estimates(entry["unflagged"], row.unflagged);
+    entry["critical_angles"] = critical_angle_record(row.solid);
     entry["residual"] = row.residual ? Json(*row.residual) : Json(nullptr);
     entry["series"] = Json::array();
     for (const auto& point : row.series) entry["series"].push_back(to_json(point, row.flagged > 0));

@@ -139,14 +139,7 @@ class JamRun {
     if (result_.states.size() >= 2) result_.status = reached ? JamStatus::jammed : JamStatus::short_of_goal;
   }
 
-  void fit() {
-    std::vector<EnergyPoint> points;
-    for (const int k : result_.state_steps) {
-      const JamStep& step = result_.path[static_cast<std::size_t>(k)];
-      points.push_back({step.density, step.energy_per_particle, step.pressure / (step.density * step.density)});
-    }
-    result_.phi_j = fit_jamming_point(points, options_.fit_window);
-  }
+  void fit() { result_.phi_j = fit_jamming_point(energy_points(result_), options_.fit_window); }
 
   Packing packing_;
   const JamOptions& options_;
@@ -164,6 +157,15 @@ std::string_view to_string(JamStatus status) {
   static constexpr std::array<std::string_view, 8> names{"not_called",    "jammed",     "short_of_goal", "not_jammed",
                                                          "density_limit", "step_limit", "not_finite",    "interrupted"};
   return names[static_cast<std::size_t>(status)];
+}
+
+std::vector<EnergyPoint> energy_points(const JamResult& result) {
+  std::vector<EnergyPoint> points;
+  for (const int k : result.state_steps) {
+    const JamStep& step = result.path[static_cast<std::size_t>(k)];
+    points.push_back({step.density, step.energy_per_particle, step.pressure / (step.density * step.density)});
+  }
+  return points;
 }
 
 JamResult jam(Packing start, const JamOptions& options, std::stop_token stop,

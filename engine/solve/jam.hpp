@@ -24,7 +24,7 @@ struct JamOptions {
   /// when minimisation no longer removes the energy.
   bool target_before_relaxation = false;
   /// Refuse to go beyond; the cell must be legal up to here. Crystals can pass .9 before they reach the target energy.
-  double max_density = 1;
+  double max_density = 0.93;
   /// An expansion step is this fraction of the distance φ − φ_J as the last state shows it, halved where a step failed
   /// and grown back where one succeeded, but no longer than longest_step, nor far beyond final_distance.
   double approach = 0.35;
@@ -50,6 +50,7 @@ struct JamStep {
   double energy_per_particle = 0;
   double pressure = 0;
   MinimiseSummary summary;
+  int descents = 0;  ///< saddles that the state was followed down from before it was kept
 };
 
 enum class JamStatus {
@@ -73,6 +74,9 @@ struct JamResult {
   long evaluations = 0;
   PairCounts counts;  ///< work of the pair loop, summed over all evaluations
 };
+
+/// What fit_jamming_point() is given: the energies of the states.
+std::vector<EnergyPoint> energy_points(const JamResult& result);
 
 /// Runs the protocol from `start`. `on_step` is called after every minimised step.
 JamResult jam(Packing start, const JamOptions& options, std::stop_token stop = {},

@@ -1,5 +1,3 @@
-#include "engine/analysis/contacts.hpp"
-
 #include "engine/analysis/order.hpp"
 #include "engine/packing/energy.hpp"
 #include "tasks/measure/parts.hpp"
@@ -7,21 +5,12 @@
 namespace isojam {
 namespace {
 
-ContactAnalysis analyse(const Packing& packing, PackingEnergy& energy) {
-  const auto contacts = energy.contacts(packing);
-  auto analysis = analyse_contacts(*packing.solid, packing.size(), alignments(*packing.solid, contacts));
-  analysis.Q6 = contact_q6(contacts);
-  return analysis;
-}
-
-bool decided(const ContactAnalysis& analysis) {
-  return analysis.face_face.verdict == FitVerdict::fitted && analysis.edge_face.verdict == FitVerdict::fitted;
-}
+bool has_cutoff(const CdfFit& fit) { return fit.verdict == FitVerdict::fitted || fit.verdict == FitVerdict::bimodal; }
 
 Json fit_record(const CdfFit& fit) {
   Json json;
   json["verdict"] = to_string(fit.verdict);
-  if (fit.verdict != FitVerdict::fitted) return json;
+  if (!has_cutoff(fit)) return json;
   put_number(json, "cutoff", fit.cutoff);
   put_number(json, "alpha", fit.alpha);
   put_number(json, "a_0", fit.a[0]);
@@ -30,7 +19,29 @@ Json fit_record(const CdfFit& fit) {
   return json;
 }
 
+Json gap_record(const GapSplit& gap) {
+  Json json;
+  json["verdict"] = to_string(gap.verdict);
+  if (gap.cutoff > 0) put_number(json, "cutoff", gap.cutoff);
+  return json;
+}
+
+Json fixed_record(const ContactNumbers& numbers) {
+  Json json;
+  put_number(json, "Z_ff", numbers.Z_ff);
+  put_number(json, "Z_ef", numbers.Z_ef);
+  put_number(json, "Z_l", numbers.Z_l);
+  put_number(json, "C", numbers.C);
+  return json;
+}
+
 }  // namespace
+
+std::optional<std::string_view> undecided(const ContactAnalysis& analysis) {
+  if (!has_cutoff(analysis.face_face)) return "no face-face cut-off";
+  if (!has_cutoff(analysis.edge_face)) return "no edge-face cut-off";
+  return std::nullopt;
+}
 
 Json contact_record(const ContactAnalysis& analysis) {
   Json json;
@@ -38,26 +49,32 @@ Json contact_record(const ContactAnalysis& analysis) {
   put_number(json, "Z", n.Z);
   put_number(json, "Q6", analysis.Q6);
   // A cut-off that a fit did not give decides nothing: numbers that hang on it are absent rather than zero.
-  const bool faces = analysis.face_face.verdict == FitVerdict::fitted;
+  const auto why = undecided(analysis);
   const auto put = [&](const std::string& key, double value, bool known) {
-    if (known) {
-      put_number(json, key, value);
-    } else {
-      put_absent(json, key, faces ? "no edge-face cut-off" : "no face-face cut-off");
-    }
+    put_optional(json, key, known ? std::optional(value) : std::nullopt, why.value_or(""));
   };
-  put("Z_ff", n.Z_ff, faces);
-  put("Z_ef", n.Z_ef, decided(analysis));
-  put("Z_l", n.Z_l, decided(analysis));
-  put("C", n.C, decided(analysis));
+  put("Z_ff", n.Z_ff, has_cutoff(analysis.face_face));
+  put("Z_ef", n.Z_ef, !why);
+  put("Z_l", n.Z_l, !why);
+  put("C", n.C, !why);
   json["face_face_fit"] = fit_record(analysis.face_face);
   json["edge_face_fit"] = fit_record(analysis.edge_face);
+  json["face_face_gap"] = gap_record(analysis.face_face_gap);
+  json["edge_face_gap"] = gap_record(analysis.edge_face_gap);
+  put_optional(json, "Z_ff_gap", analysis.Z_ff_gap, to_string(analysis.face_face_gap.verdict));
+  put_optional(json, "Z_ff_disagreement", analysis.disagreement(), "one of the methods gives no cut-off");
+  json["fixed_cutoffs"] = fixed_record(analysis.fixed_cutoffs);
+  json["pooled_over"] = analysis.pooled_over;
   return json;
 }
 
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
   std::vector<std::string> flags;
-  if (!decided(nearest)) flags.emplace_back("classes_undecided");
+  if (undecided(nearest)) {
+    flags.emplace_back("classes_undecided");
+  } else if (nearest.face_face.verdict == FitVerdict::bimodal || nearest.edge_face.verdict == FitVerdict::bimodal) {
+    flags.emplace_back("classes_doubtful");
+  }
   if (nearest.Q6 > crystalline_q6) flags.emplace_back("crystalline");
   return flags;
 }
@@ -67,7 +84,7 @@ Measurement measure_contacts(const JamResult& jam) {
   PackingEnergy energy;
   const auto nearest = nearest_state(jam);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
-    const auto analysis = analyse(jam.states[k], energy);
+    const auto analysis = classified_contacts(jam.states[k], energy).analysis;
     measurement.states.push_back(contact_record(analysis));
     if (k == nearest) measurement.flags = contact_flags(analysis);
   }

@@ -14,8 +14,9 @@ namespace isojam {
 
 /// What is measured on the states of an expansion, beyond φ_J. Each is a node of the task graph and depends on no
 /// other.
-enum class Measure { contacts };
-inline constexpr std::array all_measures{Measure::contacts};
+enum class Measure { contacts, order, clusters, modes, moduli, rigidity };
+inline constexpr std::array all_measures{Measure::contacts, Measure::order,  Measure::clusters,
+                                         Measure::modes,    Measure::moduli, Measure::rigidity};
 std::string_view to_string(Measure measure);
 
 /// What one measurement adds to the record of a replicate. A number that is null has its reason beside it.

@@ -109,7 +109,7 @@ std::vector<BadManifest> inconsistent() {
       {"too few at a swept density", crowded.dump(), "/sweep/particles/1", "max_density 2", false},
       {"swept and fixed", both.dump(), "/protocol/target_energy", "either here or at /sweep/target_energy", false},
       {"starts above its limit", with("/protocol/initial_density", 0.95), "/protocol/initial_density",
-       "does not lie below max_density 1", false},
+       "does not lie below max_density 0.93", false},
       {"a million replicates", many.dump(), "/sweep", "at most 1000000", false},
       {"one beyond 2^53", with("/seed", 9007199254740993), "/seed", "out of range", false},
   };

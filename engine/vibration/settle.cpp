@@ -1,0 +1,39 @@
+#include "engine/vibration/settle.hpp"
+
+#include <utility>
+
+#include "engine/packing/energy.hpp"
+#include "engine/vibration/follow_downhill.hpp"
+
+namespace isojam {
+
+namespace {
+
+/// True if the state was a saddle and is a minimum now.
+bool settle_state(Packing& packing, JamStep& step, const DownhillOptions& options, const std::stop_token& stop) {
+  DownhillResult result = follow_downhill(packing, options, stop);
+  if (result.ended != DownhillEnd::reached_minimum) return false;
+  packing = std::move(result.packing);
+  const Evaluation value = PackingEnergy().evaluate(packing, result.summary.precision);
+  step.energy_per_particle = value.energy / packing.size();
+  step.pressure = value.pressure;
+  step.summary = result.summary;
+  step.descents = result.descents;
+  return true;
+}
+
+}  // namespace
+
+void settle(JamResult& result, const JamOptions& options, std::stop_token stop) {
+  DownhillOptions downhill;
+  downhill.minimise = options.minimise;
+  downhill.modes.lowest = 4;  // one is followed; the others are company for Lanczos
+  bool changed = false;
+  for (std::size_t k = 0; k < result.states.size() && !stop.stop_requested(); ++k) {
+    JamStep& step = result.path[static_cast<std::size_t>(result.state_steps[k])];
+    changed |= settle_state(result.states[k], step, downhill, stop);
+  }
+  if (changed) result.phi_j = fit_jamming_point(energy_points(result), options.fit_window);
+}
+
+}  // namespace isojam
