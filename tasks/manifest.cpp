@@ -16,11 +16,12 @@ namespace {
 constexpr double greatest_seed = 9007199254740992;  // 2^53: every reader of JSON holds integers up to here
 constexpr Range particle_range{1, 100000};
 constexpr Range replicate_range{1, 10000};
+constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
 constexpr std::size_t longest_name = 64;
 
-constexpr std::array<std::string_view, 8> keys{"$schema",    "name",     "seed",      "sweep",
-                                               "replicates", "protocol", "minimiser", "measure"};
+constexpr std::array<std::string_view, 9> keys{"$schema",  "name",      "seed",    "sweep", "replicates",
+                                               "protocol", "minimiser", "measure", "modes"};
 constexpr std::array default_measures{Measure::contacts, Measure::order, Measure::clusters};
 
 const std::vector<std::string_view>& measure_names() {
@@ -212,6 +213,7 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
                                   [](const JsonPlace& entry) { return all_measures[entry.choice(measure_names())]; });
     std::sort(manifest.measures.begin(), manifest.measures.end());
   }
+  if (root.has("modes")) manifest.measuring.modes = static_cast<int>(root.at("modes").integer(mode_range));
   check_together(root, manifest);
   return manifest;
 }
@@ -233,6 +235,7 @@ Json to_json(const Manifest& manifest) {
     json[std::string(to_string(group))] = std::move(values);
   }
   json["measure"] = values_of(manifest.measures);
+  json["modes"] = manifest.measuring.modes;
   return json;
 }
 

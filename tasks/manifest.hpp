@@ -28,6 +28,7 @@ struct Manifest {
   int replicates = 0;
   JamOptions protocol;  ///< with the minimiser's options
   std::vector<Measure> measures;
+  MeasureOptions measuring;
 };
 
 /// One combination of the swept parameters: the whole options, and what distinguishes them from other combinations.

@@ -24,8 +24,8 @@ std::vector<ReplicateSpec> make_plan(const Manifest& manifest) {
     for (const int particles : manifest.particles) {
       for (const auto& set : sets) {
         for (int replicate = 0; replicate < manifest.replicates; ++replicate) {
-          plan.push_back(
-              {solid, particles, set.parameters, replicate, manifest.seed, identity, set.options, manifest.measures});
+          plan.push_back({solid, particles, set.parameters, replicate, manifest.seed, identity, set.options,
+                          manifest.measures, manifest.measuring});
         }
       }
     }
@@ -54,6 +54,7 @@ Json to_json(const ReplicateSpec& spec) {
   }
   json["measure"] = Json::array();
   for (const auto measure : spec.measures) json["measure"].push_back(to_string(measure));
+  json["modes"] = spec.measuring.modes;
   return json;
 }
 

@@ -22,6 +22,7 @@ struct ReplicateSpec {
   std::string manifest_digest;
   JamOptions options;
   std::vector<Measure> measures;
+  MeasureOptions measuring;
 };
 
 /// Identity of a sweep point: solid, particles and the other swept values; never its place in the sweep.

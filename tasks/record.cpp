@@ -203,7 +203,8 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
   spec.at("parameters").expect_object("an object");
   summary.replicate = static_cast<int>(spec.at("replicate").integer({0, 1e9}));
   summary.manifest_digest = root.at("provenance").at("manifest_digest").text();
-  for (const std::string key : {"protocol", "minimiser", "measure"}) summary.settings[key] = spec.at(key).value();
+  for (const std::string key : {"protocol", "minimiser", "measure", "modes"})
+    summary.settings[key] = spec.at(key).value();
   summary.failed = root.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 1;
   if (summary.failed) {
     root.at("failure").at("where").text();

@@ -27,7 +27,9 @@ JamResult run_jam(const ReplicateSpec& spec, Packing start, std::stop_token stop
 }  // namespace
 
 Stages engine_stages() {
-  return {place, run_jam, [](const ReplicateSpec&, Measure what, const JamResult& jam) { return measure(what, jam); }};
+  return {place, run_jam, [](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
+            return measure(what, jam, spec.measuring);
+          }};
 }
 
 std::optional<Failure> failure_of(const JamResult& jam) {

@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "engine/analysis/order.hpp"
+#include "engine/analysis/random_alignment.hpp"
 #include "engine/packing/energy.hpp"
 #include "tasks/measure/parts.hpp"
 
@@ -79,14 +82,50 @@ std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
   return flags;
 }
 
+namespace {
+
+/// Of the state nearest jamming: the angles themselves, ascending, for whoever draws their CDFs, and whether more are
+/// near 0 than ideal random contacts would have.
+Json angle_record(const ConvexSolid& solid, const std::vector<Alignment>& alignments) {
+  std::vector<double> face_face, edge_face;
+  for (const auto& alignment : alignments) {
+    face_face.push_back(alignment.face_face);
+    edge_face.push_back(alignment.edge_face);
+  }
+  std::sort(face_face.begin(), face_face.end());
+  std::sort(edge_face.begin(), edge_face.end());
+  const RandomAlignment random(solid);
+  const auto compared = [](const Randomness& randomness) {
+    Json json;
+    json["verdict"] = to_string(randomness.verdict);
+    put_number(json, "angle", randomness.angle);
+    json["below"] = randomness.below;
+    put_number(json, "expected", randomness.expected);
+    put_number(json, "probability", randomness.probability);
+    return json;
+  };
+  Json json;
+  json["face_face_random"] = compared(compare_with_random(
+      face_face, [&](double theta) { return random.face_face(theta); }, random.ff_max()));
+  json["edge_face_random"] = compared(compare_with_random(
+      edge_face, [&](double theta) { return random.edge_face(theta); }, random.ef_max()));
+  json["face_face"] = std::move(face_face);
+  json["edge_face"] = std::move(edge_face);
+  return json;
+}
+
+}  // namespace
+
 Measurement measure_contacts(const JamResult& jam) {
   Measurement measurement;
   PackingEnergy energy;
   const auto nearest = nearest_state(jam);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
-    const auto analysis = classified_contacts(jam.states[k], energy).analysis;
-    measurement.states.push_back(contact_record(analysis));
-    if (k == nearest) measurement.flags = contact_flags(analysis);
+    const auto classified = classified_contacts(jam.states[k], energy);
+    measurement.states.push_back(contact_record(classified.analysis));
+    if (k != nearest) continue;
+    measurement.flags = contact_flags(classified.analysis);
+    measurement.states.back()["angles"] = angle_record(*jam.states[k].solid, classified.alignments);
   }
   return measurement;
 }

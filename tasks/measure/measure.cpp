@@ -12,12 +12,12 @@ std::string_view to_string(Measure measure) {
   return names[static_cast<std::size_t>(measure)];
 }
 
-Measurement measure(Measure what, const JamResult& jam) {
+Measurement measure(Measure what, const JamResult& jam, const MeasureOptions& options) {
   switch (what) {
     case Measure::contacts: return measure_contacts(jam);
     case Measure::order: return measure_order(jam);
     case Measure::clusters: return measure_clusters(jam);
-    case Measure::modes: return measure_modes(jam);
+    case Measure::modes: return measure_modes(jam, options.modes);
     case Measure::moduli: return measure_moduli(jam);
     case Measure::rigidity: return measure_rigidity(jam);
   }

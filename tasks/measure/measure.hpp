@@ -19,6 +19,10 @@ inline constexpr std::array all_measures{Measure::contacts, Measure::order,  Mea
                                          Measure::modes,    Measure::moduli, Measure::rigidity};
 std::string_view to_string(Measure measure);
 
+struct MeasureOptions {
+  int modes = 50;  ///< vibrations wanted at either end of the spectrum; the paper averages over 50
+};
+
 /// What one measurement adds to the record of a replicate. A number that is null has its reason beside it.
 struct Measurement {
   std::vector<Json> states;         ///< an object for each of jam.states, which goes into the record of that state
@@ -27,7 +31,7 @@ struct Measurement {
 };
 
 /// Of a result with states. Pure; may be called from several threads at once.
-Measurement measure(Measure what, const JamResult& jam);
+Measurement measure(Measure what, const JamResult& jam, const MeasureOptions& options = {});
 
 /// Index in jam.states of the state nearest jamming: the one of lowest density among those of positive energy; nullopt
 /// if there is none.

@@ -18,9 +18,9 @@ struct Vibrations {
   std::optional<double> omega_l, omega_h;
 };
 
-Vibrations vibrations_of(const Packing& packing, const BlockMatrix& hessian, const Evaluation& here) {
+Vibrations vibrations_of(const Packing& packing, const BlockMatrix& hessian, const Evaluation& here, int modes) {
   Vibrations vibrations;
-  vibrations.ends = spectrum_ends(hessian);
+  vibrations.ends = spectrum_ends(hessian, {.lowest = modes, .highest = modes});
   vibrations.stability = assess(hessian, vibrations.ends, unbalanced_torque(here, packing.solid->gyration_radius()));
   vibrations.omega_l = mean_frequency(vibrations.ends.lowest, vibrations.stability.tolerance);
   vibrations.omega_h = mean_frequency(vibrations.ends.highest, vibrations.stability.tolerance);
@@ -105,7 +105,7 @@ void put_density(Json& modes, const BlockMatrix& hessian, double tolerance) {
 
 }  // namespace
 
-Measurement measure_modes(const JamResult& jam) {
+Measurement measure_modes(const JamResult& jam, int modes) {
   Measurement measurement;
   PackingEnergy energy;
   std::vector<std::optional<double>> omega_l, omega_h;
@@ -115,7 +115,7 @@ Measurement measure_modes(const JamResult& jam) {
     const Precision precision = jam.path[jam.state_steps[k]].summary.precision;
     const auto here = energy.evaluate(packing, precision);
     const auto hessian = energy.hessian(packing, precision);
-    const auto vibrations = vibrations_of(packing, hessian, here);
+    const auto vibrations = vibrations_of(packing, hessian, here, modes);
     auto json = mode_record(vibrations);
     put_share(json, vibrations.ends.highest, classified_contacts(packing, energy), packing.size());
     if (k == nearest && packing.size() <= all_modes_up_to) put_density(json, hessian, vibrations.stability.tolerance);

@@ -64,6 +64,8 @@ std::vector<BadManifest> malformed() {
       set("method is a number", "/minimiser/method", 3, "\"conjugate_gradient\", \"fire\""),
       set("misspelt measure", "/measure", {"contact"}, "did you mean \"contacts\"?", "/measure/0"),
       set("measure is no list", "/measure", "contacts", "a list"),
+      set("no modes", "/modes", 0, "out of range"),
+      set("modes are no number", "/modes", "all", "integer"),
       set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
       set("$schema is a number", "/$schema", 7, "a string"),
       {"root is a list", "[1]", "", "an object with the keys", true},

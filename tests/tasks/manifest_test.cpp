@@ -74,7 +74,7 @@ TEST(Manifest, DefaultsAreThoseOfTheStructs) {
   for (const auto& field : all_fields()) {
     EXPECT_EQ(field_value(field, manifest.protocol), field_value(field, JamOptions{})) << field.name;
   }
-  EXPECT_EQ(manifest.measures, std::vector{Measure::contacts});
+  EXPECT_EQ(manifest.measures, (std::vector{Measure::contacts, Measure::order, Measure::clusters}));
 }
 
 TEST(Manifest, FieldsAreUniqueAndDefaultsLieInRange) {

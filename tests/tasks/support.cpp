@@ -80,7 +80,8 @@ Json tiny_manifest() {
     "replicates": 2,
     "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
                  "approach": 0.4, "final_distance": 0.03, "fit_window": 0.1, "passing_residual": 0.1},
-    "minimiser": {"residual": 1e-3, "max_evaluations": 2000, "unjammed_energy": 1e-14}
+    "minimiser": {"residual": 1e-3, "max_evaluations": 2000, "unjammed_energy": 1e-14},
+    "measure": ["contacts", "order", "clusters", "modes", "moduli", "rigidity"]
   })",
                     "tiny");
 }
@@ -122,6 +123,7 @@ Outcome made_up_outcome(const ReplicateSpec& spec) {
     jam.state_steps.push_back(static_cast<int>(jam.path.size()));
     jam.path.push_back(step);
     jam.states.push_back(strained_to(start, step.density));
+    for (const auto what : {Measure::order, Measure::clusters}) outcome.measured[what].states.push_back(Json::object());
     outcome.measured[Measure::contacts].states.push_back(contact_record(made_up_contacts(9 + random.uniform())));
   }
   jam.phi_j = point;
