@@ -64,6 +64,17 @@ void claim_minimisers(std::vector<Claim>& claims) {
   }
 }
 
+void claim_replicates(std::vector<Claim>& claims) {
+  constexpr double second = 1e9;
+  const std::vector<std::pair<std::string, double>> limits{{"tetrahedron_N=100", 15}, {"octahedron_N=100", 6},
+                                                           {"dodecahedron_N=100", 5}, {"icosahedron_N=100", 5},
+                                                           {"octahedron_N=400", 60},  {"dodecahedron_N=400", 60}};
+  for (const auto& [name, seconds] : limits)
+    claims.push_back({Kind::absolute, "replicate/jam/" + name, "", seconds * second});
+  claims.push_back({Kind::absolute, "modes/both_ends/N=100", "", 0.05 * second});
+  claims.push_back({Kind::absolute, "modes/both_ends/N=400", "", 0.5 * second});
+}
+
 }  // namespace
 
 std::vector<Claim> all_claims() {
@@ -72,6 +83,7 @@ std::vector<Claim> all_claims() {
   claim_factors(claims);
   claim_scaling(claims);
   claim_minimisers(claims);
+  claim_replicates(claims);
   return claims;
 }
 

@@ -1,0 +1,59 @@
+// Time of whole replicates on one core, from φ = .05 to Δφ ≤ .004 (tetrahedra .01), and of both ends of the spectrum of
+// a packing in equilibrium.
+
+#include <benchmark/benchmark.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "engine/solve/jam.hpp"
+#include "engine/vibration/modes.hpp"
+#include "tests/bench/states.hpp"
+
+namespace isojam::bench {
+namespace {
+
+void replicate(benchmark::State& state, SolidKind kind, int n) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  JamOptions options;
+  options.final_distance = kind == SolidKind::tetrahedron ? .01 : .004;
+  std::uint64_t number = 0;
+  JamResult result;
+  for (auto _ : state) {
+    RandomStream random{31, static_cast<std::uint64_t>(kind), static_cast<std::uint64_t>(n), number++};
+    result = jam(random_packing(platonic(kind), n, options.initial_density, random), options);
+  }
+  state.SetLabel(std::string(to_string(result.status)));
+  if (result.status != JamStatus::jammed) state.SkipWithError("did not reach the distance asked for");
+  state.counters["evaluations"] = static_cast<double>(result.evaluations);
+}
+
+void modes(benchmark::State& state, int n) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  Packing packing = strained(SolidKind::octahedron, n, .03);
+  PackingEnergy energy;
+  minimise(packing, energy, {});
+  const BlockMatrix hessian = energy.hessian(packing);
+  SpectrumEnds ends;
+  for (auto _ : state) ends = spectrum_ends(hessian);
+  state.SetLabel(std::string(to_string(ends.lowest.ended)) + ", " + std::string(to_string(ends.highest.ended)));
+  state.counters["residual"] = std::max(ends.lowest.residual, ends.highest.residual);
+}
+
+bool register_all() {
+  const auto add = [](SolidKind kind, int n, int repetitions) {
+    const std::string name = "replicate/jam/" + std::string(to_string(kind)) + "_N=" + std::to_string(n);
+    benchmark::RegisterBenchmark(name.c_str(), replicate, kind, n)->Iterations(1)->Repetitions(repetitions);
+  };
+  for (const SolidKind kind :
+       {SolidKind::tetrahedron, SolidKind::octahedron, SolidKind::dodecahedron, SolidKind::icosahedron})
+    add(kind, 100, 3);
+  add(SolidKind::octahedron, 400, 1);
+  add(SolidKind::dodecahedron, 400, 1);
+  for (const int n : {100, 400})
+    benchmark::RegisterBenchmark(("modes/both_ends/N=" + std::to_string(n)).c_str(), modes, n)->Repetitions(3);
+  return true;
+}
+
+[[maybe_unused]] const bool registered = register_all();
+
+}  // namespace
+}  // namespace isojam::bench
