@@ -41,6 +41,6 @@ void put_optional(Json& json, const std::string& key, const std::optional<double
 /// y ∝ Δφ^exponent over the states within scaling_window of jamming: exponent, ci95_half_width, points. `y` has an
 /// entry per state, nullopt where it is not known.
 Json scaling_record(const JamResult& jam, const std::vector<std::optional<double>>& y);
-inline constexpr double scaling_window = 0.04;
+inline constexpr double scaling_window = 0.02;  ///< that of φ_J, by default: farther off the powers bend
 
 }  // namespace isojam
