@@ -13,26 +13,10 @@
 
 #include "tests/engine/solve/solve_support.hpp"
 #include "tests/engine/vibration/jammed_states.hpp"
+#include "tests/engine/vibration/saddle.hpp"
 
 namespace isojam {
 namespace {
-
-/// side³ particles on a cubic lattice, all in one random orientation.
-Packing lattice(SolidKind kind, int side, double density, std::uint64_t seed) {
-  RandomStream random{seed};
-  Eigen::Quaterniond orientation(random.normal(), random.normal(), random.normal(), random.normal());
-  orientation.normalize();
-  const int n = side * side * side;
-  Packing packing{&platonic(kind), PeriodicCell(side_at(n, density)), {}};
-  const double spacing = packing.cell.side() / side;
-  for (int k = 0; k < n; ++k) {
-    Pose pose;
-    pose.position = spacing * Eigen::Vector3d(k / (side * side), k / side % side, k % side);
-    pose.orientation = orientation;
-    packing.poses.push_back(pose);
-  }
-  return packing;
-}
 
 TEST(FollowDownhill, LeavesASaddle) {
   const Packing start = lattice(SolidKind::octahedron, 4, 0.95, 0);
