@@ -31,7 +31,10 @@ class Window {
     power_sums_.assign(inside_ + 1, Powers{});
     for (long k = inside_ - 1; k >= 0; --k) {
       double power = 1;
-      for (int j = 0; j < 5; ++j, power *= upper - sorted_[k]) power_sums_[k][j] = power_sums_[k + 1][j] + power;
+      for (int j = 0; j < 5; ++j) {
+        power_sums_[k][j] = power_sums_[k + 1][j] + power;
+        power *= upper - sorted_[k];
+      }
     }
   }
 
@@ -65,7 +68,10 @@ class Window {
     const long below = count_at(alpha);
     const double width = upper_ - alpha;
     double s[5], scale = 1;
-    for (int j = 0; j < 5; ++j, scale *= width) s[j] = power_sums_[below][j] / (scale * total_);
+    for (int j = 0; j < 5; ++j) {
+      s[j] = power_sums_[below][j] / (scale * total_);
+      scale *= width;
+    }
     return {height(below) + s[1], 3 * (s[2] - s[1]), 5 * (2 * s[3] - 3 * s[2] + s[1]),
             7 * (5 * s[4] - 10 * s[3] + 6 * s[2] - s[1])};
   }

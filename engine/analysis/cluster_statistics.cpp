@@ -22,8 +22,8 @@ Network unwrapped(const Packing& packing, const Cluster& cluster, std::span<cons
   std::vector<int> place(packing.poses.size(), -1);
   for (int m = 0; m < cluster.size(); ++m) {
     place[cluster.members[m]] = m;
-    network.centres.push_back(packing.poses[cluster.members[m]].position +
-                              packing.cell.side() * cluster.images[m].cast<double>());
+    network.centres.emplace_back(packing.poses[cluster.members[m]].position +
+                                 packing.cell.side() * cluster.images[m].cast<double>());
   }
   network.neighbours.resize(network.centres.size());
   long count = 0;

@@ -146,7 +146,7 @@ std::vector<Cluster> find_clusters(const Packing& packing, std::span<const Neigh
     }
     const int c = cluster_of_root[root];
     clusters[c].members.push_back(i);
-    clusters[c].images.push_back(image - label_image[c]);
+    clusters[c].images.emplace_back(image - label_image[c]);
   }
   for (Cluster& cluster : clusters) measure_extents(packing, cluster);
   return clusters;

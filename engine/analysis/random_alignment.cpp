@@ -82,7 +82,10 @@ Tails binomial_tails(long n, double p, long k) {
 
 }  // namespace
 
-RandomAlignment::RandomAlignment(const ConvexSolid& solid) {
+RandomAlignment::RandomAlignment(const ConvexSolid& solid)
+    : faces_(static_cast<double>(solid.faces().size())),
+      vertices_(static_cast<double>(solid.vertices().size())),
+      valence_(2 * static_cast<double>(solid.edges().size()) / vertices_) {
   const CriticalAngles critical = critical_angles(solid);  // refuses unlike vertices or edges
   const std::size_t sides = solid.faces().front().vertices.size();
   for (const Face& face : solid.faces()) {
@@ -90,10 +93,7 @@ RandomAlignment::RandomAlignment(const ConvexSolid& solid) {
       throw std::invalid_argument("random alignment has a closed form for regular solids; " + solid.name() +
                                   " is none");
   }
-  faces_ = static_cast<double>(solid.faces().size());
-  vertices_ = static_cast<double>(solid.vertices().size());
   face_sides_ = static_cast<double>(sides);
-  valence_ = 2 * static_cast<double>(solid.edges().size()) / vertices_;
   ff_max_ = critical.ff_vertex_face;
   ef_max_ = critical.ef_vertex_face;
   constrained_ff_max_ = critical.ff_edge_face;
