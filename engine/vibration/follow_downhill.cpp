@@ -20,11 +20,12 @@ std::optional<Packing> step_down(const Packing& packing, const Eigen::VectorXd& 
                                  Precision precision, PackingEnergy& energy) {
   const Evaluation here = energy.evaluate(packing, precision);
   double step = first_step * packing.solid->inradius() / largest_displacement(mode);
-  for (int halving = 0; halving < max_halvings; ++halving, step /= 2) {
+  for (int halving = 0; halving < max_halvings; ++halving) {
     Packing ahead = moved(packing, step * mode), behind = moved(packing, -step * mode);
     const double at_ahead = energy.evaluate(ahead, precision).energy;
     const double at_behind = energy.evaluate(behind, precision).energy;
     if (std::min(at_ahead, at_behind) < here.energy - here.energy_noise) return at_ahead <= at_behind ? ahead : behind;
+    step /= 2;
   }
   return std::nullopt;
 }

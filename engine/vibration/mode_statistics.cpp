@@ -17,7 +17,8 @@ double participation_ratio(const Eigen::Ref<const VectorXd>& mode) {
     squares += square;
     fourths += square * square;
   }
-  return squares * squares / (static_cast<double>(mode.size() / 6) * fourths);
+  const Index particles = mode.size() / 6;
+  return squares * squares / (static_cast<double>(particles) * fourths);
 }
 
 VectorXd participation_ratios(const ModeSet& modes) {

@@ -28,7 +28,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 void remove_translations(Eigen::Ref<VectorXd> u) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (Index k = 0; k < u.size(); k += 6) mean += u.segment<3>(k);
-  mean /= static_cast<double>(u.size() / 6);
+  const Index particles = u.size() / 6;
+  mean /= static_cast<double>(particles);
   for (Index k = 0; k < u.size(); k += 6) u.segment<3>(k) -= mean;
 }
 

@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3d> roots(const Eigen::Matrix3d& stiffness) {
   for (int k = 0; k < 3; ++k) {
     const double value = axes.eigenvalues()[k];
     if (value > std::numeric_limits<double>::epsilon() * axes.eigenvalues()[2])
-      list.push_back(std::sqrt(value) * axes.eigenvectors().col(k));
+      list.emplace_back(std::sqrt(value) * axes.eigenvectors().col(k));
   }
   return list;
 }
