@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tasks/json_place.hpp"
+#include "tasks/packing_json.hpp"
 #include "tasks/version.hpp"
 
 namespace isojam {
@@ -170,23 +171,10 @@ Json make_record(const Outcome& outcome) {
 
 Json make_packing(const Outcome& outcome) {
   assert(!outcome.failure && !outcome.interrupted);
-  const auto& packing = outcome.jam.states[*nearest_state(outcome.jam)];
   Json json;
   json["schema"] = packing_schema;
   json["manifest_digest"] = outcome.spec.manifest_digest;
-  json["solid"] = to_string(outcome.spec.solid);
-  json["phi"] = packing.density();
-  json["side"] = packing.cell.side();
-  for (const auto* key : {"positions", "orientations", "positions_low", "orientations_low"}) json[key] = Json::array();
-  for (const auto& pose : packing.poses) {
-    const auto &x = pose.position, &x_low = pose.position_low;
-    const auto& q = pose.orientation.coeffs();
-    const auto& q_low = pose.orientation_low;
-    json["positions"].push_back({x[0], x[1], x[2]});
-    json["orientations"].push_back({q[3], q[0], q[1], q[2]});
-    json["positions_low"].push_back({x_low[0], x_low[1], x_low[2]});
-    json["orientations_low"].push_back({q_low[3], q_low[0], q_low[1], q_low[2]});
-  }
+  json.update(to_json(outcome.jam.states[*nearest_state(outcome.jam)]));
   return json;
 }
 
