@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <map>
 
@@ -146,6 +147,8 @@ ExitCode parse_and_run(int argc, char** argv) {
 }  // namespace isojam
 
 int main(int argc, char** argv) {
+  // A file that may not grow is a failed write like any other, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return static_cast<int>(isojam::parse_and_run(argc, argv));
   } catch (const std::exception& error) {

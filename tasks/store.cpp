@@ -29,15 +29,23 @@ std::optional<Manifest> manifest_in(const fs::path& path, const std::string& our
   return theirs;
 }
 
-void check_unplanned(const fs::path& folder, const Manifest& manifest, const std::string& ours) {
+/// Records that the plan does not know; all of them where no manifest says whose the directory is.
+void check_records(const fs::path& folder, const Manifest& manifest, bool all) {
   const auto names = names_in(folder);
   if (names.empty()) return;
   const Plan plan(manifest);
+  const auto ours = digest(manifest);
   for (const auto& name : names) {
-    if (plan.place_of(name)) continue;
+    const bool planned = plan.place_of(name).has_value();
+    if (planned && !all) continue;
     const auto path = (folder / (name + ".json")).string();
-    const auto theirs = summarise_record(read_sealed(path), path).manifest_digest;
-    if (theirs != ours) refuse_other(path, "/provenance/manifest_digest", theirs, ours);
+    try {
+      const auto theirs = summarise_record(read_sealed(path), path).manifest_digest;
+      if (theirs != ours) refuse_other(path, "/provenance/manifest_digest", theirs, ours);
+    } catch (const InputError& damage) {
+      // One that is planned is redone when its turn comes.
+      if (!planned || !damage.details().pointer.starts_with("/checksum")) throw;
+    }
   }
 }
 
@@ -72,7 +80,7 @@ Store::Store(fs::path directory, const Manifest& manifest)
     : directory_(std::move(directory)), digest_(digest(manifest)), keep_path_(manifest.keep_path) {
   const auto manifest_path = directory_ / "manifest.json";
   const auto before = manifest_in(manifest_path, digest_);
-  check_unplanned(directory_ / "records", manifest, digest_);
+  check_records(directory_ / "records", manifest, !before);
 
   make_folder(directory_);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);

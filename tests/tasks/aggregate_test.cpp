@@ -29,7 +29,7 @@ std::vector<ReplicateSpec> plan(const std::function<void(Json&)>& change = {}) {
   manifest["sweep"]["target_energy"] = {1e-6, 1e-5};
   manifest["replicates"] = 5;
   if (change) change(manifest);
-  return make_plan(parse_manifest(manifest.dump(), "m"));
+  return test::make_plan(parse_manifest(manifest.dump(), "m"));
 }
 
 RecordSummary summary_of(const Outcome& outcome) { return summarise_record(make_record(outcome), "made up"); }
@@ -185,9 +185,10 @@ TEST(Aggregate, RefusesTwoResultsOfOneReplicate) {
 
 TEST(Record, WhatATableNeedsIsRequired) {
   const auto record = make_record(test::made_up_outcome(plan()[0]));
-  for (const std::string pointer : {"/schema", "/spec", "/spec/solid", "/spec/particles", "/spec/parameters",
-                                    "/spec/replicate", "/spec/protocol", "/provenance", "/provenance/manifest_digest",
-                                    "/status", "/flags", "/phi_j", "/phi_j/phi_j", "/phi_j/residual", "/nearest"}) {
+  for (const std::string pointer :
+       {"/schema", "/spec", "/spec/solid", "/spec/particles", "/spec/parameters", "/spec/replicate", "/spec/protocol",
+        "/provenance", "/provenance/manifest_digest", "/status", "/timing", "/timing/cpu_seconds", "/result_digest",
+        "/flags", "/phi_j", "/phi_j/phi_j", "/phi_j/residual", "/nearest"}) {
     auto damaged = record;
     const Json::json_pointer at(pointer);
     damaged.at(at.parent_pointer()).erase(at.back());

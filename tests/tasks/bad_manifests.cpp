@@ -52,8 +52,17 @@ std::vector<BadManifest> malformed() {
       set("seed is null", "/seed", nullptr, "wrong type"),
       set("seed is beyond 2^53", "/seed", 9007199254740994, "out of range"),
       set("seed is beyond 2^64", "/seed", 1e30, "an integer from 0"),
-      set("no replicate", "/replicates", 0, "an integer from 1 to 10000"),
-      set("too many replicates", "/replicates", 10001, "an integer from 1 to 10000"),
+      set("no replicate", "/replicates", 0, "an integer from 1 to 1000000"),
+      set("too many replicates", "/replicates", 1000001, "an integer from 1 to 1000000"),
+      set("replicates as a text", "/replicates", "many", "neither a number nor an object"),
+      {"a goal without a maximum", with("/replicates", {{"min", 2}, {"quantity", "Z"}, {"half_width", 1}}),
+       "/replicates/max", "missing", true},
+      {"a goal with a typing error", with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "Z"}, {"halfwidth", 1}}),
+       "/replicates/halfwidth", "did you mean \"half_width\"?", true},
+      {"a goal of one replicate", with("/replicates", {{"min", 1}, {"max", 4}, {"quantity", "Z"}, {"half_width", 1}}),
+       "/replicates/min", "an integer from 2 to 1000000", true},
+      {"a goal of no width", with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "Z"}, {"half_width", 0}}),
+       "/replicates/half_width", "a number in (0", true},
       set("half a replicate", "/replicates", 2.5, "an integer from 1"),
       set("protocol is a string", "/protocol", "paper", "an object"),
       set("negative density", "/protocol/initial_density", -0.1, "a number in (0, 1]"),
@@ -104,7 +113,7 @@ std::vector<BadManifest> inconsistent() {
   both["sweep"]["target_energy"] = {1e-5};
   both["protocol"]["target_energy"] = 1e-5;
   auto many = good_manifest();
-  many["replicates"] = 10000;
+  many["replicates"] = 1000000;
   for (int n = 1; n <= 101; ++n) many["sweep"]["max_steps"].push_back(n);
   return {
       {"too few particles", with("/sweep/particles", {64, 5}), "/sweep/particles/1", "or more", false},
@@ -112,6 +121,14 @@ std::vector<BadManifest> inconsistent() {
       {"swept and fixed", both.dump(), "/protocol/target_energy", "either here or at /sweep/target_energy", false},
       {"starts above its limit", with("/protocol/initial_density", 0.95), "/protocol/initial_density",
        "does not lie below max_density 0.93", false},
+      {"fewer at most than at least",
+       with("/replicates", {{"min", 5}, {"max", 4}, {"quantity", "Z"}, {"half_width", 1}}), "/replicates/max",
+       "an integer from 5 to 1000000", false},
+      {"a goal of no quantity", with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "phi_i"}, {"half_width", 1}}),
+       "/replicates/quantity", "did you mean \"phi_j\"?", false},
+      {"a goal that is not measured",
+       with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "omega_l"}, {"half_width", 1}}),
+       "/replicates/quantity", "\"modes\" in /measure", false},
       {"a million replicates", many.dump(), "/sweep", "at most 1000000", false},
       {"one beyond 2^53", with("/seed", 9007199254740993), "/seed", "out of range", false},
   };

@@ -190,7 +190,7 @@ TEST_F(Batch, AReplicateIsTheSameInAnotherSweep) {
   auto ours = results(), theirs = reference();
   for (auto* files : {&ours, &theirs}) {
     for (const std::string folder : {"records/", "packings/"}) {
-      auto json = parse_json(files->at(folder + name), name);
+      auto json = test::without_checksum(parse_json(files->at(folder + name), name));
       // The manifest differs, and nothing else.
       (folder == "records/" ? json.at("provenance") : json).erase("manifest_digest");
       files->at(folder + name) = pretty(json);

@@ -4,7 +4,9 @@
 // - outcomes are handed over one at a time, and no more replicates are in flight than threads;
 // - outcomes do not depend on the number of threads;
 // - after a stop request nothing new starts, and what was under way is handed over as interrupted;
-// - an exception of the consumer stops the run and comes out of it.
+// - an exception of the caller's functions stops the run and comes out of it;
+// - fewer replicates are in flight where memory asks for it, and a plan is asked for no faster than it is run;
+// - time spent before a checkpoint is counted.
 
 #include "tasks/graph.hpp"
 
@@ -28,12 +30,21 @@ using namespace std::chrono_literals;
 std::vector<ReplicateSpec> plan_of(int replicates) {
   auto manifest = test::good_manifest();
   manifest["replicates"] = replicates;
-  return make_plan(parse_manifest(manifest.dump(), "m"));
+  return test::make_plan(parse_manifest(manifest.dump(), "m"));
+}
+
+/// Gives the specifications one after the other.
+NextReplicate one_by_one(std::vector<ReplicateSpec> specs) {
+  return [specs = std::move(specs), at = std::size_t{0}]() mutable {
+    return at < specs.size() ? std::optional(specs[at++]) : std::nullopt;
+  };
 }
 
 Stages quiet_stages() {
-  return {[](const ReplicateSpec& spec) { return test::made_up_outcome(spec).jam.states.front(); },
-          [](const ReplicateSpec& spec, const Packing&, std::stop_token, const OnStep&) {
+  return {[](const ReplicateSpec& spec) {
+            return Checkpoint{begin_jam(test::made_up_outcome(spec).jam.states.front(), spec.options), {}};
+          },
+          [](const ReplicateSpec& spec, const JamProgress&, std::stop_token, const OnProgress&) {
             return test::made_up_outcome(spec).jam;
           },
           [](const ReplicateSpec& spec, Measure what, const JamResult&) {
@@ -42,7 +53,7 @@ Stages quiet_stages() {
 }
 
 /// What the made-up stages do to a replicate.
-enum class Fate { good, place_throws, jam_throws, jam_ends_early, contacts_throw, contacts_throw_int };
+enum class Fate { good, begin_throws, jam_throws, jam_ends_early, contacts_throw, contacts_throw_int };
 
 Fate fate_of(const ReplicateSpec& spec) {
   return static_cast<Fate>(replicate_stream(spec, Purpose::bootstrap).bits() % 6);
@@ -50,14 +61,14 @@ Fate fate_of(const ReplicateSpec& spec) {
 
 Stages fateful_stages() {
   auto stages = quiet_stages();
-  stages.place = [place = stages.place](const ReplicateSpec& spec) {
-    if (fate_of(spec) == Fate::place_throws) throw std::invalid_argument("no place");
-    return place(spec);
+  stages.begin = [begin = stages.begin](const ReplicateSpec& spec) {
+    if (fate_of(spec) == Fate::begin_throws) throw std::invalid_argument("no room");
+    return begin(spec);
   };
-  stages.jam = [jam = stages.jam](const ReplicateSpec& spec, Packing start, std::stop_token stop,
-                                  const OnStep& on_step) {
+  stages.jam = [jam = stages.jam](const ReplicateSpec& spec, JamProgress from, std::stop_token stop,
+                                  const OnProgress& on_step) {
     if (fate_of(spec) == Fate::jam_throws) throw std::runtime_error("no jam");
-    auto result = jam(spec, std::move(start), std::move(stop), on_step);
+    auto result = jam(spec, std::move(from), std::move(stop), on_step);
     if (fate_of(spec) == Fate::jam_ends_early) result.status = JamStatus::density_limit;
     return result;
   };
@@ -72,7 +83,7 @@ Stages fateful_stages() {
 std::string expected_failure(Fate fate) {
   switch (fate) {
     case Fate::good: return "";
-    case Fate::place_throws: return "place: no place";
+    case Fate::begin_throws: return "begin: no room";
     case Fate::jam_throws: return "jam: no jam";
     case Fate::jam_ends_early: return "jam: density_limit after 4 strain steps";
     case Fate::contacts_throw: return "contacts: no contacts";
@@ -86,7 +97,7 @@ TEST(Graph, EveryReplicateYieldsOneOutcome) {
   for (const int threads : {1, 2, 4}) {
     std::map<std::string, int> seen;
     std::map<Fate, int> fates;
-    run_graph(plan, fateful_stages(), {threads, {}, {}}, [&](const Outcome& outcome) {
+    run_graph(one_by_one(plan), fateful_stages(), {threads, 0, {}, {}}, [&](const Outcome& outcome) {
       ++seen[replicate_name(outcome.spec)];
       const auto fate = fate_of(outcome.spec);
       ++fates[fate];
@@ -110,7 +121,7 @@ TEST(Graph, NoMeasurementWhereNoneIsAsked) {
     throw std::logic_error("not asked for");
   };
   int outcomes = 0;
-  run_graph(plan, stages, {2, {}, {}}, [&](const Outcome& outcome) {
+  run_graph(one_by_one(plan), stages, {2, 0, {}, {}}, [&](const Outcome& outcome) {
     ++outcomes;
     EXPECT_FALSE(outcome.failure);
     EXPECT_FALSE(outcome.interrupted);
@@ -123,7 +134,7 @@ TEST(Graph, ThreadsChangeNoOutcome) {
   const auto plan = plan_of(20);
   std::map<int, std::map<std::string, std::string>> records;
   for (const int threads : {1, 3}) {
-    run_graph(plan, fateful_stages(), {threads, {}, {}}, [&](const Outcome& outcome) {
+    run_graph(one_by_one(plan), fateful_stages(), {threads, 0, {}, {}}, [&](const Outcome& outcome) {
       auto record = make_record(outcome);
       record.erase("timing");
       records[threads][replicate_name(outcome.spec)] = pretty(record);
@@ -137,18 +148,18 @@ TEST(Graph, AsManyInFlightAsThreadsAndOneConsumer) {
     std::atomic<int> in_flight{0}, most{0}, consuming{0};
     auto stages = quiet_stages();
     // Waits for company as long as it takes to be sure that none will come.
-    stages.jam = [&, jam = stages.jam](const ReplicateSpec& spec, Packing start, std::stop_token stop,
-                                       const OnStep& on_step) {
+    stages.jam = [&, jam = stages.jam](const ReplicateSpec& spec, JamProgress from, std::stop_token stop,
+                                       const OnProgress& on_step) {
       for (int i = 0; i < 2000 && most < threads; ++i) std::this_thread::sleep_for(1ms);
-      return jam(spec, std::move(start), std::move(stop), on_step);
+      return jam(spec, std::move(from), std::move(stop), on_step);
     };
-    stages.place = [&, place = stages.place](const ReplicateSpec& spec) {
+    stages.begin = [&, begin = stages.begin](const ReplicateSpec& spec) {
       const int now = ++in_flight;
       for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
       }
-      return place(spec);
+      return begin(spec);
     };
-    run_graph(plan_of(30), stages, {threads, {}, {}}, [&](const Outcome&) {
+    run_graph(one_by_one(plan_of(30)), stages, {threads, 0, {}, {}}, [&](const Outcome&) {
       EXPECT_EQ(++consuming, 1);
       std::this_thread::sleep_for(5ms);
       --consuming;
@@ -162,7 +173,7 @@ TEST(Graph, StopsPromptly) {
   std::stop_source source;
   std::atomic<int> started{0};
   auto stages = quiet_stages();
-  stages.jam = [&](const ReplicateSpec& spec, const Packing&, std::stop_token stop, const OnStep&) {
+  stages.jam = [&](const ReplicateSpec& spec, const JamProgress&, std::stop_token stop, const OnProgress&) {
     ++started;
     if (spec.replicate < 3) return test::made_up_outcome(spec).jam;
     source.request_stop();
@@ -173,7 +184,7 @@ TEST(Graph, StopsPromptly) {
     return result;
   };
   int whole = 0, interrupted = 0;
-  run_graph(plan_of(1000), stages, {2, source.get_token(), {}}, [&](const Outcome& outcome) {
+  run_graph(one_by_one(plan_of(1000)), stages, {2, 0, source.get_token(), {}}, [&](const Outcome& outcome) {
     EXPECT_FALSE(outcome.failure) << outcome.failure->why;
     (outcome.interrupted ? interrupted : whole)++;
   });
@@ -187,14 +198,74 @@ TEST(Graph, NothingStartsAfterAStop) {
   std::stop_source source;
   source.request_stop();
   int outcomes = 0;
-  run_graph(plan_of(10), quiet_stages(), {2, source.get_token(), {}}, [&](const Outcome&) { ++outcomes; });
+  run_graph(one_by_one(plan_of(10)), quiet_stages(), {2, 0, source.get_token(), {}},
+            [&](const Outcome&) { ++outcomes; });
   EXPECT_EQ(outcomes, 0);
+}
+
+TEST(Graph, FewerInFlightThanThreadsWhereMemoryAsks) {
+  std::atomic<int> in_flight{0}, most{0};
+  auto stages = quiet_stages();
+  stages.begin = [&, begin = stages.begin](const ReplicateSpec& spec) {
+    const int now = ++in_flight;
+    for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
+    }
+    std::this_thread::sleep_for(2ms);
+    return begin(spec);
+  };
+  run_graph(one_by_one(plan_of(30)), stages, {4, 2, {}, {}}, [&](const Outcome&) { --in_flight; });
+  EXPECT_EQ(most, 2);
+}
+
+TEST(Graph, APlanIsAskedForNoFasterThanItIsRun) {
+  int asked = 0, done = 0, ahead = 0;
+  const auto specs = plan_of(200);
+  const NextReplicate next = [&]() -> std::optional<ReplicateSpec> {
+    ahead = std::max(ahead, asked - done);
+    return asked < 200 ? std::optional(specs[static_cast<std::size_t>(asked++)]) : std::nullopt;
+  };
+  run_graph(next, quiet_stages(), {1, 0, {}, {}}, [&](const Outcome&) { ++done; });
+  EXPECT_EQ(done, 200);
+  EXPECT_LE(ahead, 4) << "specifications pile up";
+}
+
+TEST(Graph, WhatTheCallersFunctionsThrowComesOut) {
+  const auto fault = [] { return std::runtime_error("disk full"); };
+  const NextReplicate next = [&]() -> std::optional<ReplicateSpec> { throw fault(); };
+  EXPECT_THROW(run_graph(next, quiet_stages(), {2, 0, {}, {}}, [](const Outcome&) {}), std::runtime_error);
+  auto stages = quiet_stages();
+  stages.jam = [](const ReplicateSpec& spec, JamProgress from, std::stop_token, const OnProgress& on_progress) {
+    on_progress(from);
+    return test::made_up_outcome(spec).jam;
+  };
+  std::atomic<int> steps{0};
+  const GraphOptions options{2, 0, {}, [&](const ReplicateSpec&, const Checkpoint&) {
+                               ++steps;
+                               throw fault();
+                             }};
+  EXPECT_THROW(run_graph(one_by_one(plan_of(1000)), stages, options, [](const Outcome&) {}), std::runtime_error);
+  EXPECT_GE(steps, 1);
+  EXPECT_LT(steps, 100);
+}
+
+TEST(Graph, TimeSpentBeforeIsCounted) {
+  auto stages = quiet_stages();
+  stages.begin = [begin = stages.begin](const ReplicateSpec& spec) {
+    auto checkpoint = begin(spec);
+    checkpoint.spent = {1000, 500};
+    return checkpoint;
+  };
+  run_graph(one_by_one(plan_of(1)), stages, {1, 0, {}, {}}, [](const Outcome& outcome) {
+    EXPECT_GE(outcome.timing.wall_seconds, 1000);
+    EXPECT_GE(outcome.timing.cpu_seconds, 500);
+    EXPECT_LT(outcome.timing.cpu_seconds, 1000);
+  });
 }
 
 TEST(Graph, AnExceptionOfTheConsumerComesOut) {
   int outcomes = 0;
   const auto run = [&] {
-    run_graph(plan_of(1000), quiet_stages(), {2, {}, {}}, [&](const Outcome&) {
+    run_graph(one_by_one(plan_of(1000)), quiet_stages(), {2, 0, {}, {}}, [&](const Outcome&) {
       if (++outcomes == 3) throw std::runtime_error("disk full");
     });
   };

@@ -26,7 +26,7 @@ using test::violations;
 Outcome measured_outcome(const JamResult& jam) {
   Outcome outcome;
   auto manifest = test::tiny_manifest();
-  outcome.spec = make_plan(parse_manifest(manifest.dump(), "tiny")).front();
+  outcome.spec = test::make_plan(parse_manifest(manifest.dump(), "tiny")).front();
   outcome.jam = jam;
   for (const auto what : all_measures) outcome.measured[what] = measure(what, jam);
   return outcome;
@@ -67,7 +67,7 @@ TEST(Measure, NamesAreDistinct) {
 
 TEST(Measure, FillsTheRecordOfAJammedPacking) {
   ASSERT_EQ(jammed().status, JamStatus::jammed);
-  const auto record = make_record(measured_outcome(jammed()));
+  const auto record = test::record_on_disk(measured_outcome(jammed()));
   EXPECT_EQ(violations("replicate", record), "");
   EXPECT_EQ(unexplained(record), "");
   const auto summary = summarise_record(record, "record");
@@ -82,7 +82,7 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
 }
 
 TEST(Measure, ConstraintCountingCloses) {
-  const auto record = make_record(measured_outcome(jammed()));
+  const auto record = test::record_on_disk(measured_outcome(jammed()));
   const int n = jammed().states.front().size();
   for (const auto& state : record.at("states")) {
     const auto& modes = state.at("modes");
@@ -155,7 +155,7 @@ TEST(Measure, AnswersDegenerateStates) {
   for (const auto& [name, packing] : cases) {
     auto outcome = measured_outcome(result_of(packing));
     outcome.failure = Failure{"jam", "made up"};
-    const auto record = make_record(outcome);
+    const auto record = test::record_on_disk(outcome);
     EXPECT_EQ(violations("replicate", record), "") << name;
     EXPECT_EQ(unexplained(record), "") << name;
     const auto& state = record.at("states").at(0);
@@ -163,7 +163,7 @@ TEST(Measure, AnswersDegenerateStates) {
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
     EXPECT_EQ(text.find("inf,"), std::string::npos) << name;
   }
-  const auto crystal = make_record([&] {
+  const auto crystal = test::record_on_disk([&] {
     auto outcome = measured_outcome(result_of(crystal_of_cubes()));
     outcome.failure = Failure{"jam", "made up"};
     return outcome;

@@ -11,11 +11,14 @@
 #include <set>
 
 #include "bad_manifests.hpp"
+#include "support.hpp"
 
 namespace isojam {
 namespace {
 
-std::vector<ReplicateSpec> plan_of(const Json& manifest) { return make_plan(parse_manifest(manifest.dump(), "m")); }
+std::vector<ReplicateSpec> plan_of(const Json& manifest) {
+  return test::make_plan(parse_manifest(manifest.dump(), "m"));
+}
 
 Json large_sweep() {
   auto manifest = test::good_manifest();

@@ -76,7 +76,10 @@ TEST(ManifestSchema, AcceptsWhatTheProgramAccepts) {
   auto swept = test::good_manifest();
   swept["$schema"] = "../schemas/manifest.schema.json";
   for (const auto& field : all_fields()) swept["sweep"][std::string(field.name)] = Json{field_value(field, {})};
-  for (const auto& manifest : {test::good_manifest(), test::tiny_manifest(), swept}) {
+  auto sequential = test::good_manifest();
+  sequential["replicates"] = {{"min", 4}, {"max", 40}, {"quantity", "phi_j"}, {"half_width", 0.003}};
+  sequential["keep_path"] = true;
+  for (const auto& manifest : {test::good_manifest(), test::tiny_manifest(), swept, sequential}) {
     EXPECT_EQ(violations("manifest", manifest), "") << manifest;
     const auto canonical = to_json(parse_manifest(manifest.dump(), "manifest"));
     EXPECT_EQ(violations("manifest", canonical), "") << canonical;
@@ -111,7 +114,7 @@ std::vector<Json> made_up_records() {
   auto manifest = test::good_manifest();
   manifest["sweep"]["target_energy"] = {1e-6, 3.2e-5};
   std::vector<Json> records;
-  for (const auto& spec : make_plan(parse_manifest(manifest.dump(), "good"))) {
+  for (const auto& spec : test::make_plan(parse_manifest(manifest.dump(), "good"))) {
     auto outcome = test::made_up_outcome(spec);
     auto contacts = test::made_up_contacts(9);
     if (records.empty()) contacts.Q6 = 0.5;
@@ -124,7 +127,7 @@ std::vector<Json> made_up_records() {
       outcome.failure = failure_of(outcome.jam);
     }
     if (records.size() == 3) outcome.measured.clear();
-    records.push_back(make_record(outcome));
+    records.push_back(test::record_on_disk(outcome));
   }
   return records;
 }

@@ -37,6 +37,12 @@ struct Warnings {
   }
 };
 
+int count_records(const std::filesystem::path& directory) {
+  int count = 0;
+  for_each_record(directory, [&](const RecordSummary&) { ++count; });
+  return count;
+}
+
 TEST(AtomicFile, ReplacesTheWholeContent) {
   const TemporaryDirectory directory;
   const auto path = directory / "f.json";
@@ -57,7 +63,7 @@ TEST(AtomicFile, AFailedWriteLeavesNothing) {
 TEST(Store, PackingsKeepEveryBit) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
-  const auto spec = make_plan(manifest)[0];
+  const auto spec = test::make_plan(manifest)[0];
   const Store store(directory / "results", manifest);
   auto outcome = test::made_up_outcome(spec);
   auto& state = outcome.jam.states[*nearest_state(outcome.jam)];
@@ -85,25 +91,25 @@ TEST(Store, PackingsKeepEveryBit) {
 TEST(Store, HoldsWhatWasWritten) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
-  const auto plan = make_plan(manifest);
+  const auto plan = test::make_plan(manifest);
   Warnings warnings;
   const Store store(directory / "results", manifest);
-  EXPECT_FALSE(store.holds(plan[0], warnings.warn()));
+  EXPECT_FALSE(store.recorded(plan[0], warnings.warn()));
   store.write(test::made_up_outcome(plan[0]));
-  EXPECT_TRUE(store.holds(plan[0], warnings.warn()));
-  EXPECT_FALSE(store.holds(plan[1], warnings.warn()));
+  EXPECT_TRUE(store.recorded(plan[0], warnings.warn()));
+  EXPECT_FALSE(store.recorded(plan[1], warnings.warn()));
   auto failed = test::made_up_outcome(plan[1]);
   failed.failure = Failure{"jam", "made up"};
   store.write(failed);
-  EXPECT_TRUE(store.holds(plan[1], warnings.warn()));
+  EXPECT_TRUE(store.recorded(plan[1], warnings.warn()));
   EXPECT_TRUE(warnings.said.empty()) << warnings.said.front();
-  EXPECT_EQ(read_records(directory / "results").size(), 2U);
+  EXPECT_EQ(count_records(directory / "results"), 2);
 }
 
 TEST(Store, ADamagedRecordIsReportedAndNotHeld) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
-  const auto plan = make_plan(manifest);
+  const auto plan = test::make_plan(manifest);
   const Store store(directory.path(), manifest);
   store.write(test::made_up_outcome(plan[0]));
   const auto path = store.record_path(plan[0]);
@@ -111,45 +117,45 @@ TEST(Store, ADamagedRecordIsReportedAndNotHeld) {
   for (std::size_t size = 0; size + 2 < whole.size(); size += whole.size() / 37) {
     test::write_text(path, whole.substr(0, size));
     Warnings warnings;
-    EXPECT_FALSE(store.holds(plan[0], warnings.warn())) << size;
+    EXPECT_FALSE(store.recorded(plan[0], warnings.warn())) << size;
     ASSERT_EQ(warnings.said.size(), 1U) << size;
     EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
     EXPECT_NO_THROW(Store(directory.path(), manifest)) << "the run replaces it";
   }
   test::write_text(path, whole);
   Warnings warnings;
-  EXPECT_TRUE(store.holds(plan[0], warnings.warn()));
+  EXPECT_TRUE(store.recorded(plan[0], warnings.warn()));
 }
 
 TEST(Store, ARecordUnderAnotherNameIsNotHeld) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
-  const auto plan = make_plan(manifest);
+  const auto plan = test::make_plan(manifest);
   const Store store(directory.path(), manifest);
   store.write(test::made_up_outcome(plan[0]));
   std::filesystem::copy_file(store.record_path(plan[0]), store.record_path(plan[1]));
   std::filesystem::copy_file(store.packing_path(plan[0]), store.packing_path(plan[1]));
   Warnings warnings;
-  EXPECT_FALSE(store.holds(plan[1], warnings.warn()));
+  EXPECT_FALSE(store.recorded(plan[1], warnings.warn()));
   EXPECT_EQ(warnings.said.size(), 1U);
 }
 
 TEST(Store, ARecordWithoutItsPackingIsNotHeld) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
-  const auto spec = make_plan(manifest)[0];
+  const auto spec = test::make_plan(manifest)[0];
   const Store store(directory.path(), manifest);
   store.write(test::made_up_outcome(spec));
   std::filesystem::remove(store.packing_path(spec));
   Warnings warnings;
-  EXPECT_FALSE(store.holds(spec, warnings.warn()));
+  EXPECT_FALSE(store.recorded(spec, warnings.warn()));
   EXPECT_EQ(warnings.said.size(), 1U);
 }
 
 TEST(Store, RefusesADirectoryOfAnotherManifest) {
   const TemporaryDirectory directory;
   const Store store(directory.path(), manifest_with(7));
-  store.write(test::made_up_outcome(make_plan(manifest_with(7))[0]));
+  store.write(test::made_up_outcome(test::make_plan(manifest_with(7))[0]));
   const auto refusal_of = [&](const Manifest& manifest) -> std::string {
     try {
       const Store other(directory.path(), manifest);
@@ -177,7 +183,7 @@ TEST(Store, RefusesADamagedRecordThatNoPlanReplaces) {
 
 TEST(Store, ThePlanOnlyGrows) {
   const TemporaryDirectory directory;
-  const auto planned = [&] { return read_manifest((directory / "manifest.json").string()).replicates; };
+  const auto planned = [&] { return read_manifest((directory / "manifest.json").string()).replicates.max; };
   for (const auto& [asked, expected] : {std::pair{2, 2}, {5, 5}, {3, 5}}) {
     const Store store(directory.path(), manifest_with(7, asked));
     EXPECT_EQ(planned(), expected);
@@ -188,16 +194,16 @@ TEST(Store, TemporariesAreNotResults) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const Store store(directory.path(), manifest);
-  store.write(test::made_up_outcome(make_plan(manifest)[0]));
+  store.write(test::made_up_outcome(test::make_plan(manifest)[0]));
   test::write_text(directory / "records/.dodecahedron-N64-r0001.json.0123456789abcdef.tmp", "{\"half");
   EXPECT_NO_THROW(Store(directory.path(), manifest));
-  EXPECT_EQ(read_records(directory.path()).size(), 1U);
+  EXPECT_EQ(count_records(directory.path()), 1);
 }
 
 TEST(Store, ADirectoryWithoutRecordsIsNoResultsDirectory) {
   const TemporaryDirectory directory;
-  EXPECT_THROW(read_records(directory.path()), FileError);
-  EXPECT_THROW(read_records(directory / "absent"), FileError);
+  EXPECT_THROW(count_records(directory.path()), FileError);
+  EXPECT_THROW(count_records(directory / "absent"), FileError);
 }
 
 }  // namespace

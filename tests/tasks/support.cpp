@@ -8,6 +8,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "tasks/record.hpp"
+#include "tasks/sealed_json.hpp"
+
 namespace isojam::test {
 namespace fs = std::filesystem;
 
@@ -64,14 +67,27 @@ std::map<std::string, std::string> files_below(const fs::path& directory) {
 
 std::map<std::string, std::string> results_below(const fs::path& directory) {
   auto files = files_below(directory);
+  std::erase_if(files, [](const auto& file) { return fs::path(file.first).filename().string().starts_with('.'); });
   for (auto& [name, content] : files) {
-    if (name.rfind("records/", 0) != 0) continue;
-    auto record = parse_json(content, name);
-    record.at("timing") = nullptr;
-    content = pretty(record);
+    if (name.rfind("records/", 0) == 0) content = pretty(without_checksum(parse_json(content, name)));
   }
   return files;
 }
+
+std::vector<ReplicateSpec> make_plan(const Manifest& manifest) {
+  const Plan plan(manifest);
+  std::vector<ReplicateSpec> specs;
+  for (std::size_t i = 0; i < plan.size(); ++i) specs.push_back(plan[i]);
+  return specs;
+}
+
+Json without_checksum(Json document) {
+  document.erase("checksum");
+  document.erase("timing");
+  return document;
+}
+
+Json record_on_disk(const Outcome& outcome) { return parse_sealed(sealed(make_record(outcome)), "record"); }
 
 Json tiny_manifest() {
   return parse_json(R"({

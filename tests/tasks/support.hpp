@@ -41,11 +41,21 @@ void write_text(const std::filesystem::path& path, const std::string& text);
 /// Content of every file below, by relative path.
 std::map<std::string, std::string> files_below(const std::filesystem::path& directory);
 
-/// The same for a results directory, records without what may differ between runs.
+/// The same for a results directory, records without what may differ between runs, and without what writers that were
+/// killed left behind.
 std::map<std::string, std::string> results_below(const std::filesystem::path& directory);
 
 /// Real packings in about a second each: 24 or 28 dodecahedra, loosely converged.
 Json tiny_manifest();
+
+/// Every specification of a plan, in order.
+std::vector<ReplicateSpec> make_plan(const Manifest& manifest);
+
+/// What remains of a record or packing without its checksum, and of a record without what may differ between runs.
+Json without_checksum(Json document);
+
+/// The record as it is read back from its file.
+Json record_on_disk(const Outcome& outcome);
 
 /// Contacts of which both fits gave a cut-off.
 ContactAnalysis made_up_contacts(double z);
