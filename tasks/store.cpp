@@ -113,6 +113,13 @@ void Store::write(const Outcome& outcome) const {
 
 void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), pretty(tables)); }
 
+std::vector<std::string> recorded_names(const fs::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& path : json_files(directory / "records")) names.push_back(path.stem().string());
+  if (names.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
+  return names;
+}
+
 std::vector<RecordSummary> read_records(const fs::path& directory) {
   std::vector<RecordSummary> summaries;
   for (const auto& path : json_files(directory / "records")) {

@@ -37,6 +37,9 @@ class Store {
   std::filesystem::path directory_;
 };
 
+/// Names of the replicates that a results directory holds records of, ascending. Throws FileError if there are none.
+std::vector<std::string> recorded_names(const std::filesystem::path& directory);
+
 /// Every record of a results directory, in order of file name. Throws InputError for a damaged record, FileError if
 /// the directory holds no records.
 std::vector<RecordSummary> read_records(const std::filesystem::path& directory);
