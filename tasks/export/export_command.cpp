@@ -37,7 +37,8 @@ fs::path file_of(const ExportCommand& command, const char* folder, const std::st
 
 /// Only names of records that are there ever become part of a path.
 std::vector<std::string> chosen_names(const ExportCommand& command) {
-  const auto names = recorded_names(command.directory);
+  const auto names = names_in(fs::path(command.directory) / "records");
+  if (names.empty()) throw FileError(fmt::format("{}: holds no records", command.directory));
   if (command.replicate == every_replicate) return names;
   if (std::find(names.begin(), names.end(), command.replicate) != names.end()) return {command.replicate};
   const std::vector<std::string_view> candidates(names.begin(), names.end());
@@ -62,7 +63,7 @@ std::optional<std::string> failure_text(const JsonPlace& record) {
 
 ExportFrame read_nearest(const ExportCommand& command, const std::string& name, const JsonPlace& record) {
   const auto file = file_of(command, "packings", name).string();
-  const auto json = read_json(file);
+  const auto json = read_sealed(file);
   return make_frame(read_packing(JsonPlace(json, file)), distance_of(record.at("nearest")));
 }
 
@@ -73,7 +74,7 @@ std::vector<ExportFrame> read_path(const ExportCommand& command, const std::stri
     throw FileError(fmt::format("{}: is not there: expansions are kept only if the manifest says \"keep_path\": true",
                                 file.string()));
   }
-  const auto json = read_json(file.string());
+  const auto json = read_sealed(file.string());
   const auto states = JsonPlace(json, file.string()).at("states");
   const auto count = states.expect_list("a list of states");
   if (count == 0) states.refuse("the expansion has no states");
@@ -90,7 +91,7 @@ std::vector<ExportFrame> read_path(const ExportCommand& command, const std::stri
 /// A failed replicate that was not asked for by name gives a warning and no file.
 void export_replicate(const ExportCommand& command, const std::string& name, const fs::path& output, Console& console) {
   const auto file = file_of(command, "records", name).string();
-  const auto json = read_json(file);
+  const auto json = read_sealed(file);
   const JsonPlace record(json, file);
   if (const auto failure = failure_text(record)) {
     const auto message = fmt::format("{} {}; it has no packing", name, *failure);

@@ -129,31 +129,22 @@ TEST(GsdLayer, WhatIsNoChunkIsRefused) {
   refused({std::string(64, 'x'), "s"}, {good});
 }
 
-/// A results directory of made-up replicates, their expansions kept: tetrahedron-… done, the last one failed.
+/// A results directory of made-up replicates, their expansions kept; the last one failed.
 class ExportCommandTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto manifest = parse_manifest(test::good_manifest().dump(), "m.json");
+    auto json = test::good_manifest();
+    json["keep_path"] = true;
+    const auto manifest = parse_manifest(json.dump(), "m.json");
     const Store store(directory_ / "r", manifest);
-    std::filesystem::create_directories(directory_ / "r/paths");
-    for (const auto& spec : make_plan(manifest)) {
-      auto outcome = test::made_up_outcome(spec);
-      names_.push_back(replicate_name(spec));
-      keep_path(outcome);
-      if (names_.size() == make_plan(manifest).size()) outcome.failure = Failure{"jam", "no reason"};
+    const Plan plan(manifest);
+    for (std::size_t k = 0; k < plan.size(); ++k) {
+      auto outcome = test::made_up_outcome(plan[k]);
+      names_.push_back(replicate_name(plan[k]));
+      if (k + 1 == plan.size()) outcome.failure = Failure{"jam", "no reason"};
       store.write(outcome);
     }
     before_ = files_below(directory_.path());
-  }
-
-  void keep_path(const Outcome& outcome) const {
-    Json path{{"schema", "isojam.path.v1"}, {"states", Json::array()}};
-    for (const auto& state : outcome.jam.states) {
-      auto json = to_json(state);
-      json["delta_phi"] = state.density() - outcome.jam.phi_j->density;
-      path["states"].push_back(json);
-    }
-    test::write_text(path_file(names_.back()), sealed(path));
   }
 
   std::filesystem::path path_file(const std::string& name) const { return directory_ / ("r/paths/" + name + ".json"); }
