@@ -7,29 +7,11 @@
 
 #include "engine/analysis/clusters.hpp"
 #include "engine/packing/energy.hpp"
+#include "tasks/export/contact_faces.hpp"
 #include "tasks/measure/parts.hpp"
 
 namespace isojam {
 namespace {
-
-/// Faces of A and of B, as bits, that a contact takes place on.
-struct ContactFaces {
-  std::uint32_t of_a = 0, of_b = 0;
-};
-
-std::uint32_t bit(int face) { return std::uint32_t{1} << face; }
-
-ContactFaces faces_of(const ConvexSolid& solid, const Contact& contact, const Alignment& alignment,
-                      FaceContact strength) {
-  if (strength == FaceContact::face_face) return {bit(alignment.face_a), bit(alignment.face_b)};
-  if (strength == FaceContact::edge_face) {
-    const auto& edge = solid.edges()[alignment.edge];
-    const auto beside_edge = bit(edge.left) | bit(edge.right);
-    const auto face = bit(alignment.face);
-    return alignment.edge_of_a ? ContactFaces{beside_edge, face} : ContactFaces{face, beside_edge};
-  }
-  return {contact.overlap.faces_a, contact.overlap.faces_b};
-}
 
 FaceContact strength_of(ContactClass contact_class) {
   switch (contact_class) {
@@ -73,10 +55,12 @@ ExportFrame make_frame(Packing packing, std::optional<double> delta_phi) {
   frame.cluster =
       decided ? clusters_of(frame.packing, classified) : std::vector<std::int32_t>(n, ExportFrame::undecided_cluster);
   frame.faces.assign(n * solid.faces().size(), FaceContact::none);
+  const Cutoffs cutoffs{classified.analysis.face_face.cutoff, classified.analysis.edge_face.cutoff};
   for (std::size_t k = 0; k < classified.contacts.size(); ++k) {
     const auto& contact = classified.contacts[k];
-    const auto strength = decided ? strength_of(classified.analysis.classes[k]) : FaceContact::undecided;
-    const auto faces = faces_of(solid, contact, classified.alignments[k], strength);
+    const auto contact_class = decided ? classified.analysis.classes[k] : ContactClass::lower_order;
+    const auto strength = decided ? strength_of(contact_class) : FaceContact::undecided;
+    const auto faces = contact_faces(solid, contact, contact_class, cutoffs);
     ++frame.Z[static_cast<std::size_t>(contact.pair.a)];
     ++frame.Z[static_cast<std::size_t>(contact.pair.b)];
     mark_faces(frame, contact.pair.a, faces.of_a, strength);

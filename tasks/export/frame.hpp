@@ -28,9 +28,8 @@ struct ExportFrame {
   std::vector<std::int32_t> Z;      ///< N: contacts of each particle
   /// N: least number of a particle in the same cluster of face-face contacts, or one of the constants above.
   std::vector<std::int32_t> cluster;
-  /// N·F: of face f of particle i at i·F + f. A contact takes place, if face-face, on the two faces that are nearly
-  /// parallel; if edge-face, on that face and on the two that meet in that edge; if of lower order, on all faces that
-  /// bound the intersection.
+  /// N·F: of face f of particle i at i·F + f, by contact_faces; of undecided contacts all faces that bound the
+  /// intersection.
   std::vector<FaceContact> faces;
 };
 

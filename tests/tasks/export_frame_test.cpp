@@ -1,6 +1,7 @@
 // Facts proved here:
 // - contacts that were constructed mark the faces that they were constructed on, by their class, and no others; both
 //   particles count them; face-face contacts, and no others, make clusters, which the least particle names;
+// - of several pairs of parallel faces that bound a contact, those are marked that lie in each other;
 // - the strongest of two contacts on a face shows;
 // - where contacts are too few to tell their classes, neither faces nor clusters claim to know them;
 // - Z counts each touching pair twice;
@@ -26,7 +27,8 @@ namespace {
 using Eigen::Vector3d;
 
 /// Pairs of particles 2k, 2k + 1 that touch in a known way, k modulo 3: 0 face-face, 1 edge-face, 2 vertex-face, each
-/// with its own face of the first particle; the pairs out of reach of each other. Dodecahedra: their edges are short
+/// with its own face of the first particle; every other face-face pair in the same orientation, so that faces beside
+/// the contact are as parallel as those in it; the pairs out of reach of each other. Dodecahedra: their edges are short
 /// enough to lie in a face, where those of the others reach over into neighbouring faces.
 struct ConstructedPairs {
   Packing packing;
@@ -48,19 +50,31 @@ constructed::Site site_of(const ConvexSolid& solid, FaceContact kind, int featur
   return constructed::vertex_site(solid, feature % static_cast<int>(solid.vertices().size()));
 }
 
+int opposite(const ConvexSolid& solid, int face) {
+  const auto along = [&](const Face& other) { return other.normal.dot(solid.faces()[face].normal); };
+  const auto least = std::min_element(solid.faces().begin(), solid.faces().end(),
+                                      [&](const Face& a, const Face& b) { return along(a) < along(b); });
+  return static_cast<int>(least - solid.faces().begin());
+}
+
 ConstructedPairs constructed_pairs(std::uint64_t seed) {
   const auto& solid = platonic(SolidKind::dodecahedron);
   RandomStream random({seed});
+  const int faces = static_cast<int>(solid.faces().size());
   const double spacing = 7 * solid.circumradius();
   ConstructedPairs made{{&solid, PeriodicCell(spacing * pairs_a_side), {}}, {}};
   for (int k = 0; k < pairs; ++k) {
     const auto kind = kind_of(k);
-    const auto on_a = constructed::face_site(solid, k % static_cast<int>(solid.faces().size()));
-    const auto on_b = site_of(solid, kind, k);
+    const auto on_a = constructed::face_site(solid, k % faces);
+    const bool alike = k % 6 == 0;
+    const auto on_b = alike ? constructed::face_site(solid, opposite(solid, k % faces)) : site_of(solid, kind, k);
     const bool flat = kind != FaceContact::lower_order;
     const Vector3d tilt = (flat ? 1e-6 : 0.1) * random.uniform() * constructed::random_direction(random);
-    const auto contact =
-        constructed::contact(on_a, on_b, 2 * std::numbers::pi * random.uniform(), tilt, flat ? 1e-4 : 1e-2);
+    auto contact = constructed::contact(on_a, on_b, 2 * std::numbers::pi * random.uniform(), tilt, flat ? 1e-4 : 1e-2);
+    if (alike) {
+      contact.pose.rotation = Eigen::AngleAxisd(tilt.norm(), tilt.normalized()).toRotationMatrix();
+      contact.pose.displacement = (2 * solid.inradius() - 1e-4) * on_a.outward;
+    }
     Pose a, b;
     a.position = spacing * Vector3d(k % pairs_a_side, k / pairs_a_side % pairs_a_side, k / pairs_a_side / pairs_a_side);
     a.orientation = constructed::random_orientation(random);
@@ -109,7 +123,7 @@ TEST(ExportFrame, TheStrongestContactOfAFaceShows) {
   EXPECT_EQ(static_cast<int>(frame.faces[0]), static_cast<int>(FaceContact::face_face));
   std::reverse(made.packing.poses.begin(), made.packing.poses.end());
   const auto reversed = make_frame(made.packing, std::nullopt);
-  const auto first_face = (made.packing.poses.size() - 2) * solid.faces().size();
+  const auto first_face = (made.packing.poses.size() - 1) * solid.faces().size();
   EXPECT_EQ(static_cast<int>(reversed.faces[first_face]), static_cast<int>(FaceContact::face_face));
 }
 
