@@ -27,7 +27,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Pairs of particles 2k, 2k + 1 that touch in a known way, k modulo 3: 0 face-face, 1 edge-face, 2 vertex-face, each
-/// with its own face of the first particle; every other face-face pair in the same orientation, so that faces beside
+/// with its own face of one of them; every other face-face pair in the same orientation, so that faces beside
 /// the contact are as parallel as those in it; the pairs out of reach of each other. Dodecahedra: their edges are short
 /// enough to lie in a face, where those of the others reach over into neighbouring faces.
 struct ConstructedPairs {
@@ -80,8 +80,9 @@ ConstructedPairs constructed_pairs(std::uint64_t seed) {
     a.orientation = constructed::random_orientation(random);
     b.position = a.position + a.orientation * contact.pose.displacement;
     b.orientation = a.orientation * Eigen::Quaterniond(contact.pose.rotation);
-    made.packing.poses.insert(made.packing.poses.end(), {a, b});
-    made.faces.insert(made.faces.end(), {on_a.faces, on_b.faces});
+    const bool b_first = k % 2 == 1;  // of the contact, A is the particle of lesser number
+    made.packing.poses.insert(made.packing.poses.end(), {b_first ? b : a, b_first ? a : b});
+    made.faces.insert(made.faces.end(), {b_first ? on_b.faces : on_a.faces, b_first ? on_a.faces : on_b.faces});
   }
   return made;
 }
