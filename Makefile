@@ -12,7 +12,7 @@ PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-d
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
-                    libmpfr-dev voro++-dev
+                    libmpfr-dev voro++-dev python3-gsd python3-vtk9
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
 
 # $(call install,packages): the network is touched only if one of them is missing.
