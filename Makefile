@@ -8,11 +8,11 @@ EXAMPLE ?= examples/01-four-solids
 
 # ---- Packages, one list per need ----------------------------------------------------------------------------
 PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev \
-                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev
+                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
-                    libmpfr-dev voro++-dev
+                    libmpfr-dev voro++-dev chromium chromium-driver python3-selenium
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
 
 # $(call install,packages): the network is touched only if one of them is missing.

@@ -4,6 +4,7 @@
 
 #include "tasks/commands.hpp"
 #include "tasks/input_error.hpp"
+#include "tasks/report/report_command.hpp"
 #include "tasks/version.hpp"
 
 namespace isojam {
@@ -19,6 +20,7 @@ struct Arguments {
   RunCommand run;
   ValidateCommand validate;
   AggregateCommand aggregate;
+  ReportCommand report;
 };
 
 /// An option that takes one of a few names.
@@ -69,9 +71,16 @@ void add_aggregate(CLI::App& app, AggregateCommand& command) {
   aggregate->add_flag("--series", command.series, "Quantities against the distance above jamming (JSON has both)");
 }
 
+void add_report(CLI::App& app, ReportCommand& command) {
+  auto* report = app.add_subcommand("report", "Write a results directory as one interactive HTML file");
+  report->add_option("directory", command.directory, "Results directory")->required()->type_name("DIR");
+  report->add_option("-o,--output", command.output, "File to write (default: DIR/report.html)")->type_name("FILE");
+}
+
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments, Console& console) {
   if (app.got_subcommand("run")) return run(arguments.run, console);
   if (app.got_subcommand("validate")) return validate(arguments.validate);
+  if (app.got_subcommand("report")) return report(arguments.report);
   return aggregate_directories(arguments.aggregate);
 }
 
@@ -86,6 +95,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   add_run(app, arguments.run);
   add_validate(app, arguments.validate);
   add_aggregate(app, arguments.aggregate);
+  add_report(app, arguments.report);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/packing/packing.hpp"
+#include "tasks/report/results.hpp"
+
+namespace isojam {
+
+struct ViewOptions {
+  /// Particles of all views together, beyond the one view of each sweep point: some 300 bytes and half a millisecond
+  /// each, modes included.
+  int budget = 3000;
+  int modes = 4;  ///< vibrations at either end of the spectrum
+};
+
+/// A replicate whose packing is worth looking at.
+struct ChosenView {
+  std::size_t replicate = 0;  ///< index in the results
+  bool with_modes = false;    ///< beyond the budget views go without
+};
+
+/// Of each sweep point the first replicate without failure, an unflagged one if there is one; then further ones, sweep
+/// points in turn, within the budget. In order of replicates.
+std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& options = {});
+
+/// A packing for the three-dimensional view: positions (in the cell), orientations (w, x, y, z), per particle its
+/// contacts, local Q6 and cluster of face-face contacts, the largest cluster unwrapped, and `modes` vibrations at
+/// either end (0: none), each with ω (null where λ ≤ 0) and its displacements, per particle (x, θ) in the lab frame,
+/// the greatest 1. Absent: null.
+Json packing_view(const Packing& packing, int modes);
+
+/// Vertices, faces and edges of a solid, body frame.
+Json solid_shape(const ConvexSolid& solid);
+
+}  // namespace isojam
