@@ -3,8 +3,9 @@
 const tooltip = {
   show(event, value) {
     const box = document.getElementById('tooltip');
-    box.replaceChildren(...Object.entries(value).filter(([, field]) => field !== '' && field !== undefined)
-      .map(([label, field]) => element('div', {}, label ? element('b', {}, label) : null, formatted(field, 5))));
+    const known = Object.entries(value).filter(([, field]) => field !== '' && field !== undefined);
+    box.replaceChildren(...known.map(([label, field]) =>
+      element('div', {}, label ? element('b', {}, ...rich(label)) : null, formatted(field, 5))));
     box.hidden = false;
     const {width, height} = box.getBoundingClientRect();
     box.style.left = `${Math.max(4, Math.min(event.clientX + 14, innerWidth - width - 4))}px`;
@@ -50,7 +51,7 @@ function chartControls(figure) {
 function drawFigure(figure, place) {
   const chart = element('div', {className: 'chart', id: `chart-${figure.id}`});
   place.append(element('figure', {attributes: {'aria-labelledby': `title-${figure.id}`}},
-    element('h3', {id: `title-${figure.id}`}, figure.title), element('figcaption', {}, figure.note), chart,
+    element('h3', {id: `title-${figure.id}`}, figure.title), element('figcaption', {}, ...rich(figure.note)), chart,
     chartControls(figure)));
   let drawn = 0, view = null;
   const draw = async () => {

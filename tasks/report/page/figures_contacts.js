@@ -54,7 +54,7 @@ function angleFigure(data, kind, {title, id, symbol}) {
   const {present, renumbered} = panelsFor(data, raw.cdf);
   const datasets = Object.fromEntries(Object.entries(raw).map(([name, list]) => [name, renumbered(list)]));
   const [least] = domainOf(datasets.cdf.map((row) => row.theta), {type: 'log'});
-  const x = {type: 'log', domain: [Math.min(0.1, Math.max(1e-6, least)), 90], title: `${symbol}, degrees`};
+  const x = {type: 'log', domain: [Math.min(0.1, Math.max(1e-3, least)), 90], title: `${symbol}, degrees`};
   const y = {type: 'log', title: `c(${symbol})`, domain: [
     Math.max(1e-4, domainOf(datasets.cdf.map((row) => row.c), {type: 'log'})[0]), 1.15]};
   // Curves leave the window on the left where the random ones are still falling.
@@ -75,7 +75,8 @@ function angleFigure(data, kind, {title, id, symbol}) {
         {name: 'topology', type: 'ordinal', domain: topologies, range: topologies.map((name) => shapes[name])},
       ],
       legends: [{stroke: 'random', symbolType: 'stroke', symbolStrokeWidth: 2},
-        {shape: 'topology', title: 'critical angle', symbolStrokeColor: ink}],
+        {shape: 'topology', symbolStrokeColor: ink, encode: {labels: {update: {text: {
+          signal: "'critical angle, ' + datum.value"}}}}}],
       panelAt: (index, place) => anglePanel(data, present[index], index, place, {x, y, kind, datasets}),
     }),
   };
@@ -140,7 +141,8 @@ function topologyFigure(data) {
   }
   const {present, renumbered} = panelsFor(data, raw.states);
   const datasets = {means: renumbered(raw.means), states: renumbered(raw.states)};
-  const x = {type: 'log', title: 'Δφ', domain: domainOf([...datasets.states, ...datasets.means].map((row) => row.delta_phi), {type: 'log'})};
+  const distances = [...datasets.states, ...datasets.means].map((row) => row.delta_phi);
+  const x = {type: 'log', title: 'Δφ', domain: domainOf(distances, {type: 'log'})};
   const highest = Math.max(14, ...datasets.states.map((row) => row.value), ...datasets.means.map((row) => row.high));
   const low = Math.min(0, ...datasets.means.map((row) => row.low));
   const y = {domain: [low, highest * 1.03], title: 'mean per particle', ticks: 6};

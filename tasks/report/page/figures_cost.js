@@ -13,7 +13,7 @@ function costFigure(data, key, id) {
   const mark = {
     type: 'symbol', from: {data: 'replicates'},
     encode: {enter: {
-      x: {scale: 'x', field: 'cost'}, y: {scale: 'y', field: 'label', band: 0.55}, size: {value: 45},
+      x: {scale: 'x', field: 'cost'}, y: {scale: 'y', field: 'label', band: 0.5}, size: {value: 45},
       shape: [{test: "datum.status === 'failed'", value: 'cross'}, {scale: 'shape', field: 'solid'}],
       fill: solidColour, stroke: solidColour, fillOpacity: {value: 0.5},
       tooltip: tooltipOf({replicate: 'name', status: 'status', [costKinds[key].title]: 'cost'}),
@@ -34,7 +34,8 @@ function costFigure(data, key, id) {
 /// Okabe and Ito again; equilibria in blue and green, what is not one in warm colours.
 const reasonColours = {
   residual_reached: '#0072b2', precision_floor: '#56b4e9', unjammed: '#009e73', energy_change: '#f0e442',
-  budget: '#e69f00', line_search_failed: '#d55e00', not_finite: '#cc79a7', interrupted: '#777777', not_called: '#aaaaaa',
+  budget: '#e69f00', line_search_failed: '#d55e00', not_finite: '#cc79a7', interrupted: '#777777',
+  not_called: '#aaaaaa',
 };
 
 function stopRows(data) {
@@ -69,9 +70,16 @@ function stopFigure(data) {
   const most = Math.max(...sums.values());
   const bar = {
     type: 'rect', from: {data: 'stops'}, encode: {enter: {
-      x: {scale: 'x', field: 'from'}, x2: {scale: 'x', field: 'to'}, y: {scale: 'y', field: 'label', band: 0.38},
+      x: {scale: 'x', field: 'from'}, x2: {scale: 'x', field: 'to'}, yc: {scale: 'y', field: 'label', band: 0.5},
       height: {value: 16}, fill: {scale: 'reason', field: 'reason'},
       tooltip: tooltipOf({'': 'label', reason: 'reason', minimisations: 'count'}),
+    }},
+  };
+  const number = {
+    type: 'text', from: {data: 'stops'}, encode: {enter: {
+      x: {signal: "(scale('x', datum.from) + scale('x', datum.to)) / 2"},
+      y: {scale: 'y', field: 'label', band: 0.5, offset: 19}, text: {field: 'count'}, align: {value: 'center'},
+      fontSize: {value: 10}, fill: {value: ink},
     }},
   };
   return {
@@ -81,7 +89,7 @@ function stopFigure(data) {
     spec: (width) => bandSpec({
       description: 'Minimisations of the expansions by the reason for which they stopped.', width,
       labels: data.rows.map((row) => row.label).filter((label) => sums.has(label)), datasets: {stops: rows},
-      x: {domain: [0, most], title: 'minimisations'}, marks: [bar], bandHeight: width < 560 ? 48 : 32,
+      x: {domain: [0, most], title: 'minimisations'}, marks: [bar, number], bandHeight: width < 560 ? 66 : 44,
       scales: [{name: 'reason', type: 'ordinal', domain: domainOfReasons,
         range: domainOfReasons.map((reason) => reasonColours[reason] ?? '#777777')}],
       legends: [{fill: 'reason', symbolType: 'square'}],

@@ -74,8 +74,8 @@ function bandSpec({description, width, labels, datasets, x, marks, bandHeight, s
   const left = narrow ? 8 : 30 + 6.3 * Math.max(...labels.map((label) => label.length));
   const axis = {scale: 'y', orient: 'left', grid: false, ticks: false, domain: false, labelLimit: 420};
   return {
-    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: chartConfig,
-    width: Math.max(160, Math.min(760, width - left - 30)), height: labels.length * bandHeight,
+    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: configFor(width),
+    width: Math.max(160, width - left - 40), height: labels.length * bandHeight,
     data: Object.entries(datasets).map(([name, values]) => ({name, values})),
     scales: [
       {name: 'x', type: x.type ?? 'linear', domain: x.domain, range: 'width', zero: false},
@@ -87,7 +87,7 @@ function bandSpec({description, width, labels, datasets, x, marks, bandHeight, s
       narrow ? {...axis, zindex: 1, labelAlign: 'left', labelPadding: -2, encode: {labels: {update: {
         y: {scale: 'y', field: 'value', band: 0}, baseline: {value: 'top'}}}}} : axis,
     ],
-    legends: legends.map((legend) => ({orient: 'top', direction: 'horizontal', columns: narrow ? 1 : 0, ...legend})),
+    legends: legends.map((legend) => horizontal(legend, width)),
     marks,
   };
 }
@@ -105,17 +105,20 @@ function densityFigure(data) {
     spec: (width) => bandSpec({
       description: 'Jamming density of every replicate, means with 95 % intervals, and the values of the paper.',
       width, labels: data.rows.filter((row) => row.phi_j.mean !== null).map((row) => row.label), datasets,
-      x: {domain, title: 'jamming density φ_J'}, marks: densityMarks(), bandHeight: width < 560 ? 66 : 52,
+      x: {domain, title: 'jamming density'}, marks: densityMarks(), bandHeight: width < 560 ? 66 : 52,
       scales: [solidScale, shapeScale],
     }),
   };
 }
 
+/// Farther from jamming the sixth root bends.
+const extrapolationReach = 0.07;
+
 function extrapolationData(data) {
   const states = [], extrapolation = [];
   for (const {name, row, states: all, line} of data.replicates) {
     for (const {phi, root, delta_phi} of all) {
-      if (phi !== null && root !== null) states.push({row, name, phi, root, delta_phi});
+      if (root !== null && delta_phi < extrapolationReach) states.push({row, name, phi, root, delta_phi});
     }
     if (line) extrapolation.push(...[line.from, line.to].map(([phi, root]) => ({row, name, phi, root})));
   }
@@ -129,17 +132,20 @@ function extrapolationFigure(data) {
   const {present, renumbered} = panelsFor(data, raw.states);
   const datasets = {states: renumbered(raw.states), extrapolation: renumbered(raw.extrapolation)};
   const every = [...datasets.states, ...datasets.extrapolation];
-  const x = {domain: domainOf(every.map((row) => row.phi)), title: 'density φ', ticks: 4};
-  const y = {domain: [0, domainOf(every.map((row) => row.root))[1]], title: '(E/N)^(1/6)', ticks: 4};
+  const y = {domain: [0, domainOf(every.map((row) => row.root))[1]], title: '(E/N)¹ᐟ⁶', ticks: 4};
   const panelAt = (index, place) => {
     const colour = {value: solidColours[present[index].solid]};
-    return panel({...place, title: present[index].label, x, y,
+    // Every solid jams at a density of its own.
+    const own = every.filter(({row}) => row === index).map(({phi}) => phi);
+    const x = {domain: domainOf(own), title: 'density φ', ticks: 4};
+    return panel({...place, showX: true, title: present[index].label, x, y,
       data: [rowsOf('states', index), rowsOf('extrapolation', index)],
       marks: [
-        lines(`extrapolation_${index}`, 'phi', 'root', {by: 'name', colour: {value: ink}, dash: [4, 3], width: 1, style: 'ink'}),
+        lines(`extrapolation_${index}`, 'phi', 'root', {by: 'name', colour: {value: ink}, dash: [4, 3], width: 1,
+          style: 'ink'}),
         points(`states_${index}`, 'phi', 'root', {colour, size: 16, opacity: 0.8,
           shape: solidShapes[present[index].solid],
-          tooltip: {replicate: 'name', 'φ': 'phi', 'Δφ': 'delta_phi', '(E/N)^(1/6)': 'root'}}),
+          tooltip: {replicate: 'name', 'φ': 'phi', 'Δφ': 'delta_phi', '(E/N)¹ᐟ⁶': 'root'}}),
       ]});
   };
   return {

@@ -4,7 +4,8 @@ function spectrumData(data) {
   const density = [], ends = [];
   for (const {name, row, density_of_states: spectrum, lowest, highest} of data.replicates) {
     if (spectrum?.log10_omega && spectrum?.density) {
-      spectrum.density.forEach((value, k) => density.push({row, name, omega: 10 ** spectrum.log10_omega[k], density: value}));
+      spectrum.density.forEach((value, k) =>
+        density.push({row, name, omega: 10 ** spectrum.log10_omega[k], density: value}));
       density.push({row, name, omega: 10 ** spectrum.log10_omega.at(-1), density: 0});
     }
     for (const [end, list] of [['lowest', lowest], ['highest', highest]]) {
@@ -64,7 +65,8 @@ function scalingData(data) {
   for (const {name, row, states: all} of data.replicates) {
     for (const state of all) {
       for (const [key, end] of [['omega_l', 'lowest'], ['omega_h', 'highest']]) {
-        if (state.delta_phi > 0 && state[key] > 0) states.push({row, name, end, delta_phi: state.delta_phi, omega: state[key]});
+        if (state.delta_phi > 0 && state[key] > 0)
+          states.push({row, name, end, delta_phi: state.delta_phi, omega: state[key]});
       }
     }
   }
@@ -82,12 +84,12 @@ function scalingData(data) {
   return {states, fits, slopes};
 }
 
-/// Above the line of the highest, below that of the lowest, clear of the points.
+/// Below the end of the line, where points that rise leave room.
 const slopeLabels = (from) => ({
   type: 'text', from: {data: from},
   encode: {enter: {
     x: {scale: 'x', field: 'delta_phi', offset: 10}, y: {scale: 'y', field: 'omega',
-      offset: {signal: "datum.end === 'lowest' ? 22 : -14"}},
+      offset: 24},
     text: {field: 'text'}, fontSize: {value: 11}, fill: {value: ink},
   }},
 });
@@ -99,7 +101,8 @@ function scalingFigure(data) {
   const {present, renumbered} = panelsFor(data, raw.states);
   const datasets = {states: renumbered(raw.states), fits: renumbered(raw.fits), slopes: renumbered(raw.slopes)};
   const x = {type: 'log', title: 'Δφ', domain: domainOf(datasets.states.map((row) => row.delta_phi), {type: 'log'})};
-  const y = {type: 'log', title: '⟨ω⟩', domain: domainOf(datasets.states.map((row) => row.omega), {type: 'log', margin: 0.09})};
+  const y = {type: 'log', title: '⟨ω⟩',
+    domain: domainOf(datasets.states.map((row) => row.omega), {type: 'log', margin: 0.09})};
   const shape = {scale: 'end', field: 'end'};
   const panelAt = (index, place) => {
     const colour = {value: solidColours[present[index].solid]};
@@ -117,8 +120,9 @@ function scalingFigure(data) {
     note: 'Mean frequency of the lowest and of the highest modes against the distance above jamming, every state of ' +
       'every replicate. Lines: power laws through the states of unflagged replicates with Δφ ≤ 0.02. Figure 1(b) of ' +
       'the paper.',
-    spec: (width) => panelSpec({description: 'Mean frequencies of the softest and stiffest modes, both axes logarithmic.',
-      width, count: present.length, datasets, panelAt, height: 220,
+    spec: (width) => panelSpec({
+      description: 'Mean frequencies of the softest and stiffest modes, both axes logarithmic.', width,
+      count: present.length, datasets, panelAt, height: 220,
       scales: [{name: 'end', type: 'ordinal', domain: ['highest', 'lowest'], range: ['triangle-up', 'circle']}],
       legends: [{shape: 'end', title: 'modes', symbolStrokeColor: ink}]}),
   };

@@ -27,26 +27,29 @@ function drawReservations(data) {
 
 function drawProvenance(data) {
   const list = element('dl');
-  const put = (term, value) => list.append(element('dt', {}, term), element('dd', {}, String(value ?? 'unknown')));
+  const put = (term, value) => list.append(element('dt', {}, term), element('dd', {}, value ?? 'unknown'));
   put('Sweep', data.manifest.name);
   put('Seed', data.manifest.seed);
-  put('Measured', data.measures.map(String).join(', ') || 'nothing beside φ_J');
+  put('Measured', data.measures.map(String).join(', ') || 'jamming density alone');
   for (const build of data.builds) {
     put('Manifest digest', build.manifest_digest);
     put('Program', `isojam ${build.version} (git ${build.git})`);
     put('Compiler', build.compiler);
   }
-  put('Units', 'Y = 1, V_p = 1, ρ = 1');
+  list.append(element('dt', {}, 'Units'), element('dd', {}, ...rich('Y = 1, V_p = 1, ρ = 1')));
   document.getElementById('provenance').append(list);
 }
 
 {
   const data = JSON.parse(document.getElementById('data').textContent);
   drawHeader(data);
-  drawTables(data, document.getElementById('table'));
+  drawMainTable(data, document.getElementById('table'));
+  drawFurtherTables(data, document.getElementById('further'));
   drawCharts(data, document.getElementById('charts'));
   drawPackings(data, document.getElementById('view'));
   drawReservations(data);
   drawProvenance(data);
+  // Closed tables are for screens.
+  addEventListener('beforeprint', () => document.querySelectorAll('details').forEach((part) => { part.open = true; }));
   document.documentElement.dataset.ready = 'yes';
 }

@@ -23,7 +23,8 @@ function particleObjects(mesh, count) {
   edges.setAttribute('position', buffer(mesh.edges.length * count));
   const solid = new THREE.Mesh(faces, new THREE.MeshLambertMaterial({
     vertexColors: THREE.VertexColors, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}));
-  const outline = new THREE.LineSegments(edges, new THREE.LineBasicMaterial({color: 0x1c1c1a, transparent: true, opacity: 0.55}));
+  const outline = new THREE.LineSegments(edges,
+    new THREE.LineBasicMaterial({color: 0x1c1c1a, transparent: true, opacity: 0.55}));
   solid.frustumCulled = outline.frustumCulled = false;
   return {solid, outline};
 }

@@ -33,7 +33,8 @@ function particlesOf(view, {colouring, alone, mode, phase}) {
     const colour = colouring?.colours[index] ?? new THREE.Color(unknownColour);
     const orientation = view.orientations[index];
     if (!displacement || phase === 0) return {at, orientation, colour};
-    const part = (offset) => displacement.slice(6 * index + offset, 6 * index + offset + 3).map((x) => x * phase * modeAmplitude);
+    const part = (offset) => displacement.slice(6 * index + offset, 6 * index + offset + 3)
+      .map((x) => x * phase * modeAmplitude);
     return {at: part(0).map((x, c) => x + at[c]), orientation: turned(orientation, part(3)), colour};
   });
 }
@@ -45,13 +46,17 @@ function keyOf(colouring, kind) {
     box.style.background = colour;
     return box;
   };
-  const names = {clusters: 'Clusters of face-face contacts:', contacts: 'Contacts of the particle:', local_Q6: 'Q6 of the particle’s contacts:'};
+  const names = {
+    clusters: 'Clusters of face-face contacts:', contacts: 'Contacts of the particle:',
+    local_Q6: 'Q6 of the particle’s contacts:',
+  };
   key.append(element('span', {}, names[kind]));
   for (const {colour, text} of colouring?.key ?? []) key.append(element('span', {}, swatch(colour), text));
   if (colouring?.ramp) {
     const ramp = element('i', {className: 'ramp'});
     ramp.style.background = `linear-gradient(to right, ${viridisStops.join(', ')})`;
-    key.append(element('span', {}, colouring.ramp.low, ramp, colouring.ramp.high), element('span', {}, `middle ${colouring.ramp.middle}`));
+    const {low, middle, high} = colouring.ramp;
+    key.append(element('span', {}, low, ramp, high), element('span', {}, `middle ${middle}`));
   }
   return key;
 }
@@ -63,7 +68,8 @@ function viewControls(data, views) {
     return `${data.rows[entry.row].label}, replicate ${entry.replicate}${flags}`;
   };
   const controls = {
-    replicate: element('select', {id: 'view-replicate'}, ...views.map((view, index) => option(String(index), replicateText(view)))),
+    replicate: element('select', {id: 'view-replicate'},
+      ...views.map((view, index) => option(String(index), replicateText(view)))),
     colour: element('select', {id: 'view-colour'}, option('clusters', 'face-face cluster'),
       option('contacts', 'contact number'), option('local_Q6', 'Q6, local')),
     alone: element('input', {type: 'checkbox', id: 'view-alone'}),
@@ -137,7 +143,12 @@ function connect(data, views, controls, scene, {key, status}) {
   controls.colour.addEventListener('change', () => rebuild(true));
   controls.alone.addEventListener('change', () => rebuild(true));
   controls.mode.addEventListener('change', () => { settle(); update(); });
-  controls.phase.addEventListener('input', () => { motion.stop(); controls.start.textContent = 'Start'; phase = Number(controls.phase.value); update(); });
+  controls.phase.addEventListener('input', () => {
+    motion.stop();
+    controls.start.textContent = 'Start';
+    phase = Number(controls.phase.value);
+    update();
+  });
   controls.start.addEventListener('click', () => {
     if (motion.isRunning()) motion.stop(); else motion.start();
     controls.start.textContent = motion.isRunning() ? 'Stop' : 'Start';
@@ -146,23 +157,27 @@ function connect(data, views, controls, scene, {key, status}) {
 }
 
 function drawPackings(data, section) {
-  const {views} = data;
+  const rowOf = ({name}) => data.replicates.find((replicate) => replicate.name === name).row;
+  const views = [...data.views].sort((a, b) => rowOf(a) - rowOf(b));
   if (views.length === 0) {
     section.append(element('p', {className: 'note'}, 'No replicate has a packing to show.'));
     return;
   }
   const kind = webglKind();
   if (!kind) {
-    section.append(element('p', {className: 'note', id: 'no-webgl'}, 'This browser has no WebGL, so packings cannot be drawn here.'));
+    section.append(element('p', {className: 'note', id: 'no-webgl'},
+      'This browser has no WebGL, so packings cannot be drawn here.'));
     return;
   }
   const controls = viewControls(data, views);
   const canvas = element('canvas', {id: 'packing', tabIndex: 0, attributes: {role: 'application',
     'aria-label': 'Packing in its periodic cell. Arrow keys turn it, plus and minus zoom, Home resets.'}});
   const key = element('div'), status = element('p', {className: 'note', attributes: {'aria-live': 'polite'}});
+  const still = matchMedia('(prefers-reduced-motion: reduce)').matches ?
+    ' Animation is off, as this system asks for less motion; the slider displaces the particles.' : '';
   section.append(controls.bar, element('div', {className: 'stage'}, canvas), key, controls.modeBar, status,
-    element('p', {className: 'note'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view has the ' +
-      'focus, zoom; Home resets. The box is the periodic cell; particles are drawn whole, at the image whose centre lies in it.' +
-      (matchMedia('(prefers-reduced-motion: reduce)').matches ? ' Animation is off, as this system asks for less motion; the slider displaces the particles.' : '')));
+    element('p', {className: 'note'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view has ' +
+      'the focus, zoom; Home resets. The box is the periodic cell; particles are drawn whole, at the image whose ' +
+      `centre lies in it.${still}`));
   connect(data, views, controls, packingScene(canvas, kind === 'hardware'), {key, status});
 }

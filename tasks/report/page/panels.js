@@ -17,7 +17,8 @@ const chartConfig = {
   font: 'system-ui, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif',
   axis: {
     domainColor: '#777777', tickColor: '#777777', gridColor: faint, gridOpacity: 0.6, labelColor: ink, titleColor: ink,
-    labelFontSize: 11, titleFontSize: 12, titleFontWeight: 'normal', titlePadding: 6, tickSize: 4, labelOverlap: true,
+    labelFontSize: 11, titleFontSize: 12, titleFontWeight: 'normal', titlePadding: 6, tickSize: 4,
+    labelSeparation: 3,
   },
   title: {color: ink, fontSize: 12, fontWeight: 600, anchor: 'start', offset: 6},
   legend: {labelColor: ink, titleColor: ink, labelFontSize: 11, titleFontSize: 11, labelLimit: 320},
@@ -26,15 +27,26 @@ const chartConfig = {
 const superscripts = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
 const powerText = (power) => `10${[...String(power)].map((digit) => superscripts[digit]).join('')}`;
 
+/// About five round numbers, evenly spaced.
+function evenTicks([low, high]) {
+  const rough = (high - low) / 5;
+  const decade = 10 ** Math.floor(Math.log10(rough));
+  const step = decade * [1, 2, 5, 10].find((digit) => digit * decade >= rough);
+  const ticks = [];
+  for (let k = Math.ceil(low / step); k * step <= high; k += 1) ticks.push(Number((k * step).toPrecision(6)));
+  return ticks;
+}
+
 /// Decades, or 1, 2, 5 of each where there are few.
 function logTicks([low, high]) {
   const [first, last] = [Math.floor(Math.log10(low)), Math.ceil(Math.log10(high))];
   const decades = Math.log10(high / low);
+  if (decades < 0.9) return evenTicks([low, high]);
+  const digits = decades > 2.3 ? [1] : [1, 2, 5];
   const step = Math.max(1, Math.ceil(decades / 6));
   const ticks = [];
   for (let power = first; power <= last; power += 1) {
-    if (decades < 2.3) ticks.push(...[1, 2, 5].map((digit) => Number(`${digit}e${power}`)));
-    else if ((power - last) % step === 0) ticks.push(Number(`1e${power}`));
+    if ((power - last) % step === 0) ticks.push(...digits.map((digit) => Number(`${digit}e${power}`)));
   }
   return ticks.filter((tick) => tick >= low * 0.999 && tick <= high * 1.001);
 }
@@ -42,9 +54,10 @@ function logTicks([low, high]) {
 function logAxis(domain) {
   const values = logTicks(domain);
   const plain = values.every((value) => value >= 1e-3 && value < 1e5);
-  const texts = Object.fromEntries(values.map((value) => [value, plain ? String(value) : powerText(Math.round(Math.log10(value)))]));
-  return {values, encode: {labels: {update: {text: {
-    signal: `(${JSON.stringify(texts)})[datum.value] || datum.label`}}}}};
+  const text = (value) => (plain ? String(value) : powerText(Math.round(Math.log10(value))));
+  const texts = Object.fromEntries(values.map((value) => [value, text(value)]));
+  return {values, labelOverlap: 'greedy', encode: {labels: {update: {text: {
+    signal: `(${JSON.stringify(texts)})[datum.value] || ''`}}}}};
 }
 
 /// The range of values with a margin, in logarithms for a log scale; null without values.
@@ -60,7 +73,7 @@ function domainOf(values, {type = 'linear', margin = 0.05} = {}) {
 }
 
 /// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left.
-function panelGrid(width, panels, {least = 215, most = 4, left = 64, gap = 22} = {}) {
+function panelGrid(width, panels, {least = 215, most = 4, left = 66, gap = 18} = {}) {
   const fits = Math.floor((width - left + gap) / (least + gap));
   const columns = Math.max(1, Math.min(most, panels, fits));
   return {columns, width: Math.floor((width - left - 14 - gap * (columns - 1)) / columns)};
@@ -82,10 +95,22 @@ function panel({title, width, height, x, y, data = [], marks, showX = true, show
     type: 'group',
     title: {text: title, limit: width},
     encode: {enter: {width: {value: width}, height: {value: height}}},
+    signals: [{name: 'width', value: width}, {name: 'height', value: height}],
     scales: [scale('x', [0, width], x), scale('y', [height, 0], y)],
     data, axes: panelAxes({x, y}, {showX, showY}), marks,
   };
 }
+
+/// A legend above the chart, its entries below each other where the page is narrow.
+const horizontal = (legend, width) => ({
+  orient: 'top', direction: 'horizontal', columns: width < 560 ? 1 : 0, ...legend,
+});
+
+/// The look of a chart; legends stand below each other where the page is narrow.
+const configFor = (width) => ({
+  ...chartConfig,
+  legend: {...chartConfig.legend, layout: {top: {direction: width < 560 ? 'vertical' : 'horizontal', anchor: 'start'}}},
+});
 
 /// A specification of panels in a grid. `panelsOf(grid)` is called with the place of each panel.
 function panelSpec({description, width, count, height = 190, datasets, legends = [], scales = [], panelAt, grid = {}}) {
@@ -97,8 +122,9 @@ function panelSpec({description, width, count, height = 190, datasets, legends =
     }));
   }
   return {
-    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: chartConfig, scales,
-    legends: legends.map((legend) => ({orient: 'top', direction: 'horizontal', columns: width < 560 ? 1 : 0, ...legend})),
+    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: configFor(width),
+    scales,
+    legends: legends.map((legend) => horizontal(legend, width)),
     data: Object.entries(datasets).map(([name, values]) => ({name, values})),
     layout: {columns, bounds: 'full', align: 'all', padding: {row: 16, column: 12}},
     marks,
@@ -111,9 +137,11 @@ const rowsOf = (source, index) => ({
 });
 
 /// A tooltip: the fields named, as an object; see charts.js.
-const tooltipOf = (fields) => ({
-  signal: `{${Object.entries(fields).map(([label, field]) => `${JSON.stringify(label)}: datum[${JSON.stringify(field)}]`).join(', ')}}`,
-});
+function tooltipOf(fields) {
+  const entries = Object.entries(fields).map(([label, field]) =>
+    `${JSON.stringify(label)}: datum[${JSON.stringify(field)}]`);
+  return {signal: `{${entries.join(', ')}}`};
+}
 
 /// A mark's name becomes a class of its elements, by which the page's style sheet finds what is ink; names are unique.
 const styled = (style, type, from) => (style ? {name: `${style}_${type}_${from}`} : {});
@@ -135,8 +163,9 @@ function points(from, x, y, {colour, shape = 'circle', size = 30, hollow = false
 function lines(from, x, y, {by, colour, width = 1.3, dash = [], opacity = 1, style, step = false}) {
   return {
     type: 'group', from: {facet: {name: `${from}_${by}`, data: from, groupby: by}},
+    encode: {enter: {width: {signal: 'width'}, height: {signal: 'height'}}},
     marks: [{
-      type: 'line', from: {data: `${from}_${by}`}, ...styled(style, 'line', from),
+      type: 'line', clip: true, from: {data: `${from}_${by}`}, ...styled(style, 'line', from),
       encode: {enter: {
         ...inPanel(x, y), stroke: colour, strokeWidth: {value: width}, strokeDash: {value: dash},
         opacity: {value: opacity}, interpolate: {value: step ? 'step-after' : 'linear'},

@@ -51,7 +51,9 @@ function place(into, offset, from, r, [tx, ty, tz]) {
   return at;
 }
 
-const viridisStops = ['#440154', '#482878', '#3e4989', '#31688e', '#26828e', '#1f9e89', '#35b779', '#6ece58', '#b5de2b', '#fde725'];
+const viridisStops = [
+  '#440154', '#482878', '#3e4989', '#31688e', '#26828e', '#1f9e89', '#35b779', '#6ece58', '#b5de2b', '#fde725',
+];
 
 /// Colour of a share between 0 and 1, even in lightness.
 function viridis(share) {
@@ -87,7 +89,9 @@ function numberColouring(values, digits) {
   const share = (value) => (high > low ? (value - low) / (high - low) : 0.5);
   return {
     colours: values.map((value) => (value === null ? new THREE.Color(unknownColour) : viridis(share(value)))),
-    ramp: {low: low.toFixed(digits), middle: ((low + high) / 2).toFixed(digits === 0 ? 1 : digits), high: high.toFixed(digits)},
+    ramp: {
+      low: low.toFixed(digits), middle: ((low + high) / 2).toFixed(digits || 1), high: high.toFixed(digits),
+    },
   };
 }
 

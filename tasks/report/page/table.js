@@ -48,10 +48,14 @@ function leadingColumns(rows) {
   ];
 }
 
-function countColumns() {
-  return ['replicates', 'failed', 'flagged'].map((name) => ({
-    heading: [name], value: (row) => row[name], cell: (row) => element('td', {}, String(row[name])),
-  }));
+function countColumn() {
+  const reservations = (row) => ['failed', 'flagged'].filter((name) => row[name] > 0)
+    .map((name) => `, ${row[name]} ${name}`).join('');
+  return {
+    heading: ['replicates'], value: (row) => row.replicates,
+    cell: (row) => element('td', {}, String(row.replicates),
+      element('span', {className: 'half-width'}, reservations(row))),
+  };
 }
 
 function estimateColumn(column) {
@@ -114,23 +118,33 @@ function sortableTable(rows, columns, caption) {
   return element('div', {className: 'scroll'}, table);
 }
 
-function drawTables(data, place) {
-  const groupOf = (name) => data.columns.filter((column) => column.group === name);
+/// Columns of a group that some row has a value for.
+function columnsOf(data, group) {
   const shown = (column) => data.rows.some((row) => row[column.name]?.n > 0);
-  const [main, ...others] = [...new Set(data.columns.map((column) => column.group))];
+  return data.columns.filter((column) => column.group === group && shown(column));
+}
+
+function drawMainTable(data, place) {
   const leading = leadingColumns(data.rows);
   const paper = data.rows.some((row) => row.paper) ? [paperColumn()] : [];
-  const [density, ...contacts] = groupOf(main);
+  const [density] = data.columns;
+  const contacts = columnsOf(data, density.group).filter((column) => column !== density);
   place.append(sortableTable(data.rows, [...leading, estimateColumn(density), ...paper,
-    ...contacts.filter(shown).map(estimateColumn), ...countColumns()], 'Jamming density, contacts, constraints'));
+    ...contacts.map(estimateColumn), countColumn()], 'Jamming density, contacts, constraints'));
   place.append(element('div', {className: 'controls'}, button('Copy as CSV', () => copy(data.csv)),
     button('Copy as LaTeX', () => copy(data.latex))));
   place.append(element('p', {className: 'note'}, 'Means over replicates with 95 % intervals (Student t) of the state ' +
     'nearest jamming. Both copies hold every quantity measured, with standard deviations and bootstrap intervals.'));
-  for (const group of others) {
-    const columns = groupOf(group).filter(shown);
+}
+
+/// The other groups of quantities, if any were measured.
+function drawFurtherTables(data, section) {
+  const [, ...groups] = [...new Set(data.columns.map((column) => column.group))];
+  for (const group of groups) {
+    const columns = columnsOf(data, group);
     if (columns.length === 0) continue;
-    place.append(element('details', {}, element('summary', {}, `Table: ${group}`),
-      sortableTable(data.rows, [...leading, ...columns.map(estimateColumn)], group)));
+    section.append(element('details', {}, element('summary', {}, group),
+      sortableTable(data.rows, [...leadingColumns(data.rows), ...columns.map(estimateColumn)], group)));
+    section.hidden = false;
   }
 }
