@@ -102,7 +102,7 @@ function topologyData(data) {
   data.rows.forEach(({series}, row) => {
     for (const point of series) {
       for (const [key, {label}] of Object.entries(contactSeries)) {
-        const estimate = point[key];
+        const estimate = trusted(point, key);
         if (!estimate || estimate.mean === null) continue;
         const [low, high] = estimate.ci95 ?? [estimate.mean, estimate.mean];
         means.push({row, series: label, delta_phi: point.delta_phi, value: estimate.mean, low, high, n: estimate.n});
@@ -150,8 +150,8 @@ function topologyFigure(data) {
   const labels = series.map(({label}) => label);
   return {
     id, title, datasets,
-    note: 'Every state (dots) and means over replicates with 95 % intervals, interpolated at common distances above ' +
-      'jamming. Dotted line: C = 12, the isostatic number of constraints. Figure 3 of the paper.',
+    note: 'Every state (dots), and means over unflagged replicates with 95 % intervals, interpolated at common ' +
+      'distances above jamming. Dotted line: C = 12, the isostatic number of constraints. Figure 3 of the paper.',
     spec: (width) => panelSpec({
       description: 'Contacts, face-face contacts and constraints per particle against distance above jamming.',
       width, count: present.length, datasets, height: 240,

@@ -12,6 +12,12 @@ function panelsFor(data, rows) {
 
 const kindOf = (replicate) => (replicate.flags.length > 0 ? 'flagged' : 'unflagged');
 
+/// The estimate without flagged replicates, where there are any others: a crystal is no jammed packing.
+function trusted(estimates, name) {
+  const unflagged = estimates.unflagged?.[name];
+  return unflagged?.n > 0 ? unflagged : estimates[name];
+}
+
 function densityData(data) {
   const replicates = data.replicates.filter((replicate) => replicate.phi_j !== null).map((replicate) => ({
     label: data.rows[replicate.row].label, solid: data.rows[replicate.row].solid, name: replicate.name,
@@ -20,7 +26,7 @@ function densityData(data) {
   }));
   const means = [], paper = [];
   for (const row of data.rows) {
-    const {mean, ci95, n} = row.phi_j;
+    const {mean, ci95, n} = trusted(row, 'phi_j');
     if (mean === null) continue;
     means.push({label: row.label, solid: row.solid, phi_j: mean, low: ci95 ? ci95[0] : mean,
       high: ci95 ? ci95[1] : mean, n});
@@ -97,8 +103,8 @@ function densityFigure(data) {
   const all = [...datasets.replicates, ...datasets.means.flatMap(({low, high}) => [{phi_j: low}, {phi_j: high}]),
     ...datasets.paper.flatMap(({low, high}) => [{phi_j: low}, {phi_j: high}])];
   const domain = domainOf(all.map((row) => row.phi_j), {margin: 0.04});
-  const note = 'Every replicate (hollow: flagged) in the colour and shape of its solid; below it the mean with its ' +
-    '95 % interval over replicates, and in grey the value of the paper’s Table I for that N, where it has one.';
+  const note = 'Every replicate (hollow: flagged) in the colour and shape of its solid; below it the mean of ' +
+    'the unflagged ones with its 95 % interval, and in grey the value of the paper’s Table I for that N, where it has one.';
   if (!domain) return {id: 'density', title: 'Jamming density', absent: 'No replicate reached a jamming density.'};
   return {
     id: 'density', title: 'Jamming density', note, datasets,
