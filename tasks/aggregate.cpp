@@ -4,19 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
-#include <utility>
 
 #include "tasks/input_error.hpp"
 #include "tasks/plan.hpp"
+#include "tasks/stopping.hpp"
 
 namespace isojam {
 namespace {
-
-using PointKey = std::tuple<SolidKind, int, Json>;
-using ReplicateKey = std::tuple<std::string, int>;  // manifest digest, replicate
-using Point = std::map<ReplicateKey, const RecordSummary*>;
 
 std::string describe(const RecordSummary& record) {
   return fmt::format("{} replicate {} of manifest {}", point_text(record.solid, record.particles, record.parameters),
@@ -44,29 +38,12 @@ std::string difference(const Json& a, const Json& b) {
   return patch.empty() ? "" : patch.front().at("path").get<std::string>();
 }
 
-void add(Point& point, const RecordSummary& record) {
-  if (!point.empty() && point.begin()->second->settings != record.settings) {
-    const auto& other = *point.begin()->second;
-    throw InputError({describe(record), difference(other.settings, record.settings),
-                      "differs from the setting of " + describe(other), "one table of records with the same settings",
-                      ""});
-  }
-  const auto [place, added] = point.try_emplace({record.manifest_digest, record.replicate}, &record);
-  if (!added && place->second->result != record.result) {
-    throw InputError({describe(record), difference(place->second->result, record.result),
-                      "is recorded twice with different results", "", ""});
-  }
-}
-
 /// The values of a sweep point's replicates, column by column.
 class Samples {
  public:
-  void add(const Values& values, bool flagged) {
-    for (std::size_t i = 0; i < all_columns.size(); ++i) {
-      if (!values[i]) continue;
-      all_[i].push_back(*values[i]);
-      if (!flagged) unflagged_[i].push_back(*values[i]);
-    }
+  void add(std::size_t column, double value, bool flagged) {
+    all_[column].push_back(value);
+    if (!flagged) unflagged_[column].push_back(value);
   }
   bool empty() const {
     return std::all_of(all_.begin(), all_.end(), [](const auto& values) { return values.empty(); });
@@ -86,40 +63,90 @@ class Samples {
   std::array<std::vector<double>, all_columns.size()> all_, unflagged_;
 };
 
-Row make_row(const Point& point) {
-  const auto& first = *point.begin()->second;
-  Row row;
-  row.solid = first.solid;
-  row.particles = first.particles;
-  row.parameters = first.parameters;
-  row.replicates = static_cast<int>(point.size());
-  Samples nearest;
-  for (const auto& [key, record] : point) {
-    row.failed += record->failed;
-    row.flagged += record->flagged;
-    nearest.add(record->values, record->flagged);
-    if (record->residual) row.residual = std::max(row.residual.value_or(0), *record->residual);
-  }
-  const auto text = point_text(first.solid, first.particles, first.parameters);
-  std::tie(row.estimates, row.unflagged) = nearest.estimates(text);
-  for (const double distance : series_distances) {
-    Samples there;
-    for (const auto& [key, record] : point) there.add(interpolated(record->states, distance), record->flagged);
-    if (there.empty()) continue;
-    row.series.push_back({distance, {}, {}});
-    std::tie(row.series.back().estimates, row.series.back().unflagged) = there.estimates(text);
-  }
-  return row;
-}
+constexpr std::size_t places = 1 + series_distances.size();
 
 }  // namespace
 
-Table aggregate(std::span<const RecordSummary> records) {
-  std::map<PointKey, Point> points;
-  for (const auto& record : records) add(points[{record.solid, record.particles, record.parameters}], record);
+Aggregation::Kept Aggregation::kept(const RecordSummary& record) {
+  Kept kept{record.result_digest, record.failed, record.flagged, record.residual, {}};
+  const auto keep = [&](const Values& values, std::size_t place) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i])
+        kept.cells.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(place), *values[i]});
+    }
+  };
+  keep(record.values, 0);
+  for (std::size_t k = 0; k < series_distances.size(); ++k)
+    keep(interpolated(record.states, series_distances[k]), k + 1);
+  kept.cells.shrink_to_fit();
+  return kept;
+}
+
+void Aggregation::add(const RecordSummary& record) {
+  auto& point = points_[{record.solid, record.particles, record.parameters}];
+  if (point.replicates.empty()) {
+    point.settings = record.settings;
+    point.first = describe(record);
+  } else if (point.settings != record.settings) {
+    throw InputError({describe(record), difference(point.settings, record.settings),
+                      "differs from the setting of " + point.first, "one table of records with the same settings", ""});
+  }
+  const auto [place, added] = point.replicates.try_emplace({record.manifest_digest, record.replicate}, kept(record));
+  if (!added && place->second.result_digest != record.result_digest) {
+    throw InputError({describe(record), "/result_digest", "is recorded twice with different results", "", ""});
+  }
+}
+
+std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const std::optional<Replicates>& rule) {
+  if (!rule || !rule->goal) return std::nullopt;
+  const auto column = std::find_if(all_columns.begin(), all_columns.end(),
+                                   [&](const Column& c) { return c.name == rule->goal->quantity; });
+  // Those from 0 on without a gap, of one manifest.
+  std::vector<std::optional<double>> values;
+  for (const auto& [key, replicate] : point.replicates) {
+    if (key.first != point.replicates.begin()->first.first || key.second != static_cast<int>(values.size())) break;
+    const auto cell = std::find_if(replicate.cells.begin(), replicate.cells.end(), [&](const Cell& c) {
+      return c.place == 0 && c.column == column - all_columns.begin();
+    });
+    values.push_back(cell == replicate.cells.end() ? std::nullopt : std::optional(cell->value));
+  }
+  const auto advance = advance_of(*rule, values);
+  return GoalOutcome{*rule->goal, advance.finished ? std::optional(advance.wanted) : std::nullopt, advance.met,
+                     advance.half_width};
+}
+
+Row Aggregation::row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule) {
+  Row row;
+  std::tie(row.solid, row.particles, row.parameters) = key;
+  row.replicates = static_cast<int>(point.replicates.size());
+  std::array<Samples, places> samples;
+  for (const auto& [name, replicate] : point.replicates) {
+    row.failed += replicate.failed;
+    row.flagged += replicate.flagged;
+    if (replicate.residual) row.residual = std::max(row.residual.value_or(0), *replicate.residual);
+    for (const auto& cell : replicate.cells) samples[cell.place].add(cell.column, cell.value, replicate.flagged);
+  }
+  const auto text = point_text(row.solid, row.particles, row.parameters);
+  std::tie(row.estimates, row.unflagged) = samples[0].estimates(text);
+  for (std::size_t k = 0; k < series_distances.size(); ++k) {
+    if (samples[k + 1].empty()) continue;
+    row.series.push_back({series_distances[k], {}, {}});
+    std::tie(row.series.back().estimates, row.series.back().unflagged) = samples[k + 1].estimates(text);
+  }
+  row.goal = goal_outcome(point, rule);
+  return row;
+}
+
+Table Aggregation::table(const std::optional<Replicates>& rule) const {
   Table table;
-  for (const auto& [key, point] : points) table.rows.push_back(make_row(point));
+  for (const auto& [key, point] : points_) table.rows.push_back(row(key, point, rule));
   return table;
+}
+
+Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule) {
+  Aggregation aggregation;
+  for (const auto& record : records) aggregation.add(record);
+  return aggregation.table(rule);
 }
 
 }  // namespace isojam

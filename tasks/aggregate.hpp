@@ -1,10 +1,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "tasks/manifest.hpp"
 #include "tasks/record.hpp"
 #include "tasks/statistics.hpp"
 
@@ -16,6 +22,14 @@ using Estimates = std::array<Estimate, all_columns.size()>;
 struct SeriesPoint {
   double delta_phi = 0;
   Estimates estimates, unflagged;
+};
+
+/// How far a sweep point came towards a goal.
+struct GoalOutcome {
+  Goal goal;
+  std::optional<int> needed;         ///< replicates after which the rule stopped; nullopt if it asks for more
+  bool met = false;                  ///< false at max replicates too wide
+  std::optional<double> half_width;  ///< at the last batch that is complete
 };
 
 /// One sweep point.
@@ -31,6 +45,7 @@ struct Row {
   Estimates unflagged;              ///< the same without the flagged replicates
   std::vector<SeriesPoint> series;  ///< at those of series_distances that a replicate's states enclose
   std::optional<double> residual;   ///< worst of the states behind φ_J; nullopt if all failed
+  std::optional<GoalOutcome> goal;
 };
 
 /// Rows in order of solid, particles, parameters.
@@ -38,9 +53,44 @@ struct Table {
   std::vector<Row> rows;
 };
 
-/// Pure; the order of the records does not matter. A record that is given twice counts once.
-/// Throws InputError if records of one point were made with different settings, or if two records of the same
-/// replicate disagree.
-Table aggregate(std::span<const RecordSummary> records);
+/// Gathers records one by one and keeps of each only what the table needs: a few kilobytes. The order does not matter.
+class Aggregation {
+ public:
+  /// A record that is given twice counts once. Throws InputError if records of one point were made with different
+  /// settings, or if two records of the same replicate disagree.
+  void add(const RecordSummary& record);
+
+  /// `rule` is what the records were made by; with a goal, every row says how far it came.
+  Table table(const std::optional<Replicates>& rule = std::nullopt) const;
+
+ private:
+  /// A value of a replicate: column, and where: 0 its own or that of its nearest state, k at series_distances[k − 1].
+  struct Cell {
+    std::uint16_t column, place;
+    double value;
+  };
+  struct Kept {
+    std::string result_digest;
+    bool failed = false, flagged = false;
+    std::optional<double> residual;
+    std::vector<Cell> cells;
+  };
+  using PointKey = std::tuple<SolidKind, int, Json>;
+  using ReplicateKey = std::pair<std::string, int>;  // manifest digest, replicate
+  struct Point {
+    Json settings;
+    std::string first;  // the record that gave them
+    std::map<ReplicateKey, Kept> replicates;
+  };
+
+  static Kept kept(const RecordSummary& record);
+  static Row row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule);
+  static std::optional<GoalOutcome> goal_outcome(const Point& point, const std::optional<Replicates>& rule);
+
+  std::map<PointKey, Point> points_;
+};
+
+/// All at once.
+Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule = std::nullopt);
 
 }  // namespace isojam

@@ -1,13 +1,27 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
 namespace isojam {
 
+enum class Durability : std::uint8_t {
+  synced,   ///< on the disk when the call returns
+  lossless  ///< after a power failure the file may be cut short, which its reader must notice
+};
+
 /// Writes a file so that any reader, and anyone after a crash, sees either the old content or the whole new one:
-/// a temporary of a name of its own in the same directory, fsync, rename, fsync of the directory.
-/// Throws FileError.
-void write_atomically(const std::filesystem::path& path, std::string_view content);
+/// a temporary of a name of its own in the same directory, fsync, rename, fsync of the directory. What stood at the
+/// path, a symbolic link too, is replaced and never written through. Throws FileError.
+void write_atomically(const std::filesystem::path& path, std::string_view content,
+                      Durability durability = Durability::synced);
+
+/// Throws FileError unless files can be written in the directory.
+void check_writable(const std::filesystem::path& directory);
+
+/// Removes what writers that were killed left in a directory: temporaries older than an hour, by which no writer is
+/// still busy.
+void remove_stale_temporaries(const std::filesystem::path& directory);
 
 }  // namespace isojam

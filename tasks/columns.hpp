@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+
+#include "tasks/measure/measure.hpp"
 
 namespace isojam {
 
@@ -63,6 +66,9 @@ inline constexpr std::array all_columns{
     Column{"floppy_normals", "rigidity", Column::Of::state, "/rigidity/normals/floppy", "f_n"},
     Column{"floppy_classes", "rigidity", Column::Of::state, "/rigidity/classes/floppy", "f_c"},
 };
+
+/// The measure that gives a column; nullopt for φ_J, which every replicate has.
+std::optional<Measure> measure_of(const Column& column);
 
 /// Δφ at which tables give the quantities of a state, interpolated between the states of a replicate linearly in
 /// ln Δφ; descending.

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <ctime>
 #include <exception>
+#include <mutex>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -27,13 +28,16 @@ namespace flow = tbb::flow;
 /// What a stage passes on: its value, or the failure of this stage or an earlier one.
 template <class T>
 struct Passed {
-  std::size_t index = 0;
+  std::size_t index = 0;  ///< the order in which replicates were begun, by which results of one meet
+  ReplicateSpec spec;
   std::optional<T> value;
   std::optional<Failure> failure;
   Timing timing;
 };
 
-using Placed = Passed<Packing>;
+struct Begun {};
+using Input = Passed<Begun>;
+using Placed = Passed<Checkpoint>;
 using Jammed = Passed<JamResult>;
 using Measured = Passed<Measurement>;  ///< neither value nor failure: not asked for, or stopped
 
@@ -43,13 +47,28 @@ double thread_cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// Wall clock and this thread's since it was made.
+class Stopwatch {
+ public:
+  Timing elapsed() const {
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(),
+            thread_cpu_seconds() - cpu_};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  double cpu_ = thread_cpu_seconds();
+};
+
+Timing operator+(const Timing& a, const Timing& b) {
+  return {a.wall_seconds + b.wall_seconds, a.cpu_seconds + b.cpu_seconds};
+}
+
 /// Runs a stage of a replicate: measures its time and turns what it throws into a failure.
-template <class T, class Stage>
-Passed<T> guarded(std::size_t index, std::string_view where, const Stage& stage) {
-  Passed<T> passed;
-  passed.index = index;
-  const auto wall = std::chrono::steady_clock::now();
-  const double cpu = thread_cpu_seconds();
+template <class T, class From, class Stage>
+Passed<T> guarded(const From& from, std::string_view where, const Stage& stage) {
+  Passed<T> passed{from.index, from.spec, {}, {}, {}};
+  const Stopwatch watch;
   try {
     passed.value = stage();
   } catch (const std::exception& error) {
@@ -57,56 +76,59 @@ Passed<T> guarded(std::size_t index, std::string_view where, const Stage& stage)
   } catch (...) {
     passed.failure = Failure{std::string(where), "an exception of unknown type"};
   }
-  passed.timing = {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count(),
-                   thread_cpu_seconds() - cpu};
+  passed.timing = watch.elapsed();
   return passed;
 }
 
-Timing operator+(const Timing& a, const Timing& b) {
-  return {a.wall_seconds + b.wall_seconds, a.cpu_seconds + b.cpu_seconds};
-}
-
-/// One run over a plan; the bodies of the nodes.
+/// One run; the bodies of the nodes.
 class Run {
  public:
-  Run(std::span<const ReplicateSpec> plan, const Stages& stages, const GraphOptions& options,
+  Run(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
       const std::function<void(const Outcome&)>& on_outcome)
-      : plan_(plan), stages_(stages), options_(options), on_outcome_(on_outcome), forward_stop_(options.stop, [this] {
+      : next_(next), stages_(stages), options_(options), on_outcome_(on_outcome), forward_stop_(options.stop, [this] {
           stop_.request_stop();
         }) {}
 
-  std::size_t next(tbb::flow_control& control) {
-    if (next_ == plan_.size() || stop_.stop_requested()) control.stop();
-    return next_++;
+  Input next(tbb::flow_control& control) {
+    std::optional<ReplicateSpec> spec;
+    if (!stop_.stop_requested()) {
+      sheltered([&] { spec = next_(); });
+    }
+    if (spec) return {begun_++, *spec, Begun{}, {}, {}};
+    control.stop();
+    return {};
   }
 
-  Placed place(std::size_t index) const {
-    return guarded<Packing>(index, "place", [&] { return stages_.place(plan_[index]); });
+  Placed begin(const Input& input) const {
+    return guarded<Checkpoint>(input, "begin", [&] { return stages_.begin(input.spec); });
   }
 
-  Jammed jam(const Placed& placed) const {
-    if (!placed.value) return {placed.index, std::nullopt, placed.failure, placed.timing};
-    const auto& spec = plan_[placed.index];
-    const OnStep on_step = [&](const JamStep& step) {
-      if (options_.on_step) options_.on_step(spec, step);
+  Jammed jam(const Placed& placed) {
+    if (!placed.value) return {placed.index, placed.spec, std::nullopt, placed.failure, placed.timing};
+    const auto before = placed.timing + placed.value->spent;
+    const Stopwatch watch;
+    const OnProgress on_progress = [&](const JamProgress& progress) {
+      if (!options_.on_step) return;
+      sheltered([&] { options_.on_step(placed.spec, {progress, before + watch.elapsed()}); });
     };
-    auto jammed = guarded<JamResult>(placed.index, "jam",
-                                     [&] { return stages_.jam(spec, *placed.value, stop_.get_token(), on_step); });
+    auto jammed = guarded<JamResult>(placed, "jam", [&] {
+      return stages_.jam(placed.spec, placed.value->progress, stop_.get_token(), on_progress);
+    });
     if (jammed.value && jammed.value->status != JamStatus::interrupted) jammed.failure = failure_of(*jammed.value);
-    jammed.timing = jammed.timing + placed.timing;
+    jammed.timing = jammed.timing + before;
     return jammed;
   }
 
   Measured measure(Measure what, const Jammed& jammed) const {
-    if (!asked(what, jammed) || stop_.stop_requested()) return {jammed.index, {}, {}, {}};
-    return guarded<Measurement>(jammed.index, to_string(what),
-                                [&] { return stages_.measure(plan_[jammed.index], what, *jammed.value); });
+    if (!asked(what, jammed) || stop_.stop_requested()) return {jammed.index, {}, {}, {}, {}};
+    return guarded<Measurement>(jammed, to_string(what),
+                                [&] { return stages_.measure(jammed.spec, what, *jammed.value); });
   }
 
   /// `measured[k]` is that of all_measures[k].
   void store(const Jammed& jammed, const std::array<const Measured*, all_measures.size()>& measured) {
     Outcome outcome;
-    outcome.spec = plan_[jammed.index];
+    outcome.spec = jammed.spec;
     outcome.failure = jammed.failure;
     outcome.timing = jammed.timing;
     if (jammed.value) outcome.jam = *jammed.value;
@@ -119,12 +141,7 @@ class Run {
       // Left out because of a stop request.
       outcome.interrupted |= asked(all_measures[k], jammed) && !one.value && !one.failure;
     }
-    try {
-      on_outcome_(outcome);
-    } catch (...) {
-      if (!error_) error_ = std::current_exception();
-      stop_.request_stop();
-    }
+    sheltered([&] { on_outcome_(outcome); });
   }
 
   void rethrow() const {
@@ -133,18 +150,30 @@ class Run {
 
  private:
   bool asked(Measure what, const Jammed& jammed) const {
-    const auto& measures = plan_[jammed.index].measures;
+    const auto& measures = jammed.spec.measures;
     return jammed.value && std::find(measures.begin(), measures.end(), what) != measures.end();
   }
 
-  std::span<const ReplicateSpec> plan_;
+  /// What the caller's functions throw must not cross the graph: the first is kept, and ends the run.
+  void sheltered(const std::function<void()>& call) {
+    try {
+      call();
+    } catch (...) {
+      const std::lock_guard lock(error_mutex_);
+      if (!error_) error_ = std::current_exception();
+      stop_.request_stop();
+    }
+  }
+
+  const NextReplicate& next_;
   const Stages& stages_;
   const GraphOptions& options_;
   const std::function<void(const Outcome&)>& on_outcome_;
   std::stop_source stop_;
   std::stop_callback<std::function<void()>> forward_stop_;
-  std::size_t next_ = 0;      // touched by the input node alone
-  std::exception_ptr error_;  // touched by the serial store node alone
+  std::size_t begun_ = 0;  // touched by the input node alone
+  std::mutex error_mutex_;
+  std::exception_ptr error_;
 };
 
 /// What meets before it is stored: the result of jam, and that of every measurement.
@@ -181,9 +210,9 @@ struct Meeting<std::index_sequence<k...>> {
 void build_and_wait(Run& run, int in_flight) {
   using AllMeet = Meeting<std::make_index_sequence<all_measures.size()>>;
   flow::graph graph;
-  flow::input_node<std::size_t> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
-  flow::limiter_node<std::size_t> limiter(graph, static_cast<std::size_t>(in_flight));
-  flow::function_node<std::size_t, Placed> place(graph, flow::unlimited, [&](std::size_t i) { return run.place(i); });
+  flow::input_node<Input> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
+  flow::limiter_node<Input> limiter(graph, static_cast<std::size_t>(in_flight));
+  flow::function_node<Input, Placed> begin(graph, flow::unlimited, [&](const Input& i) { return run.begin(i); });
   flow::function_node<Placed, Jammed> jam(graph, flow::unlimited, [&](const Placed& p) { return run.jam(p); });
   AllMeet all(graph, run);
   flow::function_node<AllMeet::Joined> store(graph, flow::serial, [&](const AllMeet::Joined& joined) {
@@ -192,8 +221,8 @@ void build_and_wait(Run& run, int in_flight) {
   });
 
   flow::make_edge(input, limiter);
-  flow::make_edge(limiter, place);
-  flow::make_edge(place, jam);
+  flow::make_edge(limiter, begin);
+  flow::make_edge(begin, jam);
   all.follow(jam);
   flow::make_edge(all.join, store);
   flow::make_edge(store, limiter.decrementer());
@@ -203,13 +232,15 @@ void build_and_wait(Run& run, int in_flight) {
 
 }  // namespace
 
-void run_graph(std::span<const ReplicateSpec> plan, const Stages& stages, const GraphOptions& options,
+int default_threads() { return tbb::info::default_concurrency(); }
+
+void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
                const std::function<void(const Outcome&)>& on_outcome) {
-  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const int threads = options.threads > 0 ? options.threads : default_threads();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  Run run(plan, stages, options, on_outcome);
-  arena.execute([&] { build_and_wait(run, threads); });
+  Run run(next, stages, options, on_outcome);
+  arena.execute([&] { build_and_wait(run, options.in_flight > 0 ? options.in_flight : threads); });
   run.rethrow();
 }
 

@@ -1,6 +1,8 @@
 #include "tasks/interrupt.hpp"
 
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "tasks/exit_codes.hpp"
 
@@ -23,11 +25,14 @@ InterruptWatcher::~InterruptWatcher() {
 }
 
 void InterruptWatcher::watch() {
-  for (int signal = 0; sigwait(&signals_, &signal) == 0;) {
-    if (finished_) return;
-    if (source_.stop_requested()) std::_Exit(static_cast<int>(ExitCode::interrupted));
-    source_.request_stop();
-  }
+  int signal = 0;
+  if (sigwait(&signals_, &signal) != 0 || finished_) return;
+  source_.request_stop();
+  // What is under way is asked first. A measurement of a large packing does not listen: it is left.
+  const timespec patience{1, 500'000'000};
+  if (sigtimedwait(&signals_, nullptr, &patience) >= 0 && finished_) return;
+  std::fputs("\nisojam: warning: interrupted; what was recorded is kept, and the same command continues\n", stderr);
+  std::_Exit(static_cast<int>(ExitCode::interrupted));
 }
 
 }  // namespace isojam

@@ -20,6 +20,8 @@ struct Arguments {
   RunCommand run;
   ValidateCommand validate;
   AggregateCommand aggregate;
+  StatusCommand status;
+  RerunCommand rerun;
   ReportCommand report;
 };
 
@@ -48,6 +50,33 @@ void add_run(CLI::App& app, RunCommand& command) {
   run->add_option("manifest", command.manifest, "Manifest of the sweep")->required()->type_name("MANIFEST");
   run->add_option("-o,--output", command.directory, "Results directory (default: results/<name>)")->type_name("DIR");
   run->add_option("-j,--threads", command.threads, "Threads (default: as many as the machine gives)")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+  run->add_option_function<std::string>(
+         "--shard", [&command](const std::string& text) { command.shard = *parse_shard(text); },
+         "Run part I of N of the sweep; within a Slurm array, by default, the part of the task")
+      ->check([](const std::string& text) {
+        return parse_shard(text) ? "" : "not I/N with whole numbers 1 <= I <= N <= 100000: " + text;
+      })
+      ->type_name("I/N");
+  run->add_option("--memory", command.memory_gib, "Memory for replicates in flight (default: what is available)")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("GIB");
+  run->add_flag("--dry-run", command.dry_run, "Print the plan and what it will cost, and do nothing");
+}
+
+void add_status(CLI::App& app, StatusCommand& command) {
+  auto* status = app.add_subcommand("status", "Say what a results directory holds and what is under way in it");
+  status->add_option("directory", command.directory, "Results directory")->required()->type_name("DIR");
+}
+
+void add_rerun(CLI::App& app, RerunCommand& command) {
+  auto* rerun = app.add_subcommand("rerun", "Redo one replicate, with a line for every strain step");
+  rerun->add_option("directory", command.directory, "Results directory")->required()->type_name("DIR");
+  rerun->add_option("replicate", command.replicate, "Its name, as its files are called")
+      ->required()
+      ->type_name("REPLICATE");
+  rerun->add_option("-j,--threads", command.threads, "Threads (default: as many as the machine gives)")
       ->check(CLI::Range(1, 4096).description(""))
       ->type_name("N");
 }
@@ -79,6 +108,8 @@ void add_report(CLI::App& app, ReportCommand& command) {
 
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments, Console& console) {
   if (app.got_subcommand("run")) return run(arguments.run, console);
+  if (app.got_subcommand("status")) return status(arguments.status);
+  if (app.got_subcommand("rerun")) return rerun(arguments.rerun, console);
   if (app.got_subcommand("validate")) return validate(arguments.validate);
   if (app.got_subcommand("report")) return report(arguments.report);
   return aggregate_directories(arguments.aggregate);
@@ -95,9 +126,16 @@ ExitCode parse_and_run(int argc, char** argv) {
   add_run(app, arguments.run);
   add_validate(app, arguments.validate);
   add_aggregate(app, arguments.aggregate);
+  add_status(app, arguments.status);
+  add_rerun(app, arguments.rerun);
   add_report(app, arguments.report);
   try {
     app.parse(argc, argv);
+    if (app.got_subcommand("run") && app.get_subcommand("run")->count("--shard") == 0)
+      arguments.run.shard = shard_of_environment();
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "isojam: error: %s\n", error.what());
+    return ExitCode::usage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? ExitCode::done : ExitCode::usage;
   }

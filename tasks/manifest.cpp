@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/packing/periodic_cell.hpp"
+#include "tasks/columns.hpp"
 #include "tasks/fields.hpp"
 #include "tasks/json_place.hpp"
 
@@ -15,13 +16,16 @@ namespace {
 
 constexpr double greatest_seed = 9007199254740992;  // 2^53: every reader of JSON holds integers up to here
 constexpr Range particle_range{1, 100000};
-constexpr Range replicate_range{1, 10000};
+constexpr Range replicate_range{1, 1e6};
+constexpr Range least_replicate_range{2, 1e6};  // one replicate has no interval
+constexpr Range half_width_range{0, 1e6, true};
 constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
 constexpr std::size_t longest_name = 64;
 
-constexpr std::array<std::string_view, 9> keys{"$schema",  "name",      "seed",    "sweep", "replicates",
-                                               "protocol", "minimiser", "measure", "modes"};
+constexpr std::array<std::string_view, 10> keys{"$schema",  "name",      "seed",    "sweep", "replicates",
+                                                "protocol", "minimiser", "measure", "modes", "keep_path"};
+constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 constexpr std::array default_measures{Measure::contacts, Measure::order, Measure::clusters};
 
 const std::vector<std::string_view>& measure_names() {
@@ -111,6 +115,37 @@ void read_sweep(const JsonPlace& place, Manifest& manifest) {
   std::sort(manifest.swept.begin(), manifest.swept.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
 }
 
+/// The name of a column that the manifest's measures give.
+std::string read_quantity(const JsonPlace& place, const std::vector<Measure>& measures) {
+  std::vector<std::string_view> names;
+  for (const auto& column : all_columns) names.push_back(column.name);
+  const auto& column = all_columns[place.choice(names)];
+  const auto needed = measure_of(column);
+  if (needed && std::find(measures.begin(), measures.end(), *needed) == measures.end())
+    place.refuse(fmt::format("{} is not measured", column.name),
+                 fmt::format("a quantity that is measured; this one is with \"{}\" in /measure", to_string(*needed)));
+  return std::string(column.name);
+}
+
+Replicates read_replicates(const JsonPlace& place, const std::vector<Measure>& measures) {
+  Replicates replicates;
+  if (!place.value().is_object()) {
+    if (!place.value().is_number())
+      place.refuse(
+          "neither a number nor an object",
+          fmt::format("{}, or {{\"min\", \"max\", \"quantity\", \"half_width\"}}", integer_in(replicate_range)));
+    replicates.min = replicates.max = static_cast<int>(place.integer(replicate_range));
+    return replicates;
+  }
+  place.expect_keys(goal_keys);
+  replicates.min = static_cast<int>(place.at("min").integer(least_replicate_range));
+  replicates.max =
+      static_cast<int>(place.at("max").integer({static_cast<double>(replicates.min), replicate_range.high}));
+  replicates.goal =
+      Goal{read_quantity(place.at("quantity"), measures), place.at("half_width").number(half_width_range)};
+  return replicates;
+}
+
 void read_group(const JsonPlace& root, Group group, Manifest& manifest) {
   const std::string group_name(to_string(group));
   if (!root.has(group_name)) return;
@@ -145,7 +180,7 @@ JsonPlace place_of_field(const JsonPlace& root, const std::string& group, const 
 
 /// What holds between values that are each allowed.
 void check_together(const JsonPlace& root, const Manifest& manifest) {
-  double count = static_cast<double>(manifest.solids.size() * manifest.particles.size()) * manifest.replicates;
+  double count = static_cast<double>(manifest.solids.size() * manifest.particles.size()) * manifest.replicates.max;
   for (const auto& swept : manifest.swept) count *= static_cast<double>(swept.values.size());
   if (count > most_replicates_in_all) {
     root.at("sweep").refuse(fmt::format("the sweep makes {:.0f} replicates", count),
@@ -168,6 +203,14 @@ void check_together(const JsonPlace& root, const Manifest& manifest) {
                   fmt::format("{} or more", least));
     }
   }
+}
+
+Json to_json(const Replicates& replicates) {
+  if (!replicates.goal) return replicates.max;
+  return {{"min", replicates.min},
+          {"max", replicates.max},
+          {"quantity", replicates.goal->quantity},
+          {"half_width", replicates.goal->half_width}};
 }
 
 Json values_of(const std::vector<Measure>& list) {
@@ -204,7 +247,6 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
   manifest.name = read_name(root.at("name"));
   manifest.seed = static_cast<std::uint64_t>(root.at("seed").integer({0, greatest_seed}));
   read_sweep(root.at("sweep"), manifest);
-  manifest.replicates = static_cast<int>(root.at("replicates").integer(replicate_range));
   read_group(root, Group::protocol, manifest);
   read_group(root, Group::minimiser, manifest);
   manifest.measures.assign(default_measures.begin(), default_measures.end());
@@ -213,6 +255,8 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
                                   [](const JsonPlace& entry) { return all_measures[entry.choice(measure_names())]; });
     std::sort(manifest.measures.begin(), manifest.measures.end());
   }
+  manifest.replicates = read_replicates(root.at("replicates"), manifest.measures);
+  if (root.has("keep_path")) manifest.keep_path = root.at("keep_path").boolean();
   if (root.has("modes")) manifest.measuring.modes = static_cast<int>(root.at("modes").integer(mode_range));
   check_together(root, manifest);
   return manifest;
@@ -228,7 +272,7 @@ Json to_json(const Manifest& manifest) {
   for (const auto kind : manifest.solids) sweep["solid"].push_back(to_string(kind));
   sweep["particles"] = manifest.particles;
   for (const auto& swept : manifest.swept) sweep[swept.name] = swept.values;
-  json["replicates"] = manifest.replicates;
+  json["replicates"] = to_json(manifest.replicates);
   for (const auto group : {Group::protocol, Group::minimiser}) {
     auto values = group_values(group, manifest.protocol);
     for (const auto& swept : manifest.swept) values.erase(swept.name);
@@ -236,12 +280,14 @@ Json to_json(const Manifest& manifest) {
   }
   json["measure"] = values_of(manifest.measures);
   json["modes"] = manifest.measuring.modes;
+  json["keep_path"] = manifest.keep_path;
   return json;
 }
 
 std::string digest(const Manifest& manifest) {
   auto json = to_json(manifest);
   json.erase("replicates");
+  json.erase("keep_path");
   return hex_hash(json.dump());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,22 @@ struct SweptField {
   std::vector<Json> values;  ///< canonical, ascending, no two equal
 };
 
+/// An interval narrow enough to stop at.
+struct Goal {
+  std::string quantity;   ///< name of a column of the tables
+  double half_width = 0;  ///< of the 95 % interval of its mean over replicates
+
+  bool operator==(const Goal&) const = default;
+};
+
+/// How many replicates a sweep point gets.
+struct Replicates {
+  int min = 0, max = 0;  ///< equal without a goal
+  std::optional<Goal> goal;
+
+  bool operator==(const Replicates&) const = default;
+};
+
 /// A sweep as the user asked for it, every value checked.
 struct Manifest {
   std::string name;
@@ -25,10 +42,11 @@ struct Manifest {
   std::vector<SolidKind> solids;  ///< in the order of all_solids
   std::vector<int> particles;     ///< ascending
   std::vector<SweptField> swept;  ///< by name
-  int replicates = 0;
+  Replicates replicates;
   JamOptions protocol;  ///< with the minimiser's options
   std::vector<Measure> measures;
   MeasureOptions measuring;
+  bool keep_path = false;  ///< keep the packings of every state of an expansion, not only the one nearest jamming
 };
 
 /// One combination of the swept parameters: the whole options, and what distinguishes them from other combinations.
@@ -49,7 +67,7 @@ Manifest read_manifest(const std::string& file);
 Json to_json(const Manifest& manifest);
 
 /// Identity of everything that a replicate's result depends on; the number of replicates is left out, so that it
-/// may be raised later.
+/// may be raised later, and what is kept beside the record.
 std::string digest(const Manifest& manifest);
 
 }  // namespace isojam

@@ -2,9 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+
 #include "tasks/fields.hpp"
 
 namespace isojam {
+namespace {
+
+/// What the names of a point's replicates have in common.
+std::string prefix(const ReplicateSpec& spec) {
+  const auto hash = spec.parameters.empty() ? std::string() : fmt::format("-{}", hex_hash(point_text(spec)));
+  return fmt::format("{}-N{}{}", to_string(spec.solid), spec.particles, hash);
+}
+
+}  // namespace
 
 std::string point_text(SolidKind solid, int particles, const Json& parameters) {
   Json point;
@@ -16,27 +29,49 @@ std::string point_text(SolidKind solid, int particles, const Json& parameters) {
 
 std::string point_text(const ReplicateSpec& spec) { return point_text(spec.solid, spec.particles, spec.parameters); }
 
-std::vector<ReplicateSpec> make_plan(const Manifest& manifest) {
-  const auto identity = digest(manifest);
-  const auto sets = option_sets(manifest);
-  std::vector<ReplicateSpec> plan;
-  for (const auto solid : manifest.solids) {
-    for (const int particles : manifest.particles) {
-      for (const auto& set : sets) {
-        for (int replicate = 0; replicate < manifest.replicates; ++replicate) {
-          plan.push_back({solid, particles, set.parameters, replicate, manifest.seed, identity, set.options,
-                          manifest.measures, manifest.measuring});
-        }
-      }
-    }
-  }
-  return plan;
+Plan::Plan(const Manifest& manifest)
+    : manifest_(manifest),
+      digest_(digest(manifest)),
+      sets_(option_sets(manifest)),
+      points_(manifest.solids.size() * manifest.particles.size() * sets_.size()) {
+  for (std::size_t point = 0; point < points_; ++point) point_of_prefix_[prefix(at(point, 0))] = point;
 }
 
-std::string replicate_name(const ReplicateSpec& spec) {
-  const auto hash = spec.parameters.empty() ? std::string() : fmt::format("-{}", hex_hash(point_text(spec)));
-  return fmt::format("{}-N{}{}-r{:04}", to_string(spec.solid), spec.particles, hash, spec.replicate);
+ReplicateSpec Plan::at(std::size_t point, int replicate) const {
+  assert(point < points_ && replicate >= 0 && replicate < replicates());
+  const auto& set = sets_[point % sets_.size()];
+  const auto size = point / sets_.size();
+  return {manifest_.solids[size / manifest_.particles.size()],
+          manifest_.particles[size % manifest_.particles.size()],
+          set.parameters,
+          replicate,
+          manifest_.seed,
+          digest_,
+          set.options,
+          manifest_.measures,
+          manifest_.measuring};
 }
+
+ReplicateSpec Plan::operator[](std::size_t index) const {
+  const auto each = static_cast<std::size_t>(replicates());
+  return at(index / each, static_cast<int>(index % each));
+}
+
+std::optional<Plan::Place> Plan::place_of(std::string_view name) const {
+  const auto split = name.rfind("-r");
+  if (split == std::string_view::npos) return std::nullopt;
+  const auto point = point_of_prefix_.find(name.substr(0, split));
+  const auto digits = name.substr(split + 2);
+  int replicate = -1;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), replicate);
+  if (point == point_of_prefix_.end() || error != std::errc() || replicate < 0 || replicate >= replicates())
+    return std::nullopt;
+  // Only the one way of writing a number is a name.
+  if (replicate_name(at(point->second, replicate)) != name) return std::nullopt;
+  return Place{point->second, replicate};
+}
+
+std::string replicate_name(const ReplicateSpec& spec) { return fmt::format("{}-r{:04}", prefix(spec), spec.replicate); }
 
 RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose) {
   return RandomStream{spec.seed, hash_of(point_text(spec)), static_cast<std::uint64_t>(spec.replicate),

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +32,32 @@ struct ReplicateSpec {
 std::string point_text(SolidKind solid, int particles, const Json& parameters);
 std::string point_text(const ReplicateSpec& spec);
 
-/// Every replicate in canonical order: solid, particles, parameters, replicate.
-std::vector<ReplicateSpec> make_plan(const Manifest& manifest);
+/// Every replicate that a manifest can ask for, in canonical order: sweep point (solid, particles, parameters), then
+/// replicate. A recipe: a specification is made when it is asked for, so that a plan of any length costs nothing.
+class Plan {
+ public:
+  explicit Plan(const Manifest& manifest);
+
+  std::size_t points() const { return points_; }
+  int replicates() const { return manifest_.replicates.max; }  ///< of a point, at most
+  std::size_t size() const { return points_ * static_cast<std::size_t>(replicates()); }
+
+  ReplicateSpec at(std::size_t point, int replicate) const;
+  ReplicateSpec operator[](std::size_t index) const;
+  struct Place {
+    std::size_t point;
+    int replicate;
+  };
+  /// Where the replicate of that name stands; nullopt if the plan has none.
+  std::optional<Place> place_of(std::string_view name) const;
+
+ private:
+  Manifest manifest_;
+  std::string digest_;
+  std::vector<OptionSet> sets_;
+  std::size_t points_;
+  std::map<std::string, std::size_t, std::less<>> point_of_prefix_;  ///< by what its replicates' names have in common
+};
 
 /// A safe file name without extension: <solid>-N<particles>[-<hash of the point>]-r<replicate>.
 std::string replicate_name(const ReplicateSpec& spec);

@@ -76,27 +76,6 @@ Json jamming_record(const JamResult& jam) {
   return json;
 }
 
-Json provenance(const ReplicateSpec& spec) {
-  Json json;
-  json["version"] = version();
-  json["git"] = git_hash();
-  json["compiler"] = compiler();
-  json["manifest_digest"] = spec.manifest_digest;
-  json["seed"] = spec.seed;
-  return json;
-}
-
-Json pair_record(const PairCounts& counts) {
-  Json json;
-  json["listed"] = counts.listed;
-  json["out_of_reach"] = counts.out_of_reach;
-  json["by_axis"] = counts.by_axis;
-  json["overlapped"] = counts.overlapped;
-  json["clipped"] = counts.clipped;
-  json["touching"] = counts.touching;
-  return json;
-}
-
 std::optional<double> number_or_null(const JsonPlace& place) {
   if (place.value().is_null()) return std::nullopt;
   return place.number({-1e300, 1e300});
@@ -139,7 +118,40 @@ void read_states(const JsonPlace& states, RecordSummary& summary) {
             [](const StateValues& a, const StateValues& b) { return a.delta_phi < b.delta_phi; });
 }
 
+/// Of a record that has neither checksum nor digest yet.
+std::string result_digest(const Json& record) {
+  auto result = record;
+  result.erase("timing");
+  result.erase("provenance");
+  return hex_hash(result.dump());
+}
+
 }  // namespace
+
+Json provenance(const ReplicateSpec& spec) {
+  Json json;
+  json["version"] = version();
+  json["git"] = git_hash();
+  json["compiler"] = compiler();
+  json["manifest_digest"] = spec.manifest_digest;
+  json["seed"] = spec.seed;
+  return json;
+}
+
+Json to_json(const Timing& timing) {
+  return {{"wall_seconds", timing.wall_seconds}, {"cpu_seconds", timing.cpu_seconds}};
+}
+
+Json to_json(const PairCounts& counts) {
+  Json json;
+  json["listed"] = counts.listed;
+  json["out_of_reach"] = counts.out_of_reach;
+  json["by_axis"] = counts.by_axis;
+  json["overlapped"] = counts.overlapped;
+  json["clipped"] = counts.clipped;
+  json["touching"] = counts.touching;
+  return json;
+}
 
 Json make_record(const Outcome& outcome) {
   assert(!outcome.interrupted);
@@ -154,9 +166,9 @@ Json make_record(const Outcome& outcome) {
   } else {
     json["flags"] = flags_of(outcome);
   }
-  json["timing"] = {{"wall_seconds", outcome.timing.wall_seconds}, {"cpu_seconds", outcome.timing.cpu_seconds}};
+  json["timing"] = to_json(outcome.timing);
   json["evaluations"] = jam.evaluations;
-  json["pairs"] = pair_record(jam.counts);
+  json["pairs"] = to_json(jam.counts);
   if (!outcome.failure) {
     json["phi_j"] = jamming_record(jam);
     json["nearest"] = state_record(outcome, *nearest_state(jam));
@@ -166,6 +178,7 @@ Json make_record(const Outcome& outcome) {
   for (std::size_t i = 0; i < jam.states.size(); ++i) json["states"].push_back(state_record(outcome, i));
   json["path"] = Json::array();
   for (const auto& step : jam.path) json["path"].push_back(step_record(step, jam));
+  json["result_digest"] = result_digest(json);
   return json;
 }
 
@@ -175,6 +188,21 @@ Json make_packing(const Outcome& outcome) {
   json["schema"] = packing_schema;
   json["manifest_digest"] = outcome.spec.manifest_digest;
   json.update(to_json(outcome.jam.states[*nearest_state(outcome.jam)]));
+  return json;
+}
+
+Json make_path(const Outcome& outcome) {
+  assert(!outcome.failure && !outcome.interrupted);
+  Json json;
+  json["schema"] = path_schema;
+  json["manifest_digest"] = outcome.spec.manifest_digest;
+  json["states"] = Json::array();
+  for (const auto& packing : outcome.jam.states) {
+    Json state;
+    put_distance(state, packing.density(), outcome.jam);
+    state.update(to_json(packing));
+    json["states"].push_back(std::move(state));
+  }
   return json;
 }
 
@@ -202,9 +230,8 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
     read_states(root.at("states"), summary);
     summary.flagged = root.at("flags").expect_list("a list of flags") > 0;
   }
-  summary.result = record;
-  summary.result.erase("timing");
-  summary.result.erase("provenance");
+  summary.result_digest = root.at("result_digest").text();
+  summary.cpu_seconds = root.at("timing").at("cpu_seconds").number({0, 1e12});
   return summary;
 }
 

@@ -12,16 +12,23 @@
 
 namespace isojam {
 
-inline constexpr std::string_view record_schema = "isojam.replicate.v1";
-inline constexpr std::string_view packing_schema = "isojam.packing.v1";
+inline constexpr std::string_view record_schema = "isojam.replicate.v2";
+inline constexpr std::string_view path_schema = "isojam.path.v1";
+inline constexpr std::string_view packing_schema = "isojam.packing.v2";
 
 /// The record of an outcome that was not interrupted. Only `timing` may differ between two runs of the same replicate
 /// by the same build.
 Json make_record(const Outcome& outcome);
 
-/// The state nearest jamming of an outcome without failure: cell side, positions, quaternions (w, x, y, z), and the low
-/// parts of both (see Pose), without which it would not be an equilibrium to more than 1e-8 or so.
+/// The state nearest jamming of an outcome without failure.
 Json make_packing(const Outcome& outcome);
+/// Every state of the expansion, in order, each with its Δφ.
+Json make_path(const Outcome& outcome);
+
+/// Parts of records and checkpoints alike.
+Json provenance(const ReplicateSpec& spec);
+Json to_json(const Timing& timing);
+Json to_json(const PairCounts& counts);
 
 /// Of each column: nullopt where it was not measured, or not decided.
 using Values = std::array<std::optional<double>, all_columns.size()>;
@@ -40,8 +47,9 @@ struct RecordSummary {
   Json parameters;
   int replicate = 0;
   std::string manifest_digest;
-  Json settings;  ///< protocol, minimiser and measure
-  Json result;    ///< all but timing and provenance: equal for two runs of the same replicate
+  Json settings;              ///< protocol, minimiser and measure
+  std::string result_digest;  ///< of all but timing and provenance: equal for two runs of the same replicate
+  double cpu_seconds = 0;
   bool failed = false, flagged = false;
   Values values;                    ///< of the replicate, and of its state nearest jamming
   std::vector<StateValues> states;  ///< above jamming, in order of Δφ

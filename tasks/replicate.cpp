@@ -10,13 +10,15 @@
 namespace isojam {
 namespace {
 
-Packing place(const ReplicateSpec& spec) {
+Checkpoint begin(const ReplicateSpec& spec) {
   auto random = replicate_stream(spec, Purpose::placement);
-  return random_packing(platonic(spec.solid), spec.particles, spec.options.initial_density, random);
+  return {begin_jam(random_packing(platonic(spec.solid), spec.particles, spec.options.initial_density, random),
+                    spec.options),
+          {}};
 }
 
-JamResult run_jam(const ReplicateSpec& spec, Packing start, std::stop_token stop, const OnStep& on_step) {
-  JamResult result = jam(std::move(start), spec.options, stop, on_step);
+JamResult run_jam(const ReplicateSpec& spec, JamProgress from, std::stop_token stop, const OnProgress& on_progress) {
+  JamResult result = jam(std::move(from), spec.options, stop, on_progress);
   // Modes and moduli mean something at minima only.
   const auto asked = [&](Measure what) { return std::count(spec.measures.begin(), spec.measures.end(), what) > 0; };
   if (result.status != JamStatus::interrupted && (asked(Measure::modes) || asked(Measure::moduli)))
@@ -27,7 +29,7 @@ JamResult run_jam(const ReplicateSpec& spec, Packing start, std::stop_token stop
 }  // namespace
 
 Stages engine_stages() {
-  return {place, run_jam, [](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
+  return {begin, run_jam, [](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
             return measure(what, jam, spec.measuring);
           }};
 }

@@ -16,7 +16,7 @@ namespace isojam {
 
 /// Where and why a replicate failed.
 struct Failure {
-  std::string where;  ///< place, jam, or a measurement
+  std::string where;  ///< begin, jam, or a measurement
   std::string why;
 };
 
@@ -35,12 +35,17 @@ struct Outcome {
   Timing timing;
 };
 
-using OnStep = std::function<void(const JamStep&)>;
+/// What a replicate can go on from: where its run stands, and what that has cost.
+struct Checkpoint {
+  JamProgress progress;
+  Timing spent;
+};
 
 /// The stages of a replicate. Values in, values out; the functions may be called from several threads at once.
 struct Stages {
-  std::function<Packing(const ReplicateSpec&)> place;
-  std::function<JamResult(const ReplicateSpec&, Packing, std::stop_token, const OnStep&)> jam;
+  /// Where the run begins: with particles placed at random, or farther on.
+  std::function<Checkpoint(const ReplicateSpec&)> begin;
+  std::function<JamResult(const ReplicateSpec&, JamProgress, std::stop_token, const OnProgress&)> jam;
   std::function<Measurement(const ReplicateSpec&, Measure, const JamResult&)> measure;
 };
 

@@ -34,7 +34,7 @@ std::string sealed(const Json& document) {
   return text;
 }
 
-Json parse_sealed(std::string_view text, const std::string& file) {
+void check_seal(std::string_view text, const std::string& file) {
   const auto at = digits_in(text);
   if (at == std::string_view::npos)
     throw InputError({file, "/checksum", "the file has no checksum", "a file as isojam wrote it, whole", ""});
@@ -43,6 +43,10 @@ Json parse_sealed(std::string_view text, const std::string& file) {
   if (hex_hash(blanked) != text.substr(at, blank.size()))
     throw InputError({file, "/checksum", "the file is damaged: its content has another checksum",
                       "a file as isojam wrote it, whole", ""});
+}
+
+Json parse_sealed(std::string_view text, const std::string& file) {
+  check_seal(text, file);
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {

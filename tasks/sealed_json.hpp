@@ -9,6 +9,9 @@ namespace isojam {
 /// 2^64.
 std::string sealed(const Json& document);
 
+/// Throws InputError if the text is not what was sealed. Does not look at the document.
+void check_seal(std::string_view text, const std::string& file);
+
 /// The document of a sealed text, "checksum" included. Throws InputError if the text is not what was sealed.
 Json parse_sealed(std::string_view text, const std::string& file);
 

@@ -36,7 +36,26 @@ Interval bootstrap(std::span<const double> values, std::uint64_t key) {
   return {percentile(means, 0.025), percentile(means, 0.975)};
 }
 
+/// Standard deviation of the sample; two values or more.
+double sd_of(std::span<const double> values, double mean) {
+  double squares = 0;
+  for (const double x : values) squares += (x - mean) * (x - mean);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+/// Half width of the 95 % interval of a mean.
+double half_width_at(double sd, std::size_t n) {
+  const auto count = static_cast<double>(n);
+  return boost::math::quantile(boost::math::students_t(count - 1), 0.975) * sd / std::sqrt(count);
+}
+
 }  // namespace
+
+std::optional<double> student_half_width(std::vector<double> values) {
+  if (values.size() < 2) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  return half_width_at(sd_of(values, mean_of(values)), values.size());
+}
 
 Estimate estimate(std::vector<double> values, std::uint64_t key) {
   Estimate result;
@@ -47,14 +66,11 @@ Estimate estimate(std::vector<double> values, std::uint64_t key) {
   result.mean = mean;
   if (result.n == 1) return result;
 
-  double squares = 0;
-  for (const double x : values) squares += (x - mean) * (x - mean);
-  result.sd = std::sqrt(squares / (result.n - 1));
-  const double t = boost::math::quantile(boost::math::students_t(result.n - 1), 0.975);
-  const double half = t * *result.sd / std::sqrt(result.n);
+  result.sd = sd_of(values, mean);
+  const double half = half_width_at(*result.sd, values.size());
   result.half_width = half;
   result.ci95 = Interval{mean - half, mean + half};
-  result.bootstrap95 = bootstrap(values, key);
+  if (result.n <= most_bootstrapped) result.bootstrap95 = bootstrap(values, key);
   return result;
 }
 

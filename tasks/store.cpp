@@ -3,30 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <system_error>
 
 #include "tasks/atomic_file.hpp"
+#include "tasks/checkpoint.hpp"
 #include "tasks/input_error.hpp"
+#include "tasks/sealed_json.hpp"
 
 namespace isojam {
 namespace fs = std::filesystem;
 namespace {
-
-/// Names of results in a directory, ordered; temporaries of a writer that was killed begin with a dot.
-std::vector<fs::path> json_files(const fs::path& directory) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory, error)) {
-    const auto name = entry.path().filename().string();
-    if (name.front() != '.' && entry.path().extension() == ".json") files.push_back(entry.path());
-  }
-  if (error && error != std::errc::no_such_file_or_directory) {
-    throw FileError(fmt::format("{}: cannot be listed: {}", directory.string(), error.message()));
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 [[noreturn]] void refuse_other(const std::string& file, std::string pointer, const std::string& theirs,
                                const std::string& ours) {
@@ -34,92 +20,143 @@ std::vector<fs::path> json_files(const fs::path& directory) {
                     fmt::format("results of this manifest (digest {}): choose another directory with -o", ours), ""});
 }
 
-/// Number of replicates of the manifest that the directory already belongs to; 0 if it belongs to none.
-int check_manifest(const fs::path& path, const std::string& ours) {
+/// The manifest that the directory belongs to already.
+std::optional<Manifest> manifest_in(const fs::path& path, const std::string& ours) {
   std::error_code error;
-  if (!fs::exists(path, error)) return 0;
+  if (!fs::exists(path, error)) return std::nullopt;
   const auto theirs = read_manifest(path.string());
   if (digest(theirs) != ours) refuse_other(path.string(), "", digest(theirs), ours);
-  return theirs.replicates;
+  return theirs;
 }
 
-void check_records(const fs::path& directory, const std::string& ours, const std::set<std::string>& planned) {
-  for (const auto& path : json_files(directory)) {
-    std::string theirs;
-    try {
-      theirs = summarise_record(read_json(path.string()), path.string()).manifest_digest;
-    } catch (const InputError&) {
-      if (!planned.contains(path.stem().string())) throw;
-      continue;  // holds() reports it, and the run writes it anew
-    }
-    if (theirs != ours) refuse_other(path.string(), "/provenance/manifest_digest", theirs, ours);
+void check_unplanned(const fs::path& folder, const Manifest& manifest, const std::string& ours) {
+  const auto names = names_in(folder);
+  if (names.empty()) return;
+  const Plan plan(manifest);
+  for (const auto& name : names) {
+    if (plan.place_of(name)) continue;
+    const auto path = (folder / (name + ".json")).string();
+    const auto theirs = summarise_record(read_sealed(path), path).manifest_digest;
+    if (theirs != ours) refuse_other(path, "/provenance/manifest_digest", theirs, ours);
   }
 }
 
-void make_directory(const fs::path& directory) {
+void make_folder(const fs::path& folder) {
   std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw FileError(fmt::format("{}: cannot be created: {}", directory.string(), error.message()));
+  fs::create_directories(folder, error);
+  if (error) throw FileError(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
 }
+
+/// Within a results directory.
+void make_own_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_symlink(fs::symlink_status(folder, error)))
+    throw FileError(
+        fmt::format("{}: is a symbolic link; results are written to folders of the directory itself", folder.string()));
+  make_folder(folder);
+  remove_stale_temporaries(folder);
+}
+
+/// A plan only grows: records beyond a smaller number of replicates are kept and counted.
+Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
+  if (before) manifest.replicates.max = std::max(manifest.replicates.max, before->replicates.max);
+  if (before && !manifest.replicates.goal) manifest.replicates.min = manifest.replicates.max;
+  return manifest;
+}
+
+void check_seal_of(const fs::path& path) { check_seal(read_text(path.string()), path.string()); }
 
 }  // namespace
 
-Store::Store(fs::path directory, const Manifest& manifest) : directory_(std::move(directory)) {
-  const auto ours = digest(manifest);
-  std::set<std::string> planned;
-  for (const auto& spec : make_plan(manifest)) planned.insert(replicate_name(spec));
+Store::Store(fs::path directory, const Manifest& manifest)
+    : directory_(std::move(directory)), digest_(digest(manifest)), keep_path_(manifest.keep_path) {
   const auto manifest_path = directory_ / "manifest.json";
-  const int planned_before = check_manifest(manifest_path, ours);
-  check_records(directory_ / "records", ours, planned);
+  const auto before = manifest_in(manifest_path, digest_);
+  check_unplanned(directory_ / "records", manifest, digest_);
 
-  make_directory(directory_ / "records");
-  make_directory(directory_ / "packings");
-  // A plan only grows: records beyond a smaller number of replicates are kept and counted.
-  if (manifest.replicates > planned_before) write_atomically(manifest_path, pretty(to_json(manifest)));
+  make_folder(directory_);
+  for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
+  if (keep_path_) make_own_folder(directory_ / "paths");
+  check_writable(directory_ / "records");
+  const auto text = pretty(to_json(grown(manifest, before)));
+  if (!before || text != pretty(to_json(*before))) write_atomically(manifest_path, text);
 }
 
-fs::path Store::record_path(const ReplicateSpec& spec) const {
-  return directory_ / "records" / (replicate_name(spec) + ".json");
+fs::path Store::file(const char* folder, const ReplicateSpec& spec) const {
+  return directory_ / folder / (replicate_name(spec) + ".json");
 }
 
-fs::path Store::packing_path(const ReplicateSpec& spec) const {
-  return directory_ / "packings" / (replicate_name(spec) + ".json");
-}
-
-bool Store::holds(const ReplicateSpec& spec, const Warn& warn) const {
+std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec, const Warn& warn) const {
   const auto path = record_path(spec);
   std::error_code error;
-  if (!fs::exists(path, error)) return false;
+  if (!fs::exists(path, error)) return std::nullopt;
+  std::optional<RecordSummary> summary;
   try {
-    const auto record = read_json(path.string());
-    const auto summary = summarise_record(record, path.string());
-    if (record.at("spec") != to_json(spec)) {
-      warn(fmt::format("{}: /spec: is not the replicate that the name says; it is redone", path.string()));
-      return false;
-    }
-    if (summary.failed) return true;
-    read_json(packing_path(spec).string());
-    return true;
+    const auto record = read_sealed(path.string());
+    summary = summarise_record(record, path.string());
+    if (record.at("spec") != to_json(spec))
+      throw InputError({path.string(), "/spec", "is not the replicate that the name says", "", ""});
+    if (!summary->failed) check_seal_of(packing_path(spec));
+    if (!summary->failed && keep_path_) check_seal_of(path_path(spec));
   } catch (const std::runtime_error& damage) {
     warn(fmt::format("{}; the replicate is redone", damage.what()));
-    return false;
+    return std::nullopt;
+  }
+  if (summary->manifest_digest != digest_)
+    refuse_other(path.string(), "/provenance/manifest_digest", summary->manifest_digest, digest_);
+  return summary;
+}
+
+std::optional<Checkpoint> Store::checkpoint(const ReplicateSpec& spec, const Warn& warn) const {
+  const auto path = checkpoint_path(spec);
+  std::error_code error;
+  if (!fs::exists(path, error)) return std::nullopt;
+  try {
+    const auto document = read_sealed(path.string());
+    return read_checkpoint({document, path.string()}, spec);
+  } catch (const std::runtime_error& damage) {
+    warn(fmt::format("{}; the replicate starts anew", damage.what()));
+    return std::nullopt;
   }
 }
 
+void Store::write_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) const {
+  // Not synchronised: what a power failure cuts short is noticed, and costs this replicate only.
+  if (const auto document = make_checkpoint(spec, checkpoint))
+    write_atomically(checkpoint_path(spec), sealed(*document), Durability::lossless);
+}
+
 void Store::write(const Outcome& outcome) const {
-  if (!outcome.failure) write_atomically(packing_path(outcome.spec), pretty(make_packing(outcome)));
-  write_atomically(record_path(outcome.spec), pretty(make_record(outcome)));
+  if (!outcome.failure) write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome)));
+  if (!outcome.failure && keep_path_) write_atomically(path_path(outcome.spec), sealed(make_path(outcome)));
+  write_atomically(record_path(outcome.spec), sealed(make_record(outcome)));
+  // One that stays is of no consequence: the record comes first.
+  std::error_code ignored;
+  fs::remove(checkpoint_path(outcome.spec), ignored);
 }
 
 void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), pretty(tables)); }
 
-std::vector<RecordSummary> read_records(const fs::path& directory) {
-  std::vector<RecordSummary> summaries;
-  for (const auto& path : json_files(directory / "records")) {
-    summaries.push_back(summarise_record(read_json(path.string()), path.string()));
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto name = entry.path().filename().string();
+    if (name.front() != '.' && entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   }
-  if (summaries.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
-  return summaries;
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw FileError(fmt::format("{}: cannot be listed: {}", folder.string(), error.message()));
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void for_each_record(const fs::path& directory, const std::function<void(const RecordSummary&)>& use) {
+  const auto names = names_in(directory / "records");
+  if (names.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
+  for (const auto& name : names) {
+    const auto path = (directory / "records" / (name + ".json")).string();
+    use(summarise_record(read_sealed(path), path));
+  }
 }
 
 }  // namespace isojam

@@ -179,6 +179,26 @@ std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
   return lines;
 }
 
+/// How far the rows came towards the goal; the head alone if they had none.
+std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
+  std::vector<Cells> lines{{"solid", symbol("N", "N", format)}};
+  for (const auto& name : parameters) lines[0].push_back(spelt(name, format));
+  lines[0].insert(lines[0].end(), {"quantity", "half width", "aim", "replicates needed", "met"});
+  for (const auto& row : table.rows) {
+    if (!row.goal) continue;
+    const auto& goal = *row.goal;
+    Cells cells{std::string(to_string(row.solid)), std::to_string(row.particles)};
+    for (const auto& name : parameters) cells.push_back(spelt(parameter_text(row, name), format));
+    cells.push_back(spelt(goal.goal.quantity, format));
+    cells.push_back(goal.half_width ? fmt::format("{:.3g}", *goal.half_width) : "-");
+    cells.push_back(fmt::format("{:.3g}", goal.goal.half_width));
+    cells.push_back(goal.needed ? std::to_string(*goal.needed) : "more");
+    cells.emplace_back(goal.met ? "yes" : "no");
+    lines.push_back(std::move(cells));
+  }
+  return lines;
+}
+
 /// The tables of all groups: head first, then lines.
 std::vector<std::pair<std::string_view, std::vector<Cells>>> laid_out(const Table& table, View view, Format format) {
   const auto parameters = parameter_names(table);
@@ -188,6 +208,8 @@ std::vector<std::pair<std::string_view, std::vector<Cells>>> laid_out(const Tabl
     std::vector<Cells> cells{head_of(group, parameters, view, format)};
     for (const Line& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
     tables.emplace_back(group.name, std::move(cells));
+    const auto goals = goal_lines(table, parameters, format);
+    if (group.name == main_group && view == View::nearest && goals.size() > 1) tables.emplace_back("goal", goals);
     if (group.name == contact_group && view == View::nearest)
       tables.emplace_back("critical angles, degrees", critical_angle_lines(table, format));
   }

@@ -52,6 +52,16 @@ Json to_json(const SeriesPoint& point, bool with_unflagged) {
   return json;
 }
 
+Json to_json(const GoalOutcome& outcome) {
+  Json json;
+  json["quantity"] = outcome.goal.quantity;
+  json["aim"] = outcome.goal.half_width;
+  json["reached"] = outcome.half_width ? Json(*outcome.half_width) : Json(nullptr);
+  json["met"] = outcome.met;
+  json["needed"] = outcome.needed ? Json(*outcome.needed) : Json(nullptr);
+  return json;
+}
+
 /// Degrees.
 Json critical_angle_record(SolidKind solid) {
   const auto angles = critical_angles(platonic(solid));
@@ -79,6 +89,7 @@ Json to_json(const Table& table) {
     entry["replicates"] = row.replicates;
     entry["failed"] = row.failed;
     entry["flagged"] = row.flagged;
+    if (row.goal) entry["goal"] = to_json(*row.goal);
     put_estimates(entry, row.estimates);
     if (row.flagged > 0) put_estimates(entry["unflagged"], row.unflagged);
     entry["critical_angles"] = critical_angle_record(row.solid);

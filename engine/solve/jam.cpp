@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -17,44 +18,48 @@ double distance_to_jamming(const JamStep& step) {
 /// How often an expansion step that failed is tried again at half its length.
 constexpr int max_halvings = 4;
 
-class JamRun {
+/// One strain step of a run.
+class StrainStep {
  public:
-  JamRun(Packing start, const JamOptions& options, std::stop_token stop,
-         const std::function<void(const JamStep&)>& on_step)
-      : packing_(std::move(start)), options_(options), stop_(std::move(stop)), on_step_(on_step) {}
+  StrainStep(JamProgress& progress, const JamOptions& options, std::stop_token stop)
+      : progress_(progress), result_(progress.result), options_(options), stop_(std::move(stop)) {}
 
-  JamResult run() {
-    if (consolidate()) expand();
-    result_.evaluations = energy_.evaluations();
-    result_.counts = energy_.counts();
-    fit();
-    return std::move(result_);
+  void run() {
+    if (stop_.stop_requested()) {
+      result_.status = JamStatus::interrupted;
+    } else if (progress_.stage == JamStage::consolidation) {
+      consolidate();
+    } else {
+      expand();
+    }
+    result_.evaluations += energy_.evaluations();
+    result_.counts += energy_.counts();
+    if (progress_.ended()) result_.phi_j = fit_jamming_point(energy_points(result_), options_.fit_window);
   }
 
  private:
   /// Minimises `packing` and appends the step to the path.
-  const JamStep& relax(Packing& packing, JamStage stage) {
+  const JamStep& relax(Packing& packing) {
     MinimiseOptions options = options_.minimise;
-    if (stage == JamStage::consolidation) {
+    if (progress_.stage == JamStage::consolidation) {
       options.residual = std::max(options.residual, options_.passing_residual);
       options.unjammed_energy = std::max(options.unjammed_energy, options_.passing_energy);
       options.max_evaluations = options_.passing_evaluations;
       options.method = Method::lbfgs;
     }
     JamStep step;
-    step.stage = stage;
+    step.stage = progress_.stage;
     step.summary = minimise(packing, energy_, options, stop_);
     step.density = packing.density();
     const Evaluation value = energy_.evaluate(packing, step.summary.precision);
     step.energy_per_particle = value.energy / packing.size();
     step.pressure = value.pressure;
     result_.path.push_back(step);
-    if (on_step_) on_step_(step);
     return result_.path.back();
   }
 
   /// True if the run must end here; sets the status.
-  bool ended(const JamStep& step) {
+  bool must_end(const JamStep& step) {
     if (step.summary.reason == StopReason::interrupted || stop_.stop_requested()) {
       result_.status = JamStatus::interrupted;
     } else if (step.summary.reason == StopReason::not_finite) {
@@ -75,78 +80,69 @@ class JamRun {
 
   /// The strain step that keeps the unrelaxed energy below the target, at most `consolidation_step`.
   double gentle_step() {
+    const Packing& packing = progress_.packing;
     double step = options_.consolidation_step;
     const double least = step / 64;
     while (step > least) {
-      const Packing strained = strained_to(packing_, packing_.density() + step);
-      if (energy_.evaluate(strained).energy <= options_.target_energy * packing_.size()) break;
+      const Packing strained = strained_to(packing, packing.density() + step);
+      if (energy_.evaluate(strained).energy <= options_.target_energy * packing.size()) break;
       step /= 2;
     }
     return step;
   }
 
-  /// Strains up to the target energy. False if the run ended on the way.
-  bool consolidate() {
-    const JamStep* step = &relax(packing_, JamStage::consolidation);
-    while (!ended(*step)) {
-      if (consolidated(*step)) return true;
+  /// Strains up, towards the target energy; the first step only minimises.
+  void consolidate() {
+    Packing& packing = progress_.packing;
+    if (!result_.path.empty()) {
       const double strain = options_.target_before_relaxation ? gentle_step() : options_.consolidation_step;
-      if (packing_.density() + strain > options_.max_density) {
+      if (packing.density() + strain > options_.max_density) {
         result_.status = JamStatus::density_limit;
-        return false;
+        return;
       }
-      packing_ = strained_to(packing_, packing_.density() + strain);
-      step = &relax(packing_, JamStage::consolidation);
+      packing = strained_to(packing, packing.density() + strain);
     }
-    return false;
+    const JamStep& step = relax(packing);
+    if (!must_end(step) && consolidated(step)) progress_.stage = JamStage::expansion;
   }
 
-  void keep(const Packing& packing) {
-    result_.states.push_back(packing);
-    result_.state_steps.push_back(static_cast<int>(result_.path.size()) - 1);
-  }
-
-  double expansion_step(double distance, double approach) const {
+  double expansion_step(double distance) const {
     // Nearer than asked for costs more than it tells.
     const double last = distance - 0.95 * options_.final_distance;
-    return std::min({options_.longest_step, approach * distance, last});
+    return std::min({options_.longest_step, progress_.approach * distance, last});
   }
 
-  /// Strains down towards φ_J from equilibrium to equilibrium.
+  /// Strains down towards φ_J from the last equilibrium; the first step only minimises.
   void expand() {
-    const JamStep* step = &relax(packing_, JamStage::expansion);
-    if (ended(*step)) return;
-    result_.status = JamStatus::not_jammed;
-    if (!is_equilibrium(step->summary)) return;
-    keep(packing_);
-    double distance = distance_to_jamming(*step), approach = options_.approach;
-    int halvings = 0;
-    while (distance > options_.final_distance) {
-      Packing next = strained_to(packing_, packing_.density() - expansion_step(distance, approach));
-      step = &relax(next, JamStage::expansion);
-      if (ended(*step)) return;
-      if (!is_equilibrium(step->summary)) {
-        if (++halvings > max_halvings) break;
-        approach /= 2;
-        continue;
-      }
-      packing_ = std::move(next);
-      distance = distance_to_jamming(*step);
-      approach = std::min(options_.approach, 1.5 * approach);
-      keep(packing_);
+    Packing next = progress_.packing;
+    const bool first = result_.states.empty();
+    if (!first) {
+      const double distance = distance_to_jamming(result_.path[static_cast<std::size_t>(result_.state_steps.back())]);
+      next = strained_to(next, next.density() - expansion_step(distance));
     }
-    const bool reached = distance <= options_.final_distance;
-    if (result_.states.size() >= 2) result_.status = reached ? JamStatus::jammed : JamStatus::short_of_goal;
+    const JamStep& step = relax(next);
+    if (must_end(step)) return;
+    if (!is_equilibrium(step.summary)) return failed(first);
+    if (!first) progress_.approach = std::min(options_.approach, 1.5 * progress_.approach);
+    progress_.packing = std::move(next);
+    result_.states.push_back(progress_.packing);
+    result_.state_steps.push_back(static_cast<int>(result_.path.size()) - 1);
+    if (distance_to_jamming(step) <= options_.final_distance) end_expansion(JamStatus::jammed);
   }
 
-  void fit() { result_.phi_j = fit_jamming_point(energy_points(result_), options_.fit_window); }
+  /// An expansion step led to no equilibrium.
+  void failed(bool first) {
+    if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::short_of_goal);
+    progress_.approach /= 2;
+  }
 
-  Packing packing_;
+  void end_expansion(JamStatus status) { result_.status = result_.states.size() >= 2 ? status : JamStatus::not_jammed; }
+
+  JamProgress& progress_;
+  JamResult& result_;
   const JamOptions& options_;
   std::stop_token stop_;
-  const std::function<void(const JamStep&)>& on_step_;
-  PackingEnergy energy_;
-  JamResult result_;
+  PackingEnergy energy_;  // of this step alone: its counts must not depend on what an earlier one left in its caches
 };
 
 }  // namespace
@@ -168,9 +164,25 @@ std::vector<EnergyPoint> energy_points(const JamResult& result) {
   return points;
 }
 
-JamResult jam(Packing start, const JamOptions& options, std::stop_token stop,
-              const std::function<void(const JamStep&)>& on_step) {
-  return JamRun(std::move(start), options, std::move(stop), on_step).run();
+JamProgress begin_jam(Packing start, const JamOptions& options) {
+  return {std::move(start), JamStage::consolidation, options.approach, 0, {}};
+}
+
+void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop) {
+  assert(!progress.ended());
+  StrainStep(progress, options, std::move(stop)).run();
+}
+
+JamResult jam(JamProgress from, const JamOptions& options, std::stop_token stop, const OnProgress& on_progress) {
+  while (!from.ended()) {
+    advance(from, options, stop);
+    if (on_progress && from.result.status != JamStatus::interrupted) on_progress(from);
+  }
+  return std::move(from.result);
+}
+
+JamResult jam(Packing start, const JamOptions& options, std::stop_token stop, const OnProgress& on_progress) {
+  return jam(begin_jam(std::move(start), options), options, std::move(stop), on_progress);
 }
 
 }  // namespace isojam

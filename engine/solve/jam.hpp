@@ -78,8 +78,31 @@ struct JamResult {
 /// What fit_jamming_point() is given: the energies of the states.
 std::vector<EnergyPoint> energy_points(const JamResult& result);
 
-/// Runs the protocol from `start`. `on_step` is called after every minimised step.
-JamResult jam(Packing start, const JamOptions& options, std::stop_token stop = {},
-              const std::function<void(const JamStep&)>& on_step = {});
+/// A run between two strain steps: a value. Whoever goes on from it, in this process or another, gets the same bits as
+/// the run that never stopped.
+struct JamProgress {
+  Packing packing;  ///< minimised, where the next strain step starts; as placed before the first
+  JamStage stage = JamStage::consolidation;  ///< of the next step
+  double approach = 0;  ///< fraction of the distance that the next expansion step goes, see JamOptions::approach
+  int halvings = 0;     ///< expansion steps that failed
+  JamResult result;     ///< so far; not_called while steps remain
+
+  bool ended() const { return result.status != JamStatus::not_called; }
+};
+
+JamProgress begin_jam(Packing start, const JamOptions& options);
+
+/// The next strain step of a run that has not ended, minimised and appended to the path, its state kept if it is an
+/// equilibrium of the expansion. After a stop request the run ends as interrupted, with the step in whatever state it
+/// was: to go on, start from the progress before it.
+void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop = {});
+
+/// Called after every step that was not interrupted.
+using OnProgress = std::function<void(const JamProgress&)>;
+
+/// Runs the protocol to its end, from the beginning or from where it stood.
+JamResult jam(JamProgress from, const JamOptions& options, std::stop_token stop = {},
+              const OnProgress& on_progress = {});
+JamResult jam(Packing start, const JamOptions& options, std::stop_token stop = {}, const OnProgress& on_progress = {});
 
 }  // namespace isojam

@@ -2,29 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <system_error>
 
 #include "tasks/input_error.hpp"
 #include "tasks/packing_json.hpp"
 #include "tasks/sealed_json.hpp"
+#include "tasks/store.hpp"
 
 namespace isojam {
 namespace fs = std::filesystem;
 namespace {
-
-/// Records, ordered by name; temporaries of a writer that was killed begin with a dot.
-std::vector<fs::path> record_files(const fs::path& directory) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory / "records", error)) {
-    const auto& path = entry.path();
-    if (path.filename().string().front() != '.' && path.extension() == ".json") files.push_back(path);
-  }
-  if (files.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 /// A report is made of records; a manifest that was edited or lost since only costs it the sweep's name.
 Json lenient_manifest(const fs::path& path) {
@@ -41,11 +28,14 @@ Json lenient_manifest(const fs::path& path) {
 
 Results read_results(const fs::path& directory) {
   Results results;
-  for (const auto& path : record_files(directory)) {
+  const auto folder = directory / "records";
+  for (const auto& name : names_in(folder)) {
+    const auto path = folder / (name + ".json");
     auto record = read_sealed(path.string());
     auto summary = summarise_record(record, path.string());
-    results.replicates.push_back({path.stem().string(), std::move(record), std::move(summary)});
+    results.replicates.push_back({name, std::move(record), std::move(summary)});
   }
+  if (results.replicates.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
   results.manifest = lenient_manifest(directory / "manifest.json");
   return results;
 }

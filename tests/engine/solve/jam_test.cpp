@@ -107,8 +107,8 @@ void expect_jamming_point(const JamResult& result, const JamOptions& options) {
 TEST_P(Jam, EndsAtTheEdgeOfJamming) {
   const JamOptions options = lax();
   std::vector<JamStep> reported;
-  const JamResult result =
-      jam(start_of(GetParam(), 74, options), options, {}, [&](const JamStep& step) { reported.push_back(step); });
+  const JamResult result = jam(start_of(GetParam(), 74, options), options, {},
+                               [&](const JamProgress& progress) { reported.push_back(progress.result.path.back()); });
   std::printf("%s after %zu steps, %zu states, %ld evaluations, φ_J %.4f ± %.4f, single state %.4f, exponent %.2f\n",
               to_string(result.status).data(), result.path.size(), result.states.size(), result.evaluations,
               result.phi_j ? result.phi_j->density : 0, result.phi_j ? result.phi_j->standard_error : 0,
@@ -161,15 +161,36 @@ TEST(JamTest, StopsWhenAskedTo) {
   for (const std::size_t wanted_states : {0U, 2U}) {
     std::stop_source source;
     std::size_t expansion_steps = 0, steps = 0;
-    const JamResult result = jam(start_of(small, 71, options), options, source.get_token(), [&](const JamStep& step) {
-      ++steps;
-      expansion_steps += step.stage == JamStage::expansion;
-      if (wanted_states == 0 ? steps == 3 : expansion_steps == wanted_states + 1) source.request_stop();
-    });
+    const JamResult result =
+        jam(start_of(small, 71, options), options, source.get_token(), [&](const JamProgress& progress) {
+          ++steps;
+          expansion_steps += progress.result.path.back().stage == JamStage::expansion;
+          if (wanted_states == 0 ? steps == 3 : expansion_steps == wanted_states) source.request_stop();
+        });
     EXPECT_EQ(result.status, JamStatus::interrupted) << to_string(result.status);
     EXPECT_EQ(result.path.size(), steps) << "went on after the stop";
     EXPECT_EQ(result.states.size(), wanted_states);
     EXPECT_EQ(result.phi_j.has_value(), wanted_states >= 2);
+  }
+}
+
+TEST(JamTest, GoesOnFromAnyStepWithTheSameBits) {
+  const JamOptions options = lax();
+  std::vector<JamProgress> along;
+  const JamResult whole =
+      jam(start_of(small, 71, options), options, {}, [&](const JamProgress& progress) { along.push_back(progress); });
+  ASSERT_EQ(along.size(), whole.path.size());
+  for (const std::size_t k : {std::size_t{0}, along.size() / 2, along.size() - 4, along.size() - 2, along.size() - 1}) {
+    const JamResult rest = jam(along[k], options);
+    EXPECT_EQ(rest.status, whole.status) << k;
+    EXPECT_EQ(rest.evaluations, whole.evaluations) << k;
+    EXPECT_EQ(rest.counts.listed, whole.counts.listed) << k;
+    EXPECT_EQ(rest.counts.clipped, whole.counts.clipped) << k;
+    EXPECT_EQ(rest.counts.by_axis, whole.counts.by_axis) << k;
+    ASSERT_EQ(rest.states.size(), whole.states.size()) << k;
+    for (std::size_t s = 0; s < rest.states.size(); ++s)
+      EXPECT_TRUE(same_bits(rest.states[s], whole.states[s])) << k << ", state " << s;
+    EXPECT_EQ(rest.phi_j->density, whole.phi_j->density) << k;
   }
 }
 
@@ -181,7 +202,7 @@ TEST(JamTest, StopsBeforeItBegins) {
   dense.initial_density = 0.75;
   const JamResult result = jam(start_of(small, 71, dense), dense, source.get_token());
   EXPECT_EQ(result.status, JamStatus::interrupted);
-  EXPECT_EQ(result.path.size(), 1U);
+  EXPECT_TRUE(result.path.empty());
   EXPECT_TRUE(result.states.empty());
   EXPECT_FALSE(result.phi_j);
 }

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "tasks/commands.hpp"
+#include "tasks/plan.hpp"
+
+namespace isojam {
+
+/// Prints every sweep point with its replicates, those recorded already, and what is left to do in CPU time, disk and
+/// memory; the times are scaled by those of the records that are there. Writes nothing.
+ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory, const RunCommand& command);
+
+}  // namespace isojam

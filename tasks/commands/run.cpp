@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tasks/campaign.hpp"
+#include "tasks/commands.hpp"
+#include "tasks/commands/dry_run.hpp"
+#include "tasks/commands/shared.hpp"
+#include "tasks/graph.hpp"
+#include "tasks/input_error.hpp"
+#include "tasks/interrupt.hpp"
+#include "tasks/tables.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr double gibibyte = 1024.0 * 1024 * 1024;
+
+/// What came of one round.
+struct Tally {
+  std::size_t given = 0, stored = 0;
+  int failed = 0;
+};
+
+double work_of(const ReplicateSpec& spec) { return estimated_cost(spec, false).cpu_seconds; }
+
+void report(const Outcome& outcome, Console& console) {
+  const auto name = replicate_name(outcome.spec);
+  console.finished(work_of(outcome.spec), outcome.failure.has_value());
+  if (outcome.failure) {
+    console.warn(fmt::format("{} failed in {}: {}", name, outcome.failure->where, outcome.failure->why));
+  } else {
+    console.detail(fmt::format("{}: phi_j {:.6f}, {} evaluations, {}", name, outcome.jam.phi_j->density,
+                               outcome.jam.evaluations, duration_text(outcome.timing.wall_seconds)));
+  }
+  console.tick(name);
+}
+
+/// The engine's, but replicates go on where a checkpoint says they stood.
+Stages resuming_stages(const Store& store, const Store::Warn& warn) {
+  auto stages = engine_stages();
+  stages.begin = [&store, warn, begin = stages.begin](const ReplicateSpec& spec) {
+    auto checkpoint = store.checkpoint(spec, warn);
+    return checkpoint ? std::move(*checkpoint) : begin(spec);
+  };
+  return stages;
+}
+
+Tally run_round(Campaign& campaign, const Store& store, const Stages& stages, GraphOptions options, Console& console) {
+  const auto size = campaign.round_size();
+  console.begin(static_cast<int>(size.replicates - size.recorded), size.work);
+  Tally tally;
+  options.on_step = [&](const ReplicateSpec& spec, const Checkpoint& checkpoint) {
+    store.write_checkpoint(spec, checkpoint);
+    console.tick(step_text(spec, checkpoint.progress));
+  };
+  const NextReplicate next = [&] {
+    auto spec = campaign.next();
+    tally.given += spec.has_value();
+    return spec;
+  };
+  run_graph(next, stages, options, [&](const Outcome& outcome) {
+    if (outcome.interrupted) return;
+    store.write(outcome);
+    ++tally.stored;
+    tally.failed += outcome.failure.has_value();
+    report(outcome, console);
+  });
+  console.end();
+  return tally;
+}
+
+/// Rounds until nothing is left or a stop is requested.
+ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions& options, Console& console) {
+  const Store::Warn warn = [&](const std::string& message) { console.warn(message); };
+  const auto stages = resuming_stages(store, warn);
+  int failed = 0;
+  for (int round = 0; campaign.open_round(); ++round) {
+    if (round > 0)
+      console.info(fmt::format("not known well enough yet: {} more replicates", campaign.round_size().replicates));
+    const auto tally = run_round(campaign, store, stages, options, console);
+    failed += tally.failed;
+    if (options.stop.stop_requested()) {
+      console.warn("interrupted; what was recorded is kept, and the same command continues");
+      return ExitCode::interrupted;
+    }
+  }
+  return failed + campaign.failed() > 0 ? ExitCode::some_failed : ExitCode::done;
+}
+
+ExitCode finish(const Store& store, const Shard& shard, ExitCode code, Console& console) {
+  const auto directory = store.directory().string();
+  if (!shard.whole()) {
+    console.info(fmt::format("shard {}/{} is done; when all are: isojam aggregate {} -o {}", shard.index + 1,
+                             shard.count, directory, store.tables_path().string()));
+    return code;
+  }
+  const auto table = table_of({directory});
+  store.write_tables(to_json(table));
+  print(to_text(table));
+  const bool failed = std::any_of(table.rows.begin(), table.rows.end(), [](const Row& row) { return row.failed > 0; });
+  return failed ? ExitCode::some_failed : code;
+}
+
+}  // namespace
+
+ExitCode run(const RunCommand& command, Console& console) {
+  const InterruptWatcher watcher;
+  const auto manifest = read_manifest(command.manifest);
+  const Plan plan(manifest);
+  const auto directory = command.directory.empty() ? "results/" + manifest.name : command.directory;
+  if (command.dry_run) return dry_run(manifest, plan, directory, command);
+
+  const Store store(directory, manifest);
+  Campaign campaign(plan, manifest.replicates, command.shard, store,
+                    [&](const std::string& message) { console.warn(message); });
+  const int threads = command.threads > 0 ? command.threads : default_threads();
+  const double memory = command.memory_gib > 0 ? command.memory_gib * gibibyte : available_memory();
+  GraphOptions options{threads, replicates_in_flight(threads, campaign.largest_memory(), memory), watcher.token(), {}};
+  console.info(fmt::format("{}: {}{} replicates{}, {} recorded already, results in {}", manifest.name,
+                           manifest.replicates.goal ? "up to " : "", plan.size(),
+                           command.shard.whole() ? ""
+                                                 : fmt::format(" in shards, of which this is {}/{}",
+                                                               command.shard.index + 1, command.shard.count),
+                           names_in(store.directory() / "records").size(), directory));
+  try {
+    const auto code = run_campaign(campaign, store, options, console);
+    return code == ExitCode::interrupted ? code : finish(store, command.shard, code, console);
+  } catch (const FileError& error) {
+    console.end();
+    console.error(fmt::format("{}; what was recorded is kept, and the same command continues", error.what()));
+    return ExitCode::some_failed;
+  }
+}
+
+}  // namespace isojam

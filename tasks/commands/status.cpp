@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tasks/commands.hpp"
+#include "tasks/commands/shared.hpp"
+#include "tasks/cost.hpp"
+#include "tasks/survey.hpp"
+
+namespace isojam {
+namespace {
+
+/// A step may take minutes; what has not moved for longer is probably not being worked on.
+constexpr double patience_seconds = 600;
+
+struct Totals {
+  int recorded = 0, failed = 0, flagged = 0;
+  double cpu_left = 0;
+};
+
+Totals totals_of(const Survey& survey, const Plan& plan) {
+  Totals totals;
+  for (std::size_t point = 0; point < plan.points(); ++point) {
+    const auto& held = survey.points[point];
+    totals.recorded += held.recorded;
+    totals.failed += held.failed;
+    totals.flagged += held.flagged;
+    totals.cpu_left += std::max(0, plan.replicates() - held.recorded) *
+                       estimated_cost(plan.at(point, 0), false).cpu_seconds * survey.calibration;
+  }
+  for (const auto& replicate : survey.under_way) totals.cpu_left -= replicate.cpu_seconds;
+  totals.cpu_left = std::max(0.0, totals.cpu_left);
+  return totals;
+}
+
+std::string time_left(const Survey& survey, const Totals& totals, bool has_goal) {
+  const auto moving = std::count_if(survey.under_way.begin(), survey.under_way.end(), [](const UnderWay& replicate) {
+    return replicate.seconds_since_step < patience_seconds;
+  });
+  const auto* at_most = has_goal ? "at most " : "";
+  if (totals.cpu_left == 0) return "";
+  if (moving == 0)
+    return fmt::format("nothing under way moves; {}about {} of CPU time left\n", at_most,
+                       duration_text(totals.cpu_left));
+  return fmt::format("{}about {} left at {} replicates at a time\n", at_most,
+                     duration_text(totals.cpu_left / static_cast<double>(moving)), moving);
+}
+
+}  // namespace
+
+ExitCode status(const StatusCommand& command) {
+  const auto manifest = read_manifest((std::filesystem::path(command.directory) / "manifest.json").string());
+  const Plan plan(manifest);
+  const auto survey = survey_of(command.directory, plan);
+  const auto totals = totals_of(survey, plan);
+  auto text = fmt::format("{}: {} of {}{} replicates recorded, {} failed, {} flagged, {} under way\n", manifest.name,
+                          totals.recorded, manifest.replicates.goal ? "up to " : "", plan.size(), totals.failed,
+                          totals.flagged, survey.under_way.size());
+  if (survey.unplanned > 0) text += fmt::format("{} records beyond the plan\n", survey.unplanned);
+  for (const auto& replicate : survey.under_way) {
+    text += fmt::format("  {}: {}, density {:.4f}, {} steps, {} of CPU, last step {} ago\n", replicate.name,
+                        replicate.stage, replicate.density, replicate.steps, duration_text(replicate.cpu_seconds),
+                        duration_text(replicate.seconds_since_step));
+  }
+  for (const auto& line : survey.damaged) text += fmt::format("  damaged: {}\n", line);
+  print(text + time_left(survey, totals, manifest.replicates.goal.has_value()));
+  return ExitCode::done;
+}
+
+}  // namespace isojam
