@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "engine/analysis/clusters.hpp"
 #include "engine/analysis/orientation_order.hpp"
 #include "engine/packing/energy.hpp"
 #include "engine/vibration/modes.hpp"
@@ -56,27 +55,6 @@ void put_contacts(Json& json, std::span<const Contact> contacts, int particles) 
     json["local_Q6"].push_back(order ? Json(shortened(*order, mode_unit)) : Json(nullptr));
 }
 
-/// Members of the largest cluster, centred on the cell and followed along bonds.
-Json unwrapped(const Packing& packing, const Cluster& cluster) {
-  const double side = packing.cell.side();
-  std::vector<Eigen::Vector3d> positions;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < cluster.members.size(); ++k) {
-    const auto& pose = packing.poses[static_cast<std::size_t>(cluster.members[k])];
-    positions.push_back(pose.position + side * cluster.images[k].cast<double>());
-    centre += positions.back() / cluster.size();
-  }
-  Json json;
-  json["members"] = cluster.members;
-  json["winding_rank"] = cluster.winding_rank();
-  json["positions"] = Json::array();
-  for (const auto& x : positions) {
-    const Eigen::Vector3d centred = x - centre + Eigen::Vector3d::Constant(side / 2);
-    json["positions"].push_back(shortened_list(centred, length_unit));
-  }
-  return json;
-}
-
 void put_clusters(Json& json, const Packing& packing, const ClassifiedContacts& classified) {
   json["clusters"] = json["largest"] = nullptr;
   if (const auto why = undecided(classified.analysis)) {
@@ -87,7 +65,7 @@ void put_clusters(Json& json, const Packing& packing, const ClassifiedContacts& 
   json["clusters"] = cluster_labels(clusters, packing.size());
   const auto largest = std::max_element(clusters.begin(), clusters.end(),
                                         [](const Cluster& a, const Cluster& b) { return a.size() < b.size(); });
-  if (largest->size() > 1) json["largest"] = unwrapped(packing, *largest);
+  if (largest->size() > 1) json["largest"] = unwrapped_cluster(packing, *largest);
 }
 
 /// Coordinates (x, R·θ) become (x, θ), the greatest entry 1.
@@ -164,6 +142,26 @@ Json packing_view(const Packing& packing, int modes) {
   put_contacts(json, classified.contacts, packing.size());
   put_clusters(json, packing, classified);
   json["modes"] = mode_list(packing, energy, modes);
+  return json;
+}
+
+Json unwrapped_cluster(const Packing& packing, const Cluster& cluster) {
+  const double side = packing.cell.side();
+  std::vector<Eigen::Vector3d> positions;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < cluster.members.size(); ++k) {
+    const auto& pose = packing.poses[static_cast<std::size_t>(cluster.members[k])];
+    positions.push_back(pose.position + side * cluster.images[k].cast<double>());
+    centre += positions.back() / cluster.size();
+  }
+  Json json;
+  json["members"] = cluster.members;
+  json["winding_rank"] = cluster.winding_rank();
+  json["positions"] = Json::array();
+  for (const auto& x : positions) {
+    const Eigen::Vector3d centred = x - centre + Eigen::Vector3d::Constant(side / 2);
+    json["positions"].push_back(shortened_list(centred, length_unit));
+  }
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/analysis/clusters.hpp"
 #include "engine/packing/packing.hpp"
 #include "tasks/report/results.hpp"
 
@@ -30,6 +31,10 @@ std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& 
 /// either end (0: none), each with ω (null where λ ≤ 0) and its displacements, per particle (x, θ) in the lab frame,
 /// the greatest 1. Absent: null.
 Json packing_view(const Packing& packing, int modes);
+
+/// {"members", "positions", "winding_rank"} of a cluster followed along its bonds, its mean position the centre of the
+/// cell.
+Json unwrapped_cluster(const Packing& packing, const Cluster& cluster);
 
 /// Vertices, faces and edges of a solid, body frame.
 Json solid_shape(const ConvexSolid& solid);

@@ -1,11 +1,13 @@
 // Facts proved here:
 // - the data stands in the page as JSON that reads back equal, whatever texts it holds, and no text of it is markup;
-// - the same results give the same bytes, and the command writes the file asked for and nothing else;
+// - the same results give the same bytes, and the command writes the file asked for and nothing else, and nothing at
+// all
+//   if a file is damaged;
 // - the extrapolation runs from φ_J through the states that gave it;
 // - the paper's φ_J stands beside its solid and N and beside no other;
 // - thinned CDFs are exact wherever they have a point, and end at 1;
 // - views: an unflagged replicate of every sweep point, further ones within the budget, never a failed one;
-// - a view's contacts, cell, largest cluster and modes are those of the packing;
+// - a view's contacts, cell and modes are those of the packing; clusters hang together through the boundary;
 // - sweeps in which replicates failed, or all did, have a report.
 
 #include <gtest/gtest.h>
@@ -21,11 +23,10 @@
 #include "engine/packing/energy.hpp"
 #include "engine/vibration/modes.hpp"
 #include "support.hpp"
-#include "tasks/input_error.hpp"
 #include "tasks/report/angle_curves.hpp"
 #include "tasks/report/gather.hpp"
 #include "tasks/report/page.hpp"
-#include "tasks/report/report_command.hpp"
+#include "tasks/store.hpp"
 
 namespace isojam {
 namespace {
@@ -35,7 +36,10 @@ std::vector<ReplicateSpec> plan(int replicates = 4) {
   manifest["sweep"]["solid"] = {"octahedron", "tetrahedron"};
   manifest["sweep"]["particles"] = {100, 200};
   manifest["replicates"] = replicates;
-  return make_plan(parse_manifest(manifest.dump(), "m"));
+  const Plan all(parse_manifest(manifest.dump(), "m"));
+  std::vector<ReplicateSpec> specs;
+  for (std::size_t k = 0; k < all.size(); ++k) specs.push_back(all[k]);
+  return specs;
 }
 
 RecordedReplicate recorded(const Outcome& outcome) {
@@ -230,25 +234,75 @@ TEST(ReportViews, ModesAreThoseOfTheHessian) {
   }
 }
 
-TEST(ReportViews, TheLargestClusterHangsTogetherInSpace) {
-  // Cubes in a row through the boundary, faces pressed together, and one apart from them.
-  const auto& cube = platonic(SolidKind::cube);
-  Packing packing{&cube, PeriodicCell(6), {}};
+TEST(ReportViews, ClustersHangTogetherInSpace) {
+  // Cubes in a row through the boundary, and one apart from them.
+  Packing packing{&platonic(SolidKind::cube), PeriodicCell(6), {}};
   for (const double x : {4.6, 5.58, 0.56, 1.54}) packing.poses.push_back({.position = {x, 3, 3}});
   packing.poses.push_back({.position = {3, 0.5, 0.5}});
-  const auto bonds = [&] {
-    PackingEnergy energy;
-    return energy.contacts(packing).size();
-  }();
-  ASSERT_EQ(bonds, 3U);
-  const auto view = packing_view(packing, 0);
-  EXPECT_EQ(view["modes"].size(), 0U);
-  if (view["clusters"].is_null()) GTEST_SKIP() << view["clusters_reason"];
-  ASSERT_EQ(view["largest"]["members"].size(), 4U);
-  std::vector<double> x;
-  for (const auto& position : view["largest"]["positions"]) x.push_back(position[0].get<double>());
-  std::sort(x.begin(), x.end());
-  for (std::size_t k = 1; k < x.size(); ++k) EXPECT_NEAR(x[k] - x[k - 1], 0.98, 2e-5);
+  PackingEnergy energy;
+  std::vector<NeighbourPair> bonds;
+  for (const auto& contact : energy.contacts(packing)) bonds.push_back(contact.pair);
+  ASSERT_EQ(bonds.size(), 3U);
+  const auto shown = unwrapped_cluster(packing, find_clusters(packing, bonds).front());
+  EXPECT_EQ(shown["members"], Json({0, 1, 2, 3}));
+  const auto at = [&](std::size_t k, std::size_t c) { return shown["positions"][k][c].get<double>(); };
+  double mean = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    mean += at(k, 0) / 4;
+    if (k > 0) {
+      EXPECT_NEAR(at(k, 0) - at(k - 1, 0), 0.98, 2e-5) << k;
+    }
+    EXPECT_NEAR(at(k, 1), 3, 1e-5);
+  }
+  EXPECT_NEAR(mean, 3, 1e-5);
+}
+
+class ReportCommandTest : public ::testing::Test {
+ protected:
+  /// Made-up results on disk, as a run would leave them.
+  void write_results() {
+    auto json = test::good_manifest();
+    json["replicates"] = 2;
+    const auto manifest = parse_manifest(json.dump(), "m");
+    const Store store(directory_ / "results", manifest);
+    const Plan all(manifest);
+    for (std::size_t k = 0; k < all.size(); ++k) store.write(test::made_up_outcome(all[k]));
+  }
+
+  test::TemporaryDirectory directory_;
+};
+
+TEST_F(ReportCommandTest, WritesTheSameBytesToTheFileAskedForAndNothingElse) {
+  write_results();
+  const auto before = test::files_below(directory_.path());
+  for (const std::string name : {"a.html", "b.html"}) {
+    const auto run = test::isojam({"report", "results", "-o", name}, directory_.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, name + "\n");
+    EXPECT_EQ(run.err, "");
+  }
+  auto after = test::files_below(directory_.path());
+  EXPECT_EQ(after["a.html"], after["b.html"]);
+  EXPECT_EQ(after["a.html"].rfind("<!doctype html>", 0), 0U);
+  after.erase("a.html");
+  after.erase("b.html");
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(test::isojam({"report", "results"}, directory_.path()).out, "results/report.html\n");
+}
+
+TEST_F(ReportCommandTest, RefusesWhatIsNotThereOrDamaged) {
+  EXPECT_EQ(test::isojam({"report", "."}, directory_.path()).exit_code, 2);
+  write_results();
+  for (const auto* folder : {"packings", "records"}) {
+    const auto path = std::filesystem::directory_iterator(directory_ / "results" / folder)->path();
+    auto text = read_text(path.string());
+    text[text.size() / 2] ^= 1;
+    test::write_text(path, text);
+    const auto run = test::isojam({"report", "results", "-o", "a.html"}, directory_.path());
+    EXPECT_EQ(run.exit_code, 65) << folder << ": " << run.err;
+    EXPECT_NE(run.err.find(path.filename().string()), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "a.html")) << folder;
+  }
 }
 
 }  // namespace

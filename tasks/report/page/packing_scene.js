@@ -96,6 +96,9 @@ function orbitCamera(canvas, moved) {
   };
 }
 
+/// Ends of edges that a processor alone can draw at some ten frames a second.
+const slowOutlines = 12000;
+
 const keyTurns = {
   ArrowLeft: [-0.09, 0, 1], ArrowRight: [0.09, 0, 1], ArrowUp: [0, -0.09, 1], ArrowDown: [0, 0.09, 1],
   '+': [0, 0, 0.9], '=': [0, 0, 0.9], '-': [0, 0, 1.11],
@@ -107,8 +110,9 @@ function packingScene(canvas, antialias) {
   const renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: true, preserveDrawingBuffer: true});
   renderer.setPixelRatio(antialias ? Math.min(devicePixelRatio, 2) : 1);
   const scene = new THREE.Scene();
-  let waiting = false, objects = null, mesh = null, box = null, side = 1, frames = 0;
-  const orbit = orbitCamera(canvas, () => draw());
+  let waiting = false, objects = null, mesh = null, box = null, side = 1, frames = 0, resting = 0;
+  let sparing = false;
+  const orbit = orbitCamera(canvas, () => move());
   const draw = () => {
     if (waiting) return;
     waiting = true;
@@ -118,6 +122,15 @@ function packingScene(canvas, antialias) {
       frames += 1;
       canvas.dataset.frames = frames;
     });
+  };
+  // Where outlines would cost most of a frame they are left out until the motion ends.
+  const move = () => {
+    if (sparing) {
+      objects.outline.visible = false;
+      clearTimeout(resting);
+      resting = setTimeout(() => { objects.outline.visible = true; draw(); }, 200);
+    }
+    draw();
   };
   scene.add(orbit.camera, new THREE.HemisphereLight(0xffffff, 0xb8b4a8, 0.55));
   new ResizeObserver(() => {
@@ -144,13 +157,14 @@ function packingScene(canvas, antialias) {
       [mesh, side] = [solidMesh(shape), cellSide];
       [objects, box] = [particleObjects(mesh, particles.length), cellOutline(side)];
       scene.add(objects.solid, objects.outline, box);
+      sparing = !antialias && (mesh.edges.length / 3) * particles.length > slowOutlines;
       fill(objects, mesh, particles);
       if (!keepCamera) orbit.reset(side);
       draw();
     },
     update(particles) {
       fill(objects, mesh, particles);
-      draw();
+      move();
     },
   };
 }
