@@ -60,7 +60,8 @@ class Browser:
         self.driver.set_script_timeout(seconds + 5)
         done = self.driver.execute_async_script(f"""
             const done = arguments[arguments.length - 1], until = performance.now() + {seconds * 1000};
-            const look = () => (({script}) ? done(true) : performance.now() > until ? done(false) : setTimeout(look, 20));
+            const late = () => performance.now() > until;
+            const look = () => (({script}) ? done(true) : late() ? done(false) : setTimeout(look, 20));
             look();""")
         assert done, f"waited {seconds} s in vain for {what}"
 

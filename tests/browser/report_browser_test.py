@@ -153,7 +153,7 @@ class Report(unittest.TestCase):
     # ---- Table ------------------------------------------------------------------------------------------------
 
     def column(self, heading):
-        """Numbers of a column of the main table as they stand, without rows that repeat a sweep point."""
+        """Numbers of a column of the main table as they stand, one for each sweep point, None for a dash."""
         return self.browser.run("""
             const table = document.querySelector('#table table');
             const names = [...table.tHead.rows[0].cells].map((cell) => cell.textContent);
@@ -162,7 +162,8 @@ class Report(unittest.TestCase):
 
     def test_the_table_sorts_both_ways_by_click_and_by_keyboard(self):
         self.open(self.pages.report(self.swept()))
-        names = self.browser.run("return [...document.querySelectorAll('#table th[scope=col]')].map((c) => c.textContent)")
+        names = self.browser.run("""
+            return [...document.querySelectorAll('#table th[scope=col]')].map((cell) => cell.textContent)""")
         self.assertIn("consolidation_step", names)
         for press in (lambda control: control.click(), lambda control: control.send_keys(Keys.ENTER)):
             for place, name in enumerate(names):
@@ -173,8 +174,10 @@ class Report(unittest.TestCase):
                     press(control)
                     heading = control.find_element(By.XPATH, "..")
                     self.assertEqual(heading.get_attribute("aria-sort"), direction, name)
-                    numbers = [sign * number for number in self.column(name)]
+                    shown = self.column(name)
+                    numbers = [sign * number for number in shown if number is not None]
                     self.assertEqual(numbers, sorted(numbers), f"{name}, {direction}")
+                    self.assertEqual(shown[len(numbers):].count(None), shown.count(None), f"{name}: dashes stand last")
 
     def swept(self):
         """Results of which both sizes and a parameter were swept; made once."""
@@ -213,7 +216,8 @@ class Report(unittest.TestCase):
         canvas = self.view()
         seen = [self.browser.run(DRAWN)]
         self.assertGreater(seen[0]["drawn"], 0.1 * seen[0]["all"])
-        drag = ActionChains(self.browser.driver).move_to_element(canvas).click_and_hold().move_by_offset(120, 40).release()
+        drag = ActionChains(self.browser.driver).move_to_element(canvas).click_and_hold()
+        drag.move_by_offset(120, 40).release()
         seen.append(self.after(drag.perform))
         for key in (Keys.ARROW_LEFT, Keys.ARROW_UP, "+", Keys.HOME):
             seen.append(self.after(lambda pressed=key: canvas.send_keys(pressed)))

@@ -11,7 +11,8 @@ function element(name, options = {}, ...children) {
 
 /// Nodes of a text in which φ_J and V_p, a letter and a letter, have subscripts.
 function rich(text) {
-  return text.split(/(?<=(?:^|[^\p{L}_])\p{L})_(\p{L})(?![\p{L}_])/u).map((part, index) => (index % 2 === 1 ? element('sub', {}, part) : part));
+  const parts = text.split(/(?<=(?:^|[^\p{L}_])\p{L})_(\p{L})(?![\p{L}_])/u);
+  return parts.map((part, index) => (index % 2 === 1 ? element('sub', {}, part) : part));
 }
 
 /// A number for people: `digits` significant ones, an en dash where there is none.

@@ -88,8 +88,8 @@ function bandSpec({description, width, labels, datasets, x, marks, bandHeight, s
       {name: 'y', type: 'band', domain: labels, range: 'height'}, ...scales,
     ],
     axes: [
-      {scale: 'x', orient: 'bottom', grid: true, title: x.title, tickCount: narrow ? 4 : 8,
-        ...(x.type === 'log' ? logAxis(x.domain) : {})},
+      {scale: 'x', orient: 'bottom', grid: true, title: x.title,
+        ...(x.type === 'log' ? logAxis(x.domain) : {tickCount: narrow ? 4 : 8})},
       narrow ? {...axis, zindex: 1, labelAlign: 'left', labelPadding: -2, encode: {labels: {update: {
         y: {scale: 'y', field: 'value', band: 0}, baseline: {value: 'top'}}}}} : axis,
     ],

@@ -104,6 +104,18 @@ const keyTurns = {
   '+': [0, 0, 0.9], '=': [0, 0, 0.9], '-': [0, 0, 1.11],
 };
 
+/// Fits the view to the width of its frame, now and whenever that changes.
+function followWidth(canvas, renderer, camera, draw) {
+  new ResizeObserver(() => {
+    const width = canvas.parentElement.clientWidth, height = Math.round(Math.min(width * 0.62, 560));
+    renderer.setSize(width, height, false);
+    canvas.style.height = `${height}px`;
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    draw();
+  }).observe(canvas.parentElement);
+}
+
 /// A canvas with a scene that is drawn only when something changed. `show` takes a solid's shape, the cell's side and
 /// the particles ({at, orientation, colour}); `update` the same particles elsewhere.
 function packingScene(canvas, antialias) {
@@ -133,14 +145,7 @@ function packingScene(canvas, antialias) {
     draw();
   };
   scene.add(orbit.camera, new THREE.HemisphereLight(0xffffff, 0xb8b4a8, 0.55));
-  new ResizeObserver(() => {
-    const width = canvas.parentElement.clientWidth, height = Math.round(Math.min(width * 0.62, 560));
-    renderer.setSize(width, height, false);
-    canvas.style.height = `${height}px`;
-    orbit.camera.aspect = width / height;
-    orbit.camera.updateProjectionMatrix();
-    draw();
-  }).observe(canvas.parentElement);
+  followWidth(canvas, renderer, orbit.camera, draw);
   canvas.addEventListener('keydown', (event) => {
     if (event.key === 'Home') orbit.reset(side);
     else if (keyTurns[event.key]) orbit.turn(...keyTurns[event.key]);

@@ -176,7 +176,7 @@ function drawPackings(data, section) {
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches ?
     ' Animation is off, as this system asks for less motion; the slider displaces the particles.' : '';
   section.append(controls.bar, element('div', {className: 'stage'}, canvas), key, controls.modeBar, status,
-    element('p', {className: 'note'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view has ' +
+    element('p', {className: 'note help'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view has ' +
       'the focus, zoom; Home resets. The box is the periodic cell; particles are drawn whole, at the image whose ' +
       `centre lies in it.${still}`));
   connect(data, views, controls, packingScene(canvas, kind === 'hardware'), {key, status});

@@ -81,8 +81,8 @@ function panelGrid(width, panels, {least = 215, most = 4, left = 66, gap = 18} =
 
 function panelAxes({x, y}, {showX, showY}) {
   const axis = (orient, scale, {type, domain, title, format, ticks}, labelled) => ({
-    orient, scale, grid: true, tickCount: ticks ?? 5, ...(format ? {format} : {}),
-    ...(type === 'log' ? logAxis(domain) : {}),
+    orient, scale, grid: true, ...(format ? {format} : {}),
+    ...(type === 'log' ? logAxis(domain) : {tickCount: ticks ?? 5}),
     ...(labelled ? {title} : {labels: false, ticks: false}),
   });
   return [axis('bottom', 'x', x, showX), axis('left', 'y', y, showY)];
