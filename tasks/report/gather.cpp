@@ -53,8 +53,10 @@ void add_distinct(Json& list, const Json& value) {
 
 std::string label_of(const Json& row) {
   auto label = fmt::format("{}, N = {}", row.at("solid").get<std::string>(), row.at("particles").get<int>());
-  for (const auto& item : row.at("parameters").items())
-    label += fmt::format(", {} {}", item.key(), item.value().dump());
+  for (const auto& item : row.at("parameters").items()) {
+    const auto& value = item.value();
+    label += fmt::format(", {} {}", item.key(), value.is_string() ? value.get<std::string>() : value.dump());
+  }
   return label;
 }
 

@@ -102,11 +102,15 @@ class Report(unittest.TestCase):
                 const panels = [...chart.querySelectorAll('g.role-scope > g')]
                   .filter((panel) => panel.querySelector(':scope > g .role-axis'));
                 return {marks: chart.querySelectorAll('g.mark-symbol path, g.mark-line path, g.mark-rect path').length,
-                        panels: panels.map((panel) => panel.querySelectorAll(marks).length),
+                        panels: panels.map((panel) => {
+                          const places = [...panel.querySelectorAll(marks)].map((mark) => mark.getBoundingClientRect());
+                          return {count: places.length, apart: new Set(places.map(({x}) => Math.round(x))).size};
+                        }),
                         text: chart.innerHTML};""", name)
             self.assertGreater(found["marks"], 1, name)
             for panel in found["panels"]:
-                self.assertGreater(panel, 2, name)
+                self.assertGreater(panel["count"], 2, name)
+                self.assertGreater(panel["apart"], 2, f"{name}: marks beside each other")
             for wrong in ("NaN", "undefined", "Infinity"):
                 self.assertNotIn(wrong, found["text"], name)
 

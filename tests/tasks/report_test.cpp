@@ -86,6 +86,17 @@ TEST(ReportPage, DataReadsBackWhateverItHolds) {
     EXPECT_EQ(page.find(place), std::string::npos) << place;
 }
 
+TEST(ReportData, SurvivesAnyManifest) {
+  auto results = results_of(plan(1));
+  for (const auto* text :
+       {"null", "[]", "[1]", "\"name\"", "7", "{}", R"({"name": null})", R"({"name": {"a": [1]}})"}) {
+    results.manifest = Json::parse(text);
+    const auto data = report_data(results, {});
+    EXPECT_TRUE(data["manifest"]["name"].is_null() || data["manifest"]["name"] == R"({"a":[1]})") << text;
+    EXPECT_EQ(data["rows"].size(), 4U) << text;
+  }
+}
+
 TEST(ReportPage, KeepsTheNoticesOfItsLibraries) {
   const auto page = report_page(report_data(results_of(plan(1)), {}));
   for (const auto* text : {"University of Washington Interactive Data Lab", "three.js authors", "Mike Bostock"})
