@@ -12,7 +12,7 @@ PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-d
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
-                    libmpfr-dev voro++-dev chromium chromium-driver python3-selenium
+                    libmpfr-dev voro++-dev chromium chromium-driver fonts-dejavu-core python3-selenium
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
 
 # $(call install,packages): the network is touched only if one of them is missing.

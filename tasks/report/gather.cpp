@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/analysis/power_law.hpp"
 #include "engine/solve/straight_line.hpp"
@@ -98,11 +99,11 @@ Json extrapolation(const Json& record) {
     densities.push_back(state.at("phi").get<double>());
   }
   const auto phi_j = number_at(record, "/phi_j/phi_j");
-  if (phi_j.is_null() || std::count(roots.begin(), roots.end(), roots.empty() ? 0 : roots.front()) == std::ssize(roots))
-    return nullptr;
+  if (phi_j.is_null() || roots.empty()) return nullptr;
+  const auto [least, greatest] = std::minmax_element(roots.begin(), roots.end());
+  if (*least == *greatest) return nullptr;
   const auto line = fit_line(roots, densities);
-  const double end = *std::max_element(roots.begin(), roots.end());
-  return {{"from", {phi_j, 0}}, {"to", {line.intercept + line.slope * end, end}}};
+  return {{"from", {phi_j, 0}}, {"to", {line.intercept + line.slope * *greatest, *greatest}}};
 }
 
 /// Reasons for which minimisations stopped, counted, the expansion's apart from those on the way up.
@@ -178,7 +179,7 @@ Json pooled_angles(const Members& members) {
       replicates += more.empty() ? 0 : 1;
       angles.insert(angles.end(), more.begin(), more.end());
       const auto cutoff = number_at(state, "/" + kind + "_fit/cutoff");
-      if (!cutoff.is_null()) cutoffs.push_back(cutoff.get<double>() * 180 / std::acos(-1.0));
+      if (!cutoff.is_null()) cutoffs.push_back(cutoff.get<double>() * 180 / std::numbers::pi);
     }
     if (angles.empty()) return nullptr;
     std::sort(cutoffs.begin(), cutoffs.end());

@@ -10,9 +10,9 @@
 namespace isojam {
 
 struct ViewOptions {
-  /// Particles of all views together, beyond the one view of each sweep point: some 300 bytes and half a millisecond
-  /// each, modes included.
-  int budget = 3000;
+  /// Particles of all views with modes together, a quarter to one millisecond and some 300 bytes each. The one view of
+  /// every sweep point is made even beyond it, without modes.
+  int budget = 2000;
   int modes = 4;  ///< vibrations at either end of the spectrum
 };
 

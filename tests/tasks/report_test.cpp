@@ -118,7 +118,9 @@ TEST(ReportData, ExtrapolatesFromPhiJThroughItsStates) {
 }
 
 TEST(ReportData, PutsThePaperBesideItsOwnSystems) {
-  for (const auto& row : report_data(results_of(plan(1)), {})["rows"]) {
+  const auto data = report_data(results_of(plan(1)), {});
+  ASSERT_EQ(data["rows"].size(), 4U);
+  for (const auto& row : data["rows"]) {
     const auto expected = row["particles"] == 200 ? Json(nullptr) : Json(row["solid"] == "octahedron" ? .6796 : .629);
     EXPECT_EQ(row["paper"].is_null() ? row["paper"] : row["paper"]["phi_j"], expected) << row["label"];
   }

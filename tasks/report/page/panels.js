@@ -27,9 +27,9 @@ const chartConfig = {
 const superscripts = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
 const powerText = (power) => `10${[...String(power)].map((digit) => superscripts[digit]).join('')}`;
 
-/// About five round numbers, evenly spaced.
+/// Four to eight round numbers, evenly spaced.
 function evenTicks([low, high]) {
-  const rough = (high - low) / 5;
+  const rough = (high - low) / 8;
   const decade = 10 ** Math.floor(Math.log10(rough));
   const step = decade * [1, 2, 5, 10].find((digit) => digit * decade >= rough);
   const ticks = [];
@@ -93,7 +93,7 @@ function panel({title, width, height, x, y, data = [], marks, showX = true, show
   const scale = (name, range, {type = 'linear', domain}) => ({name, type, domain, range, zero: false, clamp: false});
   return {
     type: 'group',
-    title: {text: title, limit: width},
+    title: {text: title, limit: width, frame: 'group'},
     encode: {enter: {width: {value: width}, height: {value: height}}},
     signals: [{name: 'width', value: width}, {name: 'height', value: height}],
     scales: [scale('x', [0, width], x), scale('y', [height, 0], y)],
