@@ -16,9 +16,9 @@ namespace isojam {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr int samples = 60, bins_per_decade = 60;
-/// Random curves are straight lines in the logarithms below this.
-constexpr double least_sampled = 0.01 * degree;
+constexpr int samples = 80, bins_per_decade = 60;
+/// Where charts begin; the random curves are straight lines in the logarithms there.
+constexpr double least_sampled = 0.001 * degree;
 
 /// Digits beyond what a chart shows cost a reader's time and disk.
 double shortened(double x) {
