@@ -5,14 +5,18 @@ BUILD ?= build
 JOBS ?= $(shell nproc)
 OPTIONS ?=
 EXAMPLE ?= examples/01-four-solids
+# Where `isojam run` puts the results of the example: named as its manifest says.
+RESULTS  = $(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.json)
 
 # ---- Packages, one list per need ----------------------------------------------------------------------------
 PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev \
-                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev
+                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
                     libmpfr-dev voro++-dev python3-gsd python3-vtk9
+# Where there is no browser its tests say that they are skipped; everything else is tested.
+BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
 
 # $(call install,packages): the network is touched only if one of them is missing.
@@ -51,9 +55,15 @@ build:
 
 run: build
 	$(BUILD)/isojam run $(EXAMPLE)/manifest.json
+	@$(BUILD)/isojam report results/$(RESULTS)
+
+.PHONY: browser
+browser:
+	$(call install,$(BROWSER_PACKAGES))
 
 test:
 	$(call install,$(TEST_PACKAGES))
+	@$(MAKE) --no-print-directory browser || echo 'NO BROWSER COULD BE INSTALLED: the report is not tested in one' >&2
 	$(CONFIGURE) -DISOJAM_TESTS=ON
 	cmake --build $(BUILD) -j $(JOBS)
 	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout 300

@@ -6,6 +6,7 @@
 #include "tasks/commands.hpp"
 #include "tasks/export/export_command.hpp"
 #include "tasks/input_error.hpp"
+#include "tasks/report/report_command.hpp"
 #include "tasks/version.hpp"
 
 namespace isojam {
@@ -24,6 +25,7 @@ struct Arguments {
   StatusCommand status;
   RerunCommand rerun;
   ExportCommand exporting;
+  ReportCommand report;
 };
 
 /// An option that takes one of a few names.
@@ -118,12 +120,19 @@ void add_export(CLI::App& app, ExportCommand& command) {
   exporting->add_flag("--path", command.path, "Every state of the expansion (of manifests with keep_path)");
 }
 
+void add_report(CLI::App& app, ReportCommand& command) {
+  auto* report = app.add_subcommand("report", "Write a results directory as one interactive HTML file");
+  report->add_option("directory", command.directory, "Results directory")->required()->type_name("DIR");
+  report->add_option("-o,--output", command.output, "File to write (default: DIR/report.html)")->type_name("FILE");
+}
+
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments, Console& console) {
   if (app.got_subcommand("run")) return run(arguments.run, console);
   if (app.got_subcommand("status")) return status(arguments.status);
   if (app.got_subcommand("rerun")) return rerun(arguments.rerun, console);
   if (app.got_subcommand("validate")) return validate(arguments.validate);
   if (app.got_subcommand("export")) return export_packings(arguments.exporting, console);
+  if (app.got_subcommand("report")) return report(arguments.report);
   return aggregate_directories(arguments.aggregate);
 }
 
@@ -141,6 +150,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   add_status(app, arguments.status);
   add_rerun(app, arguments.rerun);
   add_export(app, arguments.exporting);
+  add_report(app, arguments.report);
   try {
     app.parse(argc, argv);
     if (app.got_subcommand("run") && app.get_subcommand("run")->count("--shard") == 0)
