@@ -44,7 +44,15 @@ Json step_json(const JamStep& step) {
   json["extended"] = summary.precision == Precision::extended;
   json["evaluations"] = summary.evaluations;
   json["iterations"] = summary.iterations;
+  json["work"] = to_json(summary.work);
   return json;
+}
+
+long read_count(const JsonPlace& place) { return static_cast<long>(place.integer(count_range)); }
+
+MinimiseWork read_work(const JsonPlace& place) {
+  return {read_count(place.at("extended_evaluations")), read_count(place.at("hessians")),
+          read_count(place.at("factorisations")), read_count(place.at("factor_updates"))};
 }
 
 JamStep read_step(const JsonPlace& place) {
@@ -62,6 +70,7 @@ JamStep read_step(const JsonPlace& place) {
   summary.precision = place.at("extended").boolean() ? Precision::extended : Precision::working;
   summary.evaluations = place.at("evaluations").integer(count_range);
   summary.iterations = place.at("iterations").integer(count_range);
+  summary.work = read_work(place.at("work"));
   return step;
 }
 
@@ -72,7 +81,7 @@ bool is_finite(const JamStep& step) {
 }
 
 PairCounts read_counts(const JsonPlace& place) {
-  const auto count = [&](const std::string& key) { return static_cast<long>(place.at(key).integer(count_range)); };
+  const auto count = [&](const std::string& key) { return read_count(place.at(key)); };
   return {count("listed"),     count("out_of_reach"), count("by_axis"),
           count("overlapped"), count("clipped"),      count("touching")};
 }
@@ -101,6 +110,7 @@ JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
   result.status = read_enum(root.at("status"), JamStatus::interrupted);
   result.evaluations = root.at("evaluations").integer(count_range);
   result.counts = read_counts(root.at("pairs"));
+  result.work = read_work(root.at("work"));
   const auto path = root.at("path");
   const auto steps = path.expect_list("a list of steps");
   for (std::size_t k = 0; k < steps; ++k) result.path.push_back(read_step(path.at(k)));
@@ -127,6 +137,7 @@ std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint&
   json["halvings"] = progress.halvings;
   json["evaluations"] = result.evaluations;
   json["pairs"] = to_json(result.counts);
+  json["work"] = to_json(result.work);
   json["path"] = Json::array();
   for (const auto& step : result.path) json["path"].push_back(step_json(step));
   json["state_steps"] = result.state_steps;

@@ -153,6 +153,15 @@ Json to_json(const PairCounts& counts) {
   return json;
 }
 
+Json to_json(const MinimiseWork& work) {
+  Json json;
+  json["extended_evaluations"] = work.extended_evaluations;
+  json["hessians"] = work.hessians;
+  json["factorisations"] = work.factorisations;
+  json["factor_updates"] = work.factor_updates;
+  return json;
+}
+
 Json make_record(const Outcome& outcome) {
   assert(!outcome.interrupted);
   const auto& jam = outcome.jam;
@@ -169,6 +178,7 @@ Json make_record(const Outcome& outcome) {
   json["timing"] = to_json(outcome.timing);
   json["evaluations"] = jam.evaluations;
   json["pairs"] = to_json(jam.counts);
+  json["work"] = to_json(jam.work);
   if (!outcome.failure) {
     json["phi_j"] = jamming_record(jam);
     json["nearest"] = state_record(outcome, *nearest_state(jam));

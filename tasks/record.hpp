@@ -29,6 +29,7 @@ Json make_path(const Outcome& outcome);
 Json provenance(const ReplicateSpec& spec);
 Json to_json(const Timing& timing);
 Json to_json(const PairCounts& counts);
+Json to_json(const MinimiseWork& work);
 
 /// Of each column: nullopt where it was not measured, or not decided.
 using Values = std::array<std::optional<double>, all_columns.size()>;

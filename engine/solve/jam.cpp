@@ -54,6 +54,7 @@ class StrainStep {
     const Evaluation value = energy_.evaluate(packing, step.summary.precision);
     step.energy_per_particle = value.energy / packing.size();
     step.pressure = value.pressure;
+    result_.work += step.summary.work;
     result_.path.push_back(step);
     return result_.path.back();
   }

@@ -73,6 +73,7 @@ struct JamResult {
   std::optional<JammingPoint> phi_j;
   long evaluations = 0;
   PairCounts counts;  ///< work of the pair loop, summed over all evaluations
+  MinimiseWork work;  ///< of the minimisers, summed over all steps
 };
 
 /// What fit_jamming_point() is given: the energies of the states.

@@ -38,8 +38,23 @@ void Descent::refine() {
   const bool near_floor = here_.residual <= std::max(options_.residual, floors_before_refining * here_.residual_floor);
   if (precision_ == Precision::extended || !near_floor || here_.residual_floor <= options_.residual) return;
   precision_ = Precision::extended;
-  here_ = energy_.evaluate(packing_, precision_);
+  here_ = evaluate(packing_);
+}
+
+Evaluation Descent::evaluate(const Packing& packing) {
   ++evaluations_;
+  if (precision_ == Precision::extended) ++work_.extended_evaluations;
+  return energy_.evaluate(packing, precision_);
+}
+
+SecondOrder Descent::second_order(const Packing& packing, double press) {
+  ++work_.hessians;
+  return energy_.second_order(packing, press, precision_);
+}
+
+void Descent::count_factorisations(long factorisations, long updates) {
+  work_.factorisations += factorisations;
+  work_.factor_updates += updates;
 }
 
 std::optional<StopReason> Descent::verdict() {
@@ -58,8 +73,7 @@ std::optional<StopReason> Descent::verdict() {
 
 Evaluation Descent::probe(const Packing& from, const Eigen::VectorXd& step, Packing& there) {
   there = moved(from, step);
-  ++evaluations_;
-  return energy_.evaluate(there, precision_);
+  return evaluate(there);
 }
 
 void Descent::accept(Packing there, Evaluation value) {
@@ -116,6 +130,7 @@ MinimiseSummary Descent::finish(StopReason reason) const {
   summary.precision = precision_;
   summary.evaluations = evaluations_;
   summary.iterations = iterations_;
+  summary.work = work_;
   return summary;
 }
 

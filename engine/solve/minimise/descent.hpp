@@ -29,17 +29,19 @@ class Descent {
   /// No particle moves farther than this in one trial step.
   double longest_displacement() const;
   /// Of any state; pairs pressed together by `press`.
-  SecondOrder second_order(const Packing& packing, double press) {
-    return energy_.second_order(packing, press, precision_);
-  }
+  SecondOrder second_order(const Packing& packing, double press);
   /// Evaluates the state at `step` from another one without moving there.
   Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
   /// Moves to a probed state.
   void accept(Packing there, Evaluation value);
 
+  /// Solver's share of the summary's work.
+  void count_factorisations(long factorisations, long updates);
+
   MinimiseSummary finish(StopReason reason) const;
 
  private:
+  Evaluation evaluate(const Packing& packing);
   void refine();
 
   Packing& packing_;
@@ -51,6 +53,7 @@ class Descent {
   Precision precision_ = Precision::working;
   double last_step_ = 0;
   long evaluations_ = 0, iterations_ = 0;
+  MinimiseWork work_;
 };
 
 /// Largest particle displacement |dx| or R|dθ| in a step of 6N entries.

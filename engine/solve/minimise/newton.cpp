@@ -74,14 +74,21 @@ class Newton {
   explicit Newton(Descent& descent) : descent_(descent) {}
 
   MinimiseSummary run() {
+    const StopReason reason = descend();
+    descent_.count_factorisations(factor_.factorisations, factor_.updates);
+    return descent_.finish(reason);
+  }
+
+ private:
+  StopReason descend() {
     while (true) {
-      if (const auto reason = descent_.verdict()) return descent_.finish(*reason);
+      if (const auto reason = descent_.verdict()) return *reason;
       StepModel model = model_at(descent_.packing(), descent_.here());
       shift_.set_scale(model.stiffness());
       int failures = 0;
       while (!advance(model)) {
-        if (shift_.exhausted()) return descent_.finish(StopReason::line_search_failed);
-        if (const auto reason = descent_.verdict()) return descent_.finish(*reason);
+        if (shift_.exhausted()) return StopReason::line_search_failed;
+        if (const auto reason = descent_.verdict()) return *reason;
         if (++failures == patience) {
           model.forget_closing_pairs();
           shift_.restart();
@@ -90,7 +97,6 @@ class Newton {
     }
   }
 
- private:
   StepModel model_at(const Packing& packing, const Evaluation& value) {
     const double inradius = packing.solid->inradius();
     const double press = std::clamp(press_per_step * last_step_, least_press * inradius, most_press * inradius);
@@ -152,7 +158,7 @@ class Newton {
   }
 
   Descent& descent_;
-  BlockCholesky factor_;
+  StepFactor factor_;
   Shift shift_;
   ActivePairs active_;
   double last_step_ = 1e-4;

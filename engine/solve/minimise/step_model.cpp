@@ -215,18 +215,20 @@ double StepModel::decrease(const Eigen::VectorXd& step) const {
   return sum;
 }
 
-std::optional<ModelStep> StepModel::minimise(double shift, BlockCholesky& factor, ActivePairs& active) {
+std::optional<ModelStep> StepModel::minimise(double shift, StepFactor& factor, ActivePairs& active) {
   recall(active, shift);
   Eigen::VectorXd step;
   std::vector<State> factorised;
   for (int round = 0; round < rounds; ++round) {
     const auto update = round > 0 ? gained(factorised, shift) : std::nullopt;
     if (update) {
-      step = -solve_updated(factor, *update, gradient());
+      ++factor.updates;
+      step = -solve_updated(factor.cholesky, *update, gradient());
     } else {
-      if (!factor.factorise(assembled(shift), shift)) return std::nullopt;
+      ++factor.factorisations;
+      if (!factor.cholesky.factorise(assembled(shift), shift)) return std::nullopt;
       factorised = states_;
-      step = -factor.solve(gradient());
+      step = -factor.cholesky.solve(gradient());
     }
     step *= std::min(1.0, longest_ / largest_displacement(step));
     if (!revise(step, shift, round < releasing_rounds)) break;

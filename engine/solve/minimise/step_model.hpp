@@ -15,6 +15,13 @@ struct ActivePairs {
   std::vector<std::pair<int, int>> pressed, tilted;
 };
 
+/// The factor that models of one minimisation share, for its symbolic part, and how often it was put to use.
+struct StepFactor {
+  BlockCholesky cholesky;
+  long factorisations = 0;
+  long updates = 0;  ///< solved by low-rank update instead
+};
+
 /// A step s of 6N entries, and the decrease in energy that the model promises for it.
 struct ModelStep {
   Eigen::VectorXd displacement;
@@ -39,7 +46,7 @@ class StepModel {
   void forget_closing_pairs();
   /// Minimises the model plus ½ shift·s². `active`: first guess, then what was found. nullopt if the shifted matrix is
   /// not positive definite.
-  std::optional<ModelStep> minimise(double shift, BlockCholesky& factor, ActivePairs& active);
+  std::optional<ModelStep> minimise(double shift, StepFactor& factor, ActivePairs& active);
 
  private:
   struct State {

@@ -12,4 +12,12 @@ std::string_view to_string(StopReason reason) {
   return names[static_cast<std::size_t>(reason)];
 }
 
+MinimiseWork& MinimiseWork::operator+=(const MinimiseWork& term) {
+  extended_evaluations += term.extended_evaluations;
+  hessians += term.hessians;
+  factorisations += term.factorisations;
+  factor_updates += term.factor_updates;
+  return *this;
+}
+
 }  // namespace isojam

@@ -21,6 +21,17 @@ enum class StopReason {
 
 std::string_view to_string(StopReason reason);
 
+/// What a minimisation took beside its evaluations.
+struct MinimiseWork {
+  long extended_evaluations = 0;  ///< those of the evaluations that were in two doubles
+  long hessians = 0;              ///< second derivatives of the packing, touching pairs and near ones
+  long factorisations = 0;        ///< of a shifted Hessian, failed ones too
+  long factor_updates = 0;        ///< systems solved by updating a factor instead of factorising anew
+
+  MinimiseWork& operator+=(const MinimiseWork& term);
+  bool operator==(const MinimiseWork&) const = default;
+};
+
 /// Outcome of one minimisation; the default says that none was run.
 struct MinimiseSummary {
   StopReason reason = StopReason::not_called;
@@ -30,6 +41,7 @@ struct MinimiseSummary {
   Precision precision = Precision::working;  ///< of the last evaluation
   long evaluations = 0;
   long iterations = 0;
+  MinimiseWork work;
 
   bool converged() const { return reason == StopReason::residual_reached; }
 };

@@ -55,7 +55,7 @@ TEST(StepModel, IsNewtonsWithoutPairsToCome) {
     const Case state = case_of(small_packing(kind, 0.8, 31), 0);
     StepModel model(state.second, state.value.gradient, unlimited);
     double shift = 2 * model.stiffness();  // large: all tilt terms complete, no contact tilts by itself
-    BlockCholesky factor;
+    StepFactor factor;
     ActivePairs active;
     std::optional<ModelStep> step;
     while (!(step = model.minimise(shift, factor, active))) shift *= 2;
@@ -82,7 +82,7 @@ TEST(StepModel, StopsWhereFacesMeet) {
   ASSERT_EQ(state.value.contacts, 1);
   StepModel model(state.second, state.value.gradient, unlimited);
   const double shift = 1e-3 * model.stiffness();
-  BlockCholesky factor;
+  StepFactor factor;
   ActivePairs found, none, wrong{{{0, 1}, {1, 2}}, {{0, 1}}};
   const auto step = model.minimise(shift, factor, found);
   ASSERT_TRUE(step);
@@ -123,7 +123,7 @@ TEST(StepModel, StepsAreTheSameFromEitherGuess) {
       const Case state = case_of(packing, 2e-3 * packing.solid->inradius());
       StepModel model(state.second, state.value.gradient, 0.05 * packing.solid->inradius());
       double shift = 1e-9 * model.stiffness();  // so small that not every contact has its tilt term
-      BlockCholesky factor;
+      StepFactor factor;
       ActivePairs from_none;
       auto step = model.minimise(shift, factor, from_none);
       while (!step) step = model.minimise(shift *= 4, factor, from_none = {});
@@ -150,7 +150,7 @@ TEST(StepModel, PromisesWhatTheEnergyDelivers) {
     const Case state = case_of(packing, 1e-5);
     StepModel model(state.second, state.value.gradient, unlimited);
     if (!anticipate) model.forget_closing_pairs();
-    BlockCholesky factor;
+    StepFactor factor;
     ActivePairs active;
     const auto step = model.minimise(0.01 * model.stiffness(), factor, active);
     const double actual = state.value.energy - PackingEnergy().evaluate(moved(packing, step->displacement)).energy;
@@ -167,7 +167,7 @@ TEST(StepModel, KeepsToTheLongestStep) {
   const Case state = case_of(small_packing(SolidKind::octahedron, 0.8, 33), 0.01);
   for (const double longest : {1e-2, 1e-4, 1e-8}) {
     StepModel model(state.second, state.value.gradient, longest);
-    BlockCholesky factor;
+    StepFactor factor;
     ActivePairs active;
     for (double shift = 1e-6 * model.stiffness(); shift <= 1e3 * model.stiffness(); shift *= 10) {
       const auto step = model.minimise(shift, factor, active);
@@ -182,7 +182,7 @@ TEST(StepModel, RefusesAnIndefiniteMatrix) {
   StepModel sound(state.second, state.value.gradient, unlimited);
   for (Matrix6d& block : state.second.hessian.diagonal) block.diagonal().array() -= 2 * sound.stiffness();
   StepModel model(state.second, state.value.gradient, unlimited);
-  BlockCholesky factor;
+  StepFactor factor;
   ActivePairs active;
   EXPECT_FALSE(model.minimise(0, factor, active));
   EXPECT_TRUE(model.minimise(100 * sound.stiffness(), factor, active));
