@@ -1,0 +1,159 @@
+// Facts proved here, of the counters that records carry and of the work that they count:
+//   conjugate gradients and L-BFGS make no Hessian, FIRE one, for its unit of time; none of them factorises;
+//   Newton's method makes at most one Hessian per evaluation and factorises at most once per round of its step model,
+//   near jamming less than once: later rounds update the factor;
+//   a start in balance costs no Hessian, no factorisation and no step; consolidation makes no Hessian; expansion does;
+//   evaluations in two doubles are made only where the floor of doubles lies above the residual asked for;
+//   the totals of a run are the sums over its steps;
+//   pairs listed are those of the list's sphere, and in an evaluation that repeats one every listed pair is out of
+//   reach, rejected by its axis, or touches: the kernel sees no pair that is apart;
+//   as many modes are computed as were asked for.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/solve/jam.hpp"
+#include "engine/vibration/modes.hpp"
+#include "tests/engine/solve/solve_support.hpp"
+
+namespace isojam {
+namespace {
+
+/// Rounds of the step model's active-set iteration.
+constexpr long rounds = 4;
+
+const JamResult& expanded() {
+  static const JamResult result = [] {
+    JamOptions options;
+    options.initial_density = 0.2;
+    options.final_distance = 0.01;
+    options.minimise.residual = 1e-9;
+    return jam(small_packing(SolidKind::octahedron, options.initial_density, 1, 45), options);
+  }();
+  return result;
+}
+
+void print(const char* what, const MinimiseSummary& summary) {
+  std::printf("%s: %s, %ld evaluations (%ld in two doubles), %ld Hessians, %ld factorisations, %ld updates\n", what,
+              to_string(summary.reason).data(), summary.evaluations, summary.work.extended_evaluations,
+              summary.work.hessians, summary.work.factorisations, summary.work.factor_updates);
+}
+
+MinimiseSummary minimised(Method method, Packing packing, double residual) {
+  PackingEnergy energy;
+  MinimiseOptions options;
+  options.method = method;
+  options.residual = residual;
+  options.max_evaluations = 200;
+  const MinimiseSummary summary = minimise(packing, energy, options);
+  print(to_string(method).data(), summary);
+  return summary;
+}
+
+TEST(Work, HessiansAreMadeWhereTheMethodAsks) {
+  const Packing start = small_packing(SolidKind::octahedron, 0.8, 41, 45);
+  for (const auto& [method, hessians] :
+       {std::pair{Method::conjugate_gradient, 0L}, {Method::lbfgs, 0L}, {Method::fire, 1L}}) {
+    const MinimiseWork work = minimised(method, start, 1e-6).work;
+    EXPECT_EQ(work.hessians, hessians) << to_string(method);
+    EXPECT_EQ(work.factorisations + work.factor_updates, 0) << to_string(method);
+  }
+  const MinimiseSummary newton = minimised(Method::newton, start, 1e-6);
+  EXPECT_TRUE(newton.converged());
+  EXPECT_GE(newton.work.hessians, newton.iterations) << "each step starts from a Hessian of its own";
+  EXPECT_LT(newton.work.hessians, newton.evaluations) << "the last evaluation needs none";
+}
+
+TEST(Work, FactorsAreUpdatedWhereThatIsCheaper) {
+  const Packing& state = expanded().states.back();
+  const MinimiseSummary summary = minimised(Method::newton, strained_to(state, state.density() - 0.002), 1e-9);
+  const MinimiseWork& work = summary.work;
+  EXPECT_TRUE(is_equilibrium(summary));
+  EXPECT_GT(work.factor_updates, 0);
+  EXPECT_GE(work.factorisations, summary.iterations);
+  EXPECT_LE(work.factorisations + work.factor_updates, rounds * summary.evaluations);
+  EXPECT_LE(work.factorisations, (rounds - 1) * summary.evaluations) << "as if nothing were ever updated";
+}
+
+TEST(Work, BalanceCostsNothingMore) {
+  for (const Method method : {Method::conjugate_gradient, Method::fire, Method::lbfgs, Method::newton}) {
+    const MinimiseSummary summary = minimised(method, expanded().states.front(), 1e-6);
+    EXPECT_TRUE(summary.converged());
+    EXPECT_EQ(summary.iterations, 0);
+    EXPECT_LE(summary.evaluations, 2);
+    EXPECT_EQ(summary.work.hessians, 0);
+    EXPECT_EQ(summary.work.factorisations, 0);
+  }
+}
+
+TEST(Work, PrecisionIsWidenedOnlyAtTheFloor) {
+  const Packing start = small_packing(SolidKind::octahedron, 0.9, 41, 45);
+  const MinimiseSummary far = minimised(Method::newton, start, 1e-6);
+  EXPECT_TRUE(far.converged());
+  EXPECT_LT(far.residual_floor, 1e-6);
+  EXPECT_EQ(far.work.extended_evaluations, 0);
+  EXPECT_EQ(far.precision, Precision::working);
+  const MinimiseSummary beyond = minimised(Method::newton, start, far.residual_floor / 10);
+  EXPECT_GT(beyond.work.extended_evaluations, 0);
+  EXPECT_LT(beyond.work.extended_evaluations, beyond.evaluations) << "most of the way is made in doubles";
+}
+
+TEST(Work, ConsolidationMakesNoHessian) {
+  MinimiseWork sum;
+  long hessians = 0;
+  for (const JamStep& step : expanded().path) {
+    sum += step.summary.work;
+    if (step.stage == JamStage::expansion) hessians += step.summary.work.hessians;
+    if (step.stage == JamStage::consolidation) {
+      EXPECT_EQ(step.summary.work.hessians, 0) << "at " << step.density;
+      EXPECT_EQ(step.summary.work.factorisations, 0) << "at " << step.density;
+    }
+    EXPECT_LE(step.summary.work.hessians, step.summary.evaluations);
+    EXPECT_LE(step.summary.work.extended_evaluations, step.summary.evaluations);
+  }
+  EXPECT_GT(hessians, 0);
+  EXPECT_TRUE(sum == expanded().work);
+}
+
+TEST(Work, TheKernelSeesNoPairThatIsApart) {
+  for (const SolidKind kind : all_solids) {
+    const Packing packing = small_packing(kind, 0.6, 5, 60);
+    PackingEnergy energy;
+    energy.evaluate(packing);
+    const PairCounts cold = energy.counts();
+    energy.evaluate(packing);
+    PairCounts warm = energy.counts();
+    const long overlapped = warm.overlapped - cold.overlapped;
+    std::printf("%s: %ld listed, %ld out of reach, to the kernel %ld cold, %ld warm, %ld touching\n",
+                to_string(kind).data(), cold.listed, cold.out_of_reach, cold.overlapped, overlapped, cold.touching);
+    EXPECT_GT(cold.overlapped, cold.touching) << "nothing to be spared";
+    EXPECT_EQ(overlapped, cold.touching);
+    // Centres at random: as many pairs as the sphere of reach and skin holds, and their scatter.
+    const double reach = 2.15 * packing.solid->circumradius();
+    const double mean = packing.size() * packing.density() * 2 * std::acos(-1.0) / 3 * std::pow(reach, 3);
+    EXPECT_LT(static_cast<double>(cold.listed), mean + 6 * std::sqrt(mean));
+  }
+}
+
+TEST(Work, AxesSpareTheKernelAlongAWholeRun) {
+  const PairCounts& counts = expanded().counts;
+  std::printf("%ld listed, %ld out of reach, %ld by axis, %ld to the kernel, %ld touching, %ld clipped\n",
+              counts.listed, counts.out_of_reach, counts.by_axis, counts.overlapped, counts.touching, counts.clipped);
+  EXPECT_EQ(counts.listed, counts.out_of_reach + counts.by_axis + counts.overlapped);
+  EXPECT_LT(static_cast<double>(counts.overlapped), 1.3 * static_cast<double>(counts.touching));
+}
+
+TEST(Work, OnlyTheModesAskedFor) {
+  PackingEnergy energy;
+  const BlockMatrix matrix = energy.hessian(expanded().states.front(), Precision::extended);
+  ModeOptions options;
+  options.lowest = 5, options.highest = 3;
+  const SpectrumEnds ends = spectrum_ends(matrix, options);
+  EXPECT_EQ(ends.lowest.size(), 5);
+  EXPECT_EQ(ends.highest.size(), 3);
+  EXPECT_EQ(ends.lowest.attempts, 1);
+}
+
+}  // namespace
+}  // namespace isojam
