@@ -78,7 +78,9 @@ TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
                                                         {"/status", 7},
                                                         {"/halvings", -1},
                                                         {"/evaluations", 0.5},
-                                                        {"/pairs/listed", nullptr}};
+                                                        {"/pairs/listed", nullptr},
+                                                        {"/work/hessians", -1},
+                                                        {"/path/0/work/factorisations", "few"}};
   for (const auto& [pointer, value] : wrong) {
     auto bad = good;
     bad[Json::json_pointer(pointer)] = value;

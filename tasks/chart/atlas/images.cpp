@@ -8,7 +8,7 @@ namespace isojam {
 
 namespace {
 
-/// Images beyond do not reach even into a cell of .45 of the least side.
+/// Images beyond do not reach even into a cell of .4 of the least side.
 constexpr int farthest_image = 3;
 
 double pair_energy(const Packing& packing, const Pose& a, const Pose& b, const Eigen::Vector3i& shift) {

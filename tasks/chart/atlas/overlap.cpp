@@ -139,7 +139,7 @@ void append_tilts(std::vector<AtlasRow>& rows) {
     append_cell(
         "faces parallel to, 1e-3 deep", setting, [&](int, RandomStream&) { return tilted_faces(1e-3, angle); }, rows);
     append_cell(
-        "faces parallel to, 1e-10 deep", setting, [&](int, RandomStream&) { return tilted_faces(1e-10, angle); }, rows);
+        "faces parallel to, 1e-11 deep", setting, [&](int, RandomStream&) { return tilted_faces(1e-11, angle); }, rows);
     append_cell(
         "edges parallel to, 1e-3 deep", setting, [&](int, RandomStream&) { return tilted_edges(1e-3, angle); }, rows);
   }

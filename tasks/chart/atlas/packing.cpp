@@ -45,7 +45,7 @@ void append_smallest_cells(std::vector<AtlasRow>& rows) {
     const std::string setting = fmt::format("N = {}", n);
     rows.push_back(energy_row("cell just larger than the least", setting, cornered(n, least * (1 + 1e-12))));
     rows.push_back(energy_row("cell of the least side", setting, cornered(n, least)));
-    const Packing small = cornered(n, 0.45 * least);
+    const Packing small = cornered(n, 0.4 * least);
     rows.push_back(energy_row("cell smaller than the least", setting, small));
     const double exact = energy_over_images(small), nearest = energy_of_nearest_images(small);
     rows.push_back(judged({"cell smaller than the least", setting, "nearest images", false, {}, {}, {}},

@@ -7,7 +7,7 @@ namespace {
 JamResult made() {
   JamOptions options;
   options.initial_density = 0.2;
-  options.final_distance = 2e-3;
+  options.final_distance = 1.3e-3;
   options.minimise.residual = 1e-9;
   RandomStream random{1, static_cast<std::uint64_t>(SolidKind::octahedron)};
   const ConvexSolid& solid = platonic(SolidKind::octahedron);

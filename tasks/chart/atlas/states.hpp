@@ -4,8 +4,8 @@
 
 namespace isojam {
 
-/// 45 octahedra, the fewest that fit a legal cell, expanded to Δφ < 2e-3: condition numbers from 1e3 to 1e11. Made once
-/// per program.
+/// 45 octahedra, the fewest that fit a legal cell, expanded to Δφ = 1.3e-3: condition numbers from 1e3 to 7e11. Made
+/// once per program.
 const JamResult& atlas_states();
 
 /// φ − φ_J of a state of it.

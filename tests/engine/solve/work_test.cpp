@@ -73,7 +73,7 @@ TEST(Work, FactorsAreUpdatedWhereThatIsCheaper) {
   EXPECT_GT(work.factor_updates, 0);
   EXPECT_GE(work.factorisations, summary.iterations);
   EXPECT_LE(work.factorisations + work.factor_updates, rounds * summary.evaluations);
-  EXPECT_LE(work.factorisations, (rounds - 1) * summary.evaluations) << "as if nothing were ever updated";
+  EXPECT_LT(2 * work.factorisations, 3 * summary.evaluations) << "as many as if nothing were ever updated";
 }
 
 TEST(Work, BalanceCostsNothingMore) {
@@ -141,7 +141,7 @@ TEST(Work, AxesSpareTheKernelAlongAWholeRun) {
   std::printf("%ld listed, %ld out of reach, %ld by axis, %ld to the kernel, %ld touching, %ld clipped\n",
               counts.listed, counts.out_of_reach, counts.by_axis, counts.overlapped, counts.touching, counts.clipped);
   EXPECT_EQ(counts.listed, counts.out_of_reach + counts.by_axis + counts.overlapped);
-  EXPECT_LT(static_cast<double>(counts.overlapped), 1.3 * static_cast<double>(counts.touching));
+  EXPECT_LT(static_cast<double>(counts.overlapped), 1.05 * static_cast<double>(counts.touching));
 }
 
 TEST(Work, OnlyTheModesAskedFor) {
