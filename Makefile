@@ -1,4 +1,5 @@
-# Verbs: run test build bench lint format clean. On Debian 12 each first installs the packages it needs and lacks.
+# Verbs: run test test-slurm build bench lint format clean. On Debian 12 each first installs the packages it needs and
+# lacks.
 #   make test BUILD=build-asan OPTIONS='-DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON'
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
@@ -14,6 +15,7 @@ LINT_PACKAGES    := clang-format clang-tidy
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
                     libmpfr-dev voro++-dev
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
+SLURM_PACKAGES   := slurm-wlm munge python3
 
 # $(call install,packages): the network is touched only if one of them is missing.
 define install
@@ -41,7 +43,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test bench lint format clean
+.PHONY: build run test test-slurm bench lint format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -57,6 +59,11 @@ test:
 	$(CONFIGURE) -DISOJAM_TESTS=ON
 	cmake --build $(BUILD) -j $(JOBS)
 	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout 300
+
+# As root. Not a part of `test`: it starts daemons.
+test-slurm: build
+	$(call install,$(SLURM_PACKAGES))
+	tests/slurm/test_slurm.sh $(BUILD)/isojam
 
 bench:
 	$(call install,$(BENCH_PACKAGES))
