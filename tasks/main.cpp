@@ -4,7 +4,9 @@
 #include <map>
 
 #include "tasks/commands.hpp"
+#include "tasks/export/export_command.hpp"
 #include "tasks/input_error.hpp"
+#include "tasks/report/report_command.hpp"
 #include "tasks/version.hpp"
 
 namespace isojam {
@@ -22,16 +24,19 @@ struct Arguments {
   AggregateCommand aggregate;
   StatusCommand status;
   RerunCommand rerun;
+  ExportCommand exporting;
+  ReportCommand report;
 };
 
 /// An option that takes one of a few names.
 template <class T>
-void add_choice(CLI::App& app, const std::string& name, T& value, const std::map<std::string, T>& choices,
-                const std::string& description) {
+CLI::Option* add_choice(CLI::App& app, const std::string& name, T& value, const std::map<std::string, T>& choices,
+                        const std::string& description) {
   std::string names;
   for (const auto& [choice, meaning] : choices) names += (names.empty() ? "" : ", ") + choice;
-  app.add_option_function<std::string>(
-         name, [&value, choices](const std::string& choice) { value = choices.at(choice); }, description)
+  return app
+      .add_option_function<std::string>(
+          name, [&value, choices](const std::string& choice) { value = choices.at(choice); }, description)
       ->check(CLI::IsMember(choices).description(""))
       ->type_name(names);
 }
@@ -99,11 +104,35 @@ void add_aggregate(CLI::App& app, AggregateCommand& command) {
   aggregate->add_flag("--series", command.series, "Quantities against the distance above jamming (JSON has both)");
 }
 
+void add_export(CLI::App& app, ExportCommand& command) {
+  auto* exporting = app.add_subcommand("export", "Write packings for HOOMD-blue and OVITO, ParaView, or as text");
+  exporting->add_option("directory", command.directory, "Results directory")->required()->type_name("DIR");
+  exporting->add_option("replicate", command.replicate, "Name of a replicate, as its record's file has it, or all")
+      ->required()
+      ->type_name("REPLICATE");
+  add_choice<ExportFormat>(*exporting, "--format", command.format,
+                           {{"gsd", ExportFormat::gsd}, {"vtp", ExportFormat::vtp}, {"xyz", ExportFormat::xyz}},
+                           "Format of the files")
+      ->required();
+  exporting->add_option("-o,--output", command.output, "File to write; of all replicates, the directory for them")
+      ->required()
+      ->type_name("FILE");
+  exporting->add_flag("--path", command.path, "Every state of the expansion (of manifests with keep_path)");
+}
+
+void add_report(CLI::App& app, ReportCommand& command) {
+  auto* report = app.add_subcommand("report", "Write a results directory as one interactive HTML file");
+  report->add_option("directory", command.directory, "Results directory")->required()->type_name("DIR");
+  report->add_option("-o,--output", command.output, "File to write (default: DIR/report.html)")->type_name("FILE");
+}
+
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments, Console& console) {
   if (app.got_subcommand("run")) return run(arguments.run, console);
   if (app.got_subcommand("status")) return status(arguments.status);
   if (app.got_subcommand("rerun")) return rerun(arguments.rerun, console);
   if (app.got_subcommand("validate")) return validate(arguments.validate);
+  if (app.got_subcommand("export")) return export_packings(arguments.exporting, console);
+  if (app.got_subcommand("report")) return report(arguments.report);
   return aggregate_directories(arguments.aggregate);
 }
 
@@ -120,6 +149,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   add_aggregate(app, arguments.aggregate);
   add_status(app, arguments.status);
   add_rerun(app, arguments.rerun);
+  add_export(app, arguments.exporting);
+  add_report(app, arguments.report);
   try {
     app.parse(argc, argv);
     if (app.got_subcommand("run") && app.get_subcommand("run")->count("--shard") == 0)

@@ -1,0 +1,114 @@
+#include "tasks/export/frame.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/analysis/clusters.hpp"
+#include "engine/packing/energy.hpp"
+#include "tasks/export/contact_faces.hpp"
+#include "tasks/measure/parts.hpp"
+
+namespace isojam {
+namespace {
+
+FaceContact strength_of(ContactClass contact_class) {
+  switch (contact_class) {
+    case ContactClass::face_face: return FaceContact::face_face;
+    case ContactClass::edge_face: return FaceContact::edge_face;
+    case ContactClass::lower_order: break;
+  }
+  return FaceContact::lower_order;
+}
+
+void mark_faces(ExportFrame& frame, int particle, std::uint32_t faces, FaceContact strength) {
+  const auto first = static_cast<std::size_t>(particle) * frame.packing.solid->faces().size();
+  for (; faces != 0; faces &= faces - 1) {
+    auto& face = frame.faces[first + static_cast<std::size_t>(std::countr_zero(faces))];
+    // None of a frame's contacts is decided, or all are: the order of the enumeration serves for both.
+    face = strength == FaceContact::undecided ? strength : std::max(face, strength);
+  }
+}
+
+std::vector<std::int32_t> clusters_of(const Packing& packing, const ClassifiedContacts& classified) {
+  const auto bonds = bonds_of(classified.contacts, classified.analysis.classes);
+  std::vector<std::int32_t> labels(packing.poses.size(), ExportFrame::no_cluster);
+  for (const auto& cluster : find_clusters(packing, bonds)) {
+    if (cluster.size() < 2) continue;
+    for (const int member : cluster.members) labels[static_cast<std::size_t>(member)] = cluster.label();
+  }
+  return labels;
+}
+
+}  // namespace
+
+ExportFrame make_frame(Packing packing, std::optional<double> delta_phi) {
+  const auto n = packing.poses.size();
+  const auto& solid = *packing.solid;
+  PackingEnergy energy;
+  const auto classified = classified_contacts(packing, energy);
+  const bool decided = !undecided(classified.analysis);
+
+  ExportFrame frame{std::move(packing), delta_phi, {}, {}, {}};
+  frame.Z.assign(n, 0);
+  frame.cluster =
+      decided ? clusters_of(frame.packing, classified) : std::vector<std::int32_t>(n, ExportFrame::undecided_cluster);
+  frame.faces.assign(n * solid.faces().size(), FaceContact::none);
+  const Cutoffs cutoffs{classified.analysis.face_face.cutoff, classified.analysis.edge_face.cutoff};
+  for (std::size_t k = 0; k < classified.contacts.size(); ++k) {
+    const auto& contact = classified.contacts[k];
+    const auto contact_class = decided ? classified.analysis.classes[k] : ContactClass::lower_order;
+    const auto strength = decided ? strength_of(contact_class) : FaceContact::undecided;
+    const auto faces = contact_faces(solid, contact, contact_class, cutoffs);
+    ++frame.Z[static_cast<std::size_t>(contact.pair.a)];
+    ++frame.Z[static_cast<std::size_t>(contact.pair.b)];
+    mark_faces(frame, contact.pair.a, faces.of_a, strength);
+    mark_faces(frame, contact.pair.b, faces.of_b, strength);
+  }
+  return frame;
+}
+
+void check_frames(std::span<const ExportFrame> frames) {
+  if (frames.empty()) throw std::invalid_argument("no frames");
+  const auto& first = frames.front().packing;
+  for (const auto& frame : frames) {
+    if (frame.packing.solid != first.solid || frame.packing.size() != first.size()) {
+      throw std::invalid_argument("frames of different solids or numbers of particles");
+    }
+  }
+}
+
+WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& position) {
+  const double side = cell.side();
+  WrappedPosition result;
+  for (int c = 0; c < 3; ++c) {
+    double cells = std::floor(position[c] / side);
+    double x = position[c] - side * cells;
+    // Rounding can leave a position just beyond either end, which is the other end.
+    if (x < 0 || x >= side) {
+      cells += x < 0 ? 0 : 1;
+      x = 0;
+    }
+    result.wrapped[c] = x;
+    result.image[c] = static_cast<int>(cells);
+  }
+  return result;
+}
+
+WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position) {
+  const float half = static_cast<float>(cell.side()) / 2;
+  WrappedPosition result;
+  result.image = -cell.nearest_shift(position);
+  for (int c = 0; c < 3; ++c) {
+    auto x = static_cast<float>(position[c] - cell.side() * result.image[c]);
+    if (x >= half) {
+      x = -half;
+      ++result.image[c];
+    }
+    result.wrapped[c] = std::max(x, -half);
+  }
+  return result;
+}
+
+}  // namespace isojam

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/packing/packing.hpp"
+
+namespace isojam {
+
+/// The strongest contact that a face takes part in, by the constraints that it makes. The numbers stand in files.
+enum class FaceContact : std::int32_t {
+  undecided = -1,  ///< touched, but the fits gave no cut-offs that would tell the classes of contacts
+  none = 0,
+  lower_order = 1,
+  edge_face = 2,
+  face_face = 3
+};
+
+/// One state of an expansion with what pictures of it show. Sizes: N particles, F faces of the solid.
+struct ExportFrame {
+  static constexpr int no_cluster = -1;         ///< no face-face contact
+  static constexpr int undecided_cluster = -2;  ///< classes of contacts undecided
+
+  Packing packing;
+  std::optional<double> delta_phi;  ///< φ − φ_J; none without a jamming point
+  std::vector<std::int32_t> Z;      ///< N: contacts of each particle
+  /// N: least number of a particle in the same cluster of face-face contacts, or one of the constants above.
+  std::vector<std::int32_t> cluster;
+  /// N·F: of face f of particle i at i·F + f, by contact_faces; of undecided contacts all faces that bound the
+  /// intersection.
+  std::vector<FaceContact> faces;
+};
+
+/// Finds contacts, their classes and their clusters as the measurements do.
+/// Throws std::invalid_argument if the cell is not larger than least_side(solid).
+ExportFrame make_frame(Packing packing, std::optional<double> delta_phi);
+
+/// Throws std::invalid_argument unless there is a frame, and all have the same solid and number of particles.
+void check_frames(std::span<const ExportFrame> frames);
+
+/// A position moved by whole sides into the cell, and by how many: position = wrapped + side·image.
+struct WrappedPosition {
+  Eigen::Vector3d wrapped;
+  Eigen::Vector3i image;
+};
+
+/// Into [0, L) along each axis.
+WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& position);
+/// Into [−L/2, L/2) along each axis, as single precision has it too: the components are floats, and so is L.
+WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position);
+
+}  // namespace isojam

@@ -1,0 +1,86 @@
+#include <array>
+
+#include "tasks/export/formats.hpp"
+#include "tasks/export/gsd_layer.hpp"
+#include "tasks/json_text.hpp"
+#include "tasks/version.hpp"
+
+namespace isojam {
+namespace {
+
+/// As the schema's page on shapes wants a convex polyhedron.
+std::string shape_text(const ConvexSolid& solid) {
+  Json shape;
+  shape["type"] = "ConvexPolyhedron";
+  shape["rounding_radius"] = 0;
+  for (const auto& vertex : solid.vertices()) shape["vertices"].push_back({vertex[0], vertex[1], vertex[2]});
+  return shape.dump();
+}
+
+template <class T>
+GsdChunk one(std::string name, T value) {
+  return gsd_chunk(std::move(name), std::span<const T>(&value, 1));
+}
+
+template <class T>
+GsdChunk many(std::string name, const std::vector<T>& values, std::uint32_t columns = 1) {
+  return gsd_chunk(std::move(name), std::span<const T>(values), columns);
+}
+
+/// What does not change along an expansion; other frames inherit it from the first.
+void append_constants(const Packing& packing, std::vector<GsdChunk>& chunks) {
+  const auto n = packing.poses.size();
+  const double radius = packing.solid->gyration_radius();
+  chunks.push_back(one("configuration/dimensions", std::uint8_t{3}));
+  chunks.push_back(one("particles/N", static_cast<std::uint32_t>(n)));
+  chunks.push_back(gsd_chunk("particles/types", packing.solid->name()));
+  chunks.push_back(gsd_chunk("particles/type_shapes", shape_text(*packing.solid)));
+  chunks.push_back(many("particles/typeid", std::vector<std::uint32_t>(n, 0)));
+  chunks.push_back(many("particles/mass", std::vector<float>(n, 1.0F)));
+  const auto inertia = static_cast<float>(radius * radius);  // of unit mass, and isotropic
+  chunks.push_back(many("particles/moment_inertia", std::vector<float>(3 * n, inertia), 3));
+}
+
+void append_poses(const Packing& packing, std::vector<GsdChunk>& chunks) {
+  std::vector<float> positions, orientations;
+  std::vector<std::int32_t> images;
+  for (const auto& pose : packing.poses) {
+    const auto [wrapped, image] = into_centred_cell(packing.cell, pose.position);
+    const auto q = pose.orientation.normalized();
+    for (int c = 0; c < 3; ++c) positions.push_back(static_cast<float>(wrapped[c]));
+    for (int c = 0; c < 3; ++c) images.push_back(image[c]);
+    for (const double component : {q.w(), q.x(), q.y(), q.z()}) orientations.push_back(static_cast<float>(component));
+  }
+  chunks.push_back(many("particles/position", positions, 3));
+  chunks.push_back(many("particles/orientation", orientations, 4));
+  chunks.push_back(many("particles/image", images, 3));
+}
+
+std::vector<GsdChunk> chunks_of(const ExportFrame& frame, std::uint64_t step, bool with_distance) {
+  std::vector<GsdChunk> chunks;
+  const auto& packing = frame.packing;
+  const auto side = static_cast<float>(packing.cell.side());
+  chunks.push_back(one("configuration/step", step));
+  chunks.push_back(many("configuration/box", std::vector<float>{side, side, side, 0, 0, 0}));
+  if (step == 0) append_constants(packing, chunks);
+  append_poses(packing, chunks);
+  chunks.push_back(one("log/isojam/phi", packing.density()));
+  chunks.push_back(one("log/isojam/side", packing.cell.side()));
+  if (with_distance) chunks.push_back(one("log/isojam/delta_phi", *frame.delta_phi));
+  chunks.push_back(many("log/particles/isojam/Z", frame.Z));
+  chunks.push_back(many("log/particles/isojam/cluster", frame.cluster));
+  return chunks;
+}
+
+}  // namespace
+
+std::string gsd_file(std::span<const ExportFrame> frames) {
+  check_frames(frames);
+  bool with_distance = true;
+  for (const auto& frame : frames) with_distance = with_distance && frame.delta_phi;
+  std::vector<std::vector<GsdChunk>> chunks;
+  for (std::size_t k = 0; k < frames.size(); ++k) chunks.push_back(chunks_of(frames[k], k, with_distance));
+  return gsd_bytes({"isojam " + std::string(version()), "hoomd", 1, 4}, chunks);
+}
+
+}  // namespace isojam

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "tasks/export/formats.hpp"
+
+namespace isojam {
+namespace {
+
+using Text = std::back_insert_iterator<std::string>;
+
+constexpr auto explanation =
+    "<!-- particle: number from 0. Z: contacts of the particle. cluster: least number of a particle in the same "
+    "cluster of face-face contacts; -1: no face-face contact, -2: classes of contacts undecided. contact_class: the "
+    "strongest contact that the face takes part in; 3: face-face, 2: edge-face, 1: of lower order, 0: none, "
+    "-1: touched, classes undecided. Lengths in the cube root of a particle's volume. -->\n";
+
+/// An array of `values(k)`, k < count; a line for each `per_line` of them.
+template <class Values>
+void append_array(std::string& xml, std::string_view type, std::string_view attributes, std::size_t count,
+                  std::size_t per_line, const Values& values) {
+  fmt::format_to(Text(xml), "<DataArray type=\"{}\" {} format=\"ascii\">\n", type, attributes);
+  for (std::size_t k = 0; k < count; ++k) {
+    fmt::format_to(Text(xml), "{}{}", values(k), (k + 1) % per_line == 0 || k + 1 == count ? '\n' : ' ');
+  }
+  xml += "</DataArray>\n";
+}
+
+void append_field(std::string& xml, std::string_view name, double value) {
+  append_array(xml, "Float64", fmt::format("Name=\"{}\" NumberOfTuples=\"1\"", name), 1, 1,
+               [&](std::size_t) { return value; });
+}
+
+std::vector<double> world_vertices(const Packing& packing) {
+  std::vector<double> coordinates;
+  for (const auto& pose : packing.poses) {
+    const Eigen::Matrix3d rotation = rotation_matrix(pose).high;
+    const auto centre = into_cell(packing.cell, pose.position).wrapped;
+    for (const auto& vertex : packing.solid->vertices()) {
+      const Eigen::Vector3d corner = centre + rotation * vertex;
+      coordinates.insert(coordinates.end(), corner.begin(), corner.end());
+    }
+  }
+  return coordinates;
+}
+
+/// Corners of all polygons one after another, and where each polygon ends.
+struct Polygons {
+  std::vector<std::size_t> corners, ends;
+};
+
+Polygons polygons_of(const Packing& packing) {
+  Polygons polygons;
+  for (std::size_t i = 0; i < packing.poses.size(); ++i) {
+    for (const auto& face : packing.solid->faces()) {
+      for (const int vertex : face.vertices) {
+        polygons.corners.push_back(i * packing.solid->vertices().size() + static_cast<std::size_t>(vertex));
+      }
+      polygons.ends.push_back(polygons.corners.size());
+    }
+  }
+  return polygons;
+}
+
+void append_cell_data(std::string& xml, const ExportFrame& frame) {
+  const auto per_particle = frame.packing.solid->faces().size();
+  const auto append = [&](std::string_view name, const auto& of_face) {
+    append_array(xml, "Int32", fmt::format("Name=\"{}\"", name), frame.faces.size(), per_particle, of_face);
+  };
+  xml += "<CellData Scalars=\"contact_class\">\n";
+  append("particle", [&](std::size_t f) { return f / per_particle; });
+  append("Z", [&](std::size_t f) { return frame.Z[f / per_particle]; });
+  append("cluster", [&](std::size_t f) { return frame.cluster[f / per_particle]; });
+  append("contact_class", [&](std::size_t f) { return static_cast<std::int32_t>(frame.faces[f]); });
+  xml += "</CellData>\n";
+}
+
+void append_geometry(std::string& xml, const Packing& packing) {
+  const auto points = world_vertices(packing);
+  const auto polygons = polygons_of(packing);
+  xml += "<Points>\n";
+  append_array(xml, "Float64", "Name=\"Points\" NumberOfComponents=\"3\"", points.size(), 3,
+               [&](std::size_t k) { return points[k]; });
+  xml += "</Points>\n<Polys>\n";
+  append_array(xml, "Int64", "Name=\"connectivity\"", polygons.corners.size(), 24,
+               [&](std::size_t k) { return polygons.corners[k]; });
+  append_array(xml, "Int64", "Name=\"offsets\"", polygons.ends.size(), 24,
+               [&](std::size_t k) { return polygons.ends[k]; });
+  xml += "</Polys>\n";
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&': result += "&amp;"; break;
+      case '<': result += "&lt;"; break;
+      case '>': result += "&gt;"; break;
+      case '"': result += "&quot;"; break;
+      default: result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string vtp_file(const ExportFrame& frame) {
+  const auto& packing = frame.packing;
+  std::string xml = "<?xml version=\"1.0\"?>\n";
+  xml += explanation;
+  xml +=
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
+      "<FieldData>\n";
+  append_field(xml, "side", packing.cell.side());
+  append_field(xml, "phi", packing.density());
+  if (frame.delta_phi) append_field(xml, "delta_phi", *frame.delta_phi);
+  fmt::format_to(Text(xml), "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n",
+                 packing.poses.size() * packing.solid->vertices().size(), frame.faces.size());
+  append_cell_data(xml, frame);
+  append_geometry(xml, packing);
+  return xml + "</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
+std::string pvd_file(std::span<const TimedFile> files) {
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "<Collection>\n";
+  for (const auto& file : files) {
+    fmt::format_to(Text(xml), "<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", file.time, escaped(file.name));
+  }
+  return xml + "</Collection>\n</VTKFile>\n";
+}
+
+}  // namespace isojam

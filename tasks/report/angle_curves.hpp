@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "engine/geometry/convex_solid.hpp"
+#include "tasks/json_text.hpp"
+
+namespace isojam {
+
+/// What Figure 2 of the paper draws for a solid whatever was run. Angles in degrees:
+///   {"critical": {"face_face": [{"topology", "angle"}], "edge_face": [...]},
+///    "random": [{"which", "face_face": [[θ, c], ...], "edge_face": [...]}]}.
+/// {"critical", "random"} are null for a solid that has none.
+Json angle_references(const ConvexSolid& solid);
+
+/// Empirical CDF of angles (radians, any order) as [[θ in degrees, c], ...], one entry for each step, or, where steps
+/// lie closer in log θ than a chart resolves, the last of them. Angles below `angle_floor` degrees stand at it.
+Json thinned_cdf(std::span<const double> angles);
+
+/// Least angle drawn, degrees.
+inline constexpr double angle_floor = 1e-6;
+
+/// Jamming density of the paper's Table I, with the half width of its 95 % interval.
+struct PaperDensity {
+  double phi_j = 0, half_width = 0;
+};
+/// nullopt for what the paper does not have.
+std::optional<PaperDensity> paper_density(SolidKind solid, int particles);
+
+}  // namespace isojam

@@ -1,0 +1,300 @@
+#include "tasks/report/gather.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/analysis/power_law.hpp"
+#include "engine/solve/straight_line.hpp"
+#include "tasks/measure/parts.hpp"
+#include "tasks/plan.hpp"
+#include "tasks/report/angle_curves.hpp"
+#include "tasks/tables.hpp"
+
+namespace isojam {
+namespace {
+
+using Members = std::vector<const RecordedReplicate*>;
+
+/// What stands there, or null: a report shows what it finds.
+Json value_at(const Json& json, const std::string& pointer) {
+  const Json::json_pointer place(pointer);
+  return json.contains(place) ? json.at(place) : Json(nullptr);
+}
+
+Json number_at(const Json& json, const std::string& pointer) {
+  auto value = value_at(json, pointer);
+  return value.is_number() ? value : Json(nullptr);
+}
+
+Json text_at(const Json& json, const std::string& pointer) {
+  const auto value = value_at(json, pointer);
+  if (value.is_null()) return nullptr;
+  return value.is_string() ? value : Json(value.dump());
+}
+
+Json list_at(const Json& json, const std::string& pointer) {
+  auto value = value_at(json, pointer);
+  return value.is_array() ? value : Json(Json::array());
+}
+
+std::vector<double> numbers_at(const Json& json, const std::string& pointer) {
+  std::vector<double> numbers;
+  for (const auto& value : list_at(json, pointer)) {
+    if (value.is_number()) numbers.push_back(value.get<double>());
+  }
+  return numbers;
+}
+
+void add_distinct(Json& list, const Json& value) {
+  if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
+}
+
+std::string label_of(const Json& row) {
+  auto label = fmt::format("{}, N = {}", row.at("solid").get<std::string>(), row.at("particles").get<int>());
+  for (const auto& item : row.at("parameters").items()) {
+    const auto& value = item.value();
+    label += fmt::format(", {} {}", item.key(), value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return label;
+}
+
+std::string point_of(const RecordSummary& summary) {
+  return point_text(summary.solid, summary.particles, summary.parameters);
+}
+
+std::string point_of(const Json& row) {
+  return point_text(*solid_kind(row.at("solid").get<std::string>()), row.at("particles").get<int>(),
+                    row.at("parameters"));
+}
+
+double sixth_root(double energy) { return energy > 0 ? std::cbrt(std::sqrt(energy)) : 0; }
+
+Json state_points(const Json& record) {
+  Json points = Json::array();
+  for (const auto& state : list_at(record, "/states")) {
+    const auto energy = number_at(state, "/energy_per_particle");
+    Json point;
+    point["phi"] = number_at(state, "/phi");
+    point["delta_phi"] = number_at(state, "/delta_phi");
+    point["root"] = energy.is_null() ? energy : Json(sixth_root(energy.get<double>()));
+    for (const std::string key : {"Z", "Z_ff", "Z_ef", "Z_l", "C"}) point[key] = number_at(state, "/" + key);
+    for (const std::string key : {"omega_l", "omega_h"}) point[key] = number_at(state, "/modes/" + key);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+/// The line through the states that gave φ_J, from φ_J to the farthest of them; null if it cannot be drawn.
+Json extrapolation(const Json& record) {
+  const auto states = state_points(record);
+  std::vector<double> roots, densities;
+  for (const double index : numbers_at(record, "/phi_j/states")) {
+    if (index < 0 || index >= static_cast<double>(states.size())) return nullptr;
+    const auto& state = states[static_cast<std::size_t>(index)];
+    if (state.at("root").is_null() || state.at("phi").is_null()) return nullptr;
+    roots.push_back(state.at("root").get<double>());
+    densities.push_back(state.at("phi").get<double>());
+  }
+  const auto phi_j = number_at(record, "/phi_j/phi_j");
+  if (phi_j.is_null() || roots.empty()) return nullptr;
+  const auto [least, greatest] = std::minmax_element(roots.begin(), roots.end());
+  if (*least == *greatest) return nullptr;
+  const auto line = fit_line(roots, densities);
+  return {{"from", {phi_j, 0}}, {"to", {line.intercept + line.slope * *greatest, *greatest}}};
+}
+
+/// Reasons for which minimisations stopped, counted, the expansion's apart from those on the way up.
+Json stop_counts(const Json& record) {
+  std::map<std::pair<std::string, std::string>, int> counts;
+  for (const auto& step : list_at(record, "/path")) {
+    const auto stage = text_at(step, "/stage"), reason = text_at(step, "/stopped");
+    if (!stage.is_null() && !reason.is_null()) ++counts[{stage.get<std::string>(), reason.get<std::string>()}];
+  }
+  Json list = Json::array();
+  for (const auto& [key, count] : counts)
+    list.push_back({{"stage", key.first}, {"reason", key.second}, {"count", count}});
+  return list;
+}
+
+Json replicate_entry(const RecordedReplicate& replicate, int row) {
+  const auto& record = replicate.record;
+  Json json;
+  json["name"] = replicate.name;
+  json["row"] = row;
+  json["replicate"] = replicate.summary.replicate;
+  json["status"] = replicate.summary.failed ? "failed" : "done";
+  json["flags"] = Json::array();
+  for (const auto& flag : list_at(record, "/flags"))
+    json["flags"].push_back(flag.is_string() ? flag : Json(flag.dump()));
+  json["failure"] = nullptr;
+  if (replicate.summary.failed)
+    json["failure"] = {{"where", text_at(record, "/failure/where")}, {"why", text_at(record, "/failure/why")}};
+  json["phi_j"] = number_at(record, "/phi_j/phi_j");
+  json["fit_half_width"] = number_at(record, "/phi_j/ci95_half_width");
+  json["cpu_seconds"] = number_at(record, "/timing/cpu_seconds");
+  json["evaluations"] = number_at(record, "/evaluations");
+  json["states"] = state_points(record);
+  json["line"] = extrapolation(record);
+  json["stops"] = stop_counts(record);
+  json["density_of_states"] = nullptr;
+  for (const std::string key : {"log10_omega", "density"}) {
+    const auto list = numbers_at(record, "/nearest/modes/density_of_states/" + key);
+    if (!list.empty()) json["density_of_states"][key] = list;
+  }
+  json["lowest"] = numbers_at(record, "/nearest/modes/lowest/omega");
+  json["highest"] = numbers_at(record, "/nearest/modes/highest/omega");
+  return json;
+}
+
+/// Unflagged replicates, or all without failure if there is none.
+Members trusted(const Members& members) {
+  Members done, unflagged;
+  for (const auto* member : members) {
+    if (!member->summary.failed) done.push_back(member);
+    if (!member->summary.failed && !member->summary.flagged) unflagged.push_back(member);
+  }
+  return unflagged.empty() ? done : unflagged;
+}
+
+/// The angles are only in one of the states, that nearest jamming.
+Json state_with_angles(const Json& record) {
+  for (const auto& state : list_at(record, "/states")) {
+    if (state.contains("angles")) return state;
+  }
+  return value_at(record, "/nearest");
+}
+
+/// CDFs over the contacts of all members; null without angles.
+Json pooled_angles(const Members& members) {
+  Json json;
+  for (const std::string kind : {"face_face", "edge_face"}) {
+    std::vector<double> angles, cutoffs;
+    int replicates = 0;
+    for (const auto* member : members) {
+      const auto state = state_with_angles(member->record);
+      auto more = numbers_at(state, "/angles/" + kind);
+      replicates += more.empty() ? 0 : 1;
+      angles.insert(angles.end(), more.begin(), more.end());
+      const auto cutoff = number_at(state, "/" + kind + "_fit/cutoff");
+      if (!cutoff.is_null()) cutoffs.push_back(cutoff.get<double>() * 180 / std::numbers::pi);
+    }
+    if (angles.empty()) return nullptr;
+    std::sort(cutoffs.begin(), cutoffs.end());
+    json[kind] = {{"cdf", thinned_cdf(angles)}, {"contacts", angles.size()}, {"replicates", replicates}};
+    json[kind]["cutoff"] = cutoffs.empty() ? Json(nullptr) : Json(cutoffs[cutoffs.size() / 2]);
+  }
+  return json;
+}
+
+/// ⟨ω⟩ ∝ Δφ^x over the states of all members near jamming; null if there are too few.
+Json pooled_scaling(const Members& members, const std::string& key) {
+  std::vector<double> distances, values;
+  for (const auto* member : members) {
+    for (const auto& state : state_points(member->record)) {
+      if (state.at(key).is_null() || state.at("delta_phi").is_null()) continue;
+      const double distance = state.at("delta_phi").get<double>();
+      if (distance <= 0 || distance > scaling_window) continue;
+      distances.push_back(distance);
+      values.push_back(state.at(key).get<double>());
+    }
+  }
+  const auto law = fit_power_law(distances, values);
+  if (!law) return nullptr;
+  const auto [nearest, farthest] = std::minmax_element(distances.begin(), distances.end());
+  Json json{{"exponent", law->exponent}, {"prefactor", law->prefactor}, {"points", law->points}};
+  json["ci95_half_width"] = law->points > 2 ? Json(law->ci95_half_width) : Json(nullptr);
+  json["from"] = *nearest;
+  json["to"] = *farthest;
+  return json;
+}
+
+Json complete_row(Json row, const Members& members) {
+  row["label"] = label_of(row);
+  const auto paper = paper_density(members.front()->summary.solid, members.front()->summary.particles);
+  row["paper"] = nullptr;
+  if (paper) row["paper"] = {{"phi_j", paper->phi_j}, {"half_width", paper->half_width}};
+  const auto chosen = trusted(members);
+  row["scaling"] = {{"omega_l", pooled_scaling(chosen, "omega_l")}, {"omega_h", pooled_scaling(chosen, "omega_h")}};
+  row["angles"] = pooled_angles(chosen);
+  return row;
+}
+
+Json provenance_list(const Results& results) {
+  Json builds = Json::array();
+  for (const auto& replicate : results.replicates) {
+    Json build;
+    for (const std::string key : {"version", "git", "compiler", "manifest_digest", "seed"})
+      build[key] = text_at(replicate.record, "/provenance/" + key);
+    add_distinct(builds, build);
+  }
+  return builds;
+}
+
+Json measure_list(const Results& results) {
+  Json measures = Json::array();
+  for (const auto& replicate : results.replicates) {
+    for (const auto& measure : list_at(replicate.record, "/spec/measure")) add_distinct(measures, measure);
+  }
+  return measures;
+}
+
+Json column_list() {
+  Json columns = Json::array();
+  for (const auto& column : all_columns)
+    columns.push_back({{"name", column.name}, {"group", column.group}, {"latex", column.latex}});
+  return columns;
+}
+
+Json solid_list(const Results& results) {
+  Json solids = Json::object();
+  for (const auto& replicate : results.replicates) {
+    const auto name = std::string(to_string(replicate.summary.solid));
+    if (solids.contains(name)) continue;
+    const auto& solid = platonic(replicate.summary.solid);
+    solids[name] = solid_shape(solid);
+    solids[name].update(angle_references(solid));
+  }
+  return solids;
+}
+
+}  // namespace
+
+Json report_data(const Results& results, const std::map<std::size_t, Json>& views) {
+  std::vector<RecordSummary> summaries;
+  std::map<std::string, Members> points;
+  for (const auto& replicate : results.replicates) {
+    summaries.push_back(replicate.summary);
+    points[point_of(replicate.summary)].push_back(&replicate);
+  }
+  const auto table = aggregate(summaries);
+
+  Json data;
+  data["manifest"] = {{"name", text_at(results.manifest, "/name")}, {"seed", text_at(results.manifest, "/seed")}};
+  data["builds"] = provenance_list(results);
+  data["measures"] = measure_list(results);
+  data["columns"] = column_list();
+  data["rows"] = Json::array();
+  std::map<std::string, int> place;
+  const auto tables = to_json(table);
+  for (const auto& row : tables.at("rows")) {
+    const auto point = point_of(row);
+    place.emplace(point, static_cast<int>(place.size()));
+    data["rows"].push_back(complete_row(row, points.at(point)));
+  }
+  data["csv"] = to_csv(table);
+  data["latex"] = to_latex(table);
+  data["replicates"] = data["views"] = Json::array();
+  for (const auto& replicate : results.replicates)
+    data["replicates"].push_back(replicate_entry(replicate, place.at(point_of(replicate.summary))));
+  data["solids"] = solid_list(results);
+  for (const auto& [replicate, view] : views) {
+    data["views"].push_back(view);
+    data["views"].back()["name"] = results.replicates[replicate].name;
+  }
+  return data;
+}
+
+}  // namespace isojam

@@ -1,0 +1,74 @@
+'use strict';
+
+/// An element with properties, attributes (`attributes`) and children. Texts become text nodes and are never markup.
+function element(name, options = {}, ...children) {
+  const {attributes = {}, ...properties} = options;
+  const made = Object.assign(document.createElement(name), properties);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children.filter((child) => child !== null && child !== undefined));
+  return made;
+}
+
+/// Nodes of a text in which φ_J and V_p, a letter and a letter, have subscripts.
+function rich(text) {
+  const parts = text.split(/(?<=(?:^|[^\p{L}_])\p{L})_(\p{L})(?![\p{L}_])/u);
+  return parts.map((part, index) => (index % 2 === 1 ? element('sub', {}, part) : part));
+}
+
+/// A number for people: `digits` significant ones, an en dash where there is none.
+function formatted(value, digits = 4) {
+  if (value === null || value === undefined) return '–';
+  if (typeof value !== 'number') return String(value);
+  if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)) return value.toExponential(digits - 1);
+  return String(Number(value.toPrecision(digits))).replace('-', '−');
+}
+
+/// A file from a text or a data URL, by the browser's own download.
+function save(name, content, type) {
+  const address = type ? URL.createObjectURL(new Blob([content], {type})) : content;
+  const link = element('a', {href: address, download: name});
+  document.body.append(link);
+  link.click();
+  link.remove();
+  if (type) setTimeout(() => URL.revokeObjectURL(address), 1000);
+}
+
+/// On the clipboard; by way of a selected text where the browser refuses, as it may for pages from disk.
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = element('textarea', {value: text});
+    document.body.append(area);
+    area.select();
+    document.execCommand('copy');
+    area.remove();
+  }
+}
+
+/// A button that says for a moment that it did what it does.
+function button(label, action) {
+  const made = element('button', {type: 'button'}, label);
+  made.addEventListener('click', async () => {
+    await action();
+    made.textContent = `${label} ✓`;
+    setTimeout(() => { made.textContent = label; }, 1200);
+  });
+  return made;
+}
+
+function csvField(value) {
+  if (value === null || value === undefined) return '';
+  const text = String(value);
+  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+/// Rows of all data sets below each other, their names in the first column.
+function csvOf(datasets) {
+  const names = [...new Set(Object.values(datasets).flat().flatMap((row) => Object.keys(row)))];
+  const lines = [['dataset', ...names].map(csvField).join(',')];
+  for (const [dataset, rows] of Object.entries(datasets)) {
+    for (const row of rows) lines.push([dataset, ...names.map((name) => row[name])].map(csvField).join(','));
+  }
+  return `${lines.join('\n')}\n`;
+}

@@ -1,0 +1,55 @@
+'use strict';
+
+function counted(number, noun) {
+  return `${number} ${noun}${number === 1 ? '' : 's'}`;
+}
+
+function drawHeader(data) {
+  const name = data.manifest.name ?? 'Unnamed sweep';
+  document.title = `${name} – isojam report`;
+  document.getElementById('name').textContent = name;
+  const failed = data.replicates.filter((replicate) => replicate.status === 'failed').length;
+  const flagged = data.replicates.filter((replicate) => replicate.flags.length > 0).length;
+  document.getElementById('summary').textContent =
+    `${counted(data.rows.length, 'sweep point')}, ${counted(data.replicates.length, 'replicate')}: ` +
+    `${data.replicates.length - failed} done, ${failed} failed, ${flagged} flagged.`;
+}
+
+function drawReservations(data) {
+  const place = document.getElementById('reservations');
+  const lines = data.replicates.filter(({flags, failure}) => failure || flags.length > 0).map((replicate) =>
+    element('li', {}, element('b', {}, replicate.name), ': ', replicate.failure ?
+      `failed in ${replicate.failure.where}: ${replicate.failure.why}` : replicate.flags.join(', ')));
+  if (lines.length === 0) return;
+  place.hidden = false;
+  place.append(element('ul', {className: 'note'}, ...lines));
+}
+
+function drawProvenance(data) {
+  const list = element('dl');
+  const put = (term, value) => list.append(element('dt', {}, term), element('dd', {}, value ?? 'unknown'));
+  put('Sweep', data.manifest.name);
+  put('Seed', data.manifest.seed);
+  put('Measured', data.measures.map(String).join(', ') || 'jamming density alone');
+  for (const build of data.builds) {
+    put('Manifest digest', build.manifest_digest);
+    put('Program', `isojam ${build.version} (git ${build.git})`);
+    put('Compiler', build.compiler);
+  }
+  list.append(element('dt', {}, 'Units'), element('dd', {}, ...rich('Y = 1, V_p = 1, ρ = 1')));
+  document.getElementById('provenance').append(list);
+}
+
+{
+  const data = JSON.parse(document.getElementById('data').textContent);
+  drawHeader(data);
+  drawMainTable(data, document.getElementById('table'));
+  drawFurtherTables(data, document.getElementById('further'));
+  drawCharts(data, document.getElementById('charts'));
+  drawPackings(data, document.getElementById('view'));
+  drawReservations(data);
+  drawProvenance(data);
+  // Closed tables are for screens.
+  addEventListener('beforeprint', () => document.querySelectorAll('details').forEach((part) => { part.open = true; }));
+  document.documentElement.dataset.ready = 'yes';
+}

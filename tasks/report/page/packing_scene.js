@@ -1,0 +1,175 @@
+'use strict';
+
+/// 'hardware', 'software' or null where there is no WebGL at all.
+function webglKind() {
+  const context = document.createElement('canvas').getContext('webgl');
+  if (!context) return null;
+  const info = context.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
+  context.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name) ? 'software' : 'hardware';
+}
+
+function buffer(length) {
+  const attribute = new THREE.BufferAttribute(new Float32Array(length), 3);
+  attribute.setUsage?.(THREE.DynamicDrawUsage);
+  return attribute;
+}
+
+/// All particles as one geometry for the faces and one for the edges: two draw calls whatever N is.
+function particleObjects(mesh, count) {
+  const faces = new THREE.BufferGeometry(), edges = new THREE.BufferGeometry();
+  for (const name of ['position', 'normal', 'color']) faces.setAttribute(name, buffer(mesh.corners.length * count));
+  edges.setAttribute('position', buffer(mesh.edges.length * count));
+  const solid = new THREE.Mesh(faces, new THREE.MeshLambertMaterial({
+    vertexColors: THREE.VertexColors, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}));
+  const outline = new THREE.LineSegments(edges,
+    new THREE.LineBasicMaterial({color: 0x1c1c1a, transparent: true, opacity: 0.55}));
+  solid.frustumCulled = outline.frustumCulled = false;
+  return {solid, outline};
+}
+
+/// Writes poses and colours of the particles shown into the two geometries.
+function fill({solid, outline}, mesh, particles) {
+  const {position, normal, color} = solid.geometry.attributes;
+  const ends = outline.geometry.attributes.position;
+  let corner = 0, turnedNormal = 0, end = 0, tint = 0;
+  for (const {at, orientation, colour} of particles) {
+    const rotation = rotationOf(orientation);
+    corner = place(position.array, corner, mesh.corners, rotation, at);
+    turnedNormal = place(normal.array, turnedNormal, mesh.normals, rotation, [0, 0, 0]);
+    end = place(ends.array, end, mesh.edges, rotation, at);
+    for (let k = 0; k < mesh.corners.length; k += 3) {
+      color.array.set([colour.r, colour.g, colour.b], tint);
+      tint += 3;
+    }
+  }
+  for (const attribute of [position, normal, color, ends]) attribute.needsUpdate = true;
+}
+
+function cellOutline(side) {
+  const box = new THREE.LineSegments(new THREE.EdgesGeometry(new THREE.BoxGeometry(side, side, side)),
+    new THREE.LineBasicMaterial({color: 0x888888}));
+  box.position.set(side / 2, side / 2, side / 2);
+  return box;
+}
+
+function dispose(objects) {
+  for (const object of objects) {
+    object.geometry.dispose();
+    object.material.dispose();
+  }
+}
+
+/// The camera, moved by mouse, touch and keys; `moved` is called when it did.
+function orbitCamera(canvas, moved) {
+  const camera = new THREE.PerspectiveCamera(32, 1, 0.1, 1000);
+  const light = new THREE.DirectionalLight(0xffffff, 0.62);
+  light.position.set(0.4, 0.7, 1);
+  camera.add(light);
+  const controls = new THREE.OrbitControls(camera, canvas);
+  Object.assign(controls, {enableKeys: false, enableZoom: false, enablePan: false, rotateSpeed: 0.7});
+  controls.addEventListener('change', moved);
+  // The wheel scrolls the page unless the view has the focus.
+  canvas.addEventListener('focus', () => { controls.enableZoom = true; });
+  canvas.addEventListener('blur', () => { controls.enableZoom = false; });
+  canvas.addEventListener('pointerdown', () => canvas.focus());
+  const moveTo = (spherical) => {
+    spherical.makeSafe();
+    camera.position.setFromSpherical(spherical).add(controls.target);
+    controls.update();
+    moved();
+  };
+  const spherical = () => new THREE.Spherical().setFromVector3(camera.position.clone().sub(controls.target));
+  return {
+    camera,
+    turn(theta, phi, zoom) {
+      const now = spherical();
+      moveTo(new THREE.Spherical(now.radius * zoom, now.phi + phi, now.theta + theta));
+    },
+    reset(side) {
+      controls.target.setScalar(side / 2);
+      Object.assign(controls, {minDistance: side * 0.4, maxDistance: side * 8});
+      Object.assign(camera, {near: side * 0.05, far: side * 12});
+      moveTo(new THREE.Spherical(side * 3.3, 1.15, 0.6));
+    },
+  };
+}
+
+/// Ends of edges that a processor alone can draw at some ten frames a second.
+const slowOutlines = 12000;
+
+const keyTurns = {
+  ArrowLeft: [-0.09, 0, 1], ArrowRight: [0.09, 0, 1], ArrowUp: [0, -0.09, 1], ArrowDown: [0, 0.09, 1],
+  '+': [0, 0, 0.9], '=': [0, 0, 0.9], '-': [0, 0, 1.11],
+};
+
+/// Fits the view to the width of its frame, now and whenever that changes.
+function followWidth(canvas, renderer, camera, draw) {
+  new ResizeObserver(() => {
+    const width = canvas.parentElement.clientWidth, height = Math.round(Math.min(width * 0.62, 560));
+    renderer.setSize(width, height, false);
+    canvas.style.height = `${height}px`;
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    draw();
+  }).observe(canvas.parentElement);
+}
+
+/// A canvas with a scene that is drawn only when something changed. `show` takes a solid's shape, the cell's side and
+/// the particles ({at, orientation, colour}); `update` the same particles elsewhere.
+function packingScene(canvas, antialias) {
+  const renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: true, preserveDrawingBuffer: true});
+  renderer.setPixelRatio(antialias ? Math.min(devicePixelRatio, 2) : 1);
+  const scene = new THREE.Scene();
+  let waiting = false, objects = null, mesh = null, box = null, side = 1, frames = 0, resting = 0;
+  let sparing = false;
+  const orbit = orbitCamera(canvas, () => move());
+  const draw = () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      renderer.render(scene, orbit.camera);
+      frames += 1;
+      canvas.dataset.frames = frames;
+    });
+  };
+  // Where outlines would cost most of a frame they are left out until the motion ends.
+  const move = () => {
+    if (sparing) {
+      objects.outline.visible = false;
+      clearTimeout(resting);
+      resting = setTimeout(() => { objects.outline.visible = true; draw(); }, 200);
+    }
+    draw();
+  };
+  scene.add(orbit.camera, new THREE.HemisphereLight(0xffffff, 0xb8b4a8, 0.55));
+  followWidth(canvas, renderer, orbit.camera, draw);
+  canvas.addEventListener('keydown', (event) => {
+    if (event.key === 'Home') orbit.reset(side);
+    else if (keyTurns[event.key]) orbit.turn(...keyTurns[event.key]);
+    else return;
+    event.preventDefault();
+  });
+  return {
+    show(shape, cellSide, particles, keepCamera) {
+      if (objects) {
+        const old = [objects.solid, objects.outline, box];
+        scene.remove(...old);
+        dispose(old);
+      }
+      [mesh, side] = [solidMesh(shape), cellSide];
+      [objects, box] = [particleObjects(mesh, particles.length), cellOutline(side)];
+      scene.add(objects.solid, objects.outline, box);
+      sparing = !antialias && (mesh.edges.length / 3) * particles.length > slowOutlines;
+      fill(objects, mesh, particles);
+      if (!keepCamera) orbit.reset(side);
+      draw();
+    },
+    update(particles) {
+      fill(objects, mesh, particles);
+      move();
+    },
+  };
+}

@@ -1,0 +1,186 @@
+'use strict';
+
+// Small multiples as full Vega specifications: one group mark per panel, all on the same scales.
+
+/// Okabe and Ito's colours, told apart with any colour vision, and a shape each for print in black.
+const solidColours = {
+  tetrahedron: '#d55e00', cube: '#cc79a7', octahedron: '#0072b2', dodecahedron: '#009e73', icosahedron: '#e69f00',
+};
+const solidShapes = {
+  tetrahedron: 'triangle-up', cube: 'square', octahedron: 'diamond', dodecahedron: 'circle',
+  icosahedron: 'triangle-down',
+};
+const ink = '#222222', faint = '#d9d8d2';
+
+const chartConfig = {
+  background: null,
+  font: 'system-ui, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif',
+  axis: {
+    domainColor: '#777777', tickColor: '#777777', gridColor: faint, gridOpacity: 0.6, labelColor: ink, titleColor: ink,
+    labelFontSize: 11, titleFontSize: 12, titleFontWeight: 'normal', titlePadding: 6, tickSize: 4,
+    labelSeparation: 3,
+  },
+  title: {color: ink, fontSize: 12, fontWeight: 600, anchor: 'start', offset: 6},
+  legend: {labelColor: ink, titleColor: ink, labelFontSize: 11, titleFontSize: 11, labelLimit: 320},
+};
+
+const superscripts = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
+const powerText = (power) => `10${[...String(power)].map((digit) => superscripts[digit]).join('')}`;
+
+/// Four to eight round numbers, evenly spaced.
+function evenTicks([low, high]) {
+  const rough = (high - low) / 8;
+  const decade = 10 ** Math.floor(Math.log10(rough));
+  const step = decade * [1, 2, 5, 10].find((digit) => digit * decade >= rough);
+  const ticks = [];
+  for (let k = Math.ceil(low / step); k * step <= high; k += 1) ticks.push(Number((k * step).toPrecision(6)));
+  return ticks;
+}
+
+/// Decades, or 1, 2, 5 of each where there are few.
+function logTicks([low, high]) {
+  const [first, last] = [Math.floor(Math.log10(low)), Math.ceil(Math.log10(high))];
+  const decades = Math.log10(high / low);
+  if (decades < 0.9) return evenTicks([low, high]);
+  const digits = decades > 2.3 ? [1] : [1, 2, 5];
+  const step = Math.max(1, Math.ceil(decades / 6));
+  const ticks = [];
+  for (let power = first; power <= last; power += 1) {
+    if ((power - last) % step === 0) ticks.push(...digits.map((digit) => Number(`${digit}e${power}`)));
+  }
+  return ticks.filter((tick) => tick >= low * 0.999 && tick <= high * 1.001);
+}
+
+function logAxis(domain) {
+  const values = logTicks(domain);
+  const plain = values.every((value) => value >= 1e-3 && value < 1e5);
+  const text = (value) => (plain ? String(value) : powerText(Math.round(Math.log10(value))));
+  const texts = Object.fromEntries(values.map((value) => [value, text(value)]));
+  return {values, labelOverlap: 'greedy', encode: {labels: {update: {text: {
+    signal: `(${JSON.stringify(texts)})[datum.value] || ''`}}}}};
+}
+
+/// The range of values with a margin, in logarithms for a log scale; null without values.
+function domainOf(values, {type = 'linear', margin = 0.05} = {}) {
+  const usable = values.filter((value) => typeof value === 'number' && (type !== 'log' || value > 0));
+  if (usable.length === 0) return null;
+  const map = type === 'log' ? Math.log : (x) => x;
+  const back = type === 'log' ? Math.exp : (x) => x;
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of usable) [low, high] = [Math.min(low, map(value)), Math.max(high, map(value))];
+  const room = (high - low) * margin || (type === 'log' ? 0.5 : Math.abs(high) * 0.05 || 1);
+  return [back(low - room), back(high + room)];
+}
+
+/// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left.
+function panelGrid(width, panels, {least = 215, most = 4, left = 66, gap = 18} = {}) {
+  const fits = Math.floor((width - left + gap) / (least + gap));
+  const columns = Math.max(1, Math.min(most, panels, fits));
+  return {columns, width: Math.floor((width - left - 14 - gap * (columns - 1)) / columns)};
+}
+
+function panelAxes({x, y}, {showX, showY}) {
+  const axis = (orient, scale, {type, domain, title, format, ticks}, labelled) => ({
+    orient, scale, grid: true, ...(format ? {format} : {}),
+    ...(type === 'log' ? logAxis(domain) : {tickCount: ticks ?? 5}),
+    ...(labelled ? {title} : {labels: false, ticks: false}),
+  });
+  return [axis('bottom', 'x', x, showX), axis('left', 'y', y, showY)];
+}
+
+/// One panel: its own scales of the common domains, marks inside.
+function panel({title, width, height, x, y, data = [], marks, showX = true, showY = true}) {
+  const scale = (name, range, {type = 'linear', domain}) => ({name, type, domain, range, zero: false, clamp: false});
+  return {
+    type: 'group',
+    title: {text: title, limit: width, frame: 'group'},
+    encode: {enter: {width: {value: width}, height: {value: height}}},
+    signals: [{name: 'width', value: width}, {name: 'height', value: height}],
+    scales: [scale('x', [0, width], x), scale('y', [height, 0], y)],
+    data, axes: panelAxes({x, y}, {showX, showY}), marks,
+  };
+}
+
+/// A legend above the chart, its entries below each other where the page is narrow.
+const horizontal = (legend, width) => ({
+  orient: 'top', direction: 'horizontal', columns: width < 560 ? 1 : 0, ...legend,
+});
+
+/// The look of a chart; legends stand below each other where the page is narrow.
+const configFor = (width) => ({
+  ...chartConfig,
+  legend: {...chartConfig.legend, layout: {top: {direction: width < 560 ? 'vertical' : 'horizontal', anchor: 'start'}}},
+});
+
+/// A specification of panels in a grid. `panelsOf(grid)` is called with the place of each panel.
+function panelSpec({description, width, count, height = 190, datasets, legends = [], scales = [], panelAt, grid = {}}) {
+  const {columns, width: panelWidth} = panelGrid(width, count, grid);
+  const marks = [];
+  for (let index = 0; index < count; index += 1) {
+    marks.push(panelAt(index, {
+      width: panelWidth, height, showY: index % columns === 0, showX: index + columns >= count,
+    }));
+  }
+  return {
+    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: configFor(width),
+    scales,
+    legends: legends.map((legend) => horizontal(legend, width)),
+    data: Object.entries(datasets).map(([name, values]) => ({name, values})),
+    layout: {columns, bounds: 'full', align: 'all', padding: {row: 16, column: 12}},
+    marks,
+  };
+}
+
+/// Rows of a data set that belong to a panel, under a name of their own.
+const rowsOf = (source, index) => ({
+  name: `${source}_${index}`, source, transform: [{type: 'filter', expr: `datum.row === ${index}`}],
+});
+
+/// A tooltip: the fields named, as an object; see charts.js.
+function tooltipOf(fields) {
+  const entries = Object.entries(fields).map(([label, field]) =>
+    `${JSON.stringify(label)}: datum[${JSON.stringify(field)}]`);
+  return {signal: `{${entries.join(', ')}}`};
+}
+
+/// A mark's name becomes a class of its elements, by which the page's style sheet finds what is ink; names are unique.
+const styled = (style, type, from) => (style ? {name: `${style}_${type}_${from}`} : {});
+
+const inPanel = (fieldX, fieldY) => ({x: {scale: 'x', field: fieldX}, y: {scale: 'y', field: fieldY}});
+
+function points(from, x, y, {colour, shape = 'circle', size = 30, hollow = false, tooltip, opacity = 1, style}) {
+  return {
+    type: 'symbol', from: {data: from}, ...styled(style, 'symbol', from),
+    encode: {enter: {
+      ...inPanel(x, y), size: {value: size}, shape: typeof shape === 'string' ? {value: shape} : shape,
+      fill: hollow ? {value: 'transparent'} : colour, stroke: colour, strokeWidth: {value: 1.3},
+      opacity: {value: opacity}, ...(tooltip ? {tooltip: tooltipOf(tooltip)} : {}),
+    }},
+  };
+}
+
+/// A line for each value of `by`, in the order of the rows.
+function lines(from, x, y, {by, colour, width = 1.3, dash = [], opacity = 1, style, step = false}) {
+  return {
+    type: 'group', from: {facet: {name: `${from}_${by}`, data: from, groupby: by}},
+    encode: {enter: {width: {signal: 'width'}, height: {signal: 'height'}}},
+    marks: [{
+      type: 'line', clip: true, from: {data: `${from}_${by}`}, ...styled(style, 'line', from),
+      encode: {enter: {
+        ...inPanel(x, y), stroke: colour, strokeWidth: {value: width}, strokeDash: {value: dash},
+        opacity: {value: opacity}, interpolate: {value: step ? 'step-after' : 'linear'},
+      }},
+    }],
+  };
+}
+
+/// A vertical bar from `low` to `high`.
+function errorBars(from, x, low, high, {colour, style}) {
+  return {
+    type: 'rule', from: {data: from}, ...styled(style, 'rule', from),
+    encode: {enter: {
+      x: {scale: 'x', field: x}, y: {scale: 'y', field: low}, y2: {scale: 'y', field: high},
+      stroke: colour, strokeWidth: {value: 1.5},
+    }},
+  };
+}

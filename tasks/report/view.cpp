@@ -1,0 +1,178 @@
+#include "tasks/report/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/analysis/orientation_order.hpp"
+#include "engine/packing/energy.hpp"
+#include "engine/vibration/modes.hpp"
+#include "tasks/measure/parts.hpp"
+#include "tasks/plan.hpp"
+
+namespace isojam {
+namespace {
+
+/// Decimals that a screen can show.
+constexpr double length_unit = 1e5, mode_unit = 1e3;
+/// A view is not worth the dense solver's minutes.
+constexpr int largest_dense_view = 100;
+
+double shortened(double x, double unit) {
+  const double rounded = std::round(x * unit) / unit;
+  return rounded == 0 ? 0 : rounded;  // no "-0.0"
+}
+
+template <class Vector>
+Json shortened_list(const Vector& v, double unit) {
+  Json list = Json::array();
+  for (Eigen::Index k = 0; k < v.size(); ++k) list.push_back(shortened(v[k], unit));
+  return list;
+}
+
+Eigen::Vector3d wrapped(const Eigen::Vector3d& x, double side) {
+  return x - side * (x / side).array().floor().matrix();
+}
+
+void put_poses(Json& json, const Packing& packing) {
+  json["positions"] = json["orientations"] = Json::array();
+  for (const auto& pose : packing.poses) {
+    json["positions"].push_back(shortened_list(wrapped(pose.position, packing.cell.side()), length_unit));
+    const auto& q = pose.orientation.coeffs();
+    json["orientations"].push_back(shortened_list(Eigen::Vector4d(q[3], q[0], q[1], q[2]), length_unit));
+  }
+}
+
+void put_contacts(Json& json, std::span<const Contact> contacts, int particles) {
+  std::vector<int> numbers(static_cast<std::size_t>(particles), 0);
+  for (const auto& contact : contacts) {
+    ++numbers[static_cast<std::size_t>(contact.pair.a)];
+    ++numbers[static_cast<std::size_t>(contact.pair.b)];
+  }
+  json["contacts"] = numbers;
+  json["local_Q6"] = Json::array();
+  for (const auto& order : local_steinhardt_order(contacts, particles, 6))
+    json["local_Q6"].push_back(order ? Json(shortened(*order, mode_unit)) : Json(nullptr));
+}
+
+void put_clusters(Json& json, const Packing& packing, const ClassifiedContacts& classified) {
+  json["clusters"] = json["largest"] = nullptr;
+  if (const auto why = undecided(classified.analysis)) {
+    json["clusters_reason"] = *why;
+    return;
+  }
+  const auto clusters = find_clusters(packing, bonds_of(classified.contacts, classified.analysis.classes));
+  json["clusters"] = cluster_labels(clusters, packing.size());
+  const auto largest = std::max_element(clusters.begin(), clusters.end(),
+                                        [](const Cluster& a, const Cluster& b) { return a.size() < b.size(); });
+  if (largest->size() > 1) json["largest"] = unwrapped_cluster(packing, *largest);
+}
+
+/// Coordinates (x, R·θ) become (x, θ), the greatest entry 1.
+Eigen::VectorXd displacements(Eigen::VectorXd mode, double gyration_radius) {
+  for (Eigen::Index i = 0; i < mode.size(); i += 6) mode.segment<3>(i + 3) /= gyration_radius;
+  return mode / mode.cwiseAbs().maxCoeff();
+}
+
+void append_modes(Json& list, const ModeSet& set, std::string_view end, double gyration_radius) {
+  for (Eigen::Index k = 0; k < set.size(); ++k) {
+    const double lambda = set.eigenvalues[k];
+    Json mode;
+    mode["end"] = end;
+    mode["omega"] = lambda > 0 ? Json(std::sqrt(lambda)) : Json(nullptr);
+    mode["u"] = shortened_list(displacements(set.vectors.col(k), gyration_radius), mode_unit);
+    list.push_back(std::move(mode));
+  }
+}
+
+Json mode_list(const Packing& packing, PackingEnergy& energy, int modes) {
+  Json list = Json::array();
+  if (modes == 0) return list;
+  const ModeOptions options{.lowest = modes, .highest = modes, .largest_dense = largest_dense_view};
+  // The low parts decide the softest modes: without them faces that just touch may seem apart.
+  const auto ends = spectrum_ends(energy.hessian(packing, Precision::extended), options);
+  append_modes(list, ends.lowest, "lowest", packing.solid->gyration_radius());
+  append_modes(list, ends.highest, "highest", packing.solid->gyration_radius());
+  return list;
+}
+
+std::string point_of(const RecordSummary& summary) {
+  return point_text(summary.solid, summary.particles, summary.parameters);
+}
+
+}  // namespace
+
+std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& options) {
+  std::map<std::string, std::vector<std::size_t>> points;
+  for (std::size_t k = 0; k < results.replicates.size(); ++k) {
+    const auto& summary = results.replicates[k].summary;
+    if (!summary.failed) points[point_of(summary)].push_back(k);
+  }
+  std::size_t most = 0;
+  for (auto& [point, replicates] : points) {
+    std::stable_partition(replicates.begin(), replicates.end(),
+                          [&](std::size_t k) { return !results.replicates[k].summary.flagged; });
+    most = std::max(most, replicates.size());
+  }
+  std::vector<ChosenView> chosen;
+  int left = options.budget;
+  for (std::size_t turn = 0; turn < most; ++turn) {
+    for (const auto& [point, replicates] : points) {
+      if (turn >= replicates.size()) continue;
+      const int particles = results.replicates[replicates[turn]].summary.particles;
+      const bool affordable = particles <= left;
+      if (turn > 0 && !affordable) continue;
+      if (affordable) left -= particles;
+      chosen.push_back({replicates[turn], affordable});
+    }
+  }
+  std::sort(chosen.begin(), chosen.end(),
+            [](const ChosenView& a, const ChosenView& b) { return a.replicate < b.replicate; });
+  return chosen;
+}
+
+Json packing_view(const Packing& packing, int modes) {
+  PackingEnergy energy;
+  const auto classified = classified_contacts(packing, energy);
+  Json json;
+  json["solid"] = packing.solid->name();
+  json["phi"] = packing.density();
+  json["side"] = packing.cell.side();
+  put_poses(json, packing);
+  put_contacts(json, classified.contacts, packing.size());
+  put_clusters(json, packing, classified);
+  json["modes"] = mode_list(packing, energy, modes);
+  return json;
+}
+
+Json unwrapped_cluster(const Packing& packing, const Cluster& cluster) {
+  const double side = packing.cell.side();
+  std::vector<Eigen::Vector3d> positions;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < cluster.members.size(); ++k) {
+    const auto& pose = packing.poses[static_cast<std::size_t>(cluster.members[k])];
+    positions.push_back(pose.position + side * cluster.images[k].cast<double>());
+    centre += positions.back() / cluster.size();
+  }
+  Json json;
+  json["members"] = cluster.members;
+  json["winding_rank"] = cluster.winding_rank();
+  json["positions"] = Json::array();
+  for (const auto& x : positions) {
+    const Eigen::Vector3d centred = x - centre + Eigen::Vector3d::Constant(side / 2);
+    json["positions"].push_back(shortened_list(centred, length_unit));
+  }
+  return json;
+}
+
+Json solid_shape(const ConvexSolid& solid) {
+  Json json;
+  json["circumradius"] = solid.circumradius();
+  json["vertices"] = json["faces"] = json["edges"] = Json::array();
+  for (const auto& vertex : solid.vertices()) json["vertices"].push_back(shortened_list(vertex, length_unit));
+  for (const auto& face : solid.faces()) json["faces"].push_back(face.vertices);
+  for (const auto& edge : solid.edges()) json["edges"].push_back({edge.tail, edge.head});
+  return json;
+}
+
+}  // namespace isojam

@@ -1,0 +1,144 @@
+"""Results directories for the browser test: a real run, what may become of one, and packings made by hand."""
+
+import copy
+import json
+import math
+import pathlib
+import random
+import shutil
+import subprocess
+
+MEASURES = ["contacts", "order", "clusters", "modes", "moduli", "rigidity"]
+HOSTILE = "<script>alert(1)</script>"
+
+
+def manifest(**changes):
+    """Packings of a second each: 24 or 28 dodecahedra, loosely converged."""
+    tiny = {
+        "name": "tiny", "seed": 7, "sweep": {"solid": ["dodecahedron"], "particles": [24, 28]}, "replicates": 2,
+        "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
+                     "approach": 0.4, "final_distance": 0.03, "fit_window": 0.1, "passing_residual": 0.1},
+        "minimiser": {"residual": 1e-3, "max_evaluations": 2000, "unjammed_energy": 1e-14},
+        "measure": MEASURES,
+    }
+    return {**tiny, **changes}
+
+
+def checksum(data):
+    """FNV-1a, 64 bits."""
+    value = 0xCBF29CE484222325
+    for byte in data:
+        value = ((value ^ byte) * 0x100000001B3) & 0xFFFFFFFFFFFFFFFF
+    return f"{value:016x}"
+
+
+def write_sealed(path, document):
+    """As isojam seals its files: the checksum of the text with zeros in its place stands second."""
+    first, *others = [(key, value) for key, value in document.items() if key != "checksum"]
+    text = json.dumps(dict([first, ("checksum", "0" * 16), *others]), indent=2, ensure_ascii=False) + "\n"
+    path.write_text(text.replace("0" * 16, checksum(text.encode()), 1), encoding="utf-8")
+
+
+def change_record(path, change):
+    document = json.loads(path.read_text(encoding="utf-8"))
+    change(document)
+    write_sealed(path, document)
+
+
+def fail(record):
+    record["status"] = "failed"
+    record["failure"] = {"where": "jam", "why": "made to fail"}
+    for key in ("flags", "phi_j", "nearest"):
+        record.pop(key)
+
+
+class Pages:
+    """Writes results below `root` and turns them into reports with the isojam executable."""
+
+    def __init__(self, executable, root):
+        self.executable, self.root = executable, pathlib.Path(root)
+
+    def run(self, name, **changes):
+        """Results of a real run, of which replicates may fail; returns their directory."""
+        source = self.root / f"{name}.json"
+        source.write_text(json.dumps(manifest(**changes)))
+        ran = subprocess.run([self.executable, "--quiet", "run", source, "-o", self.root / name], check=False,
+                             stdout=subprocess.DEVNULL)
+        assert ran.returncode in (0, 1), ran.returncode
+        return self.root / name
+
+    def copied(self, name, source):
+        shutil.copytree(source, self.root / name)
+        return self.root / name
+
+    def report(self, directory):
+        """Path of the page; isojam says where it wrote it."""
+        made = subprocess.run([self.executable, "report", directory], check=True, capture_output=True, text=True)
+        assert made.stdout == f"{directory}/report.html\n", made.stdout
+        return directory / "report.html"
+
+    def table(self, directory, form):
+        made = subprocess.run([self.executable, "aggregate", directory, "--format", form], check=True,
+                              capture_output=True, text=True)
+        return made.stdout
+
+    def with_failures(self, name, source, which):
+        directory = self.copied(name, source)
+        for path in sorted((directory / "records").iterdir()):
+            if which(path.stem):
+                change_record(path, fail)
+                (directory / "packings" / path.name).unlink()
+        return directory
+
+    def single(self, name, source):
+        directory = self.copied(name, source)
+        for folder in ("records", "packings"):
+            for path in sorted((directory / folder).iterdir())[1:]:
+                path.unlink()
+        return directory
+
+    def forged(self, name, source):
+        """Texts of records and of the manifest that would be markup if anyone took them for it."""
+        directory = self.copied(name, source)
+        document = json.loads((directory / "manifest.json").read_text())
+        document["name"] = HOSTILE
+        (directory / "manifest.json").write_text(json.dumps(document))
+
+        def forge(record):
+            record["provenance"]["compiler"] = HOSTILE + "<img src=x onerror=alert(2)>"
+            record["flags"] = ["</script>" + HOSTILE]
+
+        for path in sorted((directory / "records").iterdir()):
+            change_record(path, forge)
+        return directory
+
+    def by_hand(self, name, source, solid, particles, density):
+        """One replicate of `particles` on a lattice, turned at random, with the states of a real one."""
+        directory = self.single(name, source)
+        record = next((directory / "records").iterdir())
+        packing = directory / "packings" / record.name
+
+        def resize(document):
+            document["spec"].update(solid=solid, particles=particles)
+            document["flags"] = []
+
+        change_record(record, resize)
+        made = json.loads(packing.read_text())
+        made.update(lattice(particles, density), solid=solid)
+        write_sealed(packing, made)
+        return directory
+
+
+def lattice(particles, density):
+    side = (particles / density) ** (1 / 3)
+    sites = math.ceil(particles ** (1 / 3))
+    numbers = random.Random(11)
+    positions, orientations = [], []
+    for k in range(particles):
+        site = (k % sites, k // sites % sites, k // sites**2)
+        positions.append([(c + 0.5) * side / sites for c in site])
+        q = [numbers.gauss(0, 1) for _ in range(4)]
+        norm = math.sqrt(sum(c * c for c in q))
+        orientations.append([c / norm for c in q])
+    low = {"positions_low": [[0.0] * 3] * particles, "orientations_low": [[0.0] * 4] * particles}
+    return copy.deepcopy({"phi": density, "side": side, "positions": positions, "orientations": orientations, **low})

@@ -1,0 +1,98 @@
+"""What a results directory says, for comparison with what third-party readers see in exported files."""
+
+import json
+import pathlib
+
+import numpy
+
+FLOAT = numpy.finfo(numpy.float32).eps
+DOUBLE = numpy.finfo(numpy.float64).eps
+
+
+class State:
+    """One packing: N, side L, positions (N, 3), unit quaternions (N, 4) as (w, x, y, z), delta_phi or None."""
+
+    def __init__(self, packing, delta_phi):
+        self.solid = packing["solid"]
+        self.side = packing["side"]
+        self.phi = packing["phi"]
+        self.delta_phi = delta_phi
+        self.positions = numpy.array(packing["positions"])
+        quaternions = numpy.array(packing["orientations"])
+        self.quaternions = quaternions / numpy.linalg.norm(quaternions, axis=1)[:, None]
+        self.n = len(self.positions)
+
+
+def names(results):
+    return sorted(path.stem for path in pathlib.Path(results, "records").glob("*.json"))
+
+
+def record(results, name):
+    return json.loads(pathlib.Path(results, "records", name + ".json").read_text())
+
+
+def nearest(results, name):
+    """The state nearest jamming, as a list of one."""
+    packing = json.loads(pathlib.Path(results, "packings", name + ".json").read_text())
+    return [State(packing, record(results, name)["nearest"]["delta_phi"])]
+
+
+def path(results, name):
+    """Every state, in order of expansion."""
+    states = json.loads(pathlib.Path(results, "paths", name + ".json").read_text())["states"]
+    return [State(state, state["delta_phi"]) for state in states]
+
+
+def measured(results, name, whole_path):
+    """What the record says of each of these states."""
+    document = record(results, name)
+    return document["states"] if whole_path else [document["nearest"]]
+
+
+def rotation(quaternions):
+    """Matrices (N, 3, 3) of unit quaternions (w, x, y, z)."""
+    w, x, y, z = numpy.asarray(quaternions, dtype=float).T
+    return numpy.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]).transpose(2, 0, 1)
+
+
+def distances(positions, side):
+    """Of all pairs, to the nearest periodic image."""
+    difference = positions[:, None, :] - positions[None, :, :]
+    difference -= side * numpy.round(difference / side)
+    return numpy.linalg.norm(difference, axis=2)
+
+
+def clusters_of(labels):
+    """Labels as files have them: those of lone particles, which a record has too, become -1."""
+    labels = numpy.asarray(labels)
+    sizes = numpy.bincount(labels)
+    return numpy.where(sizes[labels] > 1, labels, -1)
+
+
+def moments(vertices, faces):
+    """Volume and integral of |x|^2 over the polyhedron, by tetrahedra about the origin; both change sign with the
+    winding of the faces."""
+    volume = second = 0.0
+    for face in faces:
+        a = vertices[face[0]]
+        for b, c in zip(vertices[face[1:-1]], vertices[face[2:]]):
+            v = numpy.dot(a, numpy.cross(b, c)) / 6
+            volume += v
+            second += v / 10 * (a @ a + b @ b + c @ c + a @ b + b @ c + c @ a)
+    return volume, second
+
+
+def read_obj(file):
+    """Vertices (V, 3) and faces, lists of vertex numbers from 0."""
+    vertices, faces = [], []
+    for line in pathlib.Path(file).read_text().splitlines():
+        words = line.split()
+        if words[0] == "v":
+            vertices.append([float(word) for word in words[1:]])
+        elif words[0] == "f":
+            faces.append([int(word) - 1 for word in words[1:]])
+    return numpy.array(vertices), faces

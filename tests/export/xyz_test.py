@@ -1,0 +1,80 @@
+"""Facts proved here, of extended XYZ and OBJ files, read by the few lines that their formats need:
+- frames in order, N lines each, columns as Properties says, the lattice the cell;
+- positions lie in the cell and have the distances of the packing; quaternions (x, y, z, w) are the packing's;
+- Z has the record's mean, clusters are the record's; phi and delta_phi are exact;
+- the OBJ file is a closed solid of unit volume about its centroid, faces wound outwards."""
+
+import re
+
+import numpy
+
+import check
+import results
+
+
+def read_frames(file):
+    """A list of (values of the comment line, columns by name)."""
+    lines = file.read_text().splitlines()
+    frames = []
+    while lines:
+        n = int(lines[0])
+        values = {key: quoted or plain for key, quoted, plain in re.findall(r'(\w+)=(?:"([^"]*)"|(\S+))', lines[1])}
+        words = [line.split() for line in lines[2:2 + n]]
+        frames.append((values, columns(values["Properties"], words)))
+        lines = lines[2 + n:]
+    return frames
+
+
+def columns(properties, words):
+    kinds = {"S": str, "R": float, "I": int}
+    fields = iter(properties.split(":"))
+    first, result = 0, {}
+    for name, kind, width in zip(fields, fields, fields):
+        last = first + int(width)
+        result[name] = numpy.array([[kinds[kind](word) for word in row[first:last]] for row in words]).squeeze()
+        first = last
+    assert {len(row) for row in words} == {first}, "a line has another number of columns"
+    return result
+
+
+class Xyz(check.RoundTrip):
+    def frames(self):
+        for stem, states, measured, _ in self.cases():
+            frames = read_frames(stem.with_name(stem.name + ".xyz"))
+            self.assertEqual(len(frames), len(states))
+            for (values, columns_), state, record in zip(frames, states, measured):
+                yield values, columns_, state, record
+
+    def test_cell(self):
+        for values, particles, state, _ in self.frames():
+            lattice = numpy.array(values["Lattice"].split(), dtype=float).reshape(3, 3)
+            numpy.testing.assert_array_equal(lattice, state.side * numpy.eye(3))
+            self.assertEqual((values["pbc"], set(particles["species"])), ("T T T", {state.solid}))
+            self.assertEqual((float(values["phi"]), float(values["delta_phi"])), (state.phi, state.delta_phi))
+
+    def test_particles(self):
+        for _, particles, state, record in self.frames():
+            self.assertEqual(len(particles["pos"]), state.n)
+            self.assertGreaterEqual(particles["pos"].min(), 0)
+            self.assertLess(particles["pos"].max(), state.side)
+            tolerance = 8 * results.DOUBLE * state.side
+            self.assert_near(results.distances(particles["pos"], state.side),
+                             results.distances(state.positions, state.side), tolerance, "distances")
+            self.assert_near(particles["orientation"], numpy.roll(state.quaternions, -1, axis=1), 4 * results.DOUBLE,
+                             "quaternions")
+            self.assert_near(particles["Z"].mean(), record["Z"], 8 * results.DOUBLE * record["Z"], "Z")
+            if "labels" in record["clusters"]:
+                self.assertEqual(list(particles["cluster"]), list(results.clusters_of(record["clusters"]["labels"])))
+
+    def test_solid(self):
+        for stem, states, _, _ in self.cases():
+            vertices, faces = results.read_obj(stem.with_name(stem.name + ".obj"))
+            self.assertEqual(len(vertices) - sum(map(len, faces)) / 2 + len(faces), 2, "Euler characteristic")
+            volume, _ = results.moments(vertices, faces)
+            self.assert_near(volume, 1, 100 * results.DOUBLE, "volume")
+            self.assert_near(vertices.mean(axis=0), numpy.zeros(3), 100 * results.DOUBLE, "centroid")
+            self.assertEqual(f"o {states[0].solid}", stem.with_name(stem.name + ".obj").read_text().splitlines()[1])
+
+
+if __name__ == "__main__":
+    check.main()
