@@ -166,13 +166,15 @@ cancelled_task_stays_so() {
     "$example/sweep.sbatch" "$isojam" "$manifest" "$results")
   await 60 'a task to cancel at work' program_of_one_shard
   scancel "$array"
-  await 20 'the end of the cancelled task' job_has_no_process
+  await 20 'the end of the cancelled task' cancelled_job_is_over
   logs_of 1 | grep -qx 'isojam exited 75' || fail 'the log of the cancelled task does not tell of 75'
   [[ $(state "${array}_1") == CANCELLED*' restarts 0' ]] || fail "after scancel: $(state "${array}_1")"
   say "task ended by scancel: $(state "${array}_1")"
 }
 program_of_one_shard() { [[ $(program_of 1) && $(find "$results/checkpoints" -name '*.json' 2>/dev/null) ]]; }
-job_has_no_process() { [[ -z $(cluster_pids SLURM_ARRAY_JOB_ID="$array") ]]; }
+cancelled_job_is_over() {
+  [[ -z $(cluster_pids SLURM_ARRAY_JOB_ID="$array") && $(field "${array}_1" JobState) != COMPLETING ]]
+}
 
 "$isojam" --quiet run "$manifest" -o "$work/single" -j 2 >/dev/null
 say 'reference made on one machine'
