@@ -4,6 +4,8 @@
 BUILD ?= build
 JOBS ?= $(shell nproc)
 OPTIONS ?=
+# Seconds for a test that names no limit of its own.
+TIMEOUT ?= 300
 EXAMPLE ?= examples/01-four-solids
 # Where `isojam run` puts the results of the example: named as its manifest says.
 RESULTS  = $(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.json)
@@ -68,7 +70,7 @@ test:
 	@$(MAKE) --no-print-directory browser || echo 'NO BROWSER COULD BE INSTALLED: the report is not tested in one' >&2
 	$(CONFIGURE) -DISOJAM_TESTS=ON
 	cmake --build $(BUILD) -j $(JOBS)
-	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout 300
+	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout $(TIMEOUT)
 
 # As root. Not a part of `test`: it starts daemons.
 test-slurm: build
@@ -83,7 +85,7 @@ bench:
 
 # The whole suite under the address and undefined-behaviour sanitizers, assertions on, in a directory of its own.
 test-asan:
-	$(MAKE) test BUILD=$(BUILD)-asan OPTIONS='-DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON $(OPTIONS)'
+	$(MAKE) test BUILD=$(BUILD)-asan OPTIONS='-DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON $(OPTIONS)' TIMEOUT=2400
 
 # Each fuzzer for FUZZ_SECONDS, from the seeds in tests/fuzz/seeds; what it found stays in $(BUILD)-fuzz.
 FUZZ_SECONDS ?= 300
