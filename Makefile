@@ -1,9 +1,11 @@
-# Verbs: run test build bench lint format clean. On Debian 12 each first installs the packages it needs and lacks.
-#   make test BUILD=build-asan OPTIONS='-DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON'
+# Verbs: run test build bench test-asan fuzz test-slurm lint format clean. On Debian 12 each first installs the packages
+# it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
 JOBS ?= $(shell nproc)
 OPTIONS ?=
+# Seconds for a test that names no limit of its own.
+TIMEOUT ?= 300
 EXAMPLE ?= examples/01-four-solids
 # Where `isojam run` puts the results of the example: named as its manifest says.
 RESULTS  = $(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.json)
@@ -17,7 +19,9 @@ TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijso
                     libmpfr-dev voro++-dev python3-gsd python3-vtk9
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
+FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) clang-14 libclang-rt-14-dev llvm-14
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
+SLURM_PACKAGES   := slurm-wlm munge python3
 
 # $(call install,packages): the network is touched only if one of them is missing.
 define install
@@ -45,7 +49,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test bench lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench lint format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -66,7 +70,12 @@ test:
 	@$(MAKE) --no-print-directory browser || echo 'NO BROWSER COULD BE INSTALLED: the report is not tested in one' >&2
 	$(CONFIGURE) -DISOJAM_TESTS=ON
 	cmake --build $(BUILD) -j $(JOBS)
-	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout 300
+	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout $(TIMEOUT)
+
+# As root. Not a part of `test`: it starts daemons.
+test-slurm: build
+	$(call install,$(SLURM_PACKAGES))
+	tests/slurm/test_slurm.sh $(BUILD)/isojam
 
 bench:
 	$(call install,$(BENCH_PACKAGES))
@@ -74,8 +83,21 @@ bench:
 	cmake --build $(BUILD) -j $(JOBS) --target isojam_bench
 	$(BUILD)/isojam_bench --ratios $(BUILD)/ratios.json
 
+# The whole suite under the address and undefined-behaviour sanitizers, assertions on, in a directory of its own.
+test-asan:
+	$(MAKE) test BUILD=$(BUILD)-asan OPTIONS='-DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON $(OPTIONS)' TIMEOUT=2400
+
+# Each fuzzer for FUZZ_SECONDS, from the seeds in tests/fuzz/seeds; what it found stays in $(BUILD)-fuzz.
+FUZZ_SECONDS ?= 300
+fuzz:
+	$(call install,$(FUZZ_PACKAGES))
+	cmake -S . -B $(BUILD)-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DISOJAM_TESTS=OFF -DISOJAM_FUZZ=ON \
+	  -DISOJAM_NATIVE=ON -DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON $(OPTIONS)
+	cmake --build $(BUILD)-fuzz -j $(JOBS) --target fuzzers
+	bash tests/fuzz/run.sh $(BUILD)-fuzz $(FUZZ_SECONDS)
+
 clean:
-	rm -rf $(BUILD)
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-fuzz
 
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.

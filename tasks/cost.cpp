@@ -26,9 +26,9 @@ constexpr double packing_text = 335, step_text = 400, state_text = 1500, record_
 
 /// Of the program at work on N particles, apart from the factorisation: packings of the expansion, passed between
 /// stages by value, overlaps and Hessians.
-constexpr double particle_bytes = 60e3;
+constexpr double particle_bytes = 90e3;
 /// Of the factors of the Hessian and their update matrices, which fill in faster than N grows.
-constexpr double factor_bytes = 1.2e3, factor_power = 1.6;
+constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
 
 /// A number in a file of one number; infinity if there is none ("max", or no such file).
 double number_in_file(const char* path) {

@@ -8,6 +8,7 @@
 #include <tbb/flow_graph.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <array>
@@ -231,6 +232,38 @@ void build_and_wait(Run& run, int in_flight) {
 }
 
 }  // namespace
+
+void in_order(std::size_t count, const std::function<RecordSummary(std::size_t)>& make,
+              const std::function<void(const RecordSummary&)>& use) {
+  struct Made {
+    std::optional<RecordSummary> summary;
+    std::exception_ptr error;
+  };
+  std::size_t next = 0;
+  const auto input = [&](tbb::flow_control& control) {
+    if (next == count) control.stop();
+    return next++;
+  };
+  const auto middle = [&](std::size_t index) {
+    // Kept until its turn: which of several failures is reported must not depend on who was first.
+    Made made;
+    try {
+      made.summary = make(index);
+    } catch (...) {
+      made.error = std::current_exception();
+    }
+    return made;
+  };
+  const auto output = [&](const Made& made) {
+    if (made.error) std::rethrow_exception(made.error);
+    use(*made.summary);
+  };
+  constexpr auto in_turn = tbb::filter_mode::serial_in_order;
+  tbb::parallel_pipeline(static_cast<std::size_t>(4 * default_threads()),
+                         tbb::make_filter<void, std::size_t>(in_turn, input) &
+                             tbb::make_filter<std::size_t, Made>(tbb::filter_mode::parallel, middle) &
+                             tbb::make_filter<Made, void>(in_turn, output));
+}
 
 int default_threads() { return tbb::info::default_concurrency(); }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "tasks/record.hpp"
 #include "tasks/replicate.hpp"
 
 namespace isojam {
@@ -26,6 +27,12 @@ using NextReplicate = std::function<std::optional<ReplicateSpec>()>;
 /// `on_outcome` or `on_step` stops the run and is thrown from here.
 void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
                const std::function<void(const Outcome&)>& on_outcome);
+
+/// Makes `count` summaries on all threads and gives them to `use` one at a time in the order of their indices; few are
+/// in memory at once. What `make` throws for the first index that fails is thrown from here, after all before it were
+/// used.
+void in_order(std::size_t count, const std::function<RecordSummary(std::size_t)>& make,
+              const std::function<void(const RecordSummary&)>& use);
 
 /// As many threads as the machine gives this process.
 int default_threads();

@@ -21,6 +21,10 @@ InterruptWatcher::~InterruptWatcher() {
   // Wakes sigwait in that thread and ends nothing: the signal is blocked.
   pthread_kill(thread_.native_handle(), SIGTERM);  // NOLINT(bugprone-bad-signal-to-kill-thread)
   thread_.join();
+  // One that is still pending came too late to stop anything, and must not kill what has ended well.
+  const timespec at_once{};
+  while (sigtimedwait(&signals_, nullptr, &at_once) > 0) {
+  }
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 

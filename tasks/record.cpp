@@ -89,15 +89,27 @@ std::optional<double> value_below(const JsonPlace& place, std::string_view point
 
 /// nullopt if it was not measured, that is, if the first key of its pointer is missing; any other must be there.
 std::optional<double> column_value(const JsonPlace& place, const Column& column) {
-  const auto end = std::min(column.pointer.find('/', 1), column.pointer.size());
-  if (!place.has(std::string(column.pointer.substr(1, end - 1)))) return std::nullopt;
+  // Tables read millions of values: only one that is not as it should be is worth a place with its texts.
+  const Json* value = &place.value();
+  for (std::string_view rest = column.pointer; !rest.empty();) {
+    const auto end = std::min(rest.find('/', 1), rest.size());
+    const auto found = value->is_object() ? value->find(rest.substr(1, end - 1)) : value->end();
+    if (found == value->end()) {
+      if (rest.size() == column.pointer.size()) return std::nullopt;
+      return value_below(place, column.pointer);
+    }
+    value = &*found;
+    rest = rest.substr(end);
+  }
+  if (value->is_number_float()) return value->get<double>();
   return value_below(place, column.pointer);
 }
 
 void read_values(const JsonPlace& root, RecordSummary& summary) {
+  const auto nearest = root.at("nearest");
   for (std::size_t i = 0; i < all_columns.size(); ++i) {
     const bool of_replicate = all_columns[i].of == Column::Of::replicate;
-    summary.values[i] = column_value(of_replicate ? root : root.at("nearest"), all_columns[i]);
+    summary.values[i] = column_value(of_replicate ? root : nearest, all_columns[i]);
   }
   summary.residual = number_or_null(root.at("phi_j").at("residual"));
 }

@@ -43,11 +43,14 @@ Shard shard_of_environment() {
   const auto task = variable("SLURM_ARRAY_TASK_ID"), count = variable("SLURM_ARRAY_TASK_COUNT");
   if (!task && !count) return {};
   const int first = variable("SLURM_ARRAY_TASK_MIN").value_or(1), step = variable("SLURM_ARRAY_TASK_STEP").value_or(1);
+  const auto last = variable("SLURM_ARRAY_TASK_MAX");
   const bool whole_steps = task && step > 0 && (*task - first) % step == 0;
   const int index = whole_steps ? (*task - first) / step : -1;
-  if (!count || *count < 1 || *count > most_shards || index < 0 || index >= *count)
+  const bool gaps = last && count && step > 0 && (*last - first) / step + 1 != *count;
+  if (!count || *count < 1 || *count > most_shards || index < 0 || index >= *count || gaps)
     throw std::invalid_argument(
-        "SLURM_ARRAY_TASK_ID, _COUNT, _MIN and _STEP do not describe an array of evenly spaced tasks: give --shard "
+        "SLURM_ARRAY_TASK_ID, _COUNT, _MIN, _MAX and _STEP do not describe an array of evenly spaced tasks: give "
+        "--shard "
         "I/N");
   return {index, *count};
 }

@@ -7,6 +7,7 @@
 
 #include "tasks/atomic_file.hpp"
 #include "tasks/checkpoint.hpp"
+#include "tasks/graph.hpp"
 #include "tasks/input_error.hpp"
 #include "tasks/sealed_json.hpp"
 
@@ -161,10 +162,11 @@ std::vector<std::string> names_in(const fs::path& folder) {
 void for_each_record(const fs::path& directory, const std::function<void(const RecordSummary&)>& use) {
   const auto names = names_in(directory / "records");
   if (names.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
-  for (const auto& name : names) {
-    const auto path = (directory / "records" / (name + ".json")).string();
-    use(summarise_record(read_sealed(path), path));
-  }
+  const auto summary_of = [&](std::size_t index) {
+    const auto path = (directory / "records" / (names[index] + ".json")).string();
+    return summarise_record(read_sealed(path), path);
+  };
+  in_order(names.size(), summary_of, use);
 }
 
 }  // namespace isojam

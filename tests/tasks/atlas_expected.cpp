@@ -14,19 +14,15 @@ std::span<const ExpectedCells> expected_overlaps() {
       {"depth, face on face", "contact loop in two doubles", "hhhhhh"},
       {"depth, face on face", "contact loop in doubles", "hhhfff"},
       {"depth, face on face", "plain clip in doubles", "hhhfff"},
-      // 1e-04, 1e-06, 1e-08, 1e-10, 1e-12, 1e-14
       {"depth, edge on face", "contact loop in two doubles", "hhhhhh"},
       {"depth, edge on face", "contact loop in doubles", "hhhhhh"},
       {"depth, edge on face", "plain clip in doubles", "hfhhhh"},
-      // 1e-04, 1e-06, 1e-08, 1e-10, 1e-12, 1e-14
       {"depth, edge across edge", "contact loop in two doubles", "hhhhhh"},
       {"depth, edge across edge", "contact loop in doubles", "hhhhhh"},
       {"depth, edge across edge", "plain clip in doubles", "hhhhhh"},
-      // 1e-04, 1e-06, 1e-08, 1e-10, 1e-12, 1e-14
       {"depth, vertex on face", "contact loop in two doubles", "hhhhhh"},
       {"depth, vertex on face", "contact loop in doubles", "hhhhhh"},
       {"depth, vertex on face", "plain clip in doubles", "hhhhhh"},
-      // 1e-04, 1e-06, 1e-08, 1e-10, 1e-12, 1e-14
       {"depth, vertex on vertex", "contact loop in two doubles", "hhhhhh"},
       {"depth, vertex on vertex", "contact loop in doubles", "hhhhhh"},
       {"depth, vertex on vertex", "plain clip in doubles", "hhhhhh"},
@@ -34,11 +30,9 @@ std::span<const ExpectedCells> expected_overlaps() {
       {"faces parallel to, 1e-3 deep", "contact loop in two doubles", "hhhhhhh"},
       {"faces parallel to, 1e-3 deep", "contact loop in doubles", "hhhhhhh"},
       {"faces parallel to, 1e-3 deep", "plain clip in doubles", "hhhhhhh"},
-      // 1e-01, 1e-04, 1e-07, 1e-10, 1e-13, 1e-16, exactly
       {"faces parallel to, 1e-11 deep", "contact loop in two doubles", "hhhhhhh"},
       {"faces parallel to, 1e-11 deep", "contact loop in doubles", "hhhffff"},
       {"faces parallel to, 1e-11 deep", "plain clip in doubles", "hhfffff"},
-      // 1e-01, 1e-04, 1e-07, 1e-10, 1e-13, 1e-16, exactly
       {"edges parallel to, 1e-3 deep", "contact loop in two doubles", "hhhhhhh"},
       {"edges parallel to, 1e-3 deep", "contact loop in doubles", "hhhhhhh"},
       {"edges parallel to, 1e-3 deep", "plain clip in doubles", "hhhhhhh"},
@@ -65,30 +59,22 @@ std::span<const ExpectedCells> expected_packings() {
   static constexpr std::array<ExpectedCells, 18> table{{
       // N = 2, N = 3, N = 4, N = 5, N = 6, N = 7, N = 8
       {"cell just larger than the least", "neighbour list", "hhhhhhh"},
-      // N = 2, N = 3, N = 4, N = 5, N = 6, N = 7, N = 8
       {"cell of the least side", "neighbour list", "rrrrrrr"},
-      // N = 2, N = 3, N = 4, N = 5, N = 6, N = 7, N = 8
       {"cell smaller than the least", "neighbour list", "rrrrrrr"},
       {"cell smaller than the least", "nearest images", "fffffff"},
       // tetrahedron, cube, octahedron, dodecahedron, icosahedron
       {"translated through the boundary", "contact loop in doubles", "hhhhh"},
       {"translated through the boundary", "contact loop in two doubles", "hhhhh"},
-      // tetrahedron, cube, octahedron, dodecahedron, icosahedron
       {"relabelled", "contact loop in doubles", "hhhhh"},
       {"relabelled", "contact loop in two doubles", "hhhhh"},
-      // tetrahedron, cube, octahedron, dodecahedron, icosahedron
       {"A and B exchanged", "contact loop in doubles", "hhhhh"},
       {"A and B exchanged", "contact loop in two doubles", "hhhhh"},
-      // tetrahedron, cube, octahedron, dodecahedron, icosahedron
       {"turned with the cell by 90°", "contact loop in doubles", "hhhhh"},
       {"turned with the cell by 90°", "contact loop in two doubles", "hhhhh"},
-      // tetrahedron, cube, octahedron, dodecahedron, icosahedron
       {"cluster turned in free space by 1 rad", "contact loop in doubles", "hhhhh"},
       {"cluster turned in free space by 1 rad", "contact loop in two doubles", "hhhhh"},
-      // tetrahedron, cube, octahedron, dodecahedron, icosahedron
       {"solid given in units of 1e-06", "contact loop in doubles", "hhhhh"},
       {"solid given in units of 1e-06", "contact loop in two doubles", "hhhhh"},
-      // tetrahedron, cube, octahedron, dodecahedron, icosahedron
       {"solid given in units of 1e+06", "contact loop in doubles", "hhhhh"},
       {"solid given in units of 1e+06", "contact loop in two doubles", "hhhhh"},
   }};
@@ -103,7 +89,7 @@ std::span<const ExpectedCells> expected_minimisers() {
       {"strained to Δφ", "conjugate gradients until energy changes by < 1e-12", "ffrrrrrrr"},
       {"strained to Δφ", "FIRE", "rrrrrrrrr"},
       {"strained to Δφ", "L-BFGS", "hhrrrrrrr"},
-      // residual 1e-9, octahedron from φ = 0.8, E/N = 3.2e-05
+      // residual 1e-9
       {"already jammed start", "Newton", "h"},
       {"already jammed start", "conjugate gradients", "h"},
       {"already jammed start", "conjugate gradients until energy changes by < 1e-12", "h"},
@@ -115,7 +101,7 @@ std::span<const ExpectedCells> expected_minimisers() {
       {"near-rattlers", "conjugate gradients until energy changes by < 1e-12", "r"},
       {"near-rattlers", "FIRE", "r"},
       {"near-rattlers", "L-BFGS", "r"},
-      // φ = 0.3, octahedron from φ = 0.2, E/N = 3.2e-05
+      // φ = 0.3
       {"unjammed start", "Newton", "h"},
       {"unjammed start", "conjugate gradients", "h"},
       {"unjammed start", "conjugate gradients until energy changes by < 1e-12", "h"},
@@ -126,9 +112,9 @@ std::span<const ExpectedCells> expected_minimisers() {
       {"equilibrium translated through the boundary", "state in doubles", "hf"},
       // cube from φ = 0.2, E/N = 3.2e-05, cube from φ = 0.2, E/N = 1.0e-08
       {"cubes", "protocol", "rr"},
-      // residual 1e-9, octahedron from φ = 0.8, E/N = 3.2e-05
+      // octahedron from φ = 0.8, E/N = 3.2e-05
       {"already jammed start", "protocol", "h"},
-      // φ = 0.3, octahedron from φ = 0.2, E/N = 3.2e-05
+      // octahedron from φ = 0.2, E/N = 3.2e-05
       {"unjammed start", "protocol", "h"},
   }};
   return table;
@@ -140,12 +126,14 @@ std::span<const ExpectedCells> expected_modes() {
       {"softest modes, condition number", "shift-invert, −σ/λ_max = 1e-11", "hhhhhhhhhhhh"},
       {"softest modes, condition number", "shift-invert, −σ/λ_max = 1e-6", "hhhhhhhhhhhh"},
       {"softest modes, condition number", "plain Lanczos", "hhrrrrrrrrrr"},
-      // none, 1e-03, 1e-04, 1e-05, 1e-06, 1e-07, 1e-08, 1e-09, 1e-10
+      // none
       {"Hessian at Δφ = 0.125, step", "analytic", "h"},
+      // 1e-03, 1e-04, 1e-05, 1e-06, 1e-07, 1e-08, 1e-09, 1e-10
       {"Hessian at Δφ = 0.125, step", "central differences in doubles", "fhhhhhhh"},
       {"Hessian at Δφ = 0.125, step", "central differences in two doubles", "fhhhhhhh"},
-      // none, 1e-03, 1e-04, 1e-05, 1e-06, 1e-07, 1e-08, 1e-09, 1e-10
+      // none
       {"Hessian at Δφ = 0.010, step", "analytic", "h"},
+      // 1e-03, 1e-04, 1e-05, 1e-06, 1e-07, 1e-08, 1e-09, 1e-10
       {"Hessian at Δφ = 0.010, step", "central differences in doubles", "ffffffhh"},
       {"Hessian at Δφ = 0.010, step", "central differences in two doubles", "ffffffhh"},
   }};

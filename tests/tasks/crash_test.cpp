@@ -5,6 +5,7 @@
 // - a record, packing or checkpoint with one byte changed is noticed and redone, and nothing else is touched;
 // - a full disk, and files that may not grow, end a run with exit 1 and a message, and it comes to the same bytes when
 //   there is room;
+// - a directory that cannot be written to is refused at once;
 // - three shards at once in one directory make the records of the whole, and `aggregate` its tables;
 // - SIGINT ends a run within two seconds with exit 75 in the middle of a strain step, and leaves checkpoints;
 // - a folder that is a symbolic link is refused, and nothing is written where it points;
@@ -179,6 +180,24 @@ TEST_F(Crash, AFullDiskEndsARun) {
   EXPECT_TRUE(enlarged);
   const auto again = run();
   EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(results(), reference());
+  EXPECT_EQ(umount(disk.c_str()), 0);
+}
+
+TEST_F(Crash, AReadOnlyDirectoryIsLeftAsItWas) {
+  const auto disk = here_ / "results";
+  fs::create_directory(disk);
+  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=20m") != 0)
+    GTEST_SKIP() << "no right to mount a file system that cannot be written to";
+  run([&](int process) { stop_at_checkpoints(disk, 1, process, SIGKILL); });
+  EXPECT_EQ(mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, ""), 0);
+  const auto before = test::files_below(disk);
+  const auto refused = run();
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("cannot be written to"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::files_below(disk), before);
+  EXPECT_EQ(mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, ""), 0);
+  EXPECT_EQ(run().exit_code, 0);
   EXPECT_EQ(results(), reference());
   EXPECT_EQ(umount(disk.c_str()), 0);
 }

@@ -56,6 +56,7 @@ TEST(Shard, ASlurmTaskFindsItsOwn) {
     const Environment slurm({{"SLURM_ARRAY_TASK_ID", std::to_string(task)},
                              {"SLURM_ARRAY_TASK_COUNT", "4"},
                              {"SLURM_ARRAY_TASK_MIN", "5"},
+                             {"SLURM_ARRAY_TASK_MAX", "20"},
                              {"SLURM_ARRAY_TASK_STEP", "5"}});
     EXPECT_EQ(shard_of_environment().index, index);
     EXPECT_EQ(shard_of_environment().count, 4);
@@ -74,6 +75,11 @@ TEST(Shard, ContradictionsAreRefused) {
       {{"SLURM_ARRAY_TASK_ID", "0"}, {"SLURM_ARRAY_TASK_COUNT", "4"}},
       {{"SLURM_ARRAY_TASK_ID", "2"}, {"SLURM_ARRAY_TASK_COUNT", "4"}, {"SLURM_ARRAY_TASK_STEP", "2"}},
       {{"SLURM_ARRAY_TASK_ID", "2"}, {"SLURM_ARRAY_TASK_COUNT", "0"}},
+      // array=2,5: a gap
+      {{"SLURM_ARRAY_TASK_ID", "2"},
+       {"SLURM_ARRAY_TASK_COUNT", "2"},
+       {"SLURM_ARRAY_TASK_MIN", "2"},
+       {"SLURM_ARRAY_TASK_MAX", "5"}},
   };
   for (const auto& values : wrong) {
     const Environment slurm(values);

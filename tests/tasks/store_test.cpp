@@ -200,6 +200,27 @@ TEST(Store, TemporariesAreNotResults) {
   EXPECT_EQ(count_records(directory.path()), 1);
 }
 
+TEST(Store, RecordsComeInOrderUpToTheFirstDamagedOne) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with(7, 60);
+  const auto plan = test::make_plan(manifest);
+  const Store store(directory.path(), manifest);
+  for (const auto& spec : plan) store.write(test::made_up_outcome(spec));
+  test::write_text(store.record_path(plan[40]), "{");
+  test::write_text(store.record_path(plan[50]), "[");
+  for (int trial = 0; trial < 5; ++trial) {
+    std::vector<int> seen;
+    try {
+      for_each_record(directory.path(), [&](const RecordSummary& record) { seen.push_back(record.replicate); });
+      FAIL() << "damage went unnoticed";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("-r0040.json"), std::string::npos) << error.what();
+    }
+    ASSERT_EQ(seen.size(), 40U);
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  }
+}
+
 TEST(Store, ADirectoryWithoutRecordsIsNoResultsDirectory) {
   const TemporaryDirectory directory;
   EXPECT_THROW(count_records(directory.path()), FileError);

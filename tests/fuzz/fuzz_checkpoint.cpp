@@ -1,0 +1,37 @@
+// Any document is refused by an InputError or is a checkpoint that can be written again. It is made to be of this build
+// and of this replicate, so that what comes after is reached.
+
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "tasks/checkpoint.hpp"
+#include "tasks/input_error.hpp"
+#include "tasks/plan.hpp"
+
+namespace {
+
+const isojam::ReplicateSpec& spec() {
+  static const auto the_spec = isojam::Plan(isojam::parse_manifest(R"({"name": "fuzz", "seed": 7,
+    "sweep": {"solid": ["dodecahedron"], "particles": [24]}, "replicates": 1, "protocol": {"max_density": 0.75}})",
+                                                                   "fuzz"))[0];
+  return the_spec;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace isojam;
+  try {
+    auto document = parse_json(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz");
+    if (document.is_object()) {
+      document["provenance"] = provenance(spec());
+      document["spec"] = to_json(spec());
+    }
+    const auto checkpoint = read_checkpoint({document, "fuzz"}, spec());
+    if (const auto again = make_checkpoint(spec(), checkpoint)) read_checkpoint({*again, "again"}, spec());
+  } catch (const InputError& refused) {
+    if (*refused.what() == '\0') std::abort();
+  }
+  return 0;
+}

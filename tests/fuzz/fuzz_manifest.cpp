@@ -1,0 +1,20 @@
+// Any text is refused by an InputError or is a manifest whose canonical form reads back as itself.
+
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "tasks/input_error.hpp"
+#include "tasks/manifest.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace isojam;
+  try {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const auto canonical = to_json(parse_manifest(text, "fuzz"));
+    if (to_json(parse_manifest(canonical.dump(), "canonical")) != canonical) std::abort();
+  } catch (const InputError& refused) {
+    if (*refused.what() == '\0') std::abort();
+  }
+  return 0;
+}
