@@ -82,7 +82,7 @@ std::span<const ExpectedCells> expected_packings() {
 }
 
 std::span<const ExpectedCells> expected_minimisers() {
-  static constexpr std::array<ExpectedCells, 25> table{{
+  static constexpr std::array<ExpectedCells, 26> table{{
       // 2e-01, 1e-01, 5e-02, 2e-02, 1e-02, 5e-03, 2e-03, 1e-03, 5e-04
       {"strained to Δφ", "Newton", "hhhhhhhrr"},
       {"strained to Δφ", "conjugate gradients", "hhrrrrrrr"},
@@ -101,6 +101,7 @@ std::span<const ExpectedCells> expected_minimisers() {
       {"near-rattlers", "conjugate gradients until energy changes by < 1e-12", "r"},
       {"near-rattlers", "FIRE", "r"},
       {"near-rattlers", "L-BFGS", "r"},
+      {"near-rattlers", "modes by inertia", "h"},
       // φ = 0.3
       {"unjammed start", "Newton", "h"},
       {"unjammed start", "conjugate gradients", "h"},

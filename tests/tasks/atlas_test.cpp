@@ -1,7 +1,9 @@
-// Facts proved here: every cell of the stability atlas is as the tables of atlas_expected.cpp say, one letter for each
-// setting (h holds, r refuses, f fails), those of isojam's own methods and those that are there to be compared with; no
-// cell is missing from a table and none is there twice; isojam's own methods hold in every cell, or refuse with a
-// reason or a balance that is worse than asked for; every cell says what was measured and why it was judged so.
+// Facts proved here:
+//   every cell of the stability atlas is as the tables of atlas_expected.cpp say, a letter for each setting (h holds,
+//   r refuses, f fails): isojam's own methods, and those that are there to be compared with;
+//   no cell is missing from a table, and none is there twice;
+//   isojam's own methods hold in every cell, or refuse; every cell says what was measured and why it was judged so;
+//   the same bits come out every time.
 
 #include <gtest/gtest.h>
 

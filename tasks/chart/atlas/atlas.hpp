@@ -38,15 +38,15 @@ std::vector<AtlasRow> overlap_atlas();
 std::vector<AtlasRow> packing_atlas();
 
 /// Minimisers from states strained towards jamming, from an equilibrium, from an unjammed start; the protocol with
-/// cubes and with starts of either kind. A minute.
+/// cubes and with starts of either kind. A quarter of a minute.
 std::vector<AtlasRow> minimiser_atlas();
 
 /// Hessians against central differences, and softest modes by shift-invert, plain Lanczos and the dense solver, as the
-/// condition number grows. Half a minute.
+/// condition number grows. A quarter of a minute.
 std::vector<AtlasRow> modes_atlas();
 
 struct AtlasOptions {
-  bool jammed_states = true;  ///< also what needs packings to be jammed first: a minute or two
+  bool jammed_states = true;  ///< also what needs packings to be jammed first: half a minute
 };
 
 /// All of them, in this order. The same bits every time.

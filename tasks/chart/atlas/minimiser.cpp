@@ -91,9 +91,26 @@ Packing with_vacancy() {
   return packing;
 }
 
+/// What the inertia of the Hessian says beside the vacancy: more than three zero modes must have a name.
+AtlasRow judged_rattlers() {
+  Packing packing = with_vacancy();
+  PackingEnergy energy;
+  minimise(packing, energy, minimisers().front().options);
+  const BlockMatrix matrix = energy.hessian(packing, Precision::extended);
+  const Stability found = assess(matrix, spectrum_ends(matrix));
+  AtlasRow row{"near-rattlers", "beside a vacancy", "modes by inertia", true, {}, {}, {}};
+  row.figure = fmt::format("{} zero modes, {} negative, {} near-rattlers named", found.zero, found.negative,
+                           found.near_rattlers.size());
+  row.reason = to_string(found.verdict);
+  const bool told = found.verdict == Verdict::stable || !found.near_rattlers.empty();
+  row.verdict = told ? AtlasVerdict::holds : AtlasVerdict::fails;
+  return row;
+}
+
 void append_other_starts(std::vector<AtlasRow>& rows) {
   append_starts("already jammed start", "residual 1e-9", state_above(0.02), StopReason::residual_reached, rows);
   append_starts("near-rattlers", "beside a vacancy", with_vacancy(), StopReason::residual_reached, rows);
+  rows.push_back(judged_rattlers());
   RandomStream random{3};
   const Packing loose = random_packing(platonic(SolidKind::octahedron), 45, 0.3, random);
   append_starts("unjammed start", "φ = 0.3", loose, StopReason::unjammed, rows);
