@@ -30,4 +30,7 @@ void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptio
 /// As many threads as the machine gives this process.
 int default_threads();
 
+/// Runs `work` on the calling thread; whatever it does in parallel takes `threads` at most, this one among them.
+void with_threads(int threads, const std::function<void()>& work);
+
 }  // namespace isojam
