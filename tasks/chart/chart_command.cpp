@@ -33,6 +33,7 @@ ExitCode chart(const ChartCommand& command, Console& console) {
   make_directory(directory);
   const InterruptWatcher watcher;
   const auto families = run_chart(config, watcher.token(), console);
+  console.end();
   const Json data = chart_data(config, families);
   const auto table = text_table(families);
   write_atomically(directory / "data.json", pretty(data));

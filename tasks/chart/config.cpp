@@ -53,6 +53,7 @@ void visit_chart(Config& config, const Visitor& visit) {
   visit("pairs", config.pairs, Range{1, 1e5});
   visit("repetitions", config.repetitions, count_range);
   visit("max_evaluations", config.max_evaluations, evaluation_range);
+  visit("rule_evaluations", config.rule_evaluations, evaluation_range);
   visit("point_seconds", config.point_seconds, second_range);
   visit("total_seconds", config.total_seconds, second_range);
 }
@@ -153,6 +154,7 @@ ChartConfig full_chart_config() {
   config.subspaces = {80, 120, 200, 300};
   config.pairs = 300;
   config.max_evaluations = 20000;
+  config.rule_evaluations = 100000;
   config.point_seconds = 30;
   config.total_seconds = 3500;
   config.phi_j.replicates = 8;

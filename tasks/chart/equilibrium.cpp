@@ -38,7 +38,7 @@ std::vector<Ladder> ladders(const ChartConfig& config) {
     MinimiseOptions options{.method = Method::conjugate_gradient,
                             .residual = 0,
                             .energy_change = change,
-                            .max_evaluations = config.max_evaluations};
+                            .max_evaluations = config.rule_evaluations};
     paper.push_back({"conjugate_gradient by energy", fmt::format("energy change {:g}", change), options});
   }
   return all;
@@ -223,6 +223,7 @@ class Minimisers {
         if (point.failed) missed.push_back(distance);
         equilibrium_.points.push_back(point);
       }
+      if (states.empty()) return;
       // A method that missed a tolerance ends in the same state for every smaller one.
       for (const auto& [key, state] : carried) states.try_emplace(key, state);
       bias_.points.push_back(bias_of(variant, solid, states, reference_, config_));

@@ -189,7 +189,7 @@ ChartConfig tiny_config() {
   return parse_chart_config(
       R"({"solids": ["dodecahedron"], "particles": 24, "packings": 1, "distances": [0.08, 0.05], "fit_window": 0.1,
           "tolerances": [1e-2, 1e-6], "difference_steps": [1e-7], "shifts": [1e-11], "subspaces": [100], "pairs": 3,
-          "repetitions": 1, "max_evaluations": 300, "point_seconds": 100, "total_seconds": 1000,
+          "repetitions": 1, "max_evaluations": 300, "rule_evaluations": 600, "point_seconds": 100, "total_seconds": 1000,
           "phi_j": {"solid": "dodecahedron", "replicates": 2, "particles": [24], "consolidation_step": [0.04],
                     "target_energy": [1e-5], "fit_window": [0.05, 0.1], "residual": [1e-6]}})",
       "tiny");

@@ -14,9 +14,11 @@ function plotted(family) {
   const shown = (value) => (value > 0 ? value : least);
   return family.points.filter(({seconds}) => seconds).map((point) => ({
     task: point.case, method: point.method, setting: point.setting, stopped: point.stopped, failed: point.failed,
-    on_front: point.on_front, x: point.seconds.median, x_least: point.seconds.least, x_greatest: point.seconds.greatest,
+    on_front: point.on_front,
+    x: point.seconds.median, x_least: point.seconds.least, x_greatest: point.seconds.greatest,
     seconds_n: point.seconds.n, y: point.error ? shown(point.error.median) : null,
-    y_least: point.error ? shown(point.error.least) : null, y_greatest: point.error ? shown(point.error.greatest) : null,
+    y_least: point.error ? shown(point.error.least) : null,
+    y_greatest: point.error ? shown(point.error.greatest) : null,
     error: point.error?.median ?? null, error_greatest: point.error?.greatest ?? null, error_n: point.error?.n ?? 0,
   }));
 }
@@ -39,9 +41,19 @@ function failureMarks(source) {
       stroke: byMethod, strokeWidth: {value: 1.8}, fill: {value: 'transparent'}, tooltip: tooltipOf(pointTooltip),
     }},
   });
-  const inPlace = cross({scale: 'y', field: 'y'}, 10);
+  const inPlace = cross({scale: 'y', field: 'y'}, 40);
   inPlace.encode.enter.opacity = {signal: 'isValid(datum.y) ? 1 : 0'};
-  return [inPlace, cross({value: edge}, 18)];
+  return [inPlace, cross({value: edge}, 50)];
+}
+
+/// Why points of a panel failed, said once at its upper edge.
+function reasonText(failed, width) {
+  const reasons = unique(failed.flatMap(({stopped}) => stopped.split(', ').map((why) => why.replace(/ \d+$/, ''))))
+    .filter((why) => !['residual_reached', 'energy_change', 'converged'].includes(why));
+  return {type: 'text', encode: {enter: {
+    x: {value: 4}, y: {value: edge}, baseline: {value: 'middle'}, fontSize: {value: 10}, fill: {value: ink},
+    limit: {value: 0.72 * width}, text: {value: reasons.length > 0 ? `failed: ${reasons.join(', ')}` : ''},
+  }}};
 }
 
 function edgeLine(width) {
@@ -61,7 +73,9 @@ function successMarks(source) {
   const y = {scale: 'y', field: 'y'};
   return [
     bar(source, {x: {scale: 'x', field: 'x_least'}, x2: {scale: 'x', field: 'x_greatest'}, y}),
-    bar(source, {x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y_least'}, y2: {scale: 'y', field: 'y_greatest'}}),
+    bar(source, {
+      x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y_least'}, y2: {scale: 'y', field: 'y_greatest'},
+    }),
     {
       type: 'symbol', from: {data: source},
       encode: {enter: {
@@ -116,7 +130,10 @@ function familyFigure(family) {
         filtered(names[1], 'points', `${here} && (datum.failed || !isValid(datum.y))`),
         filtered(names[2], 'points', `${here} && datum.on_front`, true),
       ],
-      marks: [edgeLine(place.width), frontMark(names[2]), ...successMarks(names[0]), ...failureMarks(names[1])],
+      marks: [
+        edgeLine(place.width), reasonText(rows.filter((row) => row.task === tasks[index] && row.failed), place.width),
+        frontMark(names[2]), ...successMarks(names[0]), ...failureMarks(names[1]),
+      ],
     });
   };
   return {
