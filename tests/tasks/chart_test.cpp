@@ -6,7 +6,6 @@
 // - a Pareto front holds what no other point beats, in order of time, and neither failures nor points without error;
 // - conclusions rank by cases reached, then by time; name what failed; say so where nothing was measured or reached;
 // - medians are of finite values;
-// - the 50-digit volume agrees with exact rational arithmetic;
 // - a tiny chart of everything conforms to its schema, and is the same twice but for times;
 // - a chart whose time is over says so in every family;
 // - the command writes its three files and nothing else, and nothing for a bad configuration.
@@ -22,10 +21,8 @@
 #include "tasks/chart/conclusion.hpp"
 #include "tasks/chart/data.hpp"
 #include "tasks/chart/front.hpp"
-#include "tasks/chart/pairs/precise_volume.hpp"
 #include "tasks/chart/run_chart.hpp"
 #include "tasks/input_error.hpp"
-#include "tests/oracle/exact_overlap.hpp"
 
 namespace isojam {
 namespace {
@@ -45,8 +42,8 @@ TEST(ChartConfig, IsReadAsItIsWritten) {
 }
 
 TEST(ChartConfig, HasTheDefaultsOfItsSchema) {
-  const Json properties = test::schema("chart").at("properties");
-  for (const auto& item : to_json(ChartConfig()).items()) {
+  const Json properties = test::schema("chart").at("properties"), defaults = to_json(ChartConfig());
+  for (const auto& item : defaults.items()) {
     ASSERT_TRUE(properties.contains(item.key())) << item.key();
     const Json& property = properties.at(item.key());
     if (item.key() != "phi_j") {
@@ -164,23 +161,6 @@ TEST(ChartConclusion, SaysWhatFailed) {
   EXPECT_NE(none[0].find("nothing was measured"), std::string::npos) << none[0];
   const auto hopeless = conclusion(std::vector{made_up("a", "fire", 1, 0.5, true)}, {});
   EXPECT_NE(hopeless[1].find("no method"), std::string::npos) << hopeless[1];
-}
-
-// ---- The reference of overlaps ----------------------------------------------------------------------------------
-
-TEST(PreciseVolume, IsThatOfRationalArithmetic) {
-  double worst = 0;
-  for (const SolidKind solid : {SolidKind::tetrahedron, SolidKind::dodecahedron}) {
-    for (const auto pair_class : {oracle::PairClass::random_contact, oracle::PairClass::near_parallel_faces,
-                                  oracle::PairClass::same_orientation}) {
-      for (const oracle::PairCase& pair : oracle::pair_cases(solid, solid, pair_class, 3)) {
-        const oracle::Real exact = oracle::exact_clipped_volume(solid, solid, exact_pose(pair));
-        const oracle::Real found(oracle::precise_volume(pair).str());
-        worst = std::max(worst, static_cast<double>(oracle::Real(abs(oracle::Real(found - exact)) / exact)));
-      }
-    }
-  }
-  EXPECT_LT(worst, 1e-25) << "largest relative difference";
 }
 
 // ---- Real charts ------------------------------------------------------------------------------------------------
