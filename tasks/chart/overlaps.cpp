@@ -70,10 +70,10 @@ struct Kernel {
   double (*volume)(const PreparedPair&);
 };
 
-constexpr std::array<Kernel, 4> kernels{{{"contact loop", "double", in_doubles},
-                                         {"contact loop", "two doubles", in_two_doubles},
-                                         {"clip", "quadruple", by_quadruple_clip},
-                                         {"clip", "double", by_plain_clip}}};
+constexpr std::array<Kernel, 4> kernels{{{"contact loop in doubles", "double", in_doubles},
+                                         {"contact loop in two doubles", "two doubles", in_two_doubles},
+                                         {"clip in quadruple precision", "quadruple", by_quadruple_clip},
+                                         {"clip in doubles", "double", by_plain_clip}}};
 
 double relative_error(double volume, const oracle::Precise& right) {
   return static_cast<double>(oracle::Precise(abs(oracle::Precise(volume) - right) / right));

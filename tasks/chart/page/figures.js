@@ -48,7 +48,8 @@ function failureMarks(source) {
 
 /// Why points of a panel failed, said once at its upper edge.
 function reasonText(failed, width) {
-  const reasons = unique(failed.flatMap(({stopped}) => stopped.split(', ').map((why) => why.replace(/ \d+$/, ''))))
+  const plain = (why) => why.replace(/( in \d+ of \d+.*| \d+)$/, '');
+  const reasons = unique(failed.flatMap(({stopped}) => stopped.split(', ').map(plain)))
     .filter((why) => !['residual_reached', 'energy_change', 'converged'].includes(why));
   return {type: 'text', encode: {enter: {
     x: {value: 4}, y: {value: edge}, baseline: {value: 'middle'}, fontSize: {value: 10}, fill: {value: ink},
