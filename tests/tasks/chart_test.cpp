@@ -70,7 +70,7 @@ TEST(ChartConfig, RefusesWhatItDoesNotUnderstand) {
       {R"({"distances": []})", "/distances", "one or more", ""},
       {R"({"tolerances": [1e-6, 1e-6]})", "/tolerances/1", "each value once", ""},
       {R"({"repetitions": 0.5})", "/repetitions", "an integer from 1 to 1000", ""},
-      {R"({"point_seconds": 0})", "/point_seconds", "a number in (0, 1e+06]", ""},
+      {R"({"point_seconds": 0})", "/point_seconds", "a number in (0, 1000000]", ""},
       {R"({"phi_j": {"replicates": 1}})", "/phi_j/replicates", "an integer from 2", ""},
       {R"({"particles": 8, "solids": ["tetrahedron"]})", "/particles", "or more", "", false},
   };
