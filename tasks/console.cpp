@@ -65,10 +65,15 @@ void Console::tick(std::string_view what) {
   if (now - shown_ < (terminal_ ? Clock::duration(bar_interval) : Clock::duration(line_interval))) return;
   shown_ = now;
   if (!terminal_) {
-    put(fmt::format("isojam: {}; {}\n", status(), what));
+    put(total_ ? fmt::format("isojam: {}; {}\n", status(), what) : fmt::format("isojam: {}\n", what));
     return;
   }
-  const int filled = total_ ? bar_width * done_ / total_ : 0;
+  if (total_ == 0) {
+    put(fmt::format("\r\033[K{}", what));
+    bar_shown_ = true;
+    return;
+  }
+  const int filled = bar_width * done_ / total_;
   put(fmt::format("\r\033[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
                   std::string(static_cast<std::size_t>(bar_width - filled), '.'), status()));
   bar_shown_ = true;

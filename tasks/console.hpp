@@ -31,7 +31,7 @@ class Console {
   /// `work` measures cost (any unit), for the time left.
   void begin(int total, double work);
   void finished(double work, bool failed);
-  /// Something moved: redraws the bar on a terminal, prints a line every few seconds elsewhere.
+  /// Redraws the bar on a terminal, prints a line every few seconds elsewhere; without begin() only what is under way.
   void tick(std::string_view what);
   void end();
 

@@ -13,13 +13,14 @@
 
 #include <array>
 #include <chrono>
-#include <ctime>
 #include <exception>
 #include <mutex>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "tasks/thread_clock.hpp"
 
 namespace isojam {
 namespace {
@@ -41,12 +42,6 @@ using Input = Passed<Begun>;
 using Placed = Passed<Checkpoint>;
 using Jammed = Passed<JamResult>;
 using Measured = Passed<Measurement>;  ///< neither value nor failure: not asked for, or stopped
-
-double thread_cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// Wall clock and this thread's since it was made.
 class Stopwatch {
@@ -267,13 +262,17 @@ void in_order(std::size_t count, const std::function<RecordSummary(std::size_t)>
 
 int default_threads() { return tbb::info::default_concurrency(); }
 
+void with_threads(int threads, const std::function<void()>& work) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(work);
+}
+
 void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
                const std::function<void(const Outcome&)>& on_outcome) {
   const int threads = options.threads > 0 ? options.threads : default_threads();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
   Run run(next, stages, options, on_outcome);
-  arena.execute([&] { build_and_wait(run, options.in_flight > 0 ? options.in_flight : threads); });
+  with_threads(threads, [&] { build_and_wait(run, options.in_flight > 0 ? options.in_flight : threads); });
   run.rethrow();
 }
 

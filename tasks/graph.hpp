@@ -37,4 +37,7 @@ void in_order(std::size_t count, const std::function<RecordSummary(std::size_t)>
 /// As many threads as the machine gives this process.
 int default_threads();
 
+/// Runs `work` on the calling thread; whatever it does in parallel takes `threads` at most, this one among them.
+void with_threads(int threads, const std::function<void()>& work);
+
 }  // namespace isojam

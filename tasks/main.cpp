@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <map>
 
+#include "tasks/chart/chart_command.hpp"
 #include "tasks/commands.hpp"
 #include "tasks/export/export_command.hpp"
 #include "tasks/input_error.hpp"
@@ -26,6 +27,7 @@ struct Arguments {
   RerunCommand rerun;
   ExportCommand exporting;
   ReportCommand report;
+  ChartCommand chart;
 };
 
 /// An option that takes one of a few names.
@@ -126,6 +128,16 @@ void add_report(CLI::App& app, ReportCommand& command) {
   report->add_option("-o,--output", command.output, "File to write (default: DIR/report.html)")->type_name("FILE");
 }
 
+void add_chart(CLI::App& app, ChartCommand& command) {
+  auto* chart = app.add_subcommand("chart", "Compare methods on this machine: accuracy against speed, and what fails");
+  auto* config = chart->add_option("config", command.config, "What to compare (default: five minutes of everything)")
+                     ->type_name("CONFIG");
+  chart->add_flag("--full", command.full, "An hour of everything")->excludes(config);
+  chart->add_option("-o,--output", command.directory, "Directory for data.json, table.txt and chart.html")
+      ->required()
+      ->type_name("DIR");
+}
+
 ExitCode dispatch(const CLI::App& app, const Arguments& arguments, Console& console) {
   if (app.got_subcommand("run")) return run(arguments.run, console);
   if (app.got_subcommand("status")) return status(arguments.status);
@@ -133,6 +145,7 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments, Console& cons
   if (app.got_subcommand("validate")) return validate(arguments.validate);
   if (app.got_subcommand("export")) return export_packings(arguments.exporting, console);
   if (app.got_subcommand("report")) return report(arguments.report);
+  if (app.got_subcommand("chart")) return chart(arguments.chart, console);
   return aggregate_directories(arguments.aggregate);
 }
 
@@ -151,6 +164,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   add_rerun(app, arguments.rerun);
   add_export(app, arguments.exporting);
   add_report(app, arguments.report);
+  add_chart(app, arguments.chart);
   try {
     app.parse(argc, argv);
     if (app.got_subcommand("run") && app.get_subcommand("run")->count("--shard") == 0)

@@ -14,6 +14,7 @@
 #include "engine/random/stream.hpp"
 #include "engine/solve/factor/shift_invert.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/lanczos_operators.hpp"
 
 namespace isojam {
 
@@ -24,51 +25,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-void remove_translations(Eigen::Ref<VectorXd> u) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (Index k = 0; k < u.size(); k += 6) mean += u.segment<3>(k);
-  const Index particles = u.size() / 6;
-  mean /= static_cast<double>(particles);
-  for (Index k = 0; k < u.size(); k += 6) u.segment<3>(k) -= mean;
-}
-
-/// P op P, P the projector that removes translations: the form in which Spectra takes an operator.
-template <class Operation>
-class Deflated {
- public:
-  using Scalar = double;
-
-  explicit Deflated(Operation& operation) : operation_(operation) {}
-
-  Index rows() const { return operation_.rows(); }
-  Index cols() const { return operation_.cols(); }
-  void set_shift(double sigma) { operation_.set_shift(sigma); }
-  void perform_op(const double* x, double* y) const {
-    VectorXd in = Eigen::Map<const VectorXd>(x, rows());
-    remove_translations(in);
-    operation_.perform_op(in.data(), y);
-    remove_translations(Eigen::Map<VectorXd>(y, rows()));
-  }
-
- private:
-  Operation& operation_;
-};
-
-class Product {
- public:
-  explicit Product(const BlockMatrix& matrix) : matrix_(matrix) {}
-
-  Index rows() const { return 6 * Index{matrix_.size()}; }
-  Index cols() const { return rows(); }
-  void set_shift(double) {}
-  void perform_op(const double* x, double* y) const {
-    Eigen::Map<VectorXd>(y, rows()) = matrix_ * VectorXd(Eigen::Map<const VectorXd>(x, rows()));
-  }
-
- private:
-  const BlockMatrix& matrix_;
-};
 
 /// The same for every matrix of a size, without symmetry that could hide a mode from it.
 VectorXd start_vector(Index size) {

@@ -1,80 +1,9 @@
 #include "tasks/report/page.hpp"
 
-#include <fmt/format.h>
-
-#include <cassert>
-#include <utility>
-
-#include "tasks/report/parts.hpp"
+#include "tasks/page/page.hpp"
 
 namespace isojam {
-namespace {
 
-using Kind = PagePart::Kind;
-
-std::string joined(Kind kind) {
-  std::string text;
-  for (const auto& part : page_parts()) {
-    if (part.kind == kind) text += part.text;
-  }
-  return text;
-}
-
-std::string modules() {
-  std::string text = "<script>\nconst modules = {};\n";
-  for (const auto& part : page_parts()) {
-    if (part.kind != Kind::module) continue;
-    text += fmt::format("modules[\"{}\"] = (exports, module, require, define) => {{\n", part.name);
-    text += part.text;
-    text += "\n};\n";
-  }
-  return text + "</script>\n";
-}
-
-std::string scripts() {
-  std::string text;
-  for (const auto& part : page_parts()) {
-    if (part.kind != Kind::script) continue;
-    text += "<script>\n";
-    text += part.text;
-    text += "\n</script>\n";
-  }
-  return text;
-}
-
-/// JSON in which no "<" can end the element that holds it or begin another. A file name need not be UTF-8.
-std::string embedded(const Json& data) {
-  std::string text;
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
-
-}  // namespace
-
-std::string report_page(const Json& data) {
-  const std::pair<std::string_view, std::string> places[] = {{"@notices@", joined(Kind::notice)},
-                                                             {"@style@", joined(Kind::style)},
-                                                             {"@modules@", modules()},
-                                                             {"@data@", embedded(data)},
-                                                             {"@scripts@", scripts()}};
-  const auto frame = joined(Kind::frame);
-  std::string page;
-  std::size_t done = 0;
-  // In the order of the frame, from the frame's own text: what was put in is not searched again.
-  for (const auto& [place, text] : places) {
-    const auto at = frame.find(place, done);
-    assert(at != std::string::npos);
-    page.append(frame, done, at - done);
-    page += text;
-    done = at + place.size();
-  }
-  return page.append(frame, done);
-}
+std::string report_page(const Json& data) { return assembled_page(report_parts(), data); }
 
 }  // namespace isojam

@@ -20,7 +20,10 @@ ExitCode report(const ReportCommand& command) {
     const auto packing = read_nearest_packing(directory, results.replicates[chosen.replicate].name);
     if (packing) views[chosen.replicate] = packing_view(*packing, chosen.with_modes ? options.modes : 0);
   }
-  write_atomically(output, report_page(report_data(results, views)));
+  Json data = report_data(results, views);
+  // A link that is there for a reader of the directory alone: the page may be sent elsewhere without it.
+  data["chart"] = std::filesystem::exists(output.parent_path() / "chart.html");
+  write_atomically(output, report_page(data));
   std::printf("%s\n", output.string().c_str());
   return ExitCode::done;
 }

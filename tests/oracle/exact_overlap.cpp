@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/oracle/clip_polytope.hpp"
+#include "tasks/chart/pairs/clip_polytope.hpp"
 #include "tests/oracle/exact_solid.hpp"
 
 namespace isojam::oracle {

@@ -8,6 +8,7 @@
 
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/pose.hpp"
+#include "tasks/chart/pairs/pair_cases.hpp"
 
 namespace isojam::oracle {
 
@@ -28,6 +29,7 @@ struct ExactPose {
 
 /// The pose that these doubles denote exactly.
 ExactPose exact_pose(const Eigen::Quaterniond& quaternion, const Eigen::Vector3d& displacement);
+inline ExactPose exact_pose(const PairCase& pair) { return exact_pose(pair.quaternion, pair.displacement); }
 
 /// The same pose with its exact rotation matrix rounded to double once: what the engine is given.
 RelativePose rounded(const ExactPose& pose);

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/random/stream.hpp"
+#include "tasks/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 #include "tests/oracle/overlap_checks.hpp"
-#include "tests/oracle/pair_cases.hpp"
 
 namespace isojam::oracle {
 namespace {
@@ -98,7 +98,7 @@ TEST(ExactOverlap, WedgeInAFaceGrowsAsTheSquareOfTheDepth) {
 TEST(ExactOverlap, FirstContactInARandomOrientationIsOfThirdOrder) {
   for (const SolidKind kind : all_solids) {
     for (const PairCase& pair : pair_cases(kind, kind, PairClass::random_contact, 5)) {
-      ExactPose pose = pair.exact();
+      ExactPose pose = exact_pose(pair);
       const RealVector direction = pose.displacement.normalized();
       Real low = 0, high = 2;  // distance beyond the given contact: touching, free
       for (int halving = 0; halving < 60; ++halving) {
@@ -123,9 +123,9 @@ TEST(ExactOverlap, HullAndSuccessiveCutsGiveOneVolume) {
   for (const SolidKind kind : all_solids) {
     for (const PairClass pair_class : all_pair_classes) {
       for (const PairCase& pair : pair_cases(kind, kind, pair_class, 3)) {
-        const Real hull = exact_overlap(kind, kind, pair.exact()).volume;
+        const Real hull = exact_overlap(kind, kind, exact_pose(pair)).volume;
         ASSERT_GT(hull, 0) << describe(pair);
-        EXPECT_LT(relative(exact_clipped_volume(kind, kind, pair.exact()), hull), 1e-60) << describe(pair);
+        EXPECT_LT(relative(exact_clipped_volume(kind, kind, exact_pose(pair)), hull), 1e-60) << describe(pair);
       }
     }
   }
@@ -135,7 +135,7 @@ TEST(ExactOverlap, ExchangingTheSolidsChangesSigns) {
   for (const SolidKind a : all_solids) {
     for (const SolidKind b : all_solids) {
       for (const PairCase& pair : pair_cases(a, b, PairClass::random_contact, 2)) {
-        const ExactPose pose = pair.exact();
+        const ExactPose pose = exact_pose(pair);
         const ExactOverlap from_a = exact_overlap(a, b, pose), from_b = exact_overlap(b, a, inverse(pose));
         const RealMatrix rotation = pose.quaternion.normalized().toRotationMatrix();
         const RealVector moment = -from_a.moment + pose.displacement.cross(from_a.area);
@@ -153,7 +153,7 @@ TEST(ExactOverlap, AreaAndMomentAreTheGradientOfTheVolume) {
   const Real h = 1e-12;  // truncation ~ h², far above the noise of 1e-55 / h
   for (const SolidKind kind : all_solids) {
     for (const PairCase& pair : pair_cases(kind, kind, PairClass::random_contact, 4)) {
-      const ExactPose pose = pair.exact();
+      const ExactPose pose = exact_pose(pair);
       const auto volume = [&](const ExactPose& p) { return exact_overlap(kind, kind, p).volume; };
       RealVector area, moment;
       for (int k = 0; k < 3; ++k) {
@@ -178,13 +178,13 @@ TEST(ExactOverlap, AreaAndMomentAreTheGradientOfTheVolume) {
 TEST(ExactOverlap, SharedFacesHaveNoSingleGradient) {
   for (const SolidKind kind : all_solids) {
     for (const PairCase& pair : pair_cases(kind, kind, PairClass::random_contact, 5)) {
-      const ExactOverlap overlap = exact_overlap(kind, kind, pair.exact());
+      const ExactOverlap overlap = exact_overlap(kind, kind, exact_pose(pair));
       EXPECT_TRUE(overlap.single_valued) << describe(pair);
       EXPECT_LT(overlap.contested_area, 1e-10) << describe(pair);
     }
     int shared = 0;
     const auto pairs = pair_cases(kind, kind, PairClass::coplanar_faces, 20);
-    for (const PairCase& pair : pairs) shared += !exact_overlap(kind, kind, pair.exact()).single_valued;
+    for (const PairCase& pair : pairs) shared += !exact_overlap(kind, kind, exact_pose(pair)).single_valued;
     EXPECT_GT(shared, 0) << to_string(kind);
   }
 }

@@ -19,15 +19,15 @@
 #include <vector>
 
 #include "engine/geometry/overlap.hpp"
+#include "tasks/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 #include "tests/oracle/overlap_checks.hpp"
-#include "tests/oracle/pair_cases.hpp"
 
 namespace isojam::oracle {
 namespace {
 
 Overlap engine_overlap(const PairCase& pair) {
-  return overlap(platonic(pair.a), platonic(pair.b), rounded(pair.exact()));
+  return overlap(platonic(pair.a), platonic(pair.b), rounded(exact_pose(pair)));
 }
 
 double median(std::vector<double> values) {
@@ -65,11 +65,11 @@ Survey survey_pairs(const std::vector<PairCase>& pairs, PairClass pair_class) {
   Survey survey;
   for (const PairCase& pair : pairs) {
     const OverlapTolerance limits = tolerance(pair_class, pair.a, pair.b);
-    const ExactOverlap exact = exact_overlap(pair.a, pair.b, pair.exact());
+    const ExactOverlap exact = exact_overlap(pair.a, pair.b, exact_pose(pair));
     const Overlap measured = engine_overlap(pair);
     EXPECT_EQ(disagreement(measured, exact, pair.a, limits), "")
         << to_string(pair_class) << ", path " << static_cast<int>(measured.path) << ": " << describe(pair);
-    const Overlap clipped = clipped_overlap(platonic(pair.a), platonic(pair.b), rounded(pair.exact()));
+    const Overlap clipped = clipped_overlap(platonic(pair.a), platonic(pair.b), rounded(exact_pose(pair)));
     EXPECT_EQ(disagreement(clipped, exact, pair.a, limits), "")
         << to_string(pair_class) << ", clipped_overlap: " << describe(pair);
     if (pair_class == PairClass::random_contact) {
@@ -141,7 +141,7 @@ TEST(OverlapChecks, RejectWrongAnswers) {
   for (const SolidKind kind : all_solids) {
     for (const PairCase& pair : pair_cases(kind, kind, PairClass::random_contact, 20)) {
       const OverlapTolerance limits = tolerance(PairClass::random_contact, kind, kind);
-      const ExactOverlap exact = exact_overlap(kind, kind, pair.exact());
+      const ExactOverlap exact = exact_overlap(kind, kind, exact_pose(pair));
       const auto accepted = [&](const Overlap& o) { return disagreement(o, exact, kind, limits).empty(); };
       Overlap right;
       right.volume = static_cast<double>(exact.volume);

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "engine/geometry/overlap.hpp"
+#include "tasks/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
-#include "tests/oracle/pair_cases.hpp"
 
 namespace isojam::oracle {
 

@@ -11,9 +11,9 @@
 #include <cmath>
 #include <limits>
 
+#include "tasks/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 #include "tests/oracle/overlap_checks.hpp"
-#include "tests/oracle/pair_cases.hpp"
 
 namespace isojam::oracle {
 namespace {
@@ -29,7 +29,7 @@ constexpr std::array contact_classes{PairClass::random_contact, PairClass::near_
 
 constexpr int cases = 20;
 
-Matrix3d rotation(const PairCase& pair) { return rounded(pair.exact()).rotation; }
+Matrix3d rotation(const PairCase& pair) { return rounded(exact_pose(pair)).rotation; }
 
 Vector3d edge_direction(const ConvexSolid& solid, const Edge& edge) {
   return (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
@@ -120,7 +120,7 @@ TEST(PairCases, ContactsSpreadOverTheirRangeOfVolumes) {
     for (const PairClass pair_class : contact_classes) {
       double least = 1, greatest = 0;
       for (const PairCase& pair : pair_cases(kind, kind, pair_class, cases)) {
-        const double volume = static_cast<double>(exact_overlap(kind, kind, pair.exact()).volume);
+        const double volume = static_cast<double>(exact_overlap(kind, kind, exact_pose(pair)).volume);
         EXPECT_NEAR(rough_volume(pair), volume, 1e-6 * volume) << to_string(pair_class) << ": " << describe(pair);
         least = std::min(least, volume);
         greatest = std::max(greatest, volume);

@@ -13,6 +13,9 @@ function drawHeader(data) {
   document.getElementById('summary').textContent =
     `${counted(data.rows.length, 'sweep point')}, ${counted(data.replicates.length, 'replicate')}: ` +
     `${data.replicates.length - failed} done, ${failed} failed, ${flagged} flagged.`;
+  if (data.chart) {
+    document.getElementById('summary').append(' ', element('a', {href: 'chart.html'}, 'Accuracy against speed'));
+  }
 }
 
 function drawReservations(data) {

@@ -20,7 +20,13 @@ struct PagePart {
   std::string_view text;
 };
 
-/// In the order in which they stand in the page. Generated when the program is built.
-std::span<const PagePart> page_parts();
+// Generated when the program is built, in the order in which they stand in a page.
+
+/// What every page has: Vega, its loader, and what draws figures of panels with it.
+std::span<const PagePart> common_parts();
+/// What the report of a sweep has beside that.
+std::span<const PagePart> report_parts();
+/// What the chart of accuracy against speed has.
+std::span<const PagePart> chart_parts();
 
 }  // namespace isojam

@@ -1,4 +1,4 @@
-#include "tests/oracle/pair_cases.hpp"
+#include "tasks/chart/pairs/pair_cases.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/random/stream.hpp"
-#include "tests/oracle/clip_polytope.hpp"
+#include "tasks/chart/pairs/clip_polytope.hpp"
 
 namespace isojam::oracle {
 

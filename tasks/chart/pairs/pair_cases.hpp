@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/geometry/convex_solid.hpp"
-#include "tests/oracle/exact_overlap.hpp"
 
 namespace isojam::oracle {
 
@@ -39,8 +38,6 @@ struct PairCase {
   SolidKind a, b;
   Eigen::Quaterniond quaternion;  ///< of any length
   Eigen::Vector3d displacement;
-
-  ExactPose exact() const { return exact_pose(quaternion, displacement); }
 };
 
 /// The first `count` pairs of a class: a function of the arguments alone (fixed seed).

@@ -1,0 +1,46 @@
+#include "tasks/chart/chart_command.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "tasks/atomic_file.hpp"
+#include "tasks/chart/data.hpp"
+#include "tasks/chart/run_chart.hpp"
+#include "tasks/input_error.hpp"
+#include "tasks/interrupt.hpp"
+#include "tasks/page/page.hpp"
+
+namespace isojam {
+namespace {
+
+ChartConfig config_of(const ChartCommand& command) {
+  if (!command.config.empty()) return parse_chart_config(read_text(command.config), command.config);
+  return command.full ? full_chart_config() : ChartConfig();
+}
+
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw FileError(directory.string() + ": " + error.message());
+  check_writable(directory);
+}
+
+}  // namespace
+
+ExitCode chart(const ChartCommand& command, Console& console) {
+  const ChartConfig config = config_of(command);
+  const std::filesystem::path directory = command.directory;
+  make_directory(directory);
+  const InterruptWatcher watcher;
+  const auto families = run_chart(config, watcher.token(), console);
+  console.end();
+  const Json data = chart_data(config, families);
+  const auto table = text_table(families);
+  write_atomically(directory / "data.json", pretty(data));
+  write_atomically(directory / "table.txt", table);
+  write_atomically(directory / "chart.html", assembled_page(chart_parts(), data));
+  std::fputs(table.c_str(), stdout);
+  return watcher.token().stop_requested() ? ExitCode::interrupted : ExitCode::done;
+}
+
+}  // namespace isojam

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/modes.hpp"
+#include "tasks/chart/comparisons.hpp"
+
+namespace isojam {
+namespace {
+
+/// Every block of a dense symmetric matrix, as dense_modes() takes it.
+BlockMatrix blocks_of(const Eigen::MatrixXd& dense) {
+  BlockMatrix matrix;
+  const int particles = static_cast<int>(dense.rows() / 6);
+  for (int row = 0; row < particles; ++row) {
+    matrix.diagonal.emplace_back(dense.block<6, 6>(6 * row, 6 * row));
+    for (int column = row + 1; column < particles; ++column)
+      matrix.off_diagonal.push_back({row, column, dense.block<6, 6>(6 * row, 6 * column)});
+  }
+  return matrix;
+}
+
+/// Of all packings of a task, by setting.
+struct Samples {
+  std::vector<double> seconds, errors, negative;
+  int failed = 0;
+};
+
+double largest_relative_difference(const Eigen::VectorXd& found, const Eigen::VectorXd& right) {
+  return ((found - right).array().abs() / right.array().abs()).maxCoeff();
+}
+
+/// Eigenvalues below what rounding can make of 0.
+int count_negative(const Eigen::VectorXd& eigenvalues, double tolerance) {
+  return static_cast<int>((eigenvalues.array() < -tolerance).count());
+}
+
+ChartPoint point_of(const std::string& task, const std::string& method, const std::string& setting,
+                    const Samples& samples) {
+  ChartPoint point{
+      task,          method, setting, spread(samples.seconds), spread(samples.errors), "done", samples.failed > 0,
+      Json::object()};
+  const auto negative = spread(samples.negative);
+  point.further["negative_modes"] = negative ? Json(negative->median) : Json(nullptr);
+  if (point.failed) point.stopped = fmt::format("negative modes in {} of {}", samples.failed, samples.seconds.size());
+  return point;
+}
+
+class Hessians {
+ public:
+  Hessians(const Measuring& measuring, ChartFamily& family) : measuring_(measuring), family_(family) {}
+
+  void compare(std::span<const JammedSolid> jammed, SolidKind solid, double distance) {
+    const std::string task = task_name(solid, distance);
+    Samples analytic;
+    std::map<double, Samples> differences;
+    for (const JammedSolid& each : jammed) {
+      if (each.solid != solid || measuring_.over()) continue;
+      measuring_.console.tick("Hessians, " + task);
+      if (const auto packing = equilibrium_at(each, distance, measuring_)) compare(*packing, analytic, differences);
+    }
+    if (measuring_.over() || analytic.seconds.empty()) return;
+    family_.points.push_back(point_of(task, "analytic", "analytic", analytic));
+    for (const auto& [h, samples] : differences)
+      family_.points.push_back(point_of(task, "central differences", fmt::format("h = {:g}", h), samples));
+  }
+
+ private:
+  void compare(const Packing& packing, Samples& analytic, std::map<double, Samples>& differences) {
+    BlockMatrix matrix;
+    PackingEnergy energy;
+    energy.evaluate(packing, Precision::extended);
+    const auto seconds = timed(measuring_, [&] { matrix = energy.hessian(packing, Precision::extended); });
+    const ModeSet right = dense_modes(matrix);
+    const double stiffness = right.eigenvalues.cwiseAbs().maxCoeff();
+    const double tolerance = rounding_bound(matrix, stiffness);
+    add(analytic, seconds, right.relative_error, count_negative(right.eigenvalues, tolerance), 0);
+    // A packing that is a saddle has negative modes in truth; those beyond are spurious.
+    const int genuine = count_negative(right.eigenvalues, tolerance);
+    for (const double h : measuring_.config.difference_steps) {
+      if (measuring_.over()) return;
+      Eigen::MatrixXd dense;
+      const auto taken = timed(measuring_, [&] { dense = difference_hessian(packing, h); });
+      const Eigen::VectorXd found = dense_modes(blocks_of(dense)).eigenvalues;
+      add(differences[h], taken, largest_relative_difference(found, right.eigenvalues),
+          count_negative(found, tolerance), genuine);
+    }
+  }
+
+  static void add(Samples& samples, const std::vector<double>& seconds, double error, int negative, int genuine) {
+    samples.seconds.push_back(spread(seconds)->median);
+    samples.errors.push_back(error);
+    samples.negative.push_back(negative);
+    samples.failed += negative > genuine && genuine == 0;
+  }
+
+  const Measuring& measuring_;
+  ChartFamily& family_;
+};
+
+}  // namespace
+
+ChartFamily compare_hessians(std::span<const JammedSolid> jammed, const Measuring& measuring) {
+  ChartFamily family{"hessian",
+                     "largest relative error of an eigenvalue",
+                     "The analytic Hessian of equilibria against central differences of the gradient in extended "
+                     "precision. Error of differences: from the analytic eigenvalues, translations apart; of the "
+                     "analytic ones: what rounding can do to them at most. Failed: negative modes that are not there.",
+                     FamilyEnd::complete,
+                     {}};
+  Hessians hessians(measuring, family);
+  for (const SolidKind solid : measuring.config.solids) {
+    for (const double distance : measuring.config.distances) hessians.compare(jammed, solid, distance);
+  }
+  return family;
+}
+
+}  // namespace isojam

@@ -1,0 +1,157 @@
+'use strict';
+
+/// Okabe and Ito's colours, in the order in which methods come.
+const methodColours = ['#0072b2', '#d55e00', '#009e73', '#e69f00', '#cc79a7', '#56b4e9', '#777777'];
+const methodShapes = ['circle', 'square', 'triangle-up', 'diamond', 'triangle-down', 'triangle-right', 'stroke'];
+
+const unique = (values) => [...new Set(values)];
+
+/// Points with what a log scale can show: an error of 0 stands at the least of the others.
+function plotted(family) {
+  const errors = family.points.flatMap(({error}) => (error ? [error.median, error.least, error.greatest] : []));
+  const positive = errors.filter((value) => value > 0);
+  const least = positive.length > 0 ? Math.min(...positive) : 1e-16;
+  const shown = (value) => (value > 0 ? value : least);
+  return family.points.filter(({seconds}) => seconds).map((point) => ({
+    task: point.case, method: point.method, setting: point.setting, stopped: point.stopped, failed: point.failed,
+    on_front: point.on_front,
+    x: point.seconds.median, x_least: point.seconds.least, x_greatest: point.seconds.greatest,
+    seconds_n: point.seconds.n, y: point.error ? shown(point.error.median) : null,
+    y_least: point.error ? shown(point.error.least) : null,
+    y_greatest: point.error ? shown(point.error.greatest) : null,
+    error: point.error?.median ?? null, error_greatest: point.error?.greatest ?? null, error_n: point.error?.n ?? 0,
+  }));
+}
+
+const pointTooltip = {
+  method: 'method', setting: 'setting', stopped: 'stopped', seconds: 'x', 'timed n': 'seconds_n', error: 'error',
+  'greatest error': 'error_greatest', 'of n': 'error_n',
+};
+
+const byMethod = {scale: 'colour', field: 'method'};
+
+/// Where failures stand, whatever their error: just below the upper edge of a panel.
+const edge = 9;
+
+function failureMarks(source) {
+  const cross = (y, size) => ({
+    type: 'symbol', from: {data: source},
+    encode: {enter: {
+      x: {scale: 'x', field: 'x'}, y, shape: {value: 'M-1,-1L1,1M-1,1L1,-1'}, size: {value: size},
+      stroke: byMethod, strokeWidth: {value: 1.8}, fill: {value: 'transparent'}, tooltip: tooltipOf(pointTooltip),
+    }},
+  });
+  const inPlace = cross({scale: 'y', field: 'y'}, 40);
+  inPlace.encode.enter.opacity = {signal: 'isValid(datum.y) ? 1 : 0'};
+  return [inPlace, cross({value: edge}, 50)];
+}
+
+/// Why points of a panel failed, said once at its upper edge.
+function reasonText(failed, width) {
+  const plain = (why) => why.replace(/( in \d+ of \d+.*| \d+)$/, '');
+  const reasons = unique(failed.flatMap(({stopped}) => stopped.split(', ').map(plain)))
+    .filter((why) => !['residual_reached', 'energy_change', 'converged'].includes(why));
+  return {type: 'text', encode: {enter: {
+    x: {value: 4}, y: {value: edge}, baseline: {value: 'middle'}, fontSize: {value: 10}, fill: {value: ink},
+    limit: {value: 0.72 * width}, text: {value: reasons.length > 0 ? `failed: ${reasons.join(', ')}` : ''},
+  }}};
+}
+
+function edgeLine(width) {
+  return {type: 'rule', encode: {enter: {
+    x: {value: 0}, x2: {value: width}, y: {value: 2 * edge}, stroke: {value: '#777777'}, strokeDash: {value: [3, 3]},
+    strokeWidth: {value: 0.8},
+  }}};
+}
+
+const bar = (source, position) => ({
+  type: 'rule', from: {data: source}, encode: {enter: {
+    ...position, stroke: byMethod, strokeWidth: {value: 1}, opacity: {value: 0.6},
+  }},
+});
+
+function successMarks(source) {
+  const y = {scale: 'y', field: 'y'};
+  return [
+    bar(source, {x: {scale: 'x', field: 'x_least'}, x2: {scale: 'x', field: 'x_greatest'}, y}),
+    bar(source, {
+      x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y_least'}, y2: {scale: 'y', field: 'y_greatest'},
+    }),
+    {
+      type: 'symbol', from: {data: source},
+      encode: {enter: {
+        x: {scale: 'x', field: 'x'}, y, shape: {scale: 'shape', field: 'method'}, size: {value: 42}, fill: byMethod,
+        stroke: byMethod, fillOpacity: {value: 0.55}, tooltip: tooltipOf(pointTooltip),
+      }},
+    },
+  ];
+}
+
+function frontMark(source) {
+  return {
+    name: `ink_front_${source}`, type: 'line', from: {data: source},
+    encode: {enter: {
+      x: {scale: 'x', field: 'x'}, y: {scale: 'y', field: 'y'}, stroke: {value: ink}, strokeWidth: {value: 1.2},
+      strokeDash: {value: [5, 3]},
+    }},
+  };
+}
+
+const filtered = (name, source, expression, sort) => ({
+  name, source, transform: [{type: 'filter', expr: expression},
+    ...(sort ? [{type: 'collect', sort: {field: 'x'}}] : [])],
+});
+
+/// The domain of errors with room above it for the failures.
+function errorDomain(rows, height) {
+  const [low, high] = domainOf(rows.flatMap(({y, y_least: least, y_greatest: greatest}) => [y, least, greatest]),
+    {type: 'log', margin: 0.04}) ?? [1e-16, 1];
+  const share = (2 * edge + 4) / height;
+  return [low, low * (high / low) ** (1 / (1 - share))];
+}
+
+function familyFigure(family) {
+  const rows = plotted(family);
+  const id = family.name, title = familyTitles[family.name] ?? family.name;
+  const ended = {complete: '', cut: ' The time was over before all was measured.', interrupted: ' Interrupted.'};
+  const note = family.note + ended[family.ended];
+  if (rows.length === 0) return {id, title, absent: `No point was measured.${ended[family.ended]}`};
+  const tasks = unique(rows.map(({task}) => task)), methods = unique(rows.map(({method}) => method));
+  const height = 230;
+  const x = {type: 'log', title: 'seconds', domain: domainOf(rows.flatMap((row) => [row.x_least, row.x_greatest]),
+    {type: 'log', margin: 0.06})};
+  const y = {type: 'log', title: family.error_is, domain: errorDomain(rows, height)};
+  const panelAt = (index, place) => {
+    const here = `datum.task === ${JSON.stringify(tasks[index])}`;
+    const names = ['good', 'failed', 'front'].map((name) => `${name}_${index}`);
+    return panel({
+      ...place, title: tasks[index], x, y,
+      data: [
+        filtered(names[0], 'points', `${here} && !datum.failed && isValid(datum.y)`),
+        filtered(names[1], 'points', `${here} && (datum.failed || !isValid(datum.y))`),
+        filtered(names[2], 'points', `${here} && datum.on_front`, true),
+      ],
+      marks: [
+        edgeLine(place.width), reasonText(rows.filter((row) => row.task === tasks[index] && row.failed), place.width),
+        frontMark(names[2]), ...successMarks(names[0]), ...failureMarks(names[1]),
+      ],
+    });
+  };
+  return {
+    id, title, note, datasets: {points: rows},
+    spec: (width) => panelSpec({
+      description: `${title}: error against time on logarithmic scales, a panel for each case.`, width,
+      count: tasks.length, height, datasets: {points: rows}, panelAt, grid: {least: 240, most: 4},
+      legends: [{fill: 'colour', shape: 'shape'}],
+      scales: [
+        {name: 'colour', type: 'ordinal', domain: methods, range: methodColours},
+        {name: 'shape', type: 'ordinal', domain: methods, range: methodShapes},
+      ],
+    }),
+  };
+}
+
+const familyTitles = {
+  equilibrium: 'Equilibrium', bias: 'What it does to the jamming density', hessian: 'Hessian', modes: 'Lowest modes',
+  overlap: 'Overlap of two solids', phi_j: 'Jamming density',
+};

@@ -1,0 +1,23 @@
+#include "tasks/chart/point.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace isojam {
+
+std::optional<Spread> spread(std::vector<double> values) {
+  std::erase_if(values, [](double x) { return !std::isfinite(x); });
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  const double median = n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+  return Spread{median, values.front(), values.back(), static_cast<int>(n)};
+}
+
+std::string_view to_string(FamilyEnd end) {
+  static constexpr std::array<std::string_view, 3> names{"complete", "cut", "interrupted"};
+  return names[static_cast<std::size_t>(end)];
+}
+
+}  // namespace isojam
