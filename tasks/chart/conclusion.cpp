@@ -64,8 +64,9 @@ std::string energy_rule_text(std::span<const ChartPoint> equilibrium, std::span<
     if (by_energy(point) && point.error) shift = std::max(shift, point.error->greatest);
   }
   if (residual == 0) return "";
-  return fmt::format("; stopping by energy ends at residuals up to {:.1g} and moves phi_J by up to {:.1g}", residual,
-                     shift);
+  return fmt::format(
+      "; by energy, content or out of evaluations, residuals are up to {:.1g} and phi_J is off by up to {:.1g}",
+      residual, shift);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "tasks/checkpoint.hpp"
 #include "tasks/input_error.hpp"
 #include "tasks/plan.hpp"
+#include "tasks/record.hpp"
 
 namespace {
 

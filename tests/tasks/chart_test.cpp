@@ -156,7 +156,8 @@ TEST(ChartConclusion, SaysWhatFailed) {
   EXPECT_NE(lines[1].find("newton is fastest, 1 of 2 cases in 2 s"), std::string::npos) << lines[1];
   EXPECT_EQ(
       lines[2],
-      "failed: lbfgs in 1 of 2 cases; stopping by energy ends at residuals up to 0.2 and moves phi_J by up to 0.004");
+      "failed: lbfgs in 1 of 2 cases; by energy, content or out of evaluations, residuals are up to 0.2 and phi_J is "
+      "off by up to 0.004");
   const auto none = conclusion({}, {});
   EXPECT_NE(none[0].find("nothing was measured"), std::string::npos) << none[0];
   const auto hopeless = conclusion(std::vector{made_up("a", "fire", 1, 0.5, true)}, {});
