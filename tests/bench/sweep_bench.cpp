@@ -48,7 +48,7 @@ void sweep(benchmark::State& state, int threads) {
 
 bool register_all() {
   for (const int threads : {1, 2}) {
-    const std::string name = "sweep/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads");
+    const std::string name = "sweep/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads") + "/N=40";
     benchmark::RegisterBenchmark(name.c_str(), sweep, threads)->Iterations(1)->Repetitions(5)->UseRealTime();
   }
   return true;
