@@ -124,8 +124,9 @@ TEST_F(Crash, AChangedByteIsNoticedAndRedone) {
   EXPECT_EQ(results(), reference());
   const auto after = test::files_below(here_ / "results");
   for (const auto& [name, content] : before) {
-    const bool redone = std::any_of(damaged.begin(), damaged.end(),
-                                    [&](const std::string& d) { return fs::path(d).stem() == fs::path(name).stem(); });
+    const bool redone =
+        std::any_of(damaged.begin(), damaged.end(),
+                    [stem = fs::path(name).stem()](const std::string& d) { return fs::path(d).stem() == stem; });
     if (!redone) {
       EXPECT_EQ(after.at(name), content) << name << " was touched";
     }
