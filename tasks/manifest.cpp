@@ -197,10 +197,11 @@ void check_together(const JsonPlace& root, const Manifest& manifest) {
       const int least = least_particles(platonic(kind), options.max_density);
       if (manifest.particles.front() >= least) continue;
       place_of_particles(root, manifest.particles.front())
-          .refuse(fmt::format("{} particles are too few for the periodic cell: at max_density {} a {} would touch two "
-                              "images of another",
-                              manifest.particles.front(), options.max_density, to_string(kind)),
-                  fmt::format("{} or more", least));
+          .refuse(
+              fmt::format("{} particles are too few for the periodic cell: at max_density {} one {} would touch two "
+                          "images of another",
+                          manifest.particles.front(), options.max_density, to_string(kind)),
+              fmt::format("{} or more", least));
     }
   }
 }

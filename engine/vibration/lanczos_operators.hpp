@@ -15,6 +15,9 @@ inline void remove_translations(Eigen::Ref<Eigen::VectorXd> u) {
   for (Eigen::Index k = 0; k < u.size(); k += 6) u.segment<3>(k) -= mean;
 }
 
+/// Where Lanczos starts: the same for every matrix of 6N rows, without symmetry that could hide a mode from it.
+Eigen::VectorXd lanczos_start(Eigen::Index rows);
+
 /// P op P, P the projector that removes translations: the form in which Spectra takes an operator. It must outlive
 /// this.
 template <class Operation>

@@ -26,15 +26,6 @@ using Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// The same for every matrix of a size, without symmetry that could hide a mode from it.
-VectorXd start_vector(Index size) {
-  RandomStream random{static_cast<std::uint64_t>(size)};
-  VectorXd start(size);
-  for (double& entry : start) entry = random.normal();
-  remove_translations(start);
-  return start;
-}
-
 /// Sets residual and relative_error.
 void measure(ModeSet& modes, const BlockMatrix& matrix, double stiffness) {
   modes.residual = modes.relative_error = 0;
@@ -52,7 +43,7 @@ void measure(ModeSet& modes, const BlockMatrix& matrix, double stiffness) {
 template <class Solver>
 bool take_modes(Solver& solver, Spectra::SortRule wanted, double tolerance, int restarts, ModeSet& modes) {
   ++modes.attempts;
-  const VectorXd start = start_vector(modes.vectors.rows());
+  const VectorXd start = lanczos_start(modes.vectors.rows());
   try {
     solver.init(start.data());
     solver.compute(wanted, restarts, tolerance, Spectra::SortRule::SmallestAlge);
@@ -195,6 +186,14 @@ class Ends {
 };
 
 }  // namespace
+
+VectorXd lanczos_start(Index rows) {
+  RandomStream random{static_cast<std::uint64_t>(rows)};
+  VectorXd start(rows);
+  for (double& entry : start) entry = random.normal();
+  remove_translations(start);
+  return start;
+}
 
 std::string_view to_string(ModeEnd end) {
   static constexpr std::array<std::string_view, 5> names{"not_called", "converged", "retried", "dense_fallback",

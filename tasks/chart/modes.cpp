@@ -29,17 +29,9 @@ struct Found {
   VectorXd eigenvalues;  ///< ascending; empty unless converged
 };
 
-VectorXd start_vector(Index size) {
-  RandomStream random{static_cast<std::uint64_t>(size)};
-  VectorXd start(size);
-  for (double& entry : start) entry = random.normal();
-  remove_translations(start);
-  return start;
-}
-
 template <class Solver>
 Found solve(Solver& solver, Index size, Spectra::SortRule rule) {
-  const VectorXd start = start_vector(size);
+  const VectorXd start = lanczos_start(size);
   try {
     solver.init(start.data());
     solver.compute(rule, restarts, tolerance, Spectra::SortRule::SmallestAlge);

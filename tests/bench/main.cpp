@@ -1,6 +1,6 @@
 // isojam_bench [--ratios FILE] [Google Benchmark's options]
 // Runs the benchmarks in random order, repetition by repetition, so that what else the machine does falls on all of
-// them alike; prints medians and the table of ratios, and writes both as JSON.
+// them alike; prints medians and the table of ratios, and writes both as JSON where a file is named.
 
 #include <algorithm>
 #include <cstring>
@@ -11,11 +11,11 @@
 
 namespace {
 
-/// Removes `--ratios FILE`, if it is there.
+/// Removes `--ratios FILE`, if it is there; empty if it is not.
 std::string take_ratios_path(std::vector<char*>& arguments) {
   const auto flag = std::find_if(arguments.begin(), arguments.end(),
                                  [](const char* text) { return std::strcmp(text, "--ratios") == 0; });
-  if (flag == arguments.end() || flag + 1 == arguments.end()) return "ratios.json";
+  if (flag == arguments.end() || flag + 1 == arguments.end()) return "";
   std::string path = flag[1];
   arguments.erase(flag, flag + 2);
   return path;
@@ -44,11 +44,13 @@ int main(int argc, char** argv) {
   print_medians(std::cout, reporter);
   std::cout << '\n';
   print_verdicts(std::cout, verdicts);
-  std::ofstream file(path);
-  file << to_json(reporter, verdicts).dump(2) << '\n';
-  if (!file.flush()) {
-    std::cerr << "cannot write " << path << '\n';
-    return 2;
+  if (!path.empty()) {
+    std::ofstream file(path);
+    file << to_json(reporter, verdicts).dump(2) << '\n';
+    if (!file.flush()) {
+      std::cerr << "cannot write " << path << '\n';
+      return 2;
+    }
   }
   return reporter.failed() ? 1 : 0;
 }

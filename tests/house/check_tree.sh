@@ -8,6 +8,7 @@
 #      vibration < rigidity.
 #   3. oneTBB (also by way of <execution>) enters engine/packing/pair_loop.cpp and tasks/graph.cpp, nothing else.
 #   4. no source of engine/, tasks/ or tests/ is longer than 400 lines.
+#   5. nothing stands at the top that is not agreed on, build directories and results apart, which git ignores.
 # Prints one line per breach, `file:line: why: text`, and exits 1 if there is one.
 set -euo pipefail
 export LC_ALL=C
@@ -56,6 +57,11 @@ check_include() {  # file line header
       [[ $tbb_sources == *" $1 "* ]] || breach "$1" "$2" 'oneTBB outside its two sources' "$3" ;;
   esac
 }
+
+readonly top=' engine tasks schemas tests examples CMakeLists.txt Makefile README.md LICENSE .ci .git .gitignore .clang-format .clang-tidy '
+for name in $(ls -A); do
+  [[ $top == *" $name "* || $name == build* || $name == results ]] || breach "$name" 1 'not at the top' "$name"
+done
 
 rooms=()
 for room in engine tasks tests; do [[ ! -d $room ]] || rooms+=("$room"); done

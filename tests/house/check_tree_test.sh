@@ -76,6 +76,8 @@ reject tasks/graph.hpp '#include <oneapi/tbb/flow_graph.h>' "$tbb"
 reject tasks/cli.cpp '#include <tbb/global_control.h>' "$tbb"
 reject tasks/cli.cpp '#include <execution>' "$tbb"
 
+reject ratios.json '{}' 'not at the top'
+
 long=$(printf '// line\n%.0s' {1..400})
 for file in engine/solve/jam.cpp tasks/graph.cpp tests/threads_test.cpp; do reject "$file" "$long" 'more than 400 lines'; done
 good_tree

@@ -2,6 +2,7 @@
 // timing:
 // - killed by SIGKILL at twenty random moments, a sweep comes to the same bytes, and what is recorded at any of them is
 //   whole;
+// - a run goes on from its checkpoints;
 // - a record, packing or checkpoint with one byte changed is noticed and redone, and nothing else is touched;
 // - a full disk, and files that may not grow, end a run with exit 1 and a message, and it comes to the same bytes when
 //   there is room;
@@ -140,6 +141,22 @@ void stop_at_checkpoints(const fs::path& results, std::size_t count, int process
     std::this_thread::sleep_for(500us);
   }
   kill(process, signal);
+}
+
+TEST_F(Crash, ARunGoesOnFromItsCheckpoints) {
+  run([&](int process) { stop_at_checkpoints(here_ / "results", 1, process, SIGKILL); });
+  const auto names = names_in(here_ / "results" / "checkpoints");
+  ASSERT_FALSE(names.empty());
+  // The bytes would be the same without it; that an hour was spent before, only the checkpoint knows.
+  const auto path = here_ / "results" / "checkpoints" / (names[0] + ".json");
+  auto checkpoint = read_sealed(path.string());
+  checkpoint.erase("checksum");
+  checkpoint.at("timing").at("cpu_seconds") = 3600.0;
+  test::write_text(path, sealed(checkpoint));
+  EXPECT_EQ(run().exit_code, 0);
+  const auto record = read_sealed((here_ / "results" / "records" / (names[0] + ".json")).string());
+  EXPECT_GE(record.at("timing").at("cpu_seconds").get<double>(), 3600);
+  EXPECT_EQ(results(), reference());
 }
 
 TEST_F(Crash, ADamagedCheckpointStartsItsReplicateAnew) {
