@@ -127,12 +127,16 @@ class Run {
     outcome.spec = jammed.spec;
     outcome.failure = jammed.failure;
     outcome.timing = jammed.timing;
+    outcome.stage_seconds["jam"] = jammed.timing.cpu_seconds;
     if (jammed.value) outcome.jam = *jammed.value;
     outcome.interrupted = outcome.jam.status == JamStatus::interrupted;
     for (std::size_t k = 0; k < measured.size(); ++k) {
       const Measured& one = *measured[k];
       outcome.timing = outcome.timing + one.timing;
-      if (one.value) outcome.measured[all_measures[k]] = *one.value;
+      if (one.value) {
+        outcome.measured[all_measures[k]] = *one.value;
+        outcome.stage_seconds[std::string(to_string(all_measures[k]))] = one.timing.cpu_seconds;
+      }
       if (one.failure && !outcome.failure) outcome.failure = one.failure;
       // Left out because of a stop request.
       outcome.interrupted |= asked(all_measures[k], jammed) && !one.value && !one.failure;

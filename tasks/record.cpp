@@ -188,6 +188,7 @@ Json make_record(const Outcome& outcome) {
     json["flags"] = flags_of(outcome);
   }
   json["timing"] = to_json(outcome.timing);
+  json["timing"]["stages"] = outcome.stage_seconds;
   json["evaluations"] = jam.evaluations;
   json["pairs"] = to_json(jam.counts);
   json["work"] = to_json(jam.work);

@@ -53,6 +53,11 @@ std::vector<std::string> flags_of(const Outcome& outcome) {
   assert(!outcome.failure);
   std::vector<std::string> flags;
   if (outcome.jam.status == JamStatus::short_of_goal) flags.emplace_back("short_of_goal");
+  const auto by_energy = [&](int step) {
+    return outcome.jam.path[static_cast<std::size_t>(step)].summary.reason == StopReason::energy_change;
+  };
+  if (std::any_of(outcome.jam.state_steps.begin(), outcome.jam.state_steps.end(), by_energy))
+    flags.emplace_back("not_balanced");
   for (const auto& [what, measurement] : outcome.measured)
     flags.insert(flags.end(), measurement.flags.begin(), measurement.flags.end());
   return flags;

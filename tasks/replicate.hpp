@@ -33,6 +33,7 @@ struct Outcome {
   std::optional<Failure> failure;
   bool interrupted = false;
   Timing timing;
+  std::map<std::string, double> stage_seconds;  ///< CPU time by stage: jam, and every measurement that was made
 };
 
 /// What a replicate can go on from: where its run stands, and what that has cost.
@@ -56,7 +57,8 @@ Stages engine_stages();
 std::optional<Failure> failure_of(const JamResult& jam);
 
 /// Reservations about an outcome without failure, in a fixed order: short_of_goal (expansion did not come as near to
-/// jamming as asked), then those of the measurements.
+/// jamming as asked), not_balanced (the rule on the energy let states pass whose forces do not balance), then those of
+/// the measurements.
 std::vector<std::string> flags_of(const Outcome& outcome);
 
 }  // namespace isojam

@@ -123,7 +123,7 @@ class StrainStep {
     }
     const JamStep& step = relax(next);
     if (must_end(step)) return;
-    if (!is_equilibrium(step.summary)) return failed(first);
+    if (!is_state(step.summary)) return failed(first);
     if (!first) progress_.approach = std::min(options_.approach, 1.5 * progress_.approach);
     progress_.packing = std::move(next);
     result_.states.push_back(progress_.packing);
@@ -131,7 +131,12 @@ class StrainStep {
     if (distance_to_jamming(step) <= options_.final_distance) end_expansion(JamStatus::jammed);
   }
 
-  /// An expansion step led to no equilibrium.
+  /// An equilibrium, or what ended by the rule on the energy if that was asked for: it is how others have jammed.
+  bool is_state(const MinimiseSummary& summary) const {
+    return is_equilibrium(summary) || summary.reason == StopReason::energy_change;
+  }
+
+  /// An expansion step led to no state.
   void failed(bool first) {
     if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::short_of_goal);
     progress_.approach /= 2;

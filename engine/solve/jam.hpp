@@ -55,9 +55,9 @@ struct JamStep {
 
 enum class JamStatus {
   not_called,
-  jammed,         ///< φ_J was bracketed by equilibria down to final_distance
-  short_of_goal,  ///< fewer or farther equilibria than asked for, yet enough for φ_J
-  not_jammed,     ///< fewer than two equilibria above jamming
+  jammed,         ///< φ_J was bracketed by states down to final_distance
+  short_of_goal,  ///< fewer or farther states than asked for, yet enough for φ_J
+  not_jammed,     ///< fewer than two states above jamming
   density_limit,  ///< max_density reached without the target energy
   step_limit,     ///< max_steps spent
   not_finite,
@@ -69,7 +69,7 @@ struct JamResult {
   JamStatus status = JamStatus::not_called;
   std::vector<JamStep> path;
   std::vector<Packing> states;   ///< minimised packings of the expansion, in the order of expansion
-  std::vector<int> state_steps;  ///< index in `path` of each, all of them equilibria
+  std::vector<int> state_steps;  ///< index in `path` of each: equilibria, or ended by minimise.energy_change
   std::optional<JammingPoint> phi_j;
   long evaluations = 0;
   PairCounts counts;  ///< work of the pair loop, summed over all evaluations
@@ -93,9 +93,9 @@ struct JamProgress {
 
 JamProgress begin_jam(Packing start, const JamOptions& options);
 
-/// The next strain step of a run that has not ended, minimised and appended to the path, its state kept if it is an
-/// equilibrium of the expansion. After a stop request the run ends as interrupted, with the step in whatever state it
-/// was: to go on, start from the progress before it.
+/// The next strain step of a run that has not ended, minimised and appended to the path, its state kept if it is one
+/// of the expansion and an equilibrium, or ended by minimise.energy_change. After a stop request the run ends as
+/// interrupted, with the step in whatever state it was: to go on, start from the progress before it.
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop = {});
 
 /// Called after every step that was not interrupted.

@@ -259,6 +259,11 @@ TEST(Graph, TimeSpentBeforeIsCounted) {
     EXPECT_GE(outcome.timing.wall_seconds, 1000);
     EXPECT_GE(outcome.timing.cpu_seconds, 500);
     EXPECT_LT(outcome.timing.cpu_seconds, 1000);
+    double stages_together = 0;
+    for (const auto& [stage, seconds] : outcome.stage_seconds) stages_together += seconds;
+    EXPECT_GE(outcome.stage_seconds.at("jam"), 500);
+    EXPECT_EQ(outcome.stage_seconds.size(), 1 + outcome.measured.size());
+    EXPECT_NEAR(stages_together, outcome.timing.cpu_seconds, 1e-9 * stages_together);
   });
 }
 

@@ -18,7 +18,8 @@ struct MinimiseOptions {
   /// Stop when forces balance to this fraction of the mean contact force.
   double residual = 1e-6;
   /// Stop when an iteration changes the energy by less than this fraction of it; 0 switches the rule off. The
-  /// paper uses 1e-12 and nothing else; it is not a sign of equilibrium near jamming.
+  /// paper uses 1e-12 and nothing else; it is not a sign of equilibrium near jamming. jam() takes such states all the
+  /// same.
   double energy_change = 0;
   /// Energy per particle (Y·V_p) below which a state that is still losing energy counts as unjammed. A state with
   /// balanced forces is never called unjammed, however low its energy.

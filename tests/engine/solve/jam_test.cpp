@@ -4,6 +4,7 @@
 //   φ_J lies below every state, within final_distance of the last by either form, and between .6 and .8;
 //   the same start gives the same bits, another start another packing;
 //   a stop requested on the way ends the run with what it has; so do a target beyond reach and too few steps;
+//   with the rule on the energy, states count that it ended, out of balance as they are;
 //   straining only as far as the unrelaxed energy stays below the target ends consolidation nearer to jamming.
 
 #include "engine/solve/jam.hpp"
@@ -235,6 +236,27 @@ TEST(JamTest, NotFinite) {
   const JamResult result = jam(start, options);
   EXPECT_EQ(result.status, JamStatus::not_finite) << to_string(result.status);
   EXPECT_TRUE(result.states.empty());
+}
+
+TEST(JamTest, TheRuleOnTheEnergyLetsStatesPass) {
+  const System system{SolidKind::dodecahedron, 24};
+  auto options = lax();
+  options.minimise.method = Method::conjugate_gradient;
+  options.minimise.residual = 1e-9;
+  const auto states_of = [&](double energy_change) {
+    options.minimise.energy_change = energy_change;
+    return jam(start_of(system, 5, options), options);
+  };
+  const auto by_energy = states_of(1e-4);
+  ASSERT_GE(by_energy.states.size(), 2U) << to_string(by_energy.status);
+  for (const int k : by_energy.state_steps) {
+    const auto& summary = by_energy.path[static_cast<std::size_t>(k)].summary;
+    EXPECT_EQ(summary.reason, StopReason::energy_change) << to_string(summary.reason);
+    EXPECT_GT(summary.residual, 100 * options.minimise.residual);
+  }
+  // Without the rule the same minimiser must balance the forces or give the state up.
+  for (const auto result = states_of(0); const int k : result.state_steps)
+    EXPECT_TRUE(is_equilibrium(result.path[static_cast<std::size_t>(k)].summary));
 }
 
 TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
