@@ -5,23 +5,63 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/random/stream.hpp"
+#include "engine/rigidity/soft_rows.hpp"
+
 namespace isojam {
 
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using PivotedQr = Eigen::ColPivHouseholderQR<MatrixXd>;
+using Eigen::VectorXd;
 
-/// From rowsᵀ P = Q [R₁ R₂; 0 0]: the columns of P [−R₁⁻¹R₂; 1], made orthonormal.
-MatrixXd stress_basis(const PivotedQr& qr, Index constraints, Index rank) {
-  const Index states = constraints - rank;
-  if (states == 0) return MatrixXd(constraints, 0);
-  MatrixXd null = MatrixXd::Identity(constraints, constraints).rightCols(states);
-  null.topRows(rank) = -qr.matrixR().topRightCorner(rank, states);
-  qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solveInPlace(null.topRows(rank));
-  const MatrixXd in_order = qr.colsPermutation() * null;
-  return Eigen::HouseholderQR<MatrixXd>(in_order).householderQ() * MatrixXd::Identity(constraints, states);
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Directions beyond those that must be soft, so that some that are not are seen.
+constexpr Index spare = 12;
+/// Rounds of damping. One divides what is opposed with σ by σ²/τ², 1e6 and more in packings; three leave nothing but
+/// rounding, and singular values of their own to those nearest to none.
+constexpr int rounds = 3;
+
+/// Orthonormal combinations of the rows, softest last, and their singular values, those of rowsᵀ·combinations.
+struct SoftSpace {
+  MatrixXd combinations;  ///< constraints × k
+  VectorXd sigma;         ///< k, descending
+};
+
+MatrixXd orthonormal(const MatrixXd& columns) {
+  return Eigen::HouseholderQR<MatrixXd>(columns).householderQ() * MatrixXd::Identity(columns.rows(), columns.cols());
+}
+
+/// Rayleigh and Ritz: not of rows·rowsᵀ, whose small eigenvalues would drown, but by the singular values of rowsᵀ·Q.
+SoftSpace diagonalised(const RigidityMatrix& matrix, const MatrixXd& q) {
+  const MatrixXd image = matrix.rows.transpose() * q;
+  const Index k = q.cols();
+  SoftSpace space;
+  if (image.rows() < k) {
+    const Eigen::BDCSVD<MatrixXd> svd(image, Eigen::ComputeFullV);
+    space.sigma = VectorXd::Zero(k);
+    space.sigma.head(svd.singularValues().size()) = svd.singularValues();
+    space.combinations = q * svd.matrixV();
+    return space;
+  }
+  const MatrixXd r = Eigen::HouseholderQR<MatrixXd>(image).matrixQR().topRows(k).triangularView<Eigen::Upper>();
+  const Eigen::BDCSVD<MatrixXd> svd(r, Eigen::ComputeFullV);
+  space.sigma = svd.singularValues();
+  space.combinations = q * svd.matrixV();
+  return space;
+}
+
+/// The k softest combinations, all of them if there are no more than k.
+SoftSpace softest(const RigidityMatrix& matrix, const SoftRows& soft, Index k) {
+  const Index constraints = matrix.rows.rows();
+  if (k >= constraints) return diagonalised(matrix, MatrixXd::Identity(constraints, constraints));
+  RandomStream random{static_cast<std::uint64_t>(constraints), static_cast<std::uint64_t>(k)};
+  MatrixXd q(constraints, k);
+  for (double& entry : q.reshaped()) entry = random.normal();
+  for (int round = 0; round < rounds; ++round) q = orthonormal(soft.damped(q));
+  return diagonalised(matrix, q);
 }
 
 }  // namespace
@@ -32,24 +72,27 @@ Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& o
   result.constraints = static_cast<int>(constraints);
   result.floppy = static_cast<int>(coordinates);
   if (constraints == 0) return result;
-  const PivotedQr qr(MatrixXd(matrix.rows.transpose()));
-  const Eigen::VectorXd pivots = qr.matrixQR().diagonal().cwiseAbs();
-  const double rounding =
-      static_cast<double>(std::max(constraints, coordinates)) * std::numeric_limits<double>::epsilon();
-  result.tolerance = std::max(rounding * pivots.maxCoeff(), options.margin * matrix.imbalance);
-  // Pivots fall but for rounding; the first that is zero ends the rank.
-  Index rank = 0;
-  while (rank < pivots.size() && pivots[rank] > result.tolerance) ++rank;
-  result.rank = static_cast<int>(rank);
-  result.self_stress = static_cast<int>(constraints - rank);
-  result.floppy = static_cast<int>(coordinates - rank);
-  if (rank > 0) result.least_kept = pivots[rank - 1];
-  if (rank < pivots.size()) result.largest_dropped = pivots.tail(pivots.size() - rank).maxCoeff();
-  if (options.stresses) result.stresses = stress_basis(qr, constraints, rank);
+  const SoftRows soft(matrix.rows);
+  const double rounding = static_cast<double>(std::max(constraints, coordinates)) * epsilon * soft.stiffest();
+  result.tolerance = std::max(rounding, options.margin * matrix.imbalance);
+  SoftSpace space;
+  Index dropped = 0;
+  for (Index k = std::max<Index>(0, constraints - (coordinates - 3)) + spare;; k *= 2) {
+    space = softest(matrix, soft, k);
+    dropped = (space.sigma.array() <= result.tolerance).count();
+    if (dropped < space.sigma.size() || dropped == constraints) break;
+  }
+  const Index kept = space.sigma.size() - dropped;
+  result.self_stress = static_cast<int>(dropped);
+  result.rank = static_cast<int>(constraints - dropped);
+  result.floppy = static_cast<int>(coordinates) - result.rank;
+  if (kept > 0) result.least_kept = space.sigma[kept - 1];
+  if (dropped > 0) result.largest_dropped = space.sigma[kept];
+  if (options.stresses) result.stresses = space.combinations.rightCols(dropped);
   return result;
 }
 
-Eigen::VectorXd singular_values(const RigidityMatrix& matrix) {
+VectorXd singular_values(const RigidityMatrix& matrix) {
   if (matrix.rows.rows() == 0) return {};
   return Eigen::BDCSVD<MatrixXd>(MatrixXd(matrix.rows)).singularValues();
 }

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <map>
 #include <stdexcept>
+#include <mutex>
 #include <thread>
 
 #include "bad_manifests.hpp"
@@ -128,6 +129,27 @@ TEST(Graph, NoMeasurementWhereNoneIsAsked) {
     EXPECT_TRUE(outcome.measured.empty());
   });
   EXPECT_EQ(outcomes, 3);
+}
+
+TEST(Graph, NoMeasurementBesideThoseNamed) {
+  for (const Measure named : all_measures) {
+    auto plan = plan_of(3);
+    for (auto& spec : plan) spec.measures = {named};
+    auto stages = quiet_stages();
+    std::mutex mutex;
+    std::vector<Measure> made;
+    stages.measure = [&](const ReplicateSpec&, Measure what, const JamResult&) {
+      const std::lock_guard lock(mutex);
+      made.push_back(what);
+      return Measurement{};
+    };
+    run_graph(one_by_one(plan), stages, {2, 0, {}, {}}, [&](const Outcome& outcome) {
+      EXPECT_EQ(outcome.measured.size(), 1U);
+      EXPECT_EQ(outcome.stage_seconds.size(), 2U) << "jam, and " << to_string(named);
+      EXPECT_TRUE(outcome.stage_seconds.contains(std::string(to_string(named))));
+    });
+    EXPECT_EQ(made, std::vector(3, named));
+  }
 }
 
 TEST(Graph, ThreadsChangeNoOutcome) {

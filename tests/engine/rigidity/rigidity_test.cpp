@@ -223,7 +223,7 @@ TEST_P(RigidityOf, EveryState) {
     const Rigidity of_normals = analyse_rigidity(normals, options), of_classes = analyse_rigidity(by_class, options);
     std::printf(
         "φ %.4f Z %.2f C %.2f: %d normals, %d states of self-stress; %d rows, rank %d of %d, %d states; "
-        "pivots %.0e | %.0e\n",
+        "singular values %.0e | %.0e\n",
         state.density(), known.analysis.numbers.Z, known.analysis.numbers.C, of_normals.constraints,
         of_normals.self_stress, of_classes.constraints, of_classes.rank, 6 * n - 3, of_classes.self_stress,
         of_normals.least_kept, of_normals.largest_dropped);
@@ -258,6 +258,25 @@ TEST_P(RigidityOf, NearestJamming) {
   ASSERT_EQ(rigidity.stresses.cols(), 1);
   const double along = std::abs(rigidity.stresses.col(0).dot(normals.forces.normalized()));
   EXPECT_NEAR(along, 1, 1e-6) << "the forces of the equilibrium are that state";
+}
+
+/// Every second row holds nothing that the one before it does not: far more states of self-stress than by counting.
+TEST(RigidityTest, RowsGivenTwice) {
+  const Known known(nearest_state(jammed(SolidKind::icosahedron, 32, .01)));
+  const RigidityMatrix once = known.normals();
+  RigidityMatrix twice = once;
+  twice.rows.resize(2 * once.rows.rows(), once.rows.cols());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int k = 0; k < once.rows.outerSize(); ++k) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(once.rows, k); entry; ++entry) {
+      for (const Eigen::Index copy : {0, 1}) entries.emplace_back(2 * entry.row() + copy, entry.col(), entry.value());
+    }
+  }
+  twice.rows.setFromTriplets(entries.begin(), entries.end());
+  const Rigidity of_once = analyse_rigidity(once), of_twice = analyse_rigidity(twice);
+  EXPECT_EQ(of_twice.rank, of_once.rank);
+  EXPECT_EQ(of_twice.self_stress, of_once.self_stress + once.rows.rows());
+  EXPECT_EQ(of_twice.rank, (singular_values(twice).array() > of_twice.tolerance).count());
 }
 
 TEST(RigidityTest, KnownRanks) {
