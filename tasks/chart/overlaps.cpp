@@ -103,27 +103,19 @@ ChartPoint point_of(const std::string& task, const Kernel& kernel, const std::ve
 
 }  // namespace
 
-ChartFamily compare_overlaps(const Measuring& measuring) {
-  ChartFamily family{"overlap",
-                     "relative error of V",
-                     "Overlap volumes against arithmetic of 50 digits, by class of contact. Poses are rounded to the "
-                     "precision of the method first, as in a packing. Times are per pair, solids placed; spread of "
-                     "errors over pairs.",
-                     FamilyEnd::complete,
-                     {}};
+void compare_overlaps(const Measuring& measuring, ChartFamily& family) {
   for (const SolidKind solid : measuring.config.solids) {
     for (const PairClass pair_class : classes) {
       const auto task = fmt::format("{}, {}", to_string(solid), to_string(pair_class));
       measuring.console.tick("overlaps, " + task);
       std::vector<PreparedPair> pairs;
       for (const PairCase& pair : oracle::pair_cases(solid, solid, pair_class, measuring.config.pairs)) {
-        if (measuring.over()) return family;
+        if (measuring.over()) return;
         pairs.push_back(prepared(pair));
       }
       for (const Kernel& kernel : kernels) family.points.push_back(point_of(task, kernel, pairs, measuring));
     }
   }
-  return family;
 }
 
 }  // namespace isojam

@@ -43,6 +43,7 @@ function drawFamily(family, place) {
   document.getElementById('origin').textContent = `isojam ${version} (git ${git}), ${compiler}, one thread.`;
   document.getElementById('conclusion').append(...data.conclusion.map((line) => element('li', {}, ...rich(line))));
   for (const family of data.families) drawFamily(family, document.getElementById('charts'));
+  if (data.atlas) drawAtlas(data.atlas, document.getElementById('atlas'));
   addEventListener('beforeprint', () => document.querySelectorAll('details').forEach((part) => { part.open = true; }));
   document.documentElement.dataset.ready = 'yes';
 }
