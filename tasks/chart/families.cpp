@@ -17,7 +17,7 @@ ChartFamily equilibrium_family() {
 
 ChartFamily bias_family() {
   return {"bias",
-          "|bias of φ_J|",
+          "|bias of jamming density|",
           "What the states that each way of minimising ends in make of the jamming density, against the reference, by "
           "the same fit. Times are of all states of a packing together, spread over packings.",
           FamilyEnd::complete,
@@ -55,7 +55,7 @@ ChartFamily overlap_family() {
 
 ChartFamily phi_j_family() {
   return {"phi_j",
-          "error of φ_J with its 95 % interval",
+          "error of jamming density (95 % bound)",
           "Mean jamming density over replicates, one parameter of the protocol at a time moved away from the first "
           "setting. Error: distance of the far end of the mean's 95 % interval from the mean of the first setting over "
           "all replicates. Times are of all replicates together. That φ_J depends on the number of particles and on "

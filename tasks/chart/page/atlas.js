@@ -12,8 +12,13 @@ const groupedBy = (rows, key) => {
   return [...groups];
 };
 
-const countsText = (rows) => Object.keys(verdictSigns).map((verdict) =>
-  `${rows.filter((row) => row.verdict === verdict).length} ${verdict}`).join(', ');
+const count = (rows, verdict) => rows.filter((row) => row.verdict === verdict).length;
+
+const countsText = (rows) =>
+  `${count(rows, 'holds')} cells hold, ${count(rows, 'refuses')} refuse, ${count(rows, 'fails')} fail. `;
+
+/// A number is not broken at its sign.
+const unbroken = (text) => text.replaceAll('-', '\u2011');
 
 function atlasCell(row) {
   const text = `${row.verdict}: ${row.figure}; ${row.reason}`;
@@ -30,14 +35,14 @@ function atlasCell(row) {
 function regimeTable(regime, rows) {
   const settings = [...new Set(rows.map(({setting}) => setting))];
   const head = element('tr', {}, element('th', {className: 'text', attributes: {scope: 'col'}}, ''),
-    ...settings.map((setting) => element('th', {attributes: {scope: 'col'}}, setting)));
+    ...settings.map((setting) => element('th', {attributes: {scope: 'col'}}, unbroken(setting))));
   const body = groupedBy(rows, 'method').map(([method, cells]) => element('tr', {},
-    element('th', {className: 'text', attributes: {scope: 'row'}}, cells[0].standard ? `${method} *` : method),
+    element('th', {className: 'text', attributes: {scope: 'row'}}, cells[0].standard ? `${method}\u00a0*` : method),
     ...settings.map((setting) => {
       const row = cells.find((cell) => cell.setting === setting);
       return row ? atlasCell(row) : element('td', {}, '');
     })));
-  return element('div', {className: 'scroll regime'}, element('table', {}, element('caption', {}, ...rich(regime)),
+  return element('div', {className: settings.length > 8 ? 'scroll regime wide' : 'scroll regime'}, element('table', {}, element('caption', {}, ...rich(regime)),
     element('thead', {}, head), element('tbody', {}, ...body)));
 }
 
@@ -56,12 +61,13 @@ function cellList(label, rows) {
 function drawAtlas(atlas, place) {
   const ended = {complete: '', cut: ' The time was over before all was measured.', interrupted: ' Interrupted.'};
   place.hidden = false;
-  place.append(element('p', {className: 'note'}, `${atlas.rows.length} cells: ${countsText(atlas.rows)}. `,
+  place.append(element('p', {className: 'note'}, countsText(atlas.rows),
     'Each regime is difficult in its own way, from the left to the right in steps. ✓ the method holds; – it refuses, ',
     'with a reason; ✗ its answer is wrong, or it ends without one. * marks what isojam itself uses there.',
     ended[atlas.ended]));
   const other = atlas.rows.filter(({verdict}) => verdict !== 'holds');
-  place.append(...groupedBy(atlas.rows, 'regime').map(([regime, rows]) => regimeTable(regime, rows)),
+  place.append(element('div', {className: 'regimes'},
+    ...groupedBy(atlas.rows, 'regime').map(([regime, rows]) => regimeTable(regime, rows))),
     cellList(`The ${other.length} cells that do not hold, and why`, other),
     cellList(`The ${atlas.rows.length - other.length} cells that hold`,
       atlas.rows.filter(({verdict}) => verdict === 'holds')));
