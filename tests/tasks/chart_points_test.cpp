@@ -1,11 +1,13 @@
 // Facts proved here, of every point of a tiny but real chart:
 // - a point says why it stopped, with a spread in order and the number of runs behind it;
 // - what reached a residual is within it, and what did not is marked as failed; likewise wrong overlaps, negative modes
-//   that are none, and eigensolvers that did not converge; all but the overlaps do fail somewhere;
+//   that are none, and eigensolvers that did not converge; all but the overlaps do fail somewhere; so says the table;
 // - on the front is what no other point of its case beats, and all of that;
 // - at a vanishing tolerance the bias of the default method vanishes, and a loose minimiser's does not.
 
 #include <gtest/gtest.h>
+
+#include <sstream>
 
 #include "tasks/chart/data.hpp"
 #include "tasks/chart/run_chart.hpp"
@@ -89,6 +91,16 @@ TEST(ChartPoints, FailedMeansWhatTheFamilySays) {
   EXPECT_GT(unbalanced, 0);
   EXPECT_GT(unstable, 0);
   EXPECT_GT(lost, 0);
+}
+
+TEST(ChartPoints, TheTableMarksFailures) {
+  std::istringstream table(text_table(real_chart()));
+  int marked = 0, failed = 0;
+  for (std::string line; std::getline(table, line);) marked += line.ends_with("  FAILED");
+  for (const ChartFamily& family : real_chart().families) {
+    for (const ChartPoint& point : family.points) failed += point.failed;
+  }
+  EXPECT_EQ(marked, failed);
 }
 
 bool usable(const ChartPoint& point) { return !point.failed && point.error && point.seconds; }
