@@ -32,8 +32,8 @@ void compare_hessians(std::span<const TaskEquilibria> tasks, const Measuring& me
 /// dense solver; error: largest relative difference of an eigenvalue.
 void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measuring, ChartFamily& family);
 
-/// Overlap volumes in working, extended and quadruple precision and by a plain clip of faces, against arithmetic of 50
-/// digits, over classes of contacts.
+/// Overlaps in working, extended and quadruple precision and by a plain clip of faces, against arithmetic of 50 digits,
+/// over classes of contacts; error: of V, and beside it that of S.
 void compare_overlaps(const Measuring& measuring, ChartFamily& family);
 
 /// Settings of the protocol against the time that they take: distance of the mean φ_J over replicates from that of the

@@ -45,12 +45,14 @@ ChartFamily modes_family() {
 }
 
 ChartFamily overlap_family() {
-  return {"overlap",
-          "relative error of V",
-          "Overlap volumes against arithmetic of 50 digits, by class of contact. Poses are rounded to the precision of "
-          "the method first, as in a packing. Times are per pair, solids placed; spread of errors over pairs.",
-          FamilyEnd::complete,
-          {}};
+  return {
+      "overlap",
+      "relative error of V",
+      "Overlap volumes against arithmetic of 50 digits, by class of contact. Poses are rounded to the precision of "
+      "the method first, as in a packing. Times are per pair, solids placed; spread of errors over pairs. Forces are "
+      "−VS/2: the error of S, where a method gives it, stands in the list of points.",
+      FamilyEnd::complete,
+      {}};
 }
 
 ChartFamily phi_j_family() {

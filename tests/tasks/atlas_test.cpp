@@ -3,7 +3,7 @@
 //   r refuses, f fails): isojam's own methods, and those that are there to be compared with;
 //   no cell is missing from a table, and none is there twice;
 //   isojam's own methods hold in every cell, or refuse; every cell says what was measured and why it was judged so;
-//   the same bits come out every time.
+//   the same bits come out every time; after a stop request no row does.
 
 #include <gtest/gtest.h>
 
@@ -73,6 +73,14 @@ TEST(Atlas, SameBitsEveryTime) {
 const AtlasStates& states() {
   static const AtlasStates made;
   return made;
+}
+
+TEST(AtlasOfJammedStates, NoRowIsOfWhatWasStopped) {
+  std::stop_source stopped;
+  stopped.request_stop();
+  EXPECT_TRUE(AtlasStates(stopped.get_token()).empty());
+  EXPECT_EQ(minimiser_atlas(states(), stopped.get_token()).size(), 0);
+  EXPECT_EQ(modes_atlas(states(), stopped.get_token()).size(), 0);
 }
 
 TEST(AtlasOfJammedStates, Minimisers) { check(minimiser_atlas(states()), expected_minimisers()); }
