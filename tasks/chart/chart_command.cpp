@@ -25,6 +25,15 @@ void make_directory(const std::filesystem::path& directory) {
   check_writable(directory);
 }
 
+std::string written(const ChartConfig& config, const ChartResult& result, const std::filesystem::path& directory) {
+  const Json data = chart_data(config, result);
+  auto table = text_table(result);
+  write_atomically(directory / "data.json", pretty(data));
+  write_atomically(directory / "table.txt", table);
+  write_atomically(directory / "chart.html", assembled_page(chart_parts(), data));
+  return table;
+}
+
 }  // namespace
 
 ExitCode chart(const ChartCommand& command, Console& console) {
@@ -32,13 +41,11 @@ ExitCode chart(const ChartCommand& command, Console& console) {
   const std::filesystem::path directory = command.directory;
   make_directory(directory);
   const InterruptWatcher watcher;
-  const auto families = run_chart(config, watcher.token(), console);
+  // Also between its parts, for who does not end in time after a signal is ended without another word.
+  const auto result = run_chart(config, watcher.token(), console,
+                                [&](const ChartResult& so_far) { written(config, so_far, directory); });
   console.end();
-  const Json data = chart_data(config, families);
-  const auto table = text_table(families);
-  write_atomically(directory / "data.json", pretty(data));
-  write_atomically(directory / "table.txt", table);
-  write_atomically(directory / "chart.html", assembled_page(chart_parts(), data));
+  const auto table = written(config, result, directory);
   std::fputs(table.c_str(), stdout);
   return watcher.token().stop_requested() ? ExitCode::interrupted : ExitCode::done;
 }

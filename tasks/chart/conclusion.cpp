@@ -37,6 +37,7 @@ std::string fastest_line(std::span<const ChartPoint> points, double residual) {
 
 /// Share of a method's tasks in which some setting failed.
 std::string failed_text(std::span<const ChartPoint> points) {
+  if (points.empty()) return "nothing was measured";
   std::map<std::string, std::pair<std::set<std::string>, std::set<std::string>>> tasks;  // failed, all
   for (const ChartPoint& point : points) {
     auto& [failed, all] = tasks[point.method];

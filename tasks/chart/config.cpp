@@ -137,7 +137,7 @@ void check_particles(const JsonPlace& root, const std::string& key, SolidKind so
 
 std::string_view to_string(Comparison comparison) {
   static constexpr std::array<std::string_view, all_comparisons.size()> names{"equilibrium", "hessian", "modes",
-                                                                              "overlap", "phi_j"};
+                                                                              "overlap",     "atlas",   "phi_j"};
   return names[static_cast<std::size_t>(comparison)];
 }
 

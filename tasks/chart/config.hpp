@@ -11,9 +11,9 @@
 namespace isojam {
 
 /// What a chart may compare, in the order in which it is measured.
-enum class Comparison { equilibrium, hessian, modes, overlap, phi_j };
+enum class Comparison { equilibrium, hessian, modes, overlap, atlas, phi_j };
 inline constexpr std::array all_comparisons{Comparison::equilibrium, Comparison::hessian, Comparison::modes,
-                                            Comparison::overlap, Comparison::phi_j};
+                                            Comparison::overlap,     Comparison::atlas,   Comparison::phi_j};
 std::string_view to_string(Comparison comparison);
 
 /// Settings of the protocol, of which one at a time is varied from the first of its list.

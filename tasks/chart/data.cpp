@@ -51,6 +51,23 @@ Json to_json(const ChartFamily& family) {
           {"points", std::move(points)}};
 }
 
+Json to_json(const AtlasRow& row) {
+  return {{"regime", row.regime},
+          {"setting", row.setting},
+          {"method", row.method},
+          {"standard", row.standard},
+          {"verdict", to_string(row.verdict)},
+          {"figure", row.figure},
+          {"reason", row.reason}};
+}
+
+Json to_json(const std::optional<ChartAtlas>& atlas) {
+  if (!atlas) return nullptr;
+  Json rows = Json::array();
+  for (const AtlasRow& row : atlas->rows) rows.push_back(to_json(row));
+  return {{"ended", to_string(atlas->ended)}, {"rows", std::move(rows)}};
+}
+
 }  // namespace
 
 std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std::string_view name) {
@@ -60,17 +77,21 @@ std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std
   return {};
 }
 
-Json chart_data(const ChartConfig& config, std::span<const ChartFamily> families) {
+Json chart_data(const ChartConfig& config, const ChartResult& result) {
   Json all = Json::array();
-  for (const ChartFamily& family : families) all.push_back(to_json(family));
+  for (const ChartFamily& family : result.families) all.push_back(to_json(family));
   Json lines = Json::array();
-  for (const auto& line : conclusion(points_of(families, "equilibrium"), points_of(families, "bias")))
+  for (const auto& line : conclusion(points_of(result.families, "equilibrium"), points_of(result.families, "bias")))
     lines.push_back(line);
+  Json costs = Json::object();
+  for (const PartCost& cost : result.costs) costs[cost.part] = cost.cpu_seconds;
   return {{"schema", "isojam.chart.v1"},
           {"program", {{"version", version()}, {"git", git_hash()}, {"compiler", compiler()}}},
           {"threads", 1},
           {"config", isojam::to_json(config)},
           {"families", std::move(all)},
+          {"atlas", to_json(result.atlas)},
+          {"cpu_seconds", std::move(costs)},
           {"conclusion", std::move(lines)}};
 }
 

@@ -85,16 +85,6 @@ EndState minimised(const Packing& start, const MinimiseOptions& options, const M
 /// All that is kept of a variant: [packing of the solid][distance].
 using EndStates = std::map<std::pair<int, double>, EndState>;
 
-/// "budget 2, residual_reached": each reason with its count, where there are several.
-std::string reasons_text(const std::map<std::string, int>& counts) {
-  std::string text;
-  for (const auto& [reason, count] : counts) {
-    text += text.empty() ? reason : ", " + reason;
-    if (counts.size() > 1) text += fmt::format(" {}", count);
-  }
-  return text;
-}
-
 /// Differences from the reference, of packings where both are known.
 Json median_or_null(const std::vector<double>& values) {
   const auto of = spread(values);
@@ -170,27 +160,15 @@ ChartPoint bias_of(const Variant& variant, SolidKind solid, const EndStates& sta
 
 class Minimisers {
  public:
-  Minimisers(std::span<const JammedSolid> jammed, const Measuring& measuring)
-      : jammed_(jammed), measuring_(measuring), config_(measuring.config) {
-    equilibrium_.name = "equilibrium";
-    equilibrium_.error_is = "residual";
-    equilibrium_.note =
-        "Minimisers from the same starts, states of an expansion strained by one of its steps; the residual is the "
-        "largest imbalance of a particle over the mean contact force. Spread over packings; times are also over "
-        "repetitions. Bias: median difference from the reference, the default method to 1e-9.";
-    bias_.name = "bias";
-    bias_.error_is = "|bias of φ_J|";
-    bias_.note =
-        "What the states that each way of minimising ends in make of the jamming density, against the reference, by "
-        "the same fit. Times are of all states of a packing together, spread over packings.";
-  }
+  Minimisers(std::span<const JammedSolid> jammed, const Measuring& measuring, ChartFamily& equilibrium,
+             ChartFamily& bias)
+      : jammed_(jammed), measuring_(measuring), config_(measuring.config), equilibrium_(equilibrium), bias_(bias) {}
 
-  std::vector<ChartFamily> run() {
+  void run() {
     for (const SolidKind solid : config_.solids) {
       reference_ = all_states(solid, {"newton", "reference", {.residual = 1e-9}});
       for (const Ladder& ladder : ladders(config_)) climb(solid, ladder);
     }
-    return {std::move(equilibrium_), std::move(bias_)};
   }
 
  private:
@@ -234,14 +212,15 @@ class Minimisers {
   std::span<const JammedSolid> jammed_;
   const Measuring& measuring_;
   const ChartConfig& config_;
+  ChartFamily &equilibrium_, &bias_;
   EndStates reference_;
-  ChartFamily equilibrium_, bias_;
 };
 
 }  // namespace
 
-std::vector<ChartFamily> compare_minimisers(std::span<const JammedSolid> jammed, const Measuring& measuring) {
-  return Minimisers(jammed, measuring).run();
+void compare_minimisers(std::span<const JammedSolid> jammed, const Measuring& measuring, ChartFamily& equilibrium,
+                        ChartFamily& bias) {
+  Minimisers(jammed, measuring, equilibrium, bias).run();
 }
 
 }  // namespace isojam

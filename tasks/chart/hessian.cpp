@@ -53,19 +53,19 @@ class Hessians {
  public:
   Hessians(const Measuring& measuring, ChartFamily& family) : measuring_(measuring), family_(family) {}
 
-  void compare(std::span<const JammedSolid> jammed, SolidKind solid, double distance) {
-    const std::string task = task_name(solid, distance);
+  void compare(const TaskEquilibria& task) {
     Samples analytic;
     std::map<double, Samples> differences;
-    for (const JammedSolid& each : jammed) {
-      if (each.solid != solid || measuring_.over()) continue;
-      measuring_.console.tick("Hessians, " + task);
-      if (const auto packing = equilibrium_at(each, distance, measuring_)) compare(*packing, analytic, differences);
+    for (const Packing& packing : task.packings) {
+      if (measuring_.over()) break;
+      measuring_.console.tick("Hessians, " + task.task);
+      compare(packing, analytic, differences);
     }
-    if (measuring_.over() || analytic.seconds.empty()) return;
-    family_.points.push_back(point_of(task, "analytic", "analytic", analytic));
+    // Stopped in the middle, what was measured counts: n says of how many packings it is.
+    if (analytic.seconds.empty()) return;
+    family_.points.push_back(point_of(task.task, "analytic", "analytic", analytic));
     for (const auto& [h, samples] : differences)
-      family_.points.push_back(point_of(task, "central differences", fmt::format("h = {:g}", h), samples));
+      family_.points.push_back(point_of(task.task, "central differences", fmt::format("h = {:g}", h), samples));
   }
 
  private:
@@ -103,19 +103,9 @@ class Hessians {
 
 }  // namespace
 
-ChartFamily compare_hessians(std::span<const JammedSolid> jammed, const Measuring& measuring) {
-  ChartFamily family{"hessian",
-                     "largest relative error of an eigenvalue",
-                     "The analytic Hessian of equilibria against central differences of the gradient in extended "
-                     "precision. Error of differences: from the analytic eigenvalues, translations apart; of the "
-                     "analytic ones: what rounding can do to them at most. Failed: negative modes that are not there.",
-                     FamilyEnd::complete,
-                     {}};
+void compare_hessians(std::span<const TaskEquilibria> tasks, const Measuring& measuring, ChartFamily& family) {
   Hessians hessians(measuring, family);
-  for (const SolidKind solid : measuring.config.solids) {
-    for (const double distance : measuring.config.distances) hessians.compare(jammed, solid, distance);
-  }
-  return family;
+  for (const TaskEquilibria& task : tasks) hessians.compare(task);
 }
 
 }  // namespace isojam

@@ -23,7 +23,7 @@ struct Measuring {
 };
 
 /// What takes longer is timed once: repetitions are there for what the clock's noise can spoil.
-inline constexpr double seconds_worth_repeating = 0.5;
+inline constexpr double seconds_worth_repeating = 0.1;
 
 /// Runs `work` as often as the configuration says, fewer times if it takes long, and gives the CPU times of the calling
 /// thread. `work` must give the same result each time.

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int wanted = 50;
+constexpr int wanted = modes_compared;
 constexpr int restarts = 100;
 constexpr double tolerance = 1e-13;
 /// Eigenvalues farther off than this are not the modes that were asked for.
@@ -111,11 +111,8 @@ class TaskPoints {
 
   void append_to(std::vector<ChartPoint>& points, const std::string& task) const {
     for (const Samples& samples : all_) {
-      std::string stopped;
-      for (const auto& [reason, count] : samples.stopped)
-        stopped += fmt::format("{}{} {}", stopped.empty() ? "" : ", ", reason, count);
-      points.push_back({task, samples.method, samples.setting, spread(samples.seconds), spread(samples.errors), stopped,
-                        samples.failed > 0, Json::object()});
+      points.push_back({task, samples.method, samples.setting, spread(samples.seconds), spread(samples.errors),
+                        reasons_text(samples.stopped), samples.failed > 0, Json::object()});
     }
   }
 
@@ -157,26 +154,16 @@ void compare(const Packing& packing, const Measuring& measuring, TaskPoints& poi
 
 }  // namespace
 
-ChartFamily compare_modes(std::span<const JammedSolid> jammed, const Measuring& measuring) {
-  ChartFamily family{"modes",
-                     "largest relative error of an eigenvalue",
-                     fmt::format("The {} lowest modes beyond translations, against the dense solver; its own error is "
-                                 "what rounding can do at most. Shifts are −σ/λ_max. Spread over packings.",
-                                 wanted),
-                     FamilyEnd::complete,
-                     {}};
-  for (const SolidKind solid : measuring.config.solids) {
-    for (const double distance : measuring.config.distances) {
-      TaskPoints points;
-      for (const JammedSolid& each : jammed) {
-        if (each.solid != solid || measuring.over()) continue;
-        measuring.console.tick("modes, " + task_name(solid, distance));
-        if (const auto packing = equilibrium_at(each, distance, measuring)) compare(*packing, measuring, points);
-      }
-      if (!measuring.over()) points.append_to(family.points, task_name(solid, distance));
+void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measuring, ChartFamily& family) {
+  for (const TaskEquilibria& task : tasks) {
+    TaskPoints points;
+    for (const Packing& packing : task.packings) {
+      if (measuring.over()) break;
+      measuring.console.tick("modes, " + task.task);
+      compare(packing, measuring, points);
     }
+    points.append_to(family.points, task.task);
   }
-  return family;
 }
 
 }  // namespace isojam

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/geometry/overlap.hpp"
 #include "tasks/chart/comparisons.hpp"
-#include "tasks/chart/pairs/precise_volume.hpp"
+#include "tasks/chart/pairs/precise_overlap.hpp"
 
 namespace isojam {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using oracle::PairCase;
 using oracle::PairClass;
 
-/// Those in which no two faces coincide: see precise_volume().
+/// Those in which no two faces coincide: see precise_overlap().
 constexpr std::array classes{PairClass::random_contact, PairClass::near_parallel_faces, PairClass::edge_in_face,
                              PairClass::parallel_edges, PairClass::vertex_vertex,       PairClass::same_orientation};
 
@@ -27,7 +28,7 @@ struct PreparedPair {
   PlacedSolid a, b, precise_a, precise_b;
   TwoDoubleVector displacement;
   QuadPose quad;
-  oracle::Precise volume;
+  oracle::PreciseOverlap right;
 };
 
 PreparedPair prepared(const PairCase& pair) {
@@ -46,28 +47,36 @@ PreparedPair prepared(const PairCase& pair) {
           PlacedSolid(b, turn),
           displacement,
           relative_pose(Pose{}, pose, quad_position(pose)),
-          oracle::precise_volume(pair)};
+          oracle::precise_overlap(pair)};
 }
 
-double in_doubles(const PreparedPair& pair) {
+struct Found {
+  double volume = 0;
+  std::optional<Eigen::Vector3d> area;  ///< S_A, of methods that give it
+};
+
+Found in_doubles(const PreparedPair& pair) {
   SeparatingAxis axis;
-  return overlap(pair.a, pair.b, pair.pair.displacement, axis).volume;
+  const Overlap found = overlap(pair.a, pair.b, pair.pair.displacement, axis);
+  return {found.volume, found.area};
 }
 
-double in_two_doubles(const PreparedPair& pair) {
+Found in_two_doubles(const PreparedPair& pair) {
   SeparatingAxis axis;
-  return overlap(pair.precise_a, pair.precise_b, pair.displacement, axis).volume;
+  const Overlap found = overlap(pair.precise_a, pair.precise_b, pair.displacement, axis);
+  return {found.volume, found.area};
 }
 
-double by_quadruple_clip(const PreparedPair& pair) {
-  return narrowed(clipped_overlap(platonic(pair.pair.a), platonic(pair.pair.b), pair.quad)).volume;
+Found by_quadruple_clip(const PreparedPair& pair) {
+  const Overlap found = narrowed(clipped_overlap(platonic(pair.pair.a), platonic(pair.pair.b), pair.quad));
+  return {found.volume, found.area};
 }
 
-double by_plain_clip(const PreparedPair& pair) { return oracle::rough_volume(pair.pair); }
+Found by_plain_clip(const PreparedPair& pair) { return {oracle::rough_volume(pair.pair), std::nullopt}; }
 
 struct Kernel {
   std::string_view method, setting;
-  double (*volume)(const PreparedPair&);
+  Found (*overlap)(const PreparedPair&);
 };
 
 constexpr std::array<Kernel, 4> kernels{{{"contact loop in doubles", "double", in_doubles},
@@ -79,51 +88,62 @@ double relative_error(double volume, const oracle::Precise& right) {
   return static_cast<double>(oracle::Precise(abs(oracle::Precise(volume) - right) / right));
 }
 
+double relative_error(const Eigen::Vector3d& area, const std::array<oracle::Precise, 3>& right) {
+  oracle::Precise difference = 0, whole = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const oracle::Precise off = oracle::Precise(area[static_cast<Eigen::Index>(c)]) - right[c];
+    difference += off * off;
+    whole += right[c] * right[c];
+  }
+  return std::sqrt(static_cast<double>(oracle::Precise(difference / whole)));
+}
+
+void set_errors(const std::vector<PreparedPair>& pairs, const std::vector<Found>& found, ChartPoint& point) {
+  std::vector<double> errors, area_errors;
+  int wrong = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    errors.push_back(relative_error(found[k].volume, pairs[k].right.volume));
+    wrong += !(errors.back() < worst_useful_error);
+    if (found[k].area) area_errors.push_back(relative_error(*found[k].area, pairs[k].right.area));
+  }
+  point.error = spread(errors);
+  point.failed = wrong > 0;
+  if (point.failed) point.stopped = fmt::format("wrong by 1 % and more in {} of {} pairs", wrong, pairs.size());
+  const auto area = spread(area_errors);
+  point.further = {{"S_error", area ? Json(area->median) : Json(nullptr)},
+                   {"S_error_greatest", area ? Json(area->greatest) : Json(nullptr)}};
+}
+
 ChartPoint point_of(const std::string& task, const Kernel& kernel, const std::vector<PreparedPair>& pairs,
                     const Measuring& measuring) {
   ChartPoint point{task,          std::string(kernel.method), std::string(kernel.setting), {}, {}, "done", false,
                    Json::object()};
-  std::vector<double> volumes(pairs.size());
+  std::vector<Found> found(pairs.size());
   auto seconds = timed(measuring, [&] {
-    for (std::size_t k = 0; k < pairs.size(); ++k) volumes[k] = kernel.volume(pairs[k]);
+    for (std::size_t k = 0; k < pairs.size(); ++k) found[k] = kernel.overlap(pairs[k]);
   });
   for (double& each : seconds) each /= static_cast<double>(pairs.size());
-  std::vector<double> errors;
-  int wrong = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    errors.push_back(relative_error(volumes[k], pairs[k].volume));
-    wrong += !(errors.back() < worst_useful_error);
-  }
   point.seconds = spread(seconds);
-  point.error = spread(errors);
-  point.failed = wrong > 0;
-  if (point.failed) point.stopped = fmt::format("wrong by 1 % and more in {} of {} pairs", wrong, pairs.size());
+  set_errors(pairs, found, point);
   return point;
 }
 
 }  // namespace
 
-ChartFamily compare_overlaps(const Measuring& measuring) {
-  ChartFamily family{"overlap",
-                     "relative error of V",
-                     "Overlap volumes against arithmetic of 50 digits, by class of contact. Poses are rounded to the "
-                     "precision of the method first, as in a packing. Times are per pair, solids placed; spread of "
-                     "errors over pairs.",
-                     FamilyEnd::complete,
-                     {}};
+void compare_overlaps(const Measuring& measuring, ChartFamily& family) {
   for (const SolidKind solid : measuring.config.solids) {
     for (const PairClass pair_class : classes) {
       const auto task = fmt::format("{}, {}", to_string(solid), to_string(pair_class));
+      if (measuring.over()) return;
       measuring.console.tick("overlaps, " + task);
       std::vector<PreparedPair> pairs;
       for (const PairCase& pair : oracle::pair_cases(solid, solid, pair_class, measuring.config.pairs)) {
-        if (measuring.over()) return family;
+        if (measuring.over()) return;
         pairs.push_back(prepared(pair));
       }
       for (const Kernel& kernel : kernels) family.points.push_back(point_of(task, kernel, pairs, measuring));
     }
   }
-  return family;
 }
 
 }  // namespace isojam

@@ -128,29 +128,20 @@ void add_points_of_first(const Replicated& first, const PhiJConfig& config, cons
 
 }  // namespace
 
-ChartFamily compare_protocols(const Measuring& measuring) {
+void compare_protocols(const Measuring& measuring, ChartFamily& family) {
   const PhiJConfig& config = measuring.config.phi_j;
-  ChartFamily family{"phi_j",
-                     "error of φ_J with its 95 % interval",
-                     "Mean jamming density over replicates, one parameter of the protocol at a time moved away from "
-                     "the first setting. Error: distance of the far end of the mean's 95 % interval from the mean of "
-                     "the first setting over all replicates. Times are of all replicates together. That φ_J depends on "
-                     "the number of particles and on the target energy is physics, not error.",
-                     FamilyEnd::complete,
-                     {}};
   const ProtocolSetting setting = first_setting(config);
   const Replicated first = replicated(setting, measuring);
   const auto values = densities(first, config.fit_window.front());
-  if (measuring.over() || values.empty()) return family;
+  if (measuring.over() || values.empty()) return;
   const auto task = fmt::format("{}, N = {}", to_string(config.solid), setting.particles);
   add_points_of_first(first, config, task, family);
   for (const ProtocolSetting& other : varied_settings(config)) {
     const Replicated replicates = replicated(other, measuring);
-    if (measuring.over()) return family;
+    if (measuring.over()) return;
     family.points.push_back(point_of(task, other.name, densities(replicates, other.options.fit_window),
                                      total(replicates.seconds), mean(values), replicates.failed));
   }
-  return family;
 }
 
 }  // namespace isojam

@@ -1,5 +1,7 @@
 #include "tasks/chart/point.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +15,15 @@ std::optional<Spread> spread(std::vector<double> values) {
   const std::size_t n = values.size();
   const double median = n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
   return Spread{median, values.front(), values.back(), static_cast<int>(n)};
+}
+
+std::string reasons_text(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [reason, count] : counts) {
+    text += text.empty() ? reason : ", " + reason;
+    if (counts.size() > 1) text += fmt::format(" {}", count);
+  }
+  return text;
 }
 
 std::string_view to_string(FamilyEnd end) {

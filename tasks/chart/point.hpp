@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tasks/json_text.hpp"
@@ -16,6 +18,9 @@ struct Spread {
 
 /// Of finite values; nullopt if there are none. The median of an even number is the mean of the middle two.
 std::optional<Spread> spread(std::vector<double> values);
+
+/// "budget 2, residual_reached 1": each reason, with its count where there are several.
+std::string reasons_text(const std::map<std::string, int>& counts);
 
 /// One way to compute one thing: what it cost and how far it was off.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.

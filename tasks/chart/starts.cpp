@@ -45,6 +45,21 @@ std::optional<Packing> equilibrium_at(const JammedSolid& jammed, double distance
   return packing;
 }
 
+std::vector<TaskEquilibria> all_equilibria(std::span<const JammedSolid> jammed, const Measuring& measuring) {
+  std::vector<TaskEquilibria> all;
+  for (const SolidKind solid : measuring.config.solids) {
+    for (const double distance : measuring.config.distances) {
+      TaskEquilibria& task = all.emplace_back(TaskEquilibria{task_name(solid, distance), {}});
+      for (const JammedSolid& each : jammed) {
+        if (each.solid != solid || measuring.over()) continue;
+        measuring.console.tick("equilibria, " + task.task);
+        if (auto packing = equilibrium_at(each, distance, measuring)) task.packings.push_back(std::move(*packing));
+      }
+    }
+  }
+  return all;
+}
+
 BlockMatrix precise_hessian(const Packing& packing) { return PackingEnergy().hessian(packing, Precision::extended); }
 
 std::string task_name(SolidKind solid, double distance) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "engine/packing/packing.hpp"
@@ -27,6 +29,15 @@ std::optional<Packing> start_at(const JammedSolid& jammed, double distance);
 /// The equilibrium that minimise() finds from there by its default method, to a residual of 1e-9 or as near as can be
 /// told; nullopt if it finds none.
 std::optional<Packing> equilibrium_at(const JammedSolid& jammed, double distance, const Measuring& measuring);
+
+/// The equilibria of a solid at a distance, of every packing that has one.
+struct TaskEquilibria {
+  std::string task;
+  std::vector<Packing> packings;
+};
+
+/// For every solid and distance of the configuration, in this order; after a stop request, those until then.
+std::vector<TaskEquilibria> all_equilibria(std::span<const JammedSolid> jammed, const Measuring& measuring);
 
 /// Dynamical matrix of an equilibrium, as accurate as the state is.
 BlockMatrix precise_hessian(const Packing& packing);

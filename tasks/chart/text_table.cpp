@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 
+#include "tasks/chart/atlas_runs.hpp"
 #include "tasks/chart/conclusion.hpp"
 #include "tasks/chart/data.hpp"
 
 namespace isojam {
 namespace {
 
-using Row = std::array<std::string, 9>;
-
-const Row heading{"case", "method", "setting", "seconds", "n", "error", "greatest", "n", "stopped"};
+using Row = std::vector<std::string>;
 
 std::string number(double x) { return fmt::format("{:.2e}", x); }
 
@@ -36,8 +35,9 @@ std::size_t width(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
+/// All rows have as many columns as the first.
 std::string aligned(const std::vector<Row>& rows) {
-  std::array<std::size_t, std::tuple_size_v<Row>> widths{};
+  std::vector<std::size_t> widths(rows.front().size());
   for (const Row& row : rows) {
     for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
   }
@@ -60,17 +60,49 @@ std::string ended_text(FamilyEnd end) {
   return "";
 }
 
+std::string family_text(const ChartFamily& family) {
+  std::vector<Row> rows{{"case", "method", "setting", "seconds", "n", "error", "greatest", "n", "stopped"}};
+  for (const ChartPoint& point : family.points) rows.push_back(row_of(point));
+  return fmt::format("{}{}: seconds of one thread, {}\n{}\n", family.name, ended_text(family.ended), family.error_is,
+                     aligned(rows));
+}
+
+/// Names are not repeated from the line above.
+Row row_of(const AtlasRun& run, const AtlasRun* above) {
+  constexpr std::array<const char*, 3> verdicts{"holds", "REFUSES", "FAILS"};
+  const bool same_regime = above != nullptr && above->regime == run.regime;
+  const bool same_method = same_regime && above->method == run.method;
+  const bool holds = run.verdict == AtlasVerdict::holds;
+  return {same_regime ? "" : run.regime, same_method ? "" : run.method + (run.standard ? " *" : ""),
+          verdicts[static_cast<std::size_t>(run.verdict)], run.settings,
+          holds ? "" : fmt::format("{} ({})", run.reason, run.figure)};
+}
+
+std::string atlas_text(const ChartAtlas& atlas) {
+  std::array<int, 3> counts{};
+  for (const AtlasRow& row : atlas.rows) ++counts[static_cast<std::size_t>(row.verdict)];
+  std::vector<Row> rows{{"regime", "method", "verdict", "settings", "reason (figure of the first)"}};
+  const std::vector<AtlasRun> runs = atlas_runs(atlas.rows);
+  for (std::size_t k = 0; k < runs.size(); ++k) rows.push_back(row_of(runs[k], k == 0 ? nullptr : &runs[k - 1]));
+  return fmt::format("atlas{}: {} cells hold, {} refuse, {} fail; * is what isojam uses there\n{}\n",
+                     ended_text(atlas.ended), counts[0], counts[1], counts[2], aligned(rows));
+}
+
+std::string costs_text(const std::vector<PartCost>& costs) {
+  std::string text;
+  for (const PartCost& cost : costs)
+    text += fmt::format("{}{} {:.1f}", text.empty() ? "CPU seconds: " : ", ", cost.part, cost.cpu_seconds);
+  return text + "\n";
+}
+
 }  // namespace
 
-std::string text_table(std::span<const ChartFamily> families) {
+std::string text_table(const ChartResult& result) {
   std::string text;
-  for (const ChartFamily& family : families) {
-    text += fmt::format("{}{}: seconds of one thread, {}\n", family.name, ended_text(family.ended), family.error_is);
-    std::vector<Row> rows{heading};
-    for (const ChartPoint& point : family.points) rows.push_back(row_of(point));
-    text += aligned(rows) + "\n";
-  }
-  for (const auto& line : conclusion(points_of(families, "equilibrium"), points_of(families, "bias")))
+  for (const ChartFamily& family : result.families) text += family_text(family);
+  if (result.atlas) text += atlas_text(*result.atlas);
+  text += costs_text(result.costs);
+  for (const auto& line : conclusion(points_of(result.families, "equilibrium"), points_of(result.families, "bias")))
     text += line + "\n";
   return text;
 }

@@ -3,7 +3,7 @@
 //   r refuses, f fails): isojam's own methods, and those that are there to be compared with;
 //   no cell is missing from a table, and none is there twice;
 //   isojam's own methods hold in every cell, or refuse; every cell says what was measured and why it was judged so;
-//   the same bits come out every time.
+//   the same bits come out every time; after a stop request no row does.
 
 #include <gtest/gtest.h>
 
@@ -70,9 +70,22 @@ TEST(Atlas, SameBitsEveryTime) {
   for (std::size_t k = 0; k < again.size(); ++k) EXPECT_EQ(text_of(rows[first + k]), text_of(again[k]));
 }
 
-TEST(AtlasOfJammedStates, Minimisers) { check(minimiser_atlas(), expected_minimisers()); }
+const AtlasStates& states() {
+  static const AtlasStates made;
+  return made;
+}
 
-TEST(AtlasOfJammedStates, Modes) { check(modes_atlas(), expected_modes()); }
+TEST(AtlasOfJammedStates, NoRowIsOfWhatWasStopped) {
+  std::stop_source stopped;
+  stopped.request_stop();
+  EXPECT_TRUE(AtlasStates(stopped.get_token()).empty());
+  EXPECT_EQ(minimiser_atlas(states(), stopped.get_token()).size(), 0);
+  EXPECT_EQ(modes_atlas(states(), stopped.get_token()).size(), 0);
+}
+
+TEST(AtlasOfJammedStates, Minimisers) { check(minimiser_atlas(states()), expected_minimisers()); }
+
+TEST(AtlasOfJammedStates, Modes) { check(modes_atlas(states()), expected_modes()); }
 
 }  // namespace
 }  // namespace isojam::test

@@ -131,7 +131,7 @@ std::vector<ChartPoint> made_up_equilibrium() {
   return {made_up("a", "newton", 2, 1e-10),     made_up("a", "newton", 1, 1e-7),
           made_up("b", "newton", 3, 1e-7),      made_up("a", "lbfgs", 0.1, 1e-7),
           made_up("b", "lbfgs", 9, 1e-2, true), made_up("a", "fire", 5, 1e-10),
-          made_up("b", "fire", 6, 2e-7),        paper};
+          made_up("b", "fire", 6, 1e-6),        paper};
 }
 
 TEST(ChartConclusion, RanksByCasesThenByTime) {
@@ -153,13 +153,14 @@ TEST(ChartConclusion, SaysWhatFailed) {
   const auto lines = conclusion(made_up_equilibrium(), std::vector{bias});
   EXPECT_EQ(lines[0],
             "within 1e-06: newton is fastest, 2 of 2 cases in 4 s; fire 2 of 2; lbfgs 1 of 2; by energy 0 of 1");
-  EXPECT_NE(lines[1].find("newton is fastest, 1 of 2 cases in 2 s"), std::string::npos) << lines[1];
+  EXPECT_NE(lines[1].find("within 1e-09: newton is fastest, 1 of 2 cases in 2 s"), std::string::npos) << lines[1];
   EXPECT_EQ(
       lines[2],
       "failed: lbfgs in 1 of 2 cases; by energy, content or out of evaluations, residuals are up to 0.2 and phi_J is "
       "off by up to 0.004");
   const auto none = conclusion({}, {});
   EXPECT_NE(none[0].find("nothing was measured"), std::string::npos) << none[0];
+  EXPECT_EQ(none[2], "failed: nothing was measured");
   const auto hopeless = conclusion(std::vector{made_up("a", "fire", 1, 0.5, true)}, {});
   EXPECT_NE(hopeless[1].find("no method"), std::string::npos) << hopeless[1];
 }
@@ -168,7 +169,7 @@ TEST(ChartConclusion, SaysWhatFailed) {
 
 ChartConfig tiny_config() {
   return parse_chart_config(
-      R"({"solids": ["dodecahedron"], "particles": 24, "packings": 1, "distances": [0.08, 0.05], "fit_window": 0.1,
+      R"({"compare": ["equilibrium", "hessian", "modes", "overlap", "phi_j"], "solids": ["dodecahedron"], "particles": 24, "packings": 1, "distances": [0.08, 0.05], "fit_window": 0.1,
           "tolerances": [1e-2, 1e-6], "difference_steps": [1e-7], "shifts": [1e-11], "subspaces": [100], "pairs": 3,
           "repetitions": 1, "max_evaluations": 300, "rule_evaluations": 600, "point_seconds": 100, "total_seconds": 1000,
           "phi_j": {"solid": "dodecahedron", "replicates": 2, "particles": [24], "consolidation_step": [0.04],
@@ -184,6 +185,7 @@ Json tiny_data() {
 /// Without what a clock gave: times, and what is fastest.
 Json without_times(Json data) {
   data.erase("conclusion");
+  data.erase("cpu_seconds");
   for (Json& family : data.at("families")) {
     for (Json& point : family.at("points")) {
       point.erase("seconds");
@@ -213,13 +215,19 @@ TEST(Chart, OfEverythingConformsAndIsReproducible) {
 
 TEST(Chart, SaysThatItsTimeWasOver) {
   ChartConfig config = tiny_config();
+  config.compare = ChartConfig().compare;
   config.total_seconds = 1e-3;
   Console console({.quiet = true});
-  const auto families = run_chart(config, {}, console);
-  ASSERT_EQ(families.size(), 6);
-  for (const ChartFamily& family : families) EXPECT_EQ(family.ended, FamilyEnd::cut) << family.name;
-  EXPECT_EQ(violations("chart_data", chart_data(config, families)), "");
-  EXPECT_NE(text_table(families).find("equilibrium (CUT"), std::string::npos) << text_table(families);
+  const ChartResult result = run_chart(config, {}, console);
+  ASSERT_EQ(result.families.size(), 6);
+  for (const ChartFamily& family : result.families) EXPECT_EQ(family.ended, FamilyEnd::cut) << family.name;
+  ASSERT_TRUE(result.atlas);
+  EXPECT_EQ(result.atlas->ended, FamilyEnd::cut);
+  EXPECT_TRUE(result.atlas->rows.empty());
+  EXPECT_EQ(violations("chart_data", chart_data(config, result)), "");
+  const std::string text = text_table(result);
+  EXPECT_NE(text.find("equilibrium (CUT"), std::string::npos) << text;
+  EXPECT_NE(text.find("atlas (CUT"), std::string::npos) << text;
 }
 
 TEST(Chart, CommandWritesItsFiles) {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <functional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "tasks/chart/atlas/states.hpp"
 
 namespace isojam {
 
@@ -38,18 +42,21 @@ std::vector<AtlasRow> overlap_atlas();
 std::vector<AtlasRow> packing_atlas();
 
 /// Minimisers from states strained towards jamming, from an equilibrium, from an unjammed start; the protocol with
-/// cubes and with starts of either kind. A quarter of a minute.
-std::vector<AtlasRow> minimiser_atlas();
+/// cubes and with starts of either kind. A quarter of a minute; after a stop request, the rows until then.
+std::vector<AtlasRow> minimiser_atlas(const AtlasStates& states, const std::stop_token& stop = {});
 
 /// Hessians against central differences, and softest modes by shift-invert, plain Lanczos and the dense solver, as the
-/// condition number grows. A quarter of a minute.
-std::vector<AtlasRow> modes_atlas();
+/// condition number grows. A quarter of a minute; after a stop request, the rows until then.
+std::vector<AtlasRow> modes_atlas(const AtlasStates& states, const std::stop_token& stop = {});
 
 struct AtlasOptions {
   bool jammed_states = true;  ///< also what needs packings to be jammed first: half a minute
+  std::stop_token stop{};     ///< leaves the rows until then
+  /// Told what is measured next.
+  std::function<void(const std::string& part)> progress{};
 };
 
-/// All of them, in this order. The same bits every time.
+/// All of them, in this order. The same bits every time, unless stopped.
 std::vector<AtlasRow> stability_atlas(const AtlasOptions& options = {});
 
 }  // namespace isojam

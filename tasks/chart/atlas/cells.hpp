@@ -1,13 +1,33 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tasks/chart/atlas/atlas.hpp"
 
 // What the parts of the atlas share.
 
 namespace isojam {
+
+/// Rows as they come. After a stop request none is added any more: what it is judged by may have been cut short.
+class AtlasRows {
+ public:
+  explicit AtlasRows(std::stop_token stop) : stop_(std::move(stop)) {}
+
+  const std::stop_token& stop() const { return stop_; }
+  bool over() const { return stop_.stop_requested(); }
+  void add(AtlasRow row) {
+    if (!over()) rows_.push_back(std::move(row));
+  }
+  std::vector<AtlasRow> taken() { return std::move(rows_); }
+
+ private:
+  std::stop_token stop_;
+  std::vector<AtlasRow> rows_;
+};
 
 /// "holds" if error ≤ tolerance, "fails" otherwise or if there is no error to be had. `what` names the error.
 AtlasRow judged(AtlasRow row, std::optional<double> error, double tolerance, const std::string& what);

@@ -67,35 +67,34 @@ AtlasRow judged_end(AtlasRow row, const MinimiseSummary& summary, const Packing&
 }
 
 void append_starts(const std::string& regime, const std::string& setting, const Packing& start, StopReason wanted,
-                   std::vector<AtlasRow>& rows) {
+                   AtlasRows& rows) {
   for (const Minimiser& method : minimisers()) {
+    if (rows.over()) return;
     Packing packing = start;
     PackingEnergy energy;
-    const MinimiseSummary summary = minimise(packing, energy, method.options);
-    rows.push_back(judged_end({regime, setting, method.name, method.standard, {}, {}, {}}, summary, packing, wanted));
+    const MinimiseSummary summary = minimise(packing, energy, method.options, rows.stop());
+    rows.add(judged_end({regime, setting, method.name, method.standard, {}, {}, {}}, summary, packing, wanted));
   }
 }
 
-void append_distances(std::vector<AtlasRow>& rows) {
+void append_distances(const AtlasStates& states, AtlasRows& rows) {
   for (const double distance : {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005}) {
-    const Packing& from = state_above(distance);
     append_starts("strained to Δφ", fmt::format("{:.0e}", distance),
-                  strained_to(from, atlas_states().phi_j->density + distance), StopReason::residual_reached, rows);
+                  strained_to(states.above(distance), states.phi_j() + distance), StopReason::residual_reached, rows);
   }
 }
 
 /// A jammed packing that lost a particle: its neighbours are held by few contacts.
-Packing with_vacancy() {
-  Packing packing = state_above(0.03);
+Packing with_vacancy(const AtlasStates& states) {
+  Packing packing = states.above(0.03);
   packing.poses.erase(packing.poses.begin());
   return packing;
 }
 
 /// What the inertia of the Hessian says beside the vacancy: more than three zero modes must have a name.
-AtlasRow judged_rattlers() {
-  Packing packing = with_vacancy();
+AtlasRow judged_rattlers(Packing packing, const std::stop_token& stop) {
   PackingEnergy energy;
-  minimise(packing, energy, minimisers().front().options);
+  minimise(packing, energy, minimisers().front().options, stop);
   const BlockMatrix matrix = energy.hessian(packing, Precision::extended);
   const Stability found = assess(matrix, spectrum_ends(matrix));
   AtlasRow row{"near-rattlers", "beside a vacancy", "modes by inertia", true, {}, {}, {}};
@@ -107,32 +106,32 @@ AtlasRow judged_rattlers() {
   return row;
 }
 
-void append_other_starts(std::vector<AtlasRow>& rows) {
-  append_starts("already jammed start", "residual 1e-9", state_above(0.02), StopReason::residual_reached, rows);
-  append_starts("near-rattlers", "beside a vacancy", with_vacancy(), StopReason::residual_reached, rows);
-  rows.push_back(judged_rattlers());
+void append_other_starts(const AtlasStates& states, AtlasRows& rows) {
+  append_starts("already jammed start", "residual 1e-9", states.above(0.02), StopReason::residual_reached, rows);
+  append_starts("near-rattlers", "beside a vacancy", with_vacancy(states), StopReason::residual_reached, rows);
+  rows.add(judged_rattlers(with_vacancy(states), rows.stop()));
   RandomStream random{3};
   const Packing loose = random_packing(platonic(SolidKind::octahedron), 45, 0.3, random);
   append_starts("unjammed start", "φ = 0.3", loose, StopReason::unjammed, rows);
 }
 
 /// A balance that doubles cannot carry through the boundary, for their low parts are part of it.
-void append_translated(std::vector<AtlasRow>& rows) {
+void append_translated(const AtlasStates& states, AtlasRows& rows) {
   for (const double distance : {0.1, 0.005}) {
-    Packing packing = state_above(distance);
+    Packing packing = states.above(distance);
     const Eigen::Vector3d shift = packing.cell.side() * Eigen::Vector3d(0.37, -1.61, 0.73);
     for (Pose& pose : packing.poses) pose = moved(pose, shift, Eigen::Vector3d::Zero());
     for (const Precision precision : {Precision::extended, Precision::working}) {
       const bool extended = precision == Precision::extended;
       const double left = PackingEnergy().evaluate(packing, precision).residual;
-      rows.push_back(judged({"equilibrium translated through the boundary",
-                             fmt::format("Δφ = {:.0e}", distance),
-                             extended ? "state in two doubles" : "state in doubles",
-                             extended,
-                             {},
-                             {},
-                             {}},
-                            left, 1e-8, "residual"));
+      rows.add(judged({"equilibrium translated through the boundary",
+                       fmt::format("Δφ = {:.0e}", distance),
+                       extended ? "state in two doubles" : "state in doubles",
+                       extended,
+                       {},
+                       {},
+                       {}},
+                      left, 1e-8, "residual"));
     }
   }
 }
@@ -151,9 +150,10 @@ AtlasRow judged_jam(AtlasRow row, const JamResult& result) {
   return row;
 }
 
-void append_protocols(std::vector<AtlasRow>& rows) {
+void append_protocols(AtlasRows& rows) {
   const auto run = [&](const std::string& regime, SolidKind kind, double initial_density,
                        double target_energy = JamOptions().target_energy) {
+    if (rows.over()) return;
     JamOptions options;
     options.initial_density = initial_density;
     options.target_energy = target_energy;
@@ -161,15 +161,14 @@ void append_protocols(std::vector<AtlasRow>& rows) {
     const ConvexSolid& solid = platonic(kind);
     RandomStream random{5, static_cast<std::uint64_t>(kind)};
     const Packing start = random_packing(solid, least_particles(solid, options.max_density), initial_density, random);
-    rows.push_back(
-        judged_jam({regime,
-                    fmt::format("{} from φ = {}, E/N = {:.1e}", to_string(kind), initial_density, target_energy),
-                    "protocol",
-                    true,
-                    {},
-                    {},
-                    {}},
-                   jam(start, options)));
+    rows.add(judged_jam({regime,
+                         fmt::format("{} from φ = {}, E/N = {:.1e}", to_string(kind), initial_density, target_energy),
+                         "protocol",
+                         true,
+                         {},
+                         {},
+                         {}},
+                        jam(start, options, rows.stop())));
   };
   run("cubes", SolidKind::cube, 0.2);
   run("cubes", SolidKind::cube, 0.2, 1e-8);
@@ -179,13 +178,13 @@ void append_protocols(std::vector<AtlasRow>& rows) {
 
 }  // namespace
 
-std::vector<AtlasRow> minimiser_atlas() {
-  std::vector<AtlasRow> rows;
-  append_distances(rows);
-  append_other_starts(rows);
-  append_translated(rows);
+std::vector<AtlasRow> minimiser_atlas(const AtlasStates& states, const std::stop_token& stop) {
+  AtlasRows rows(stop);
+  append_distances(states, rows);
+  append_other_starts(states, rows);
+  append_translated(states, rows);
   append_protocols(rows);
-  return rows;
+  return rows.taken();
 }
 
 }  // namespace isojam

@@ -69,8 +69,9 @@ AtlasRow by_shift_invert(AtlasRow row, const BlockMatrix& matrix, const Eigen::V
   return row;
 }
 
-void append_conditions(std::vector<AtlasRow>& rows) {
-  for (const Packing& state : atlas_states().states) {
+void append_conditions(const AtlasStates& states, AtlasRows& rows) {
+  for (const Packing& state : states.all()) {
+    if (rows.over()) return;
     const BlockMatrix matrix = PackingEnergy().hessian(state, Precision::extended);
     const Eigen::VectorXd exact = dense_modes(matrix).eigenvalues;
     const std::string setting = fmt::format("{:.0e}", exact.tail<1>()[0] / exact[0]);
@@ -80,9 +81,9 @@ void append_conditions(std::vector<AtlasRow>& rows) {
       one.method = method, one.standard = standard;
       return one;
     };
-    rows.push_back(by_shift_invert(named("shift-invert, −σ/λ_max = 1e-11", true), matrix, exact, 1e-11));
-    rows.push_back(by_shift_invert(named("shift-invert, −σ/λ_max = 1e-6", false), matrix, exact, 1e-6));
-    rows.push_back(by_plain_lanczos(named("plain Lanczos", false), matrix, exact));
+    rows.add(by_shift_invert(named("shift-invert, −σ/λ_max = 1e-11", true), matrix, exact, 1e-11));
+    rows.add(by_shift_invert(named("shift-invert, −σ/λ_max = 1e-6", false), matrix, exact, 1e-6));
+    rows.add(by_plain_lanczos(named("plain Lanczos", false), matrix, exact));
   }
 }
 
@@ -100,35 +101,36 @@ AtlasRow judged_hessian(AtlasRow row, const Eigen::MatrixXd& matrix, double soft
   return row;
 }
 
-void append_differences(double distance, std::vector<AtlasRow>& rows) {
-  const Packing& state = state_above(distance);
+void append_differences(const AtlasStates& states, double distance, AtlasRows& rows) {
+  const Packing& state = states.above(distance);
   const BlockMatrix matrix = PackingEnergy().hessian(state, Precision::extended);
   const double softest = dense_modes(matrix).eigenvalues[0];
-  const std::string regime = fmt::format("Hessian at Δφ = {:.3f}, step", distance_of(state));
-  rows.push_back(judged_hessian({regime, "none", "analytic", true, {}, {}, {}}, dense_matrix(matrix), softest));
+  const std::string regime = fmt::format("Hessian at Δφ = {:.3f}, step", states.distance_of(state));
+  rows.add(judged_hessian({regime, "none", "analytic", true, {}, {}, {}}, dense_matrix(matrix), softest));
   for (const double h : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
     for (const Precision precision : {Precision::working, Precision::extended}) {
+      if (rows.over()) return;
       const bool extended = precision == Precision::extended;
-      rows.push_back(judged_hessian({regime,
-                                     decade_name(h),
-                                     extended ? "central differences in two doubles" : "central differences in doubles",
-                                     false,
-                                     {},
-                                     {},
-                                     {}},
-                                    difference_hessian(state, h, precision), softest));
+      rows.add(judged_hessian({regime,
+                               decade_name(h),
+                               extended ? "central differences in two doubles" : "central differences in doubles",
+                               false,
+                               {},
+                               {},
+                               {}},
+                              difference_hessian(state, h, precision), softest));
     }
   }
 }
 
 }  // namespace
 
-std::vector<AtlasRow> modes_atlas() {
-  std::vector<AtlasRow> rows;
-  append_conditions(rows);
-  append_differences(0.1, rows);
-  append_differences(0.01, rows);
-  return rows;
+std::vector<AtlasRow> modes_atlas(const AtlasStates& states, const std::stop_token& stop) {
+  AtlasRows rows(stop);
+  append_conditions(states, rows);
+  append_differences(states, 0.1, rows);
+  append_differences(states, 0.01, rows);
+  return rows.taken();
 }
 
 }  // namespace isojam

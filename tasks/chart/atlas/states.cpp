@@ -1,10 +1,13 @@
 #include "tasks/chart/atlas/states.hpp"
 
+#include <stdexcept>
+
+#include "engine/random/stream.hpp"
+#include "engine/solve/jam.hpp"
+
 namespace isojam {
 
-namespace {
-
-JamResult made() {
+AtlasStates::AtlasStates(const std::stop_token& stop) {
   JamOptions options;
   options.initial_density = 0.2;
   options.final_distance = 1.3e-3;
@@ -12,22 +15,17 @@ JamResult made() {
   RandomStream random{1, static_cast<std::uint64_t>(SolidKind::octahedron)};
   const ConvexSolid& solid = platonic(SolidKind::octahedron);
   const int particles = least_particles(solid, options.max_density);
-  return jam(random_packing(solid, particles, options.initial_density, random), options);
+  JamResult result = jam(random_packing(solid, particles, options.initial_density, random), options, stop);
+  if (stop.stop_requested()) return;
+  if (!result.phi_j || result.states.empty()) throw std::runtime_error("the octahedra of the atlas did not jam");
+  phi_j_ = result.phi_j->density;
+  states_ = std::move(result.states);
 }
 
-}  // namespace
-
-const JamResult& atlas_states() {
-  static const JamResult result = made();
-  return result;
-}
-
-double distance_of(const Packing& packing) { return packing.density() - atlas_states().phi_j->density; }
-
-const Packing& state_above(double delta_phi) {
+const Packing& AtlasStates::above(double delta_phi) const {
   // In the order of expansion: the last that lies above is the nearest.
-  const Packing* nearest = &atlas_states().states.front();
-  for (const Packing& state : atlas_states().states) {
+  const Packing* nearest = &states_.front();
+  for (const Packing& state : states_) {
     if (distance_of(state) > delta_phi) nearest = &state;
   }
   return *nearest;

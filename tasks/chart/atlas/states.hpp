@@ -1,17 +1,32 @@
 #pragma once
 
-#include "engine/solve/jam.hpp"
+#include <stop_token>
+#include <vector>
+
+#include "engine/packing/packing.hpp"
 
 namespace isojam {
 
-/// 45 octahedra, the fewest that fit a legal cell, expanded to Δφ = 1.3e-3: condition numbers from 1e3 to 7e11. Made
-/// once per program.
-const JamResult& atlas_states();
+/// 45 octahedra, the fewest that fit a legal cell, expanded to Δφ = 1.3e-3: condition numbers from 1e3 to 7e11.
+class AtlasStates {
+ public:
+  /// Jams them. Throws std::runtime_error if they do not, which they do unless the protocol is broken.
+  explicit AtlasStates(const std::stop_token& stop = {});
 
-/// φ − φ_J of a state of it.
-double distance_of(const Packing& packing);
+  /// Whether a stop request left nothing to look at: no other function may be called then.
+  bool empty() const { return states_.empty(); }
 
-/// The state of it from which one strain step leads to Δφ: the nearest of those above.
-const Packing& state_above(double delta_phi);
+  double phi_j() const { return phi_j_; }
+  /// Of the expansion, density descending.
+  const std::vector<Packing>& all() const { return states_; }
+  /// φ − φ_J of a state of it.
+  double distance_of(const Packing& packing) const { return packing.density() - phi_j_; }
+  /// The state from which one strain step leads to Δφ: the nearest of those above, the first if none is.
+  const Packing& above(double delta_phi) const;
+
+ private:
+  double phi_j_ = 0;
+  std::vector<Packing> states_;
+};
 
 }  // namespace isojam

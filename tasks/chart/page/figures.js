@@ -30,8 +30,8 @@ const pointTooltip = {
 
 const byMethod = {scale: 'colour', field: 'method'};
 
-/// Where failures stand, whatever their error: just below the upper edge of a panel.
-const edge = 9;
+/// Where failures stand, whatever their error: below the upper edge of a panel, under a line of text.
+const reasonLine = 9, edge = 23, edgeHeight = 32;
 
 function failureMarks(source) {
   const cross = (y, size) => ({
@@ -52,14 +52,14 @@ function reasonText(failed, width) {
   const reasons = unique(failed.flatMap(({stopped}) => stopped.split(', ').map(plain)))
     .filter((why) => !['residual_reached', 'energy_change', 'converged'].includes(why));
   return {type: 'text', encode: {enter: {
-    x: {value: 4}, y: {value: edge}, baseline: {value: 'middle'}, fontSize: {value: 10}, fill: {value: ink},
-    limit: {value: 0.72 * width}, text: {value: reasons.length > 0 ? `failed: ${reasons.join(', ')}` : ''},
+    x: {value: 4}, y: {value: reasonLine}, baseline: {value: 'middle'}, fontSize: {value: 10}, fill: {value: ink},
+    limit: {value: width - 8}, text: {value: reasons.length > 0 ? `failed: ${reasons.join(', ')}` : ''},
   }}};
 }
 
 function edgeLine(width) {
   return {type: 'rule', encode: {enter: {
-    x: {value: 0}, x2: {value: width}, y: {value: 2 * edge}, stroke: {value: '#777777'}, strokeDash: {value: [3, 3]},
+    x: {value: 0}, x2: {value: width}, y: {value: edgeHeight}, stroke: {value: '#777777'}, strokeDash: {value: [3, 3]},
     strokeWidth: {value: 0.8},
   }}};
 }
@@ -106,8 +106,14 @@ const filtered = (name, source, expression, sort) => ({
 function errorDomain(rows, height) {
   const [low, high] = domainOf(rows.flatMap(({y, y_least: least, y_greatest: greatest}) => [y, least, greatest]),
     {type: 'log', margin: 0.04}) ?? [1e-16, 1];
-  const share = (2 * edge + 4) / height;
+  const share = (edgeHeight + 4) / height;
   return [low, low * (high / low) ** (1 / (1 - share))];
+}
+
+/// A row of panels for each solid, as far as they fit.
+function panelsPerRow(tasks) {
+  const ofFirst = tasks.filter((task) => task.split(',')[0] === tasks[0].split(',')[0]).length;
+  return ofFirst === 1 ? 4 : Math.min(4, ofFirst);
 }
 
 function familyFigure(family) {
@@ -117,7 +123,7 @@ function familyFigure(family) {
   const note = family.note + ended[family.ended];
   if (rows.length === 0) return {id, title, absent: `No point was measured.${ended[family.ended]}`};
   const tasks = unique(rows.map(({task}) => task)), methods = unique(rows.map(({method}) => method));
-  const height = 230;
+  const height = 244;
   const x = {type: 'log', title: 'seconds', domain: domainOf(rows.flatMap((row) => [row.x_least, row.x_greatest]),
     {type: 'log', margin: 0.06})};
   const y = {type: 'log', title: family.error_is, domain: errorDomain(rows, height)};
@@ -141,7 +147,7 @@ function familyFigure(family) {
     id, title, note, datasets: {points: rows},
     spec: (width) => panelSpec({
       description: `${title}: error against time on logarithmic scales, a panel for each case.`, width,
-      count: tasks.length, height, datasets: {points: rows}, panelAt, grid: {least: 240, most: 4},
+      count: tasks.length, height, datasets: {points: rows}, panelAt, grid: {least: 240, most: panelsPerRow(tasks)},
       legends: [{fill: 'colour', shape: 'shape'}],
       scales: [
         {name: 'colour', type: 'ordinal', domain: methods, range: methodColours},

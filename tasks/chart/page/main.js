@@ -18,7 +18,7 @@ function pointTable(family) {
     element('th', {className: isText(name) ? 'text' : '', attributes: {scope: 'col'}}, name)));
   const rows = family.points.map((point) => element('tr', {}, ...all.map(([name, value]) => {
     const failed = name === 'stopped' && point.failed ? ' failed' : '';
-    return element('td', {className: (isText(name) ? 'text' : '') + failed}, value(point));
+    return element('td', {className: (isText(name) ? 'text' : '') + failed}, failed ? 'failed: ' : '', value(point));
   })));
   return element('details', {className: 'points'}, element('summary', {}, `${family.points.length} points`),
     element('div', {className: 'scroll'}, element('table', {}, element('thead', {}, head),
@@ -41,8 +41,10 @@ function drawFamily(family, place) {
   const data = JSON.parse(document.getElementById('data').textContent);
   const {version, git, compiler} = data.program;
   document.getElementById('origin').textContent = `isojam ${version} (git ${git}), ${compiler}, one thread.`;
-  document.getElementById('conclusion').append(...data.conclusion.map((line) => element('li', {}, ...rich(line))));
+  document.getElementById('conclusion').append(...data.conclusion.map((line) =>
+    element('li', {}, ...rich(line.replaceAll('phi_J', 'φ_J')))));
   for (const family of data.families) drawFamily(family, document.getElementById('charts'));
+  if (data.atlas) drawAtlas(data.atlas, document.getElementById('atlas'));
   addEventListener('beforeprint', () => document.querySelectorAll('details').forEach((part) => { part.open = true; }));
   document.documentElement.dataset.ready = 'yes';
 }

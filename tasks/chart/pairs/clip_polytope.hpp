@@ -16,24 +16,24 @@ class ClipPolytope {
 
   ClipPolytope(const std::vector<Vector>& vertices, const std::vector<std::vector<int>>& faces) {
     for (const std::vector<int>& face : faces) {
-      Polygon& polygon = polygons_.emplace_back();
-      for (const int v : face) polygon.push_back(vertices[v]);
+      Polygon& corners = sides_.emplace_back().corners;
+      for (const int v : face) corners.push_back(vertices[v]);
     }
   }
 
   /// Keeps the part with normal·y ≤ offset.
   void clip(const Vector& normal, const T& offset) {
-    std::vector<Polygon> kept;
+    std::vector<Side> kept;
     std::vector<Segment> rim;
     bool capped = false;  // a face that lies in the plane already closes the cut
-    for (const Polygon& polygon : polygons_) {
-      const MarkedPolygon cut = clip_polygon(polygon, normal, offset);
+    for (const Side& side : sides_) {
+      const MarkedPolygon cut = clip_polygon(side.corners, normal, offset);
       const std::size_t n = cut.size();
       std::size_t on_plane = 0;
       for (const Marked& corner : cut) on_plane += corner.on_plane;
       if (n >= 3) {
-        kept.emplace_back();
-        for (const Marked& corner : cut) kept.back().push_back(corner.point);
+        kept.push_back({{}, side.by_cut});
+        for (const Marked& corner : cut) kept.back().corners.push_back(corner.point);
       }
       if (n >= 3 && on_plane == n) {
         capped = true;
@@ -46,14 +46,15 @@ class ClipPolytope {
       }
     }
     if (!capped) close(kept, rim);
-    polygons_ = std::move(kept);
+    sides_ = std::move(kept);
   }
 
   T volume() const {
     T six(0);
-    if (polygons_.empty()) return six;
-    const Vector origin = polygons_.front().front();
-    for (const Polygon& polygon : polygons_) {
+    if (sides_.empty()) return six;
+    const Vector origin = sides_.front().corners.front();
+    for (const Side& side : sides_) {
+      const Polygon& polygon = side.corners;
       for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
         six += determinant(minus(polygon[0], origin), minus(polygon[k], origin), minus(polygon[k + 1], origin));
       }
@@ -61,8 +62,29 @@ class ClipPolytope {
     return T(six / 6);
   }
 
+  /// ∫ n dS, outwards, over what is left of the faces that were there before any cut.
+  Vector original_area() const {
+    Vector twice{T(0), T(0), T(0)};
+    for (const Side& side : sides_) {
+      if (side.by_cut) continue;
+      const Polygon& polygon = side.corners;
+      for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+        const Vector u = minus(polygon[k], polygon[0]), v = minus(polygon[k + 1], polygon[0]);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t d = (c + 1) % 3, e = (c + 2) % 3;
+          twice[c] += T(u[d] * v[e] - u[e] * v[d]);
+        }
+      }
+    }
+    return {T(twice[0] / 2), T(twice[1] / 2), T(twice[2] / 2)};
+  }
+
  private:
   using Polygon = std::vector<Vector>;
+  struct Side {
+    Polygon corners;
+    bool by_cut = false;
+  };
   struct Marked {
     Vector point;
     bool on_plane;
@@ -104,7 +126,7 @@ class ClipPolytope {
   }
 
   /// Chains the rim into the polygon that lies in the cutting plane.
-  static void close(std::vector<Polygon>& kept, std::vector<Segment>& rim) {
+  static void close(std::vector<Side>& kept, std::vector<Segment>& rim) {
     if (rim.size() < 3) return;
     Polygon cap;
     Vector reached = rim.front().tail;
@@ -117,10 +139,10 @@ class ClipPolytope {
       rim[k] = rim.back();
       rim.pop_back();
     }
-    if (cap.size() >= 3) kept.push_back(std::move(cap));
+    if (cap.size() >= 3) kept.push_back({std::move(cap), true});
   }
 
-  std::vector<Polygon> polygons_;
+  std::vector<Side> sides_;
 };
 
 }  // namespace isojam::oracle

@@ -1,4 +1,4 @@
-#include "tasks/chart/pairs/precise_volume.hpp"
+#include "tasks/chart/pairs/precise_overlap.hpp"
 
 #include "tasks/chart/pairs/clip_polytope.hpp"
 
@@ -23,7 +23,7 @@ std::array<Vector, 3> rotation(const Eigen::Quaterniond& q) {
 
 }  // namespace
 
-Precise precise_volume(const PairCase& pair) {
+PreciseOverlap precise_overlap(const PairCase& pair) {
   const ConvexSolid& solid = platonic(pair.a);
   const SolidArrays &a = solid.arrays(), &b = platonic(pair.b).arrays();
   std::vector<Vector> vertices;
@@ -39,7 +39,8 @@ Precise precise_volume(const PairCase& pair) {
         turn * Vector{sum(b.nx[f], b.nx_low[f]), sum(b.ny[f], b.ny_low[f]), sum(b.nz[f], b.nz_low[f])};
     body.clip(normal, sum(b.offset[f], b.offset_low[f]) + dot(normal, shift));
   }
-  return body.volume();
+  // Moved along, A gains what its own faces sweep.
+  return {body.volume(), body.original_area()};
 }
 
 }  // namespace isojam::oracle

@@ -1,0 +1,117 @@
+"""Facts proved here, in Chromium, of a chart that isojam wrote and that is opened from disk:
+- the page has no console error, and asks the network for nothing;
+- every family has a figure with a panel for each case, both axes logarithmic; each failure stands in place and at the
+  upper edge, where the reason is written clear of the marks; fronts are drawn;
+- the atlas has a cell for each row, told by sign and word, not by colour alone; its tooltip says figure and reason;
+  each failure and refusal is also text, which is open in print;
+- nothing is wider than the window on a narrow screen.
+usage: chart_browser_test.py ISOJAM
+"""
+
+import collections
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import browser as browsers
+
+browsers.demand()
+
+from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402  known to be there only now
+
+EXECUTABLE = pathlib.Path(sys.argv.pop(1)).resolve()
+CONFIG = {"compare": ["equilibrium", "overlap", "atlas"], "solids": ["dodecahedron"], "particles": 24, "packings": 1,
+          "distances": [0.08, 0.05], "fit_window": 0.1, "tolerances": [1e-2, 1e-6], "pairs": 3, "repetitions": 1,
+          "max_evaluations": 100, "rule_evaluations": 200, "total_seconds": 15}
+SIGNS = {"holds": "✓", "refuses": "–", "fails": "✗"}
+CROSS = "path[stroke-width='1.8']"
+
+
+class Chart(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory(prefix="isojam-chart-")
+        root = pathlib.Path(cls.directory.name)
+        (root / "config.json").write_text(json.dumps(CONFIG))
+        subprocess.run([EXECUTABLE, "chart", "config.json", "-o", "out", "--quiet"], cwd=root, check=True,
+                       stdout=subprocess.DEVNULL)
+        cls.data = json.loads((root / "out/data.json").read_text())
+        cls.page = root / "out/chart.html"
+        cls.browser = browsers.Browser(root, "chart")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.quit()
+        cls.directory.cleanup()
+
+    def setUp(self):
+        self.browser.width(1200)
+        self.browser.open(self.page)
+
+    def tearDown(self):
+        self.assertEqual(self.browser.errors(), [])
+        self.assertEqual(self.browser.requests(), [])
+
+    def test_every_family_is_drawn(self):
+        for family in self.data["families"]:
+            found = self.browser.run(f"""
+                const chart = document.getElementById('chart-' + arguments[0]);
+                const box = (mark) => mark.getBoundingClientRect();
+                const texts = [...chart.querySelectorAll('g.mark-text text')]
+                  .filter((mark) => mark.textContent.startsWith('failed: '));
+                const crosses = [...chart.querySelectorAll("{CROSS}")].filter((mark) => box(mark).width > 0);
+                const clash = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+                return {{text: chart.textContent, reasons: texts.map((mark) => mark.textContent),
+                  crosses: crosses.filter((mark) => getComputedStyle(mark).opacity > 0).length,
+                  fronts: [...chart.querySelectorAll('[class*=" ink_front"] path')].length,
+                  clashes: texts.filter((text) => crosses.some((mark) => clash(box(text), box(mark)))).length}};""",
+                                     family["name"])
+            cases = {point["case"] for point in family["points"]}
+            self.assertTrue(all(case in found["text"] for case in cases), found["text"])
+            failed = [point for point in family["points"] if point["failed"]]
+            self.assertEqual(found["crosses"], sum(1 + (point["error"] is not None) for point in failed), family["name"])
+            self.assertEqual(len(found["reasons"]), len({point["case"] for point in failed}), found["reasons"])
+            self.assertEqual(found["clashes"], 0, found["reasons"])
+            fronts = collections.Counter(point["case"] for point in family["points"] if point["on_front"])
+            self.assertEqual(found["fronts"], len(fronts), family["name"])
+        self.assertTrue(any(point["failed"] for point in self.data["families"][0]["points"]))
+
+    def test_the_atlas_is_all_there(self):
+        rows = self.data["atlas"]["rows"]
+        self.assertGreater(len(rows), 300)
+        cells = self.browser.run("""return [...document.querySelectorAll('#atlas td.cell')].map((cell) =>
+            ({sign: cell.firstChild.textContent, text: cell.lastChild.textContent}))""")
+        told = collections.Counter((cell["sign"], cell["text"]) for cell in cells)
+        self.assertEqual(told, collections.Counter(
+            (SIGNS[row["verdict"]], f"{row['verdict']}: {row['figure']}; {row['reason']}") for row in rows))
+        listed = self.browser.run("""return [...document.querySelectorAll('#atlas .cells tbody tr')].map((row) =>
+            [...row.cells].map((cell) => cell.textContent).join('|'))""")
+        keys = ("regime", "method", "setting", "verdict", "figure", "reason")
+        self.assertEqual(sorted(listed), sorted("|".join(row[key] for key in keys) for row in rows))
+
+    def test_a_cell_says_why(self):
+        cell = self.browser.run("return document.querySelector('#atlas td.cell.fails')")
+        ActionChains(self.browser.driver).scroll_to_element(cell).move_to_element(cell).perform()
+        row = next(row for row in self.data["atlas"]["rows"] if row["verdict"] == "fails")
+        shown = self.browser.run("const box = document.getElementById('tooltip'); return !box.hidden && box.textContent")
+        self.assertIn(row["figure"], shown)
+        self.assertIn(row["reason"], shown)
+
+    def test_print_shows_every_list(self):
+        self.assertEqual(self.browser.run("return document.querySelectorAll('details[open]').length"), 0)
+        lists = self.browser.run("dispatchEvent(new Event('beforeprint'));"
+                                 "return [...document.querySelectorAll('details')].map(({open}) => open)")
+        self.assertGreater(len(lists), 2)
+        self.assertTrue(all(lists))
+
+    def test_nothing_is_wider_than_a_narrow_window(self):
+        self.browser.width(390)
+        self.browser.open(self.page)
+        self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
