@@ -1,4 +1,4 @@
-# Verbs: run test build bench test-asan fuzz test-slurm lint format clean. On Debian 12 each first installs the packages
+# Verbs: run test build bench paper test-asan fuzz test-slurm lint format clean. On Debian 12 each first installs the packages
 # it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
@@ -16,7 +16,7 @@ PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-d
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
-                    libmpfr-dev voro++-dev python3-gsd python3-vtk9
+                    libmpfr-dev voro++-dev python3 python3-gsd python3-vtk9
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
 FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) clang-14 libclang-rt-14-dev llvm-14
@@ -49,7 +49,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test test-asan fuzz test-slurm bench lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench paper lint format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -60,6 +60,18 @@ build:
 run: build
 	$(BUILD)/isojam run $(EXAMPLE)/manifest.json
 	@$(BUILD)/isojam report results/$(RESULTS)
+
+# The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
+# interrupted goes on. A replicate that failed (exit 1) is counted on the page.
+PAPER = n100 n400 n400-tetrahedra nearest cubes base rule window reading energy
+paper: build
+	$(call install,python3)
+	@for study in $(PAPER); do \
+	  $(BUILD)/isojam run examples/paper/$$study.json >/dev/null || [ $$? = 1 ] || exit 1; \
+	done
+	@for study in paper-100 paper-400; do $(BUILD)/isojam report results/$$study; done
+	@/usr/bin/python3 -B examples/paper/gather.py $(BUILD)/isojam results results/paper
+	@/usr/bin/python3 -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
 
 .PHONY: browser
 browser:

@@ -18,8 +18,9 @@ using Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Directions beyond those that must be soft, so that some that are not are seen.
-constexpr Index spare = 12;
+/// Directions beyond those that must be soft, and how many of them must turn out not to be: the smallest singular value
+/// that counts is found the better the more lie beyond it.
+constexpr Index spare = 12, least_beyond = 6;
 /// Rounds of damping. One divides what is opposed with σ by σ²/τ², 1e6 and more in packings; three leave nothing but
 /// rounding, and singular values of their own to those nearest to none.
 constexpr int rounds = 3;
@@ -80,7 +81,7 @@ Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& o
   for (Index k = std::max<Index>(0, constraints - (coordinates - 3)) + spare;; k *= 2) {
     space = softest(matrix, soft, k);
     dropped = (space.sigma.array() <= result.tolerance).count();
-    if (dropped < space.sigma.size() || dropped == constraints) break;
+    if (space.sigma.size() - dropped >= least_beyond || space.sigma.size() == constraints) break;
   }
   const Index kept = space.sigma.size() - dropped;
   result.self_stress = static_cast<int>(dropped);

@@ -13,8 +13,8 @@ struct Rigidity {
   int self_stress = 0;  ///< states of self-stress, constraints − rank: the redundancy C·N/2 − rank
   int floppy = 0;       ///< motions that no constraint opposes, 6N − rank; 3 translations always among them
   double tolerance = 0;
-  /// The least singular value of the rows that counts and the largest that does not, rows being of unit length. The
-  /// rank is as certain as they are apart. 0 where there is none. The least is an estimate from above.
+  /// The least singular value of the rows that counts, from above and right to some per cent, and the largest that
+  /// does not; rows are of unit length. The rank is as certain as they are apart. 0 where there is none.
   double least_kept = 0, largest_dropped = 0;
   /// Orthonormal basis of the states of self-stress, constraints × self_stress; empty unless asked for.
   Eigen::MatrixXd stresses;
@@ -29,9 +29,10 @@ struct RigidityOptions {
   double margin = 100;
 };
 
-/// States of self-stress by subspace iteration from a random start that depends on the numbers of rows alone (Halko,
-/// Martinsson & Tropp 2011), with SoftRows. Singular values up to max(rows, 6N)·ε times a bound of the largest, or up
-/// to `margin` times the imbalance of the forces, are zero. N = 400 takes about a second.
+/// States of self-stress by inverse subspace iteration with SoftRows and the Rayleigh–Ritz method on its left singular
+/// vectors, from a random start (Halko, Martinsson & Tropp 2011) that is the same for every matrix of a size. Throws
+/// std::invalid_argument if the rows hold what is not a number. Singular values up to max(rows, 6N)·ε times a bound of
+/// the largest, or up to `margin` times the imbalance of the forces, are zero. N = 400 takes about a second.
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 
 /// All singular values of the rows, descending: the oracle. Dense and slower still; for N ≤ 100.

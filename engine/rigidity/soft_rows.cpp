@@ -2,7 +2,9 @@
 
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace isojam {
@@ -57,8 +59,8 @@ SoftRows::SoftRows(const Eigen::SparseMatrix<double>& rows) : rows_(rows) {
   const double scale = largest_row_sum(matrix);
   stiffest_ = std::sqrt(scale);
   // Rounding is 1e-16 of the scale and can make a singular matrix indefinite by some of that, never by 1e-12.
-  [[maybe_unused]] const bool definite = factor_.factorise(matrix, 1e-12 * scale);
-  assert(definite);
+  if (!std::isfinite(scale) || !factor_.factorise(matrix, 1e-12 * scale))
+    throw std::invalid_argument("constraints that are not finite have no rank");
 }
 
 Eigen::MatrixXd SoftRows::damped(const Eigen::MatrixXd& x) const {

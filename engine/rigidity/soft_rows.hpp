@@ -8,15 +8,17 @@
 
 namespace isojam {
 
-/// Tells combinations of constraints that hold nothing from those that do, by the sparse factor of rowsᵀrows + τ²,
-/// 6×6 blocks on the graph of particles: with N = 400, milliseconds where a dense factorisation takes half a minute.
+/// Inverse iteration on rows·rowsᵀ, towards the combinations of constraints with the smallest singular values, by the
+/// sparse factor of rowsᵀrows + τ², 6×6 blocks on the graph of particles: with N = 400, milliseconds where a dense
+/// factorisation takes half a minute.
 class SoftRows {
  public:
-  /// `rows`, constraints × 6N, must outlive this.
+  /// `rows`, constraints × 6N, must outlive this. Throws std::invalid_argument if they hold what is not a number.
   explicit SoftRows(const Eigen::SparseMatrix<double>& rows);
 
-  /// x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x = τ² (rows rowsᵀ + τ²)⁻¹ x, for each column: combinations with singular value
-  /// σ are multiplied by τ²/(σ² + τ²), those that hold nothing by one. τ is 1e-6 of stiffest().
+  /// τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x (Sherman, Morrison, Woodbury), for each column:
+  /// combinations with singular value σ are multiplied by τ²/(σ² + τ²), states of self-stress by one. τ is 1e-6 of
+  /// stiffest().
   Eigen::MatrixXd damped(const Eigen::MatrixXd& x) const;
 
   /// A bound for the largest singular value, the root of the largest row sum of |rowsᵀrows|.

@@ -7,7 +7,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "engine/random/stream.hpp"
 #include "engine/solve/factor/shift_invert.hpp"
 #include "engine/vibration/lanczos_operators.hpp"
 #include "tasks/chart/comparisons.hpp"

@@ -1,6 +1,10 @@
 #include "tasks/chart/run_chart.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tasks/chart/comparisons.hpp"
 #include "tasks/graph.hpp"

@@ -15,8 +15,8 @@
 #include <atomic>
 #include <chrono>
 #include <map>
-#include <stdexcept>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 
 #include "bad_manifests.hpp"

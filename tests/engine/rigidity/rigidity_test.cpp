@@ -178,6 +178,10 @@ void expect_closed(const Rigidity& rigidity, const RigidityMatrix& matrix, int p
   EXPECT_EQ((sigma.array() > rigidity.tolerance).count(), rigidity.rank);
   EXPECT_GT(rigidity.least_kept, 1e3 * std::max(rigidity.tolerance, rigidity.largest_dropped))
       << "the rank is a matter of opinion";
+  if (rigidity.rank == 0) return;
+  const double least = sigma[rigidity.rank - 1];
+  EXPECT_GE(rigidity.least_kept, least * (1 - 1e-9));
+  EXPECT_LE(rigidity.least_kept, 1.2 * least);
 }
 
 void expect_stresses(const Rigidity& rigidity, const RigidityMatrix& matrix) {
@@ -277,6 +281,12 @@ TEST(RigidityTest, RowsGivenTwice) {
   EXPECT_EQ(of_twice.rank, of_once.rank);
   EXPECT_EQ(of_twice.self_stress, of_once.self_stress + once.rows.rows());
   EXPECT_EQ(of_twice.rank, (singular_values(twice).array() > of_twice.tolerance).count());
+}
+
+TEST(RigidityTest, RefusesWhatIsNotANumber) {
+  RigidityMatrix matrix = Known(nearest_state(jammed(SolidKind::icosahedron, 32, .01))).normals();
+  matrix.rows.coeffRef(3, 17) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(analyse_rigidity(matrix), std::invalid_argument);
 }
 
 TEST(RigidityTest, KnownRanks) {
