@@ -63,7 +63,7 @@ run: build
 
 # The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
 # interrupted goes on. A replicate that failed (exit 1) is counted on the page.
-PAPER = n100 n400 n400-tetrahedra nearest cubes base rule window reading energy
+PAPER = n100 n400 n400-tetrahedra nearest cubes base window reading energy rule-base rule
 paper: build
 	$(call install,python3)
 	@for study in $(PAPER); do \

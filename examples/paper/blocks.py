@@ -73,7 +73,8 @@ def solid_and_size(figure):
 
 
 def column_of_solid(figure):
-    return f"{figure['solid']} {figure['particles']}, {figure['column']}"
+    where = f", Δφ = {number(figure['delta_phi'], 2)}" if "delta_phi" in figure else ""
+    return f"{figure['solid']} {figure['particles']}, {figure['column']}{where}"
 
 
 def column_alone(figure):
@@ -118,7 +119,9 @@ def table_3(data):
 
 
 def table_4(data):
-    return compared(data, "Table IV", column_of_solid)
+    return (compared(data, "Table IV", column_of_solid) +
+            "\nFarther from jamming, where the paper's last stable packings may have been:\n\n" +
+            compared(data, "Table IV, farther", column_of_solid))
 
 
 def exponents(data):
@@ -186,6 +189,24 @@ def shifts(data):
     return table(["varied", "", "n", "φ_J, base", "shift of φ_J, 10⁻⁴", "worst residual"], rows)
 
 
+def minimisations(data):
+    """The paper's rule and ours, state by state."""
+    rows = []
+    edges = (1, .1, .06, .04, .028, .018)
+    for solid in SOLIDS:
+        for upper, lower in zip(edges, edges[1:]):
+            cells = []
+            for study in ("paper-rule", "paper-rule-base"):
+                some = [m for m in data.records["minimisations"].get(study, [])
+                        if m["solid"] == solid and lower <= m["delta_phi"] < upper]
+                cells += [str(len(some)), f"{statistics.median(m['evaluations'] for m in some):.0f}",
+                          f"{max(m['residual'] for m in some):.0e}"] if some else ["0", "–", "–"]
+            if cells[0] != "0" or cells[3] != "0":
+                rows.append([solid, f"{number(lower, 3)} … {number(upper, 3)}", *cells])
+    return table(["", "Δφ", "states, rule", "evaluations", "worst residual", "states, ours", "evaluations",
+                  "worst residual"], rows)
+
+
 def cost(data):
     rows, stages = [], {}
     for study, found in sorted(data.records["studies"].items()):
@@ -201,4 +222,4 @@ def cost(data):
 
 
 BLOCKS = {f.__name__: f for f in (summary, table_1, table_2, table_3, table_4, exponents, isostatic, figure_3, stability,
-                                  rigidity, cubes, shifts, cost)}
+                                  rigidity, cubes, shifts, minimisations, cost)}

@@ -19,9 +19,10 @@ from verdicts import estimate_of
 
 MAIN = ("paper-100", "paper-400", "paper-400-tetrahedra", "paper-cubes")
 NEAREST = ("paper-nearest",)
-BASE = "paper-base"
 LEFT_OUT = {"crystalline", "short_of_goal"}
-VARIED = ("paper-rule", "paper-window", "paper-energy", "paper-reading")
+# Studies that do one thing otherwise, and the one that does not.
+VARIED = {"paper-rule": "paper-rule-base", "paper-window": "paper-base", "paper-energy": "paper-base",
+          "paper-reading": "paper-base"}
 
 
 def records_of(directory):
@@ -108,10 +109,18 @@ def by_key(directory):
             for r in records_of(directory) if r["status"] == "done"}
 
 
+def minimisations_of(directory):
+    """Of each state of the expansions: solid, distance from jamming, evaluations, residual and why it was left."""
+    return [{"solid": r["spec"]["solid"], "delta_phi": s["delta_phi"], "residual": s["residual"],
+             "evaluations": r["path"][s["step"]]["evaluations"], "stopped": s["stopped"]}
+            for r in records_of(directory) for s in r.get("states", [])]
+
+
 def pairs_of(results):
-    """φ_J of replicates that began alike: in the base study, and with one thing done otherwise."""
-    base, pairs = by_key(results / BASE), {}
-    for name in VARIED:
+    """φ_J of replicates that began alike: in the study that is the base, and with one thing done otherwise."""
+    pairs = {}
+    for name, reference in VARIED.items():
+        base = by_key(results / reference)
         for key, varied in by_key(results / name).items():
             if key in base:
                 pairs.setdefault(name, []).append(
@@ -189,7 +198,9 @@ def main():
                               "extents": extents_of(records)}
     out.mkdir(parents=True, exist_ok=True)
     write(out / "tables.json", {"main": rows_of(isojam, main_studies), "nearest": rows_of(isojam, nearest)})
-    write(out / "records.json", {"studies": studies, "pairs": pairs_of(results)})
+    write(out / "records.json", {"studies": studies, "pairs": pairs_of(results),
+                                   "minimisations": {name: minimisations_of(results / name)
+                                                     for name in ("paper-rule", "paper-rule-base")}})
 
 
 if __name__ == "__main__":
