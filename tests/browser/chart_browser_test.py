@@ -25,7 +25,7 @@ from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402  
 EXECUTABLE = pathlib.Path(sys.argv.pop(1)).resolve()
 CONFIG = {"compare": ["equilibrium", "overlap", "atlas"], "solids": ["dodecahedron"], "particles": 24, "packings": 1,
           "distances": [0.08, 0.05], "fit_window": 0.1, "tolerances": [1e-2, 1e-6], "pairs": 3, "repetitions": 1,
-          "max_evaluations": 100, "rule_evaluations": 200, "total_seconds": 15}
+          "max_evaluations": 100, "rule_evaluations": 200, "total_seconds": 60}
 SIGNS = {"holds": "✓", "refuses": "–", "fails": "✗"}
 CROSS = "path[stroke-width='1.8']"
 
@@ -90,7 +90,9 @@ class Chart(unittest.TestCase):
         listed = self.browser.run("""return [...document.querySelectorAll('#atlas .cells tbody tr')].map((row) =>
             [...row.cells].map((cell) => cell.textContent).join('|'))""")
         keys = ("regime", "method", "setting", "verdict", "figure", "reason")
-        self.assertEqual(sorted(listed), sorted("|".join(row[key] for key in keys) for row in rows))
+        # The page sets the J of φ_J as an index.
+        written = ["|".join(row[key] for key in keys).replace("φ_J", "φJ") for row in rows]
+        self.assertEqual(sorted(listed), sorted(written))
 
     def test_a_cell_says_why(self):
         cell = self.browser.run("return document.querySelector('#atlas td.cell.fails')")
