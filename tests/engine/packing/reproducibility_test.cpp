@@ -1,7 +1,8 @@
 // Facts proved here, bit for bit:
 //   an evaluation, a Hessian (in either precision) and a list of contacts are functions of the packing alone: whatever
 //   was evaluated before (other solids, sizes, densities, cells; a walk that kept or rebuilt the neighbour list) and
-//   for 1 and 2 threads.
+//   for 1 and 2 threads;
+//   Eigen's products of matrices are cut into blocks alike on every machine, whatever its caches.
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -152,6 +153,14 @@ TEST(ReproducibilityTest, TheNumberOfThreadsChangesNothing) {
     const Answer one = with_threads(1);
     for (int again = 0; again < 3; ++again) expect_same_bits(one, with_threads(2));
   }
+}
+
+// Sums of products round differently where they are cut. What Eigen asks of the processor would be another size here or
+// on the next machine.
+TEST(ReproducibilityTest, TheCachesOfTheMachineChangeNothing) {
+  EXPECT_EQ(Eigen::l1CacheSize(), Eigen::internal::defaultL1CacheSize);
+  EXPECT_EQ(Eigen::l2CacheSize(), Eigen::internal::defaultL2CacheSize);
+  EXPECT_EQ(Eigen::l3CacheSize(), Eigen::internal::defaultL3CacheSize);
 }
 
 }  // namespace
