@@ -218,7 +218,7 @@ def cost(data):
     share = ", ".join(f"{stage} {100 * seconds / sum(stages.values()):.1f} %"
                       for stage, seconds in sorted(stages.items(), key=lambda item: -item[1]))
     return table(["study", "", "n", "median CPU s", "least … greatest", "CPU minutes in all"], rows) + \
-        f"\nBy stage, where it was recorded: {share}.\n"
+        f"\nBy stage: {share}.\n"
 
 
 BLOCKS = {f.__name__: f for f in (summary, table_1, table_2, table_3, table_4, exponents, isostatic, figure_3, stability,
