@@ -127,7 +127,7 @@ lint:
 lint-sources: $(STAMPS)
 
 # A stamp says that this source passed, with the headers it includes and this configuration.
-$(STAMPS): $(BUILD)/lint/%: % .clang-tidy
+$(STAMPS): $(BUILD)/lint/%: % .clang-tidy tests/.clang-tidy
 	@mkdir -p $(@D)
 	@echo 'clang-tidy $<'
 	@clang-tidy --quiet -p $(BUILD) $< >$@.log 2>&1 || { grep -v ' warnings generated' $@.log; exit 1; }

@@ -258,7 +258,7 @@ void in_order(std::size_t count, const std::function<RecordSummary(std::size_t)>
     use(*made.summary);
   };
   constexpr auto in_turn = tbb::filter_mode::serial_in_order;
-  tbb::parallel_pipeline(static_cast<std::size_t>(4 * default_threads()),
+  tbb::parallel_pipeline(4 * static_cast<std::size_t>(default_threads()),
                          tbb::make_filter<void, std::size_t>(in_turn, input) &
                              tbb::make_filter<std::size_t, Made>(tbb::filter_mode::parallel, middle) &
                              tbb::make_filter<Made, void>(in_turn, output));

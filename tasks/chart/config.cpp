@@ -172,7 +172,7 @@ ChartConfig parse_chart_config(std::string_view text, const std::string& file) {
   ChartConfig config;
   auto keys = keys_of([&](const auto& visitor) { visit_chart(config, visitor); });
   keys.insert(keys.begin(), "$schema");
-  keys.push_back("phi_j");
+  keys.emplace_back("phi_j");
   root.expect_keys(keys);
   if (root.has("$schema")) root.at("$schema").text();
   visit_chart(config, [&](const std::string& key, auto& value, const Range& range) {

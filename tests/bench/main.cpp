@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <iostream>
 
@@ -21,10 +22,7 @@ std::string take_ratios_path(std::vector<char*>& arguments) {
   return path;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using namespace isojam::bench;
+int run(int argc, char** argv) {
   // Options of the command line come later and win.
   std::string defaults[] = {"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=9",
                             "--benchmark_min_time=0.03"};
@@ -37,9 +35,9 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
 
-  MedianReporter reporter;
+  isojam::bench::MedianReporter reporter;
   if (benchmark::RunSpecifiedBenchmarks(&reporter) == 0) return 2;
-  const std::vector<Verdict> verdicts = judge(all_claims(), reporter.medians());
+  const auto verdicts = isojam::bench::judge(isojam::bench::all_claims(), reporter.medians());
   std::cout << reporter.machine().dump() << "\n\n";
   print_medians(std::cout, reporter);
   std::cout << '\n';
@@ -53,4 +51,11 @@ int main(int argc, char** argv) {
     }
   }
   return reporter.failed() ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try { return run(argc, argv); } catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
 }

@@ -256,7 +256,7 @@ TEST(Graph, WhatTheCallersFunctionsThrowComesOut) {
   const NextReplicate next = [&]() -> std::optional<ReplicateSpec> { throw fault(); };
   EXPECT_THROW(run_graph(next, quiet_stages(), {2, 0, {}, {}}, [](const Outcome&) {}), std::runtime_error);
   auto stages = quiet_stages();
-  stages.jam = [](const ReplicateSpec& spec, JamProgress from, std::stop_token, const OnProgress& on_progress) {
+  stages.jam = [](const ReplicateSpec& spec, const JamProgress& from, std::stop_token, const OnProgress& on_progress) {
     on_progress(from);
     return test::made_up_outcome(spec).jam;
   };

@@ -34,6 +34,7 @@ std::string_view to_string(PairClass pair_class);
 /// Contacts (the first five classes) have V/V_p in this range, log-uniform.
 inline constexpr double least_contact_volume = 1e-5, greatest_contact_volume = 3e-2;
 
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): A and B first reads best, and there are few of them
 struct PairCase {
   SolidKind a, b;
   Eigen::Quaterniond quaternion;  ///< of any length

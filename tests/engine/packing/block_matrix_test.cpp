@@ -25,7 +25,7 @@ BlockMatrix random_block_matrix(RandomStream& random, int n) {
   BlockMatrix matrix;
   for (int i = 0; i < n; ++i) {
     const Matrix6d m = random_matrix<6>(random);
-    matrix.diagonal.push_back(m + m.transpose());
+    matrix.diagonal.emplace_back(m + m.transpose());
     for (int j = i + 1; j < n; ++j) {
       if (random.uniform() < .4) matrix.off_diagonal.push_back({i, j, random_matrix<6>(random)});
     }
