@@ -163,7 +163,8 @@ def rigidity(data):
             rows.append([study, name, str(count), f"{mean['constraints']:.0f}", f"{mean['rank']:.1f}",
                          f"{mean['full_rank']:.0f}", f"{mean['self_stress']:.1f}",
                          f"{mean['full_rank'] - mean['rank']:.1f}"])
-    return table(["study", "", "n", "constraints C·N/2", "rank", "6N − 3", "states of self-stress", "short of full rank"], rows)
+    return table(["study", "", "n", "constraints C·N/2", "rank", "6N − 3", "states of self-stress",
+                  "short of full rank"], rows)
 
 
 def cubes(data):
@@ -221,5 +222,5 @@ def cost(data):
         f"\nBy stage: {share}.\n"
 
 
-BLOCKS = {f.__name__: f for f in (summary, table_1, table_2, table_3, table_4, exponents, isostatic, figure_3, stability,
-                                  rigidity, cubes, shifts, minimisations, cost)}
+BLOCKS = {f.__name__: f for f in (summary, table_1, table_2, table_3, table_4, exponents, isostatic, figure_3,
+                                  stability, rigidity, cubes, shifts, minimisations, cost)}

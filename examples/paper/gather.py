@@ -76,12 +76,15 @@ def stability_of(records):
     return counts
 
 
+def counting(records):
+    """Those that neither failed nor are left out."""
+    return [record for record in records if record["status"] == "done" and not LEFT_OUT & set(record["flags"])]
+
+
 def rigidity_of(records):
     """Rank of the constraints by class in the states nearest jamming, by solid and size."""
     ranks = {}
-    for record in records:
-        if record["status"] != "done" or LEFT_OUT & set(record["flags"]):
-            continue
+    for record in counting(records):
         solid, particles, replicate = key_of(record)
         classes = record["nearest"]["rigidity"]["classes"]
         ranks.setdefault(f"{solid} {particles}", []).append(
@@ -93,9 +96,7 @@ def rigidity_of(records):
 def extents_of(records):
     """Largest extent of a cluster between vertices, over L, in the states nearest jamming; by solid and size."""
     extents = {}
-    for record in records:
-        if record["status"] != "done" or LEFT_OUT & set(record["flags"]):
-            continue
+    for record in counting(records):
         solid, particles, _ = key_of(record)
         extent = record["nearest"]["clusters"].get("body_l_max")
         if extent is not None:

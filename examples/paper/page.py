@@ -1,8 +1,8 @@
 """Sets our tables beside the paper's: python3 page.py PAGE [-o OUT] [--data DIR] [--check]
 
 PAGE holds blocks, `<!-- block NAME -->` ... `<!-- end -->`, that are made anew from DIR/tables.json, DIR/records.json
-(see gather.py), data by default, and data/paper.json; what stands between the blocks is left as it is. Writes to OUT, PAGE itself by default;
-with --check writes nothing and fails if a block is not what the data say.
+(see gather.py), data by default, and data/paper.json; what stands between the blocks is left as it is. Writes to OUT,
+PAGE itself by default; with --check writes nothing and fails if a block is not what the data say.
 """
 
 import argparse
@@ -77,7 +77,8 @@ def agreement(data, committed):
             lines.append(f"  {figure['place']}, {figure['solid']} N = {figure['particles']}, {figure['column']}: "
                          f"{ours['mean']:.5g} ± {ours['half_width']:.2g}, committed "
                          f"{theirs['mean']:.5g} ± {theirs['half_width']:.2g}")
-    return "\n".join([f"{met} of {known} figures agree with those in examples/paper: their 95 % intervals overlap", *lines])
+    head = f"{met} of {known} figures agree with those in examples/paper: their 95 % intervals overlap"
+    return "\n".join([head, *lines])
 
 
 def main():

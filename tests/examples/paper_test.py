@@ -25,7 +25,7 @@ PAPER, ISOJAM = Path(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, str(PAPER))
 
 from blocks import BLOCKS, interval, said  # noqa: E402
-from gather import copy_of_those_that_count  # noqa: E402
+from gather import copy_of_those_that_count, counting  # noqa: E402
 from verdicts import estimate_of, overlap, single_half_width, verdict  # noqa: E402
 
 
@@ -59,11 +59,11 @@ class Page(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("a block is not what", result.stderr)
 
-
     def test_is_refused_without_a_block(self):
         text = (PAPER / "README.md").read_text(encoding="utf-8")
         self.assertNotRegex(text, r"(?m)^@")
-        begin, end = text.index("<!-- block shifts -->"), text.index("<!-- end -->", text.index("<!-- block shifts -->"))
+        begin = text.index("<!-- block shifts -->")
+        end = text.index("<!-- end -->", begin)
         block = text[begin:end + len("<!-- end -->")]
         with tempfile.TemporaryDirectory() as here:
             changed = Path(here) / "README.md"
@@ -181,6 +181,9 @@ class Gathered(unittest.TestCase):
                 (source / "records" / f"{name}.json").write_text(json.dumps(record), encoding="utf-8")
             copies = copy_of_those_that_count(Path(here) / "copy", [source])
             self.assertEqual(sorted(path.stem for path in (copies[0] / "records").iterdir()), ["a", "d", "e"])
+        records = [{"status": "failed"} if some is None else {"status": "done", "name": name, "flags": some}
+                   for name, some in flags.items()]
+        self.assertEqual([record["name"] for record in counting(records)], ["a", "d"])
 
     def test_small_runs(self):
         with tempfile.TemporaryDirectory() as here:
