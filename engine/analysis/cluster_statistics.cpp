@@ -126,16 +126,6 @@ FractalDimension fit_line(std::span<const Point> points) {
 
 }  // namespace
 
-std::string_view to_string(DimensionVerdict verdict) {
-  switch (verdict) {
-    case DimensionVerdict::not_called: return "not_called";
-    case DimensionVerdict::fitted: return "fitted";
-    case DimensionVerdict::winds: return "winds";
-    case DimensionVerdict::too_small: return "too_small";
-  }
-  throw std::invalid_argument("not a verdict of a fractal dimension");
-}
-
 FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluster,
                                    std::span<const NeighbourPair> bonds) {
   if (cluster.winding_rank() > 0) return {.verdict = DimensionVerdict::winds};

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include "engine/analysis/clusters.hpp"
+#include "engine/names/enum_names.hpp"
 
 namespace isojam {
 
@@ -14,7 +16,10 @@ enum class DimensionVerdict {
   winds,     ///< the cluster closes on itself through the boundary and has no size
   too_small  ///< pieces of fewer than three radii, or of no extent: no line through them has an error
 };
-std::string_view to_string(DimensionVerdict verdict);
+template <>
+inline constexpr std::array enum_names<DimensionVerdict>{
+    EnumName{DimensionVerdict::not_called, "not_called"}, EnumName{DimensionVerdict::fitted, "fitted"},
+    EnumName{DimensionVerdict::winds, "winds"}, EnumName{DimensionVerdict::too_small, "too_small"}};
 
 /// D in s ∝ ρ^D for connected pieces of s particles and size ρ.
 struct FractalDimension {

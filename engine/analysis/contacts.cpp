@@ -6,15 +6,6 @@
 
 namespace isojam {
 
-std::string_view to_string(ContactClass contact_class) {
-  switch (contact_class) {
-    case ContactClass::face_face: return "face_face";
-    case ContactClass::edge_face: return "edge_face";
-    case ContactClass::lower_order: return "lower_order";
-  }
-  throw std::invalid_argument("not a contact class");
-}
-
 std::vector<ContactClass> classify(std::span<const Alignment> alignments, double ff_cutoff, double ef_cutoff) {
   std::vector<ContactClass> classes;
   classes.reserve(alignments.size());
@@ -63,7 +54,7 @@ ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> al
 }
 
 std::optional<double> ContactAnalysis::disagreement() const {
-  const bool by_fit = face_face.verdict == FitVerdict::fitted || face_face.verdict == FitVerdict::bimodal;
+  const bool by_fit = face_face.has_cutoff();
   if (!by_fit || !Z_ff_gap) return std::nullopt;
   return *Z_ff_gap - numbers.Z_ff;
 }

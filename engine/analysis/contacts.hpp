@@ -1,19 +1,24 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "engine/analysis/alignment.hpp"
-#include "engine/analysis/cdf_fit.hpp"
-#include "engine/analysis/critical_angles.hpp"
-#include "engine/analysis/gap_split.hpp"
+#include "engine/analysis/alignment/alignment.hpp"
+#include "engine/analysis/alignment/cdf_fit.hpp"
+#include "engine/analysis/alignment/critical_angles.hpp"
+#include "engine/analysis/alignment/gap_split.hpp"
+#include "engine/names/enum_names.hpp"
 
 namespace isojam {
 
 enum class ContactClass { face_face, edge_face, lower_order };
-std::string_view to_string(ContactClass contact_class);
+template <>
+inline constexpr std::array enum_names<ContactClass>{EnumName{ContactClass::face_face, "face_face"},
+                                                     EnumName{ContactClass::edge_face, "edge_face"},
+                                                     EnumName{ContactClass::lower_order, "lower_order"}};
 
 /// Mean numbers per particle. C = 3 Z_ff + 2 Z_ef + Z_l.
 struct ContactNumbers {

@@ -88,7 +88,7 @@ std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contac
   return values;
 }
 
-Order measure_order(const Packing& packing, std::span<const Contact> contacts) {
+Order order_of(const Packing& packing, std::span<const Contact> contacts) {
   std::vector<Vector3d> bonds;
   for (const Contact& contact : contacts) bonds.push_back(contact.displacement);
   Order order;

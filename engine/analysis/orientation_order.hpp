@@ -37,7 +37,7 @@ struct Order {
   double S = 0;                              ///< orientation_order of that rank
   double random_S = 0;                       ///< 1/√N, what independent orientations give
 };
-Order measure_order(const Packing& packing, std::span<const Contact> contacts);
+Order order_of(const Packing& packing, std::span<const Contact> contacts);
 
 /// Mean q_ij of pairs whose centres are k·width to (k + 1)·width apart.
 struct OrientationCorrelation {

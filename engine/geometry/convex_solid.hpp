@@ -10,13 +10,18 @@
 #include <vector>
 
 #include "engine/geometry/quad.hpp"
+#include "engine/names/enum_names.hpp"
 
 namespace isojam {
 
 enum class SolidKind { tetrahedron, cube, octahedron, dodecahedron, icosahedron };
+template <>
+inline constexpr std::array enum_names<SolidKind>{
+    EnumName{SolidKind::tetrahedron, "tetrahedron"}, EnumName{SolidKind::cube, "cube"},
+    EnumName{SolidKind::octahedron, "octahedron"}, EnumName{SolidKind::dodecahedron, "dodecahedron"},
+    EnumName{SolidKind::icosahedron, "icosahedron"}};
 
-inline constexpr std::array all_solids{SolidKind::tetrahedron, SolidKind::cube, SolidKind::octahedron,
-                                       SolidKind::dodecahedron, SolidKind::icosahedron};
+inline constexpr auto all_solids = all_of<SolidKind>;
 
 /// A face: outward unit normal n, n·y = offset on its plane, vertices counter-clockwise seen from outside.
 struct Face {
@@ -104,8 +109,5 @@ class ConvexSolid {
 
 /// The shared immutable instance of a Platonic solid.
 const ConvexSolid& platonic(SolidKind kind);
-
-std::string_view to_string(SolidKind kind);
-std::optional<SolidKind> solid_kind(std::string_view name);
 
 }  // namespace isojam

@@ -23,23 +23,23 @@ struct ConstArrays {
   const double *x, *y, *z;
 };
 
-/// One component of the vectors (x + x_low, …), turned in two doubles.
-void turn_row(const TwoDouble& a, const TwoDouble& b, const TwoDouble& c, ConstArrays v, ConstArrays v_low, int n,
-              double* turned, double* turned_low) {
+/// One component of the vectors (x + x_low, …), turned in double-double.
+void turn_row(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c, ConstArrays v, ConstArrays v_low,
+              int n, double* turned, double* turned_low) {
   const double *x = v.x, *y = v.y, *z = v.z, *x_low = v_low.x, *y_low = v_low.y, *z_low = v_low.z;
 #pragma GCC ivdep  // too many arrays for the compiler to check that they are distinct
   for (int k = 0; k < (n + 3) / 4 * 4; ++k) {
-    const TwoDouble ax = two_product(a.high, x[k]), by = two_product(b.high, y[k]), cz = two_product(c.high, z[k]);
-    const TwoDouble two = two_sum(ax.high, by.high), three = two_sum(two.high, cz.high);
+    const DoubleDouble ax = two_product(a.high, x[k]), by = two_product(b.high, y[k]), cz = two_product(c.high, z[k]);
+    const DoubleDouble two = two_sum(ax.high, by.high), three = two_sum(two.high, cz.high);
     const double first_order =
         (a.high * x_low[k] + a.low * x[k]) + (b.high * y_low[k] + b.low * y[k]) + (c.high * z_low[k] + c.low * z[k]);
-    const TwoDouble sum = fast_two_sum(three.high, (two.low + three.low) + (ax.low + by.low + cz.low) + first_order);
+    const DoubleDouble sum = fast_two_sum(three.high, (two.low + three.low) + (ax.low + by.low + cz.low) + first_order);
     turned[k] = sum.high;
     turned_low[k] = sum.low;
   }
 }
 
-void turn(const TwoDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, Arrays turned, Arrays turned_low) {
+void turn(const DoubleDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, Arrays turned, Arrays turned_low) {
   turn_row(q(0, 0), q(0, 1), q(0, 2), v, v_low, n, turned.x, turned_low.x);
   turn_row(q(1, 0), q(1, 1), q(1, 2), v, v_low, n, turned.y, turned_low.y);
   turn_row(q(2, 0), q(2, 1), q(2, 2), v, v_low, n, turned.z, turned_low.z);
@@ -56,7 +56,7 @@ PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotati
   copy_rows();
 }
 
-PlacedSolid::PlacedSolid(const ConvexSolid& solid, const TwoDoubleMatrix& rotation)
+PlacedSolid::PlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation)
     : solid_(&solid), rotation_(rotation.high), rotation_low_(rotation.low) {
   const SolidArrays& body = solid.arrays();
   turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, {x_, y_, z_},

@@ -57,17 +57,4 @@ const ConvexSolid& platonic(SolidKind kind) {
   return solids[static_cast<std::size_t>(kind)];
 }
 
-std::string_view to_string(SolidKind kind) {
-  static constexpr std::array<std::string_view, 5> names{"tetrahedron", "cube", "octahedron", "dodecahedron",
-                                                         "icosahedron"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
-std::optional<SolidKind> solid_kind(std::string_view name) {
-  for (const SolidKind kind : all_solids) {
-    if (to_string(kind) == name) return kind;
-  }
-  return std::nullopt;
-}
-
 }  // namespace isojam

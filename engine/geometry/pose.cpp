@@ -16,13 +16,13 @@ namespace {
 /// sin(|θ|/2)/|θ| → 1/2 without a division by zero.
 double half_sinc(double angle) { return angle > 0 ? std::sin(angle / 2) / angle : 0.5; }
 
-void store(Pose& pose, int c, const TwoDouble& value) {
+void store(Pose& pose, int c, const DoubleDouble& value) {
   pose.orientation.coeffs()[c] = value.high;
   pose.orientation_low[c] = value.low;
 }
 
-TwoDouble squared_length(const Pose& pose) {
-  const TwoDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
+DoubleDouble squared_length(const Pose& pose) {
+  const DoubleDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
   return short_sum(short_sum(x * x, y * y), short_sum(z * z, w * w));
 }
 
@@ -31,16 +31,16 @@ bool is_small(double excess) { return std::abs(excess) <= 4 * std::numeric_limit
 
 Pose normalised(const Pose& pose) {
   Pose result = pose;
-  const TwoDouble square = squared_length(pose);
+  const DoubleDouble square = squared_length(pose);
   const double excess = short_sum(square, -1).high;
   if (is_small(excess)) {
     const double correction = excess * (3.0 / 8 * excess - 0.5);
     for (int c = 0; c < 4; ++c) {
-      const TwoDouble q = pose.component(c);
+      const DoubleDouble q = pose.component(c);
       store(result, c, fast_two_sum(q.high, q.low + q.high * correction));
     }
   } else {
-    const TwoDouble inverse = reciprocal_sqrt(square);
+    const DoubleDouble inverse = reciprocal_sqrt(square);
     for (int c = 0; c < 4; ++c) store(result, c, pose.component(c) * inverse);
   }
   return result;
@@ -59,44 +59,44 @@ Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& t
   for (int c = 0; c < 4; ++c) store(result, c, short_sum(pose.component(c), change[c]));
   result = normalised(result);
   for (int c = 0; c < 3; ++c) {
-    const TwoDouble x = short_sum(pose.coordinate(c), dx[c]);
+    const DoubleDouble x = short_sum(pose.coordinate(c), dx[c]);
     result.position[c] = x.high;
     result.position_low[c] = x.low;
   }
   return result;
 }
 
-Pose scaled(const Pose& pose, const TwoDouble& s) {
+Pose scaled(const Pose& pose, const DoubleDouble& s) {
   Pose result = pose;
   for (int c = 0; c < 3; ++c) {
-    const TwoDouble x = pose.coordinate(c) * s;
+    const DoubleDouble x = pose.coordinate(c) * s;
     result.position[c] = x.high;
     result.position_low[c] = x.low;
   }
   return result;
 }
 
-TwoDoubleMatrix rotation_matrix(const Pose& pose) {
+DoubleDoubleMatrix rotation_matrix(const Pose& pose) {
   const double excess = short_sum(squared_length(pose), -1).high;
   if (!is_small(excess) && std::isfinite(excess)) return rotation_matrix(normalised(pose));
-  const TwoDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
-  const TwoDouble xx = x * x, yy = y * y, zz = z * z;
+  const DoubleDouble x = pose.component(0), y = pose.component(1), z = pose.component(2), w = pose.component(3);
+  const DoubleDouble xx = x * x, yy = y * y, zz = z * z;
   const double correction = excess * excess - excess;
-  const auto twice_sum = [&](const TwoDouble& p, const TwoDouble& q) {
-    const TwoDouble sum = short_sum(p, q);
-    return TwoDouble{2 * sum.high, 2 * (sum.low + sum.high * correction)};
+  const auto twice_sum = [&](const DoubleDouble& p, const DoubleDouble& q) {
+    const DoubleDouble sum = short_sum(p, q);
+    return DoubleDouble{2 * sum.high, 2 * (sum.low + sum.high * correction)};
   };
-  const TwoDouble xy = x * y, yz = y * z, zx = z * x, wx = w * x, wy = w * y, wz = w * z;
-  TwoDoubleMatrix m;
+  const DoubleDouble xy = x * y, yz = y * z, zx = z * x, wx = w * x, wy = w * y, wz = w * z;
+  DoubleDoubleMatrix m;
   m.set(0, 0, short_sum(1, -twice_sum(yy, zz))), m.set(0, 1, twice_sum(xy, -wz)), m.set(0, 2, twice_sum(zx, wy));
   m.set(1, 0, twice_sum(xy, wz)), m.set(1, 1, short_sum(1, -twice_sum(xx, zz))), m.set(1, 2, twice_sum(yz, -wx));
   m.set(2, 0, twice_sum(zx, -wy)), m.set(2, 1, twice_sum(yz, wx)), m.set(2, 2, short_sum(1, -twice_sum(xx, yy)));
   return m;
 }
 
-Quad3 widened(const TwoDoubleVector& v) { return {widened(v[0]), widened(v[1]), widened(v[2])}; }
+Quad3 widened(const DoubleDoubleVector& v) { return {widened(v[0]), widened(v[1]), widened(v[2])}; }
 
-QuadMatrix widened(const TwoDoubleMatrix& m) {
+QuadMatrix widened(const DoubleDoubleMatrix& m) {
   QuadMatrix result;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) result[r][c] = widened(m(r, c));

@@ -7,21 +7,21 @@
 
 namespace isojam {
 
-/// A vector in two doubles, component by component.
-struct TwoDoubleVector {
+/// A vector in double-double, component by component.
+struct DoubleDoubleVector {
   Eigen::Vector3d high = Eigen::Vector3d::Zero(), low = Eigen::Vector3d::Zero();
 
-  TwoDouble operator[](int c) const { return {high[c], low[c]}; }
-  void set(int c, const TwoDouble& value) { high[c] = value.high, low[c] = value.low; }
-  TwoDoubleVector operator-() const { return {-high, -low}; }
+  DoubleDouble operator[](int c) const { return {high[c], low[c]}; }
+  void set(int c, const DoubleDouble& value) { high[c] = value.high, low[c] = value.low; }
+  DoubleDoubleVector operator-() const { return {-high, -low}; }
 };
 
-/// A matrix in two doubles, entry by entry.
-struct TwoDoubleMatrix {
+/// A matrix in double-double, entry by entry.
+struct DoubleDoubleMatrix {
   Eigen::Matrix3d high = Eigen::Matrix3d::Identity(), low = Eigen::Matrix3d::Zero();
 
-  TwoDouble operator()(int r, int c) const { return {high(r, c), low(r, c)}; }
-  void set(int r, int c, const TwoDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
+  DoubleDouble operator()(int r, int c) const { return {high(r, c), low(r, c)}; }
+  void set(int r, int c, const DoubleDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
 };
 
 /// Position of the centre (V_p^(1/3)) and orientation (quaternion q, body frame → lab frame) of a particle, in two
@@ -38,8 +38,8 @@ struct Pose {
            position_low == other.position_low && orientation_low == other.orientation_low;
   }
 
-  TwoDouble coordinate(int c) const { return {position[c], position_low[c]}; }
-  TwoDouble component(int c) const { return {orientation.coeffs()[c], orientation_low[c]}; }
+  DoubleDouble coordinate(int c) const { return {position[c], position_low[c]}; }
+  DoubleDouble component(int c) const { return {orientation.coeffs()[c], orientation_low[c]}; }
 };
 
 /// The pose with its centre at x + dx and turned by exp(θ)·q, dx and θ in the lab frame; |q| = 1 to 1e-31. Steps far
@@ -47,10 +47,10 @@ struct Pose {
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta);
 
 /// The pose with its centre at s·x.
-Pose scaled(const Pose& pose, const TwoDouble& s);
+Pose scaled(const Pose& pose, const DoubleDouble& s);
 
 /// Rotation by q/|q|, body frame → lab frame, to 1e-31.
-TwoDoubleMatrix rotation_matrix(const Pose& pose);
+DoubleDoubleMatrix rotation_matrix(const Pose& pose);
 
 /// Solid B seen from the body frame of A: a point y of B's body frame lies at rotation·y + displacement.
 struct RelativePose {
@@ -71,8 +71,8 @@ struct QuadPose {
 Quad3 quad_position(const Pose& pose);
 /// Rotation by q/|q|, body frame → lab frame.
 QuadMatrix quad_rotation(const Pose& pose);
-Quad3 widened(const TwoDoubleVector& v);
-QuadMatrix widened(const TwoDoubleMatrix& m);
+Quad3 widened(const DoubleDoubleVector& v);
+QuadMatrix widened(const DoubleDoubleMatrix& m);
 QuadPose widened(const RelativePose& pose);
 RelativePose narrowed(const QuadPose& pose);
 /// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).

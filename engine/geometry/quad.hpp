@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/geometry/two_double.hpp"
+#include "engine/geometry/double_double.hpp"
 
 namespace isojam {
 
@@ -13,10 +13,10 @@ __extension__ using Quad = __float128;
 using Quad3 = std::array<Quad, 3>;
 using QuadMatrix = std::array<Quad3, 3>;  ///< rows
 
-inline Quad widened(const TwoDouble& x) { return Quad(x.high) + Quad(x.low); }
+inline Quad widened(const DoubleDouble& x) { return Quad(x.high) + Quad(x.low); }
 
 /// Nearest double, and nearest double of the rest.
-inline TwoDouble narrowed(Quad x) {
+inline DoubleDouble narrowed(Quad x) {
   const auto high = static_cast<double>(x);
   return {high, static_cast<double>(x - Quad(high))};
 }

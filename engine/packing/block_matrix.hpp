@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/geometry/overlap.hpp"
+#include "engine/geometry/overlap/overlap.hpp"
 
 namespace isojam {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "engine/geometry/refine.hpp"
+#include "engine/geometry/overlap/small_distances.hpp"
 
 namespace isojam {
 
@@ -43,7 +43,7 @@ struct Accumulator {
 /// ρ_c.
 double relative_error(const ConvexSolid& solid, const Eigen::Vector3d& r, const Overlap& overlap) {
   const double tolerance = gap_tolerance(solid, solid, r), area = overlap.area.norm();
-  return tolerance / std::max(refined_below(solid, solid), overlap.volume / area) + tolerance / std::sqrt(area);
+  return tolerance / std::max(double_double_below(solid, solid), overlap.volume / area) + tolerance / std::sqrt(area);
 }
 
 /// What one contact adds to an evaluation, lab frame. ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
@@ -84,7 +84,7 @@ void add_contact(const NeighbourPair& pair, const ContactTerms& terms, Evaluatio
 
 /// Sets residual_floor and energy_noise; mean_force > 0.
 void bound_rounding(const Packing& packing, Precision precision, const Accumulator& sums, Evaluation& result) {
-  if (precision == Precision::extended) {
+  if (precision == Precision::double_double) {
     const double levers = packing.solid->circumradius() / packing.solid->gyration_radius();
     result.residual_floor = levers * *std::max_element(sums.noise.begin(), sums.noise.end()) / result.mean_force;
     result.energy_noise = sums.energy_noise;
@@ -189,8 +189,8 @@ SecondOrder PackingEnergy::second_order(const Packing& packing, double press, Pr
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const NeighbourPair& pair = pairs_[k];
     if (!overlaps_[k].touching() && !pressed_[k].touching()) continue;
-    result.pairs.push_back(pressed_pair(pair.a, pair.b, overlaps_[k], pressed_[k], displacement(packing, pair), press,
-                                        packing.solid->gyration_radius()));
+    result.pairs.push_back(incipient_contact(pair.a, pair.b, overlaps_[k], pressed_[k], displacement(packing, pair),
+                                             press, packing.solid->gyration_radius()));
     if (!overlaps_[k].touching()) continue;
     result.hessian.diagonal[pair.a] += hessians_[k].aa;
     result.hessian.diagonal[pair.b] += hessians_[k].bb;

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/packing/block_matrix.hpp"
+#include "engine/packing/incipient_contact.hpp"
 #include "engine/packing/pair_loop.hpp"
-#include "engine/packing/pressed_pair.hpp"
 
 namespace isojam {
 
@@ -21,11 +21,11 @@ struct Evaluation {
   double residual = 0;
   /// What rounding alone can make of the residual; no minimiser can be trusted below it.
   /// In working precision that of the coordinates: λ_max·ulp(L)/mean_force, λ_max bounded by the stiffest particle.
-  /// In extended precision that of the contacts: the largest Σ_c ρ_c |F_c| R_c/R of a particle over mean_force, where
+  /// In double-double that of the contacts: the largest Σ_c ρ_c |F_c| R_c/R of a particle over mean_force, where
   /// R_c is the circumradius, longest lever of a force, and ρ_c the relative error of V and S of a contact. Plane
-  /// distances are then wrong by τ = gap_tolerance() if they exceed refined_below(), and right to their last bits
-  /// otherwise, so ρ_c = τ/max(refined_below(), V/|S|) + τ/√|S|, the second term for the corners, whose coordinates are
-  /// doubles.
+  /// distances are then wrong by τ = gap_tolerance() if they exceed double_double_below(), and right to their last bits
+  /// otherwise, so ρ_c = τ/max(double_double_below(), V/|S|) + τ/√|S|, the second term for the corners, whose
+  /// coordinates are doubles.
   double residual_floor = 0;
   /// What the same rounding can do to the energy: Σ|F|·ulp(L), and Σ ρ_c V²/2. Smaller differences mean nothing.
   double energy_noise = 0;
@@ -36,7 +36,7 @@ struct Evaluation {
 struct SecondOrder {
   BlockMatrix hessian;  ///< ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient
   /// Pairs that touch, and pairs that would if pressed together; in order of (a, b, shift).
-  std::vector<PressedPair> pairs;
+  std::vector<IncipientContact> pairs;
 };
 
 /// A touching pair. `overlap`: area and moment in A's body frame.
@@ -61,7 +61,7 @@ struct ContactTerms {
 class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
-  /// In extended precision V, S and M of every contact are computed from the low parts of the state too, at a tenth
+  /// In double-double V, S and M of every contact are computed from the low parts of the state too, at a tenth
   /// more cost; sums are in double in either.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
   /// Analytic; where two images of a particle touch another, their blocks are summed. Pairs are pressed together by

@@ -83,11 +83,11 @@ Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair) 
          packing.poses[static_cast<std::size_t>(pair.a)].position + packing.cell.side() * pair.shift.cast<double>();
 }
 
-TwoDoubleVector precise_displacement(const Packing& packing, const NeighbourPair& pair) {
+DoubleDoubleVector displacement_double_double(const Packing& packing, const NeighbourPair& pair) {
   const Pose &a = packing.poses[static_cast<std::size_t>(pair.a)], &b = packing.poses[static_cast<std::size_t>(pair.b)];
-  TwoDoubleVector r;
+  DoubleDoubleVector r;
   for (int c = 0; c < 3; ++c) {
-    const TwoDouble image = short_sum(b.coordinate(c), two_product(packing.cell.side(), pair.shift[c]));
+    const DoubleDouble image = short_sum(b.coordinate(c), two_product(packing.cell.side(), pair.shift[c]));
     r.set(c, short_sum(image, -a.coordinate(c)));
   }
   return r;

@@ -16,7 +16,7 @@ struct NeighbourPair {
 
 Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair);
 /// The same from low parts too.
-TwoDoubleVector precise_displacement(const Packing& packing, const NeighbourPair& pair);
+DoubleDoubleVector displacement_double_double(const Packing& packing, const NeighbourPair& pair);
 
 /// All pairs and images with centre distance < reach, in order of (a, b, shift). O(N) by cells of side ≥ reach,
 /// or brute force where the cell has fewer than 3 of them a side.

@@ -55,7 +55,7 @@ Packing random_packing(const ConvexSolid& solid, int n, double density, RandomSt
 Packing strained_to(const Packing& packing, double density) {
   Packing strained = packing;
   strained.cell = PeriodicCell(side_at(packing.size(), density));
-  const TwoDouble stretch = TwoDouble(strained.cell.side()) / packing.cell.side();
+  const DoubleDouble stretch = DoubleDouble(strained.cell.side()) / packing.cell.side();
   for (Pose& pose : strained.poses) pose = scaled(pose, stretch);
   return strained;
 }

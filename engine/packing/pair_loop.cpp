@@ -32,8 +32,8 @@ void overlap_pair(const Packing& packing, Precision precision, std::span<const P
     return;
   }
   ++counts.overlapped;
-  out = precision == Precision::extended ? overlap(a, b, precise_displacement(packing, pair), axis)
-                                         : overlap(a, b, r, axis);
+  out = precision == Precision::double_double ? overlap(a, b, displacement_double_double(packing, pair), axis)
+                                              : overlap(a, b, r, axis);
   if (out.path == OverlapPath::clip) ++counts.clipped;
   if (out.touching()) ++counts.touching;
   // No face separates: an edge pair does, and it is worth a search once.
@@ -73,8 +73,9 @@ void pair_hessian(const Packing& packing, Precision precision, std::span<const P
   const Eigen::Vector3d r = displacement(packing, pair);
   SeparatingAxis unused;
   OverlapHessian h;
-  const Overlap value = precision == Precision::extended ? overlap(a, b, precise_displacement(packing, pair), unused, h)
-                                                         : overlap(a, b, r, unused, h);
+  const Overlap value = precision == Precision::double_double
+                            ? overlap(a, b, displacement_double_double(packing, pair), unused, h)
+                            : overlap(a, b, r, unused, h);
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>().setConstant(1 / packing.solid->gyration_radius());
   const Vector6d ga = joined(value.area, value.moment);
@@ -110,7 +111,7 @@ void place_all(const Packing& packing, Precision precision, std::vector<PlacedSo
   for_each_slot(placed.size(), [&](std::size_t k) {
     const Pose& pose = packing.poses[k];
     // In place of the old one, which owns nothing: a copy would cost as much again.
-    if (precision == Precision::extended) {
+    if (precision == Precision::double_double) {
       std::construct_at(&placed[k], *packing.solid, rotation_matrix(pose));
     } else {
       std::construct_at(&placed[k], *packing.solid, pose.orientation.toRotationMatrix());

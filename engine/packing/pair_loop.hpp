@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/geometry/overlap.hpp"
+#include "engine/geometry/overlap/overlap.hpp"
+#include "engine/geometry/overlap/separating_axis.hpp"
 #include "engine/geometry/placed_solid.hpp"
-#include "engine/geometry/separating_axis.hpp"
 #include "engine/packing/neighbours.hpp"
 
 namespace isojam {
@@ -25,8 +25,8 @@ struct PairCounts {
 
 /// Which digits of the state an evaluation reads.
 enum class Precision {
-  working,  ///< doubles: enough until forces balance to residual_floor, 1e-8 and worse near jamming
-  extended  ///< two doubles: enough for a residual of 1e-9 at any distance from jamming
+  working,       ///< doubles: enough until forces balance to residual_floor, 1e-8 and worse near jamming
+  double_double  ///< two doubles: enough for a residual of 1e-9 at any distance from jamming
 };
 
 /// run(k) for every k < slots, parallel on oneTBB where there are enough of them. It may write to slot k only, so that

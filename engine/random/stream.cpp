@@ -30,10 +30,10 @@ double RandomStream::normal() {
   return radius * std::cos(2 * std::numbers::pi * uniform());
 }
 
-std::uint64_t hash_text(const char* begin, const char* end) {
+std::uint64_t hash_of(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char* c = begin; c != end; ++c) {
-    hash ^= static_cast<unsigned char>(*c);
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
     hash *= 0x100000001b3U;
   }
   return hash;

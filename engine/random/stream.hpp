@@ -3,8 +3,12 @@
 #include <cstdint>
 #include <initializer_list>
 #include <random>
+#include <string_view>
 
 namespace isojam {
+
+/// What a stream of random bits is used for; part of its key.
+enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2 };
 
 /// A reproducible stream of random bits, a function of its key alone: (manifest seed, sweep point, replicate,
 /// purpose). The 64-bit Mersenne twister and std::seed_seq are fixed bit by bit by the C++ standard; the
@@ -24,6 +28,6 @@ class RandomStream {
 };
 
 /// 64-bit FNV-1a of a text, to make a key out of a canonical description.
-std::uint64_t hash_text(const char* begin, const char* end);
+std::uint64_t hash_of(std::string_view text);
 
 }  // namespace isojam

@@ -42,9 +42,9 @@ class StrainStep {
   const JamStep& relax(Packing& packing) {
     MinimiseOptions options = options_.minimise;
     if (progress_.stage == JamStage::consolidation) {
-      options.residual = std::max(options.residual, options_.passing_residual);
-      options.unjammed_energy = std::max(options.unjammed_energy, options_.passing_energy);
-      options.max_evaluations = options_.passing_evaluations;
+      options.residual = std::max(options.residual, options_.consolidation_residual);
+      options.unjammed_energy = std::max(options.unjammed_energy, options_.consolidation_energy);
+      options.max_evaluations = options_.consolidation_evaluations;
       options.method = Method::lbfgs;
     }
     JamStep step;
@@ -110,7 +110,7 @@ class StrainStep {
   double expansion_step(double distance) const {
     // Nearer than asked for costs more than it tells.
     const double last = distance - 0.95 * options_.final_distance;
-    return std::min({options_.longest_step, progress_.approach * distance, last});
+    return std::min({options_.longest_step, progress_.step_fraction * distance, last});
   }
 
   /// Strains down towards φ_J from the last equilibrium; the first step only minimises.
@@ -124,7 +124,7 @@ class StrainStep {
     const JamStep& step = relax(next);
     if (must_end(step)) return;
     if (!is_state(step.summary)) return failed(first);
-    if (!first) progress_.approach = std::min(options_.approach, 1.5 * progress_.approach);
+    if (!first) progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
     progress_.packing = std::move(next);
     result_.states.push_back(progress_.packing);
     result_.state_steps.push_back(static_cast<int>(result_.path.size()) - 1);
@@ -138,8 +138,8 @@ class StrainStep {
 
   /// An expansion step led to no state.
   void failed(bool first) {
-    if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::short_of_goal);
-    progress_.approach /= 2;
+    if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
+    progress_.step_fraction /= 2;
   }
 
   void end_expansion(JamStatus status) { result_.status = result_.states.size() >= 2 ? status : JamStatus::not_jammed; }
@@ -153,14 +153,6 @@ class StrainStep {
 
 }  // namespace
 
-std::string_view to_string(JamStage stage) { return stage == JamStage::consolidation ? "consolidation" : "expansion"; }
-
-std::string_view to_string(JamStatus status) {
-  static constexpr std::array<std::string_view, 8> names{"not_called",    "jammed",     "short_of_goal", "not_jammed",
-                                                         "density_limit", "step_limit", "not_finite",    "interrupted"};
-  return names[static_cast<std::size_t>(status)];
-}
-
 std::vector<EnergyPoint> energy_points(const JamResult& result) {
   std::vector<EnergyPoint> points;
   for (const int k : result.state_steps) {
@@ -171,7 +163,7 @@ std::vector<EnergyPoint> energy_points(const JamResult& result) {
 }
 
 JamProgress begin_jam(Packing start, const JamOptions& options) {
-  return {std::move(start), JamStage::consolidation, options.approach, 0, {}};
+  return {std::move(start), JamStage::consolidation, options.step_fraction, 0, {}};
 }
 
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop) {

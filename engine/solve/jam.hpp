@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <stop_token>
 #include <string_view>
 #include <vector>
 
+#include "engine/names/enum_names.hpp"
 #include "engine/packing/packing.hpp"
 #include "engine/solve/jamming_point.hpp"
 #include "engine/solve/minimise/minimise.hpp"
@@ -27,21 +29,24 @@ struct JamOptions {
   double max_density = 0.93;
   /// An expansion step is this fraction of the distance φ − φ_J as the last state shows it, halved where a step failed
   /// and grown back where one succeeded, but no longer than longest_step, nor far beyond final_distance.
-  double approach = 0.35;
+  double step_fraction = 0.35;
   double longest_step = 0.05;
   double final_distance = 0.004;  ///< expansion ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this give φ_J
   int max_steps = 400;            ///< strain steps in all
-  /// On the way up states are only passed through: L-BFGS relaxes each until forces balance to passing_residual, E/N
-  /// falls below passing_energy, or passing_evaluations are spent. The state at the target is then minimised fully.
-  double passing_residual = 1e-3;
-  double passing_energy = 1e-14;
-  int passing_evaluations = 500;
+  /// On the way up states are only passed through: L-BFGS relaxes each until forces balance to consolidation_residual,
+  /// E/N falls below consolidation_energy, or consolidation_evaluations are spent. The state at the target is then
+  /// minimised fully.
+  double consolidation_residual = 1e-3;
+  double consolidation_energy = 1e-14;
+  int consolidation_evaluations = 500;
   MinimiseOptions minimise;
 };
 
 enum class JamStage { consolidation, expansion };
-std::string_view to_string(JamStage stage);
+template <>
+inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "consolidation"},
+                                                 EnumName{JamStage::expansion, "expansion"}};
 
 /// A minimised state on the path.
 struct JamStep {
@@ -55,15 +60,23 @@ struct JamStep {
 
 enum class JamStatus {
   not_called,
-  jammed,         ///< φ_J was bracketed by states down to final_distance
-  short_of_goal,  ///< fewer or farther states than asked for, yet enough for φ_J
-  not_jammed,     ///< fewer than two states above jamming
-  density_limit,  ///< max_density reached without the target energy
-  step_limit,     ///< max_steps spent
+  jammed,            ///< φ_J was bracketed by states down to final_distance
+  goal_not_reached,  ///< fewer or farther states than asked for, yet enough for φ_J
+  not_jammed,        ///< fewer than two states above jamming
+  density_limit,     ///< max_density reached without the target energy
+  step_limit,        ///< max_steps spent
   not_finite,
   interrupted
 };
-std::string_view to_string(JamStatus status);
+template <>
+inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called, "not_called"},
+                                                  EnumName{JamStatus::jammed, "jammed"},
+                                                  EnumName{JamStatus::goal_not_reached, "goal_not_reached"},
+                                                  EnumName{JamStatus::not_jammed, "not_jammed"},
+                                                  EnumName{JamStatus::density_limit, "density_limit"},
+                                                  EnumName{JamStatus::step_limit, "step_limit"},
+                                                  EnumName{JamStatus::not_finite, "not_finite"},
+                                                  EnumName{JamStatus::interrupted, "interrupted"}};
 
 struct JamResult {
   JamStatus status = JamStatus::not_called;
@@ -84,9 +97,10 @@ std::vector<EnergyPoint> energy_points(const JamResult& result);
 struct JamProgress {
   Packing packing;  ///< minimised, where the next strain step starts; as placed before the first
   JamStage stage = JamStage::consolidation;  ///< of the next step
-  double approach = 0;  ///< fraction of the distance that the next expansion step goes, see JamOptions::approach
-  int halvings = 0;     ///< expansion steps that failed
-  JamResult result;     ///< so far; not_called while steps remain
+  double step_fraction =
+      0;             ///< fraction of the distance that the next expansion step goes, see JamOptions::step_fraction
+  int halvings = 0;  ///< expansion steps that failed
+  JamResult result;  ///< so far; not_called while steps remain
 
   bool ended() const { return result.status != JamStatus::not_called; }
 };

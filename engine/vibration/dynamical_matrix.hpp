@@ -34,6 +34,6 @@ double rounding_bound(const BlockMatrix& matrix, double stiffness);
 /// commute). 12N evaluations; dense, 6N × 6N. Right only while h is smaller than the shallowest flat contact is deep,
 /// beyond which pairs close and open within a step.
 /// Throws std::invalid_argument unless h > 0.
-Eigen::MatrixXd difference_hessian(const Packing& packing, double h, Precision precision = Precision::extended);
+Eigen::MatrixXd difference_hessian(const Packing& packing, double h, Precision precision = Precision::double_double);
 
 }  // namespace isojam

@@ -84,12 +84,6 @@ class Follower {
 
 }  // namespace
 
-std::string_view to_string(DownhillEnd end) {
-  static constexpr std::array<std::string_view, 6> names{"not_called",   "was_minimum",    "reached_minimum",
-                                                         "lost_balance", "still_unstable", "undetermined"};
-  return names[static_cast<std::size_t>(end)];
-}
-
 DownhillResult follow_downhill(const Packing& packing, const DownhillOptions& options, std::stop_token stop) {
   return Follower(packing, options, std::move(stop)).follow();
 }

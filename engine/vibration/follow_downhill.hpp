@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <stop_token>
 #include <string_view>
 
+#include "engine/names/enum_names.hpp"
 #include "engine/packing/packing.hpp"
 #include "engine/solve/minimise/minimise.hpp"
 #include "engine/vibration/stability.hpp"
@@ -17,7 +19,11 @@ enum class DownhillEnd {
   still_unstable,   ///< negative modes left: descents spent, or no lower energy found along the mode
   undetermined      ///< no verdict on stability, or no modes
 };
-std::string_view to_string(DownhillEnd end);
+template <>
+inline constexpr std::array enum_names<DownhillEnd>{
+    EnumName{DownhillEnd::not_called, "not_called"},           EnumName{DownhillEnd::was_minimum, "was_minimum"},
+    EnumName{DownhillEnd::reached_minimum, "reached_minimum"}, EnumName{DownhillEnd::lost_balance, "lost_balance"},
+    EnumName{DownhillEnd::still_unstable, "still_unstable"},   EnumName{DownhillEnd::undetermined, "undetermined"}};
 
 struct DownhillOptions {
   int max_descents = 5;  ///< a saddle below a saddle is seldom, three of them are unheard of

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/vibration/modes.hpp"
+#include "engine/vibration/spectrum.hpp"
 
 namespace isojam {
 

@@ -29,7 +29,7 @@ struct ElasticTensor {
 };
 
 /// From the Hessian, the contacts (PackingEnergy::contacts) and the evaluation of one equilibrium. Blocks whose pair
-/// has no contact in the list, which may happen to overlaps that only extended precision sees, are strained at the
+/// has no contact in the list, which may happen to overlaps that only double-double sees, are strained at the
 /// nearest image. Particles without contacts take no part. nullopt if D is not positive definite beyond translations
 /// and those: then no response is defined.
 std::optional<ElasticTensor> elastic_tensor(const Packing& packing, const BlockMatrix& hessian,

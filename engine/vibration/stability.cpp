@@ -87,16 +87,6 @@ std::vector<NearRattler> find_near_rattlers(const BlockMatrix& matrix, const Mod
 
 }  // namespace
 
-std::string_view to_string(Verdict verdict) {
-  static constexpr std::array<std::string_view, 5> names{"not_called", "stable", "marginal", "unstable",
-                                                         "undetermined"};
-  return names[static_cast<std::size_t>(verdict)];
-}
-
-std::string_view to_string(NearRattler::Reason reason) {
-  return reason == NearRattler::Reason::few_contacts ? "few_contacts" : "vanishing_stiffness";
-}
-
 double zero_tolerance(const BlockMatrix& matrix, double stiffness, double unbalanced_torque) {
   return rounding_bound(matrix, stiffness) + unbalanced_torque;
 }

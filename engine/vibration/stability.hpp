@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string_view>
 #include <vector>
 
+#include "engine/names/enum_names.hpp"
 #include "engine/packing/energy.hpp"
-#include "engine/vibration/modes.hpp"
+#include "engine/vibration/spectrum.hpp"
 
 namespace isojam {
 
@@ -16,7 +18,11 @@ enum class Verdict {
   unstable,     ///< negative modes
   undetermined  ///< inertia could not be had: D is not finite, or singular wherever it was tried
 };
-std::string_view to_string(Verdict verdict);
+template <>
+inline constexpr std::array enum_names<Verdict>{
+    EnumName{Verdict::not_called, "not_called"}, EnumName{Verdict::stable, "stable"},
+    EnumName{Verdict::marginal, "marginal"}, EnumName{Verdict::unstable, "unstable"},
+    EnumName{Verdict::undetermined, "undetermined"}};
 
 /// A particle that its contacts may not hold.
 struct NearRattler {
@@ -29,7 +35,10 @@ struct NearRattler {
   int contacts = 0;
   double stiffness = 0;  ///< least eigenvalue of its own block of D
 };
-std::string_view to_string(NearRattler::Reason reason);
+template <>
+inline constexpr std::array enum_names<NearRattler::Reason>{
+    EnumName{NearRattler::Reason::few_contacts, "few_contacts"},
+    EnumName{NearRattler::Reason::vanishing_stiffness, "vanishing_stiffness"}};
 
 struct Stability {
   Verdict verdict = Verdict::not_called;

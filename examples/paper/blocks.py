@@ -147,7 +147,7 @@ def stability(data):
     for study, found in sorted(data.records["studies"].items()):
         for solid, counts in sorted(found["stability"].items()):
             rows.append([study, solid, *(str(counts[key]) for key in (
-                "replicates", "failed", "short_of_goal", "crystalline", "percolate", "span", "states",
+                "replicates", "failed", "goal_not_reached", "crystalline", "percolate", "span", "states",
                 "stable_and_three_zero", "negative", "near_rattlers")), f"{counts['residual']:.0e}"])
     return table(["study", "", "replicates", "failed", "short of goal", "crystalline", "percolate", "span", "states",
                   "minima with three zero modes", "with negative modes", "with near-rattlers", "worst residual"], rows)
@@ -180,7 +180,7 @@ def shifts(data):
     for name, pairs in data.records["pairs"].items():
         for solid in SOLIDS:
             some = [p for p in pairs if p["solid"] == solid
-                    and not {"crystalline", "short_of_goal"} & {*p["base"]["flags"], *p["varied"]["flags"]}]
+                    and not {"crystalline", "goal_not_reached"} & {*p["base"]["flags"], *p["varied"]["flags"]}]
             if not some:
                 continue
             moved = estimate_of([1e4 * (p["varied"]["phi_j"] - p["base"]["phi_j"]) for p in some])

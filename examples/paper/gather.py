@@ -19,7 +19,7 @@ from verdicts import estimate_of
 
 MAIN = ("paper-100", "paper-400", "paper-400-tetrahedra", "paper-cubes")
 NEAREST = ("paper-nearest",)
-LEFT_OUT = {"crystalline", "short_of_goal"}
+LEFT_OUT = {"crystalline", "goal_not_reached"}
 # Studies that do one thing otherwise, and the one that does not.
 VARIED = {"paper-rule": "paper-rule-base", "paper-window": "paper-base", "paper-energy": "paper-base",
           "paper-reading": "paper-base"}
@@ -56,7 +56,7 @@ def stability_of(records):
         here = counts.setdefault(
             record["spec"]["solid"],
             {"states": 0, "negative": 0, "near_rattlers": 0, "stable_and_three_zero": 0, "residual": 0,
-             "replicates": 0, "failed": 0, "percolate": 0, "span": 0, "crystalline": 0, "short_of_goal": 0})
+             "replicates": 0, "failed": 0, "percolate": 0, "span": 0, "crystalline": 0, "goal_not_reached": 0})
         here["replicates"] += 1
         if record["status"] != "done":
             here["failed"] += 1

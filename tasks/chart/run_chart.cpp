@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "tasks/chart/comparisons.hpp"
-#include "tasks/graph.hpp"
+#include "tasks/chart/families/comparisons.hpp"
+#include "tasks/run/graph.hpp"
 
 namespace isojam {
 namespace {

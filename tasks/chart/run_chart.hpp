@@ -3,9 +3,9 @@
 #include <functional>
 #include <stop_token>
 
-#include "tasks/chart/chart_result.hpp"
-#include "tasks/chart/config.hpp"
-#include "tasks/console.hpp"
+#include "tasks/chart/config/config.hpp"
+#include "tasks/chart/results/chart_result.hpp"
+#include "tasks/system/console.hpp"
 
 namespace isojam {
 

@@ -1,15 +1,28 @@
-#include "tasks/aggregate.hpp"
+#include <string>
+#include <vector>
 
-#include <filesystem>
-
-#include "tasks/atomic_file.hpp"
-#include "tasks/commands.hpp"
+#include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/store.hpp"
-#include "tasks/tables.hpp"
+#include "tasks/system/atomic_file.hpp"
+#include "tasks/tables/table_of.hpp"
+#include "tasks/tables/tables.hpp"
 
 namespace isojam {
+
+enum class TableFormat { text, json, csv, latex };
+template <>
+inline constexpr std::array enum_names<TableFormat>{
+    EnumName{TableFormat::text, "text"}, EnumName{TableFormat::json, "json"}, EnumName{TableFormat::csv, "csv"},
+    EnumName{TableFormat::latex, "latex"}};
+
 namespace {
+
+struct Arguments {
+  std::vector<std::string> directories;
+  std::string output;  ///< tables.json to write; empty: none
+  TableFormat format = TableFormat::text;
+  bool series = false;  ///< quantities against Δφ instead of those nearest jamming; JSON has both
+};
 
 std::string formatted(const Table& table, TableFormat format, View view) {
   switch (format) {
@@ -21,34 +34,25 @@ std::string formatted(const Table& table, TableFormat format, View view) {
   return to_text(table, view);
 }
 
-/// What the directories' manifests ask for, if they agree.
-std::optional<Replicates> common_rule(const std::vector<std::string>& directories) {
-  std::optional<Replicates> rule;
-  for (const auto& directory : directories) {
-    const auto path = std::filesystem::path(directory) / "manifest.json";
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) return std::nullopt;
-    auto next = read_manifest(path.string()).replicates;
-    if (rule && *rule != next) return std::nullopt;
-    rule = std::move(next);
-  }
-  return rule;
+/// Reads only, but for the output asked for.
+ExitCode aggregate_directories(const Arguments& arguments, Console&) {
+  const auto table = table_of(arguments.directories);
+  if (!arguments.output.empty()) write_atomically(arguments.output, pretty(to_json(table)));
+  print(formatted(table, arguments.format, arguments.series ? View::series : View::nearest));
+  return ExitCode::done;
 }
 
 }  // namespace
 
-Table table_of(const std::vector<std::string>& directories) {
-  Aggregation aggregation;
-  for (const auto& directory : directories)
-    for_each_record(directory, [&](const RecordSummary& record) { aggregation.add(record); });
-  return aggregation.table(common_rule(directories));
-}
-
-ExitCode aggregate_directories(const AggregateCommand& command) {
-  const auto table = table_of(command.directories);
-  if (!command.output.empty()) write_atomically(command.output, pretty(to_json(table)));
-  print(formatted(table, command.format, command.series ? View::series : View::nearest));
-  return ExitCode::done;
+void add_aggregate(CLI::App& app, Session& session) {
+  Arguments* arguments = nullptr;
+  auto& command = add_command(app, session, "aggregate", "Make a table of the records in results directories",
+                              arguments, aggregate_directories);
+  command.add_option("directories", arguments->directories, "Results directories")->required()->type_name("DIR");
+  command.add_option("-o,--output", arguments->output, "Write the table as JSON to this file as well")
+      ->type_name("FILE");
+  add_choice(command, "--format", arguments->format, "Format on stdout");
+  command.add_flag("--series", arguments->series, "Quantities against the distance above jamming (JSON has both)");
 }
 
 }  // namespace isojam

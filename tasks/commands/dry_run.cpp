@@ -5,9 +5,10 @@
 #include <algorithm>
 
 #include "tasks/commands/shared.hpp"
-#include "tasks/cost.hpp"
-#include "tasks/graph.hpp"
-#include "tasks/survey.hpp"
+#include "tasks/manifest/cost.hpp"
+#include "tasks/run/graph.hpp"
+#include "tasks/store/survey.hpp"
+#include "tasks/system/console.hpp"
 
 namespace isojam {
 namespace {
@@ -20,9 +21,10 @@ std::string point_name(const ReplicateSpec& spec) {
 
 }  // namespace
 
-ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory, const RunCommand& command) {
+ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory,
+                 const RunArguments& arguments) {
   const auto survey = survey_of(directory, plan);
-  const int threads = command.threads > 0 ? command.threads : default_threads();
+  const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   double least = 0, most = 0, disk = 0, largest = 0;
   std::string text = fmt::format("{}: {} sweep points, seed {}, results in {}\n", manifest.name, plan.points(),
                                  manifest.seed, directory);
@@ -45,7 +47,7 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
   if (manifest.replicates.goal)
     text += fmt::format("  until the 95 % interval of {} is narrower than ± {:g}\n", manifest.replicates.goal->quantity,
                         manifest.replicates.goal->half_width);
-  const int shards = command.shard.count;
+  const int shards = arguments.shard.count;
   const auto time = [&](double cpu) { return duration_text(cpu / threads / shards); };
   text += fmt::format("left to do: about {}{} on {} threads{}; at most {} on disk, about {} of memory per replicate\n",
                       least < most ? time(least) + " to " : "", time(most), threads,

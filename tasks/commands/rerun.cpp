@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
-#include "tasks/commands.hpp"
+#include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/graph.hpp"
-#include "tasks/input_error.hpp"
-#include "tasks/interrupt.hpp"
-#include "tasks/json_place.hpp"
-#include "tasks/sealed_json.hpp"
-#include "tasks/store.hpp"
+#include "tasks/json/place.hpp"
+#include "tasks/json/sealed.hpp"
+#include "tasks/replicate/summary.hpp"
+#include "tasks/run/graph.hpp"
+#include "tasks/store/store.hpp"
+#include "tasks/system/file.hpp"
+#include "tasks/system/interrupt.hpp"
 
 namespace isojam {
 namespace {
@@ -21,6 +22,12 @@ ReplicateSpec planned(const Plan& plan, const std::string& name, const Store& st
                               nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
 }
 
+struct Arguments {
+  std::string directory;
+  std::string replicate;  ///< name, as its files are called
+  int threads = 0;
+};
+
 void compare(const std::optional<RecordSummary>& before, const RecordSummary& now, Console& console) {
   if (!before) {
     console.info("there was no valid record of it");
@@ -31,17 +38,17 @@ void compare(const std::optional<RecordSummary>& before, const RecordSummary& no
   }
 }
 
-}  // namespace
-
-ExitCode rerun(const RerunCommand& command, Console& console) {
+/// Redoes a replicate from the start, replaces what was recorded and says whether the bits are the same. The record
+/// goes to stdout.
+ExitCode rerun(const Arguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  const auto manifest = read_manifest((std::filesystem::path(command.directory) / "manifest.json").string());
-  const Store store(command.directory, manifest);
-  const auto spec = planned(Plan(manifest), command.replicate, store);
+  const auto manifest = read_manifest((std::filesystem::path(arguments.directory) / "manifest.json").string());
+  const Store store(arguments.directory, manifest);
+  const auto spec = planned(Plan(manifest), arguments.replicate, store);
   const auto warn = [&](const std::string& message) { console.warn(message); };
   const auto before = store.recorded(spec, warn);
 
-  GraphOptions options{command.threads, 1, watcher.token(), [&](const ReplicateSpec& which, const Checkpoint& step) {
+  GraphOptions options{arguments.threads, 1, watcher.token(), [&](const ReplicateSpec& which, const Checkpoint& step) {
                          console.info(step_text(which, step.progress));
                        }};
   bool stored = false, failed = false;
@@ -61,6 +68,19 @@ ExitCode rerun(const RerunCommand& command, Console& console) {
   compare(before, *store.recorded(spec, warn), console);
   print(read_text(store.record_path(spec).string()));
   return failed ? ExitCode::some_failed : ExitCode::done;
+}
+
+}  // namespace
+
+void add_rerun(CLI::App& app, Session& session) {
+  Arguments* arguments = nullptr;
+  auto& command =
+      add_command(app, session, "rerun", "Redo one replicate, with a line for every strain step", arguments, rerun);
+  add_results_directory(command, arguments->directory);
+  command.add_option("replicate", arguments->replicate, "Its name, as its files are called")
+      ->required()
+      ->type_name("REPLICATE");
+  add_threads(command, arguments->threads);
 }
 
 }  // namespace isojam

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
-#include "tasks/campaign.hpp"
-#include "tasks/commands.hpp"
+#include "tasks/commands/command.hpp"
 #include "tasks/commands/dry_run.hpp"
+#include "tasks/commands/run.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/graph.hpp"
-#include "tasks/input_error.hpp"
-#include "tasks/interrupt.hpp"
-#include "tasks/tables.hpp"
+#include "tasks/run/campaign.hpp"
+#include "tasks/run/graph.hpp"
+#include "tasks/system/file.hpp"
+#include "tasks/system/interrupt.hpp"
+#include "tasks/tables/table_of.hpp"
+#include "tasks/tables/tables.hpp"
 
 namespace isojam {
 namespace {
@@ -102,35 +104,62 @@ ExitCode finish(const Store& store, const Shard& shard, ExitCode code, Console& 
   return failed ? ExitCode::some_failed : code;
 }
 
-}  // namespace
-
-ExitCode run(const RunCommand& command, Console& console) {
+/// Validates, plans, runs what the directory does not hold yet, aggregates. The table goes to stdout; a shard leaves it
+/// to whoever runs when all are finished.
+ExitCode run(const RunArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  const auto manifest = read_manifest(command.manifest);
+  const auto manifest = read_manifest(arguments.manifest);
   const Plan plan(manifest);
-  const auto directory = command.directory.empty() ? "results/" + manifest.name : command.directory;
-  if (command.dry_run) return dry_run(manifest, plan, directory, command);
+  const auto directory = arguments.directory.empty() ? "results/" + manifest.name : arguments.directory;
+  if (arguments.dry_run) return dry_run(manifest, plan, directory, arguments);
 
   const Store store(directory, manifest);
-  Campaign campaign(plan, manifest.replicates, command.shard, store,
+  Campaign campaign(plan, manifest.replicates, arguments.shard, store,
                     [&](const std::string& message) { console.warn(message); });
-  const int threads = command.threads > 0 ? command.threads : default_threads();
-  const double memory = command.memory_gib > 0 ? command.memory_gib * gibibyte : available_memory();
+  const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
+  const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();
   GraphOptions options{threads, replicates_in_flight(threads, campaign.largest_memory(), memory), watcher.token(), {}};
   console.info(fmt::format("{}: {}{} replicates{}, {} recorded already, results in {}", manifest.name,
                            manifest.replicates.goal ? "up to " : "", plan.size(),
-                           command.shard.whole() ? ""
-                                                 : fmt::format(" in shards, of which this is {}/{}",
-                                                               command.shard.index + 1, command.shard.count),
+                           arguments.shard.whole() ? ""
+                                                   : fmt::format(" in shards, of which this is {}/{}",
+                                                                 arguments.shard.index + 1, arguments.shard.count),
                            names_in(store.directory() / "records").size(), directory));
   try {
     const auto code = run_campaign(campaign, store, options, console);
-    return code == ExitCode::interrupted ? code : finish(store, command.shard, code, console);
+    return code == ExitCode::interrupted ? code : finish(store, arguments.shard, code, console);
   } catch (const FileError& error) {
     console.end();
     console.error(fmt::format("{}; what was recorded is kept, and the same command continues", error.what()));
     return ExitCode::some_failed;
   }
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Session& session) {
+  RunArguments* arguments = nullptr;
+  auto& command = add_command(app, session, "run",
+                              "Run what a manifest plans and the results directory does not hold yet", arguments, run);
+  command.add_option("manifest", arguments->manifest, "Manifest of the sweep")->required()->type_name("MANIFEST");
+  command.add_option("-o,--output", arguments->directory, "Results directory (default: results/<name>)")
+      ->type_name("DIR");
+  add_threads(command, arguments->threads);
+  const auto* shard = command
+                          .add_option_function<std::string>(
+                              "--shard", [=](const std::string& text) { arguments->shard = *parse_shard(text); },
+                              "Run part I of N of the sweep; within a Slurm array, by default, the part of the task")
+                          ->check([](const std::string& text) {
+                            return parse_shard(text) ? "" : "not I/N with whole numbers 1 <= I <= N <= 100000: " + text;
+                          })
+                          ->type_name("I/N");
+  command.parse_complete_callback([=] {
+    if (shard->count() == 0) arguments->shard = shard_of_environment();
+  });
+  command.add_option("--memory", arguments->memory_gib, "Memory for replicates in flight (default: what is available)")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("GIB");
+  command.add_flag("--dry-run", arguments->dry_run, "Print the plan and what it will cost, and do nothing");
 }
 
 }  // namespace isojam

@@ -2,18 +2,13 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "tasks/aggregate.hpp"
-#include "tasks/replicate.hpp"
+#include "tasks/replicate/replicate.hpp"
 
 namespace isojam {
 
-/// To stdout.
+/// Writes to stdout.
 void print(std::string_view text);
-
-/// The table of all records in results directories.
-Table table_of(const std::vector<std::string>& directories);
 
 /// One line about the last step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);

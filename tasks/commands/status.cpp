@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "tasks/commands.hpp"
+#include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/cost.hpp"
-#include "tasks/survey.hpp"
+#include "tasks/manifest/cost.hpp"
+#include "tasks/store/survey.hpp"
 
 namespace isojam {
 namespace {
 
 /// A step may take minutes; what has not moved for longer is probably not being worked on.
 constexpr double patience_seconds = 600;
+
+struct Arguments {
+  std::string directory;
+};
 
 struct Totals {
   int recorded = 0, failed = 0, flagged = 0;
@@ -47,12 +51,11 @@ std::string time_left(const Survey& survey, const Totals& totals, bool has_goal)
                      duration_text(totals.cpu_left / static_cast<double>(moving)), moving);
 }
 
-}  // namespace
-
-ExitCode status(const StatusCommand& command) {
-  const auto manifest = read_manifest((std::filesystem::path(command.directory) / "manifest.json").string());
+/// What a results directory holds and what is under way in it, whoever works on it. Reads only.
+ExitCode status(const Arguments& arguments, Console&) {
+  const auto manifest = read_manifest((std::filesystem::path(arguments.directory) / "manifest.json").string());
   const Plan plan(manifest);
-  const auto survey = survey_of(command.directory, plan);
+  const auto survey = survey_of(arguments.directory, plan);
   const auto totals = totals_of(survey, plan);
   auto text = fmt::format("{}: {} of {}{} replicates recorded, {} failed, {} flagged, {} under way\n", manifest.name,
                           totals.recorded, manifest.replicates.goal ? "up to " : "", plan.size(), totals.failed,
@@ -66,6 +69,15 @@ ExitCode status(const StatusCommand& command) {
   for (const auto& line : survey.damaged) text += fmt::format("  damaged: {}\n", line);
   print(text + time_left(survey, totals, manifest.replicates.goal.has_value()));
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_status(CLI::App& app, Session& session) {
+  Arguments* arguments = nullptr;
+  auto& command = add_command(app, session, "status", "Say what a results directory holds and what is under way in it",
+                              arguments, status);
+  add_results_directory(command, arguments->directory);
 }
 
 }  // namespace isojam

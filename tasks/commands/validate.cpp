@@ -1,19 +1,33 @@
 #include <fmt/format.h>
 
-#include "tasks/commands.hpp"
+#include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/plan.hpp"
+#include "tasks/manifest/plan.hpp"
 
 namespace isojam {
+namespace {
 
-ExitCode validate(const ValidateCommand& command) {
-  const auto manifest = read_manifest(command.manifest);
+struct Arguments {
+  std::string manifest;
+};
+
+ExitCode validate(const Arguments& arguments, Console&) {
+  const auto manifest = read_manifest(arguments.manifest);
   const Plan plan(manifest);
   const auto each = manifest.replicates.goal ? fmt::format("{} to {}", manifest.replicates.min, manifest.replicates.max)
                                              : std::to_string(manifest.replicates.max);
   print(fmt::format("OK: {}: {}{} replicates ({} sweep points × {})\n", manifest.name,
                     manifest.replicates.goal ? "up to " : "", plan.size(), plan.points(), each));
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, Session& session) {
+  Arguments* arguments = nullptr;
+  auto& command = add_command(app, session, "validate", "Check a manifest and say how many replicates it plans",
+                              arguments, validate);
+  command.add_option("manifest", arguments->manifest, "Manifest of the sweep")->required()->type_name("MANIFEST");
 }
 
 }  // namespace isojam

@@ -2,8 +2,8 @@
 
 #include "tasks/export/formats.hpp"
 #include "tasks/export/gsd_layer.hpp"
-#include "tasks/json_text.hpp"
-#include "tasks/version.hpp"
+#include "tasks/json/json.hpp"
+#include "tasks/system/version.hpp"
 
 namespace isojam {
 namespace {

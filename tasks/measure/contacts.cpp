@@ -1,19 +1,30 @@
 #include <algorithm>
 
+#include "engine/analysis/alignment/random_alignment.hpp"
 #include "engine/analysis/order.hpp"
-#include "engine/analysis/random_alignment.hpp"
 #include "engine/packing/energy.hpp"
 #include "tasks/measure/parts.hpp"
 
 namespace isojam {
 namespace {
 
-bool has_cutoff(const CdfFit& fit) { return fit.verdict == FitVerdict::fitted || fit.verdict == FitVerdict::bimodal; }
+constexpr std::string_view per_particle = "per particle";
+constexpr Quantity Z{"Z", "/Z", main_group, per_particle, "Z"};
+constexpr Quantity Z_ff{"Z_ff", "/Z_ff", main_group, per_particle, "Z_{ff}"};
+constexpr Quantity Z_ef{"Z_ef", "/Z_ef", main_group, per_particle, "Z_{ef}"};
+constexpr Quantity Z_l{"Z_l", "/Z_l", main_group, per_particle, "Z_l"};
+constexpr Quantity C{"C", "/C", main_group, per_particle, "C"};
+constexpr Quantity Z_ff_gap{"Z_ff_gap", "/Z_ff_gap", contact_group, per_particle, "Z_{ff}^{gap}"};
+constexpr Quantity Z_ff_fixed{"Z_ff_fixed", "/fixed_cutoffs/Z_ff", contact_group, per_particle, "Z_{ff}^{fixed}"};
+constexpr Quantity Z_ef_fixed{"Z_ef_fixed", "/fixed_cutoffs/Z_ef", contact_group, per_particle, "Z_{ef}^{fixed}"};
+constexpr Quantity Z_l_fixed{"Z_l_fixed", "/fixed_cutoffs/Z_l", contact_group, per_particle, "Z_l^{fixed}"};
+constexpr Quantity C_fixed{"C_fixed", "/fixed_cutoffs/C", contact_group, per_particle, "C^{fixed}"};
+constexpr std::array quantities{Z, Z_ff, Z_ef, Z_l, C, Z_ff_gap, Z_ff_fixed, Z_ef_fixed, Z_l_fixed, C_fixed};
 
 Json fit_record(const CdfFit& fit) {
   Json json;
   json["verdict"] = to_string(fit.verdict);
-  if (!has_cutoff(fit)) return json;
+  if (!fit.has_cutoff()) return json;
   put_number(json, "cutoff", fit.cutoff);
   put_number(json, "alpha", fit.alpha);
   put_number(json, "a_0", fit.a[0]);
@@ -29,46 +40,38 @@ Json gap_record(const GapSplit& gap) {
   return json;
 }
 
-Json fixed_record(const ContactNumbers& numbers) {
-  Json json;
-  put_number(json, "Z_ff", numbers.Z_ff);
-  put_number(json, "Z_ef", numbers.Z_ef);
-  put_number(json, "Z_l", numbers.Z_l);
-  put_number(json, "C", numbers.C);
-  return json;
+void put_fixed(Json& state, const ContactNumbers& numbers) {
+  put(state, Z_ff_fixed, numbers.Z_ff);
+  put(state, Z_ef_fixed, numbers.Z_ef);
+  put(state, Z_l_fixed, numbers.Z_l);
+  put(state, C_fixed, numbers.C);
 }
 
 }  // namespace
 
-std::optional<std::string_view> undecided(const ContactAnalysis& analysis) {
-  if (!has_cutoff(analysis.face_face)) return "no face-face cut-off";
-  if (!has_cutoff(analysis.edge_face)) return "no edge-face cut-off";
-  return std::nullopt;
-}
-
 Json contact_record(const ContactAnalysis& analysis) {
-  Json json;
+  Json state;
   const auto& n = analysis.numbers;
-  put_number(json, "Z", n.Z);
-  put_number(json, "Q6", analysis.Q6);
+  put(state, Z, n.Z);
+  put_number(state, "Q6", analysis.Q6);
   // A cut-off that a fit did not give decides nothing: numbers that hang on it are absent rather than zero.
   const auto why = undecided(analysis);
-  const auto put = [&](const std::string& key, double value, bool known) {
-    put_optional(json, key, known ? std::optional(value) : std::nullopt, why.value_or(""));
+  const auto put_known = [&](const Quantity& quantity, double value, bool known) {
+    put(state, quantity, known ? std::optional(value) : std::nullopt, why.value_or(""));
   };
-  put("Z_ff", n.Z_ff, has_cutoff(analysis.face_face));
-  put("Z_ef", n.Z_ef, !why);
-  put("Z_l", n.Z_l, !why);
-  put("C", n.C, !why);
-  json["face_face_fit"] = fit_record(analysis.face_face);
-  json["edge_face_fit"] = fit_record(analysis.edge_face);
-  json["face_face_gap"] = gap_record(analysis.face_face_gap);
-  json["edge_face_gap"] = gap_record(analysis.edge_face_gap);
-  put_optional(json, "Z_ff_gap", analysis.Z_ff_gap, to_string(analysis.face_face_gap.verdict));
-  put_optional(json, "Z_ff_disagreement", analysis.disagreement(), "one of the methods gives no cut-off");
-  json["fixed_cutoffs"] = fixed_record(analysis.fixed_cutoffs);
-  json["pooled_over"] = analysis.pooled_over;
-  return json;
+  put_known(Z_ff, n.Z_ff, analysis.face_face.has_cutoff());
+  put_known(Z_ef, n.Z_ef, !why);
+  put_known(Z_l, n.Z_l, !why);
+  put_known(C, n.C, !why);
+  state["face_face_fit"] = fit_record(analysis.face_face);
+  state["edge_face_fit"] = fit_record(analysis.edge_face);
+  state["face_face_gap"] = gap_record(analysis.face_face_gap);
+  state["edge_face_gap"] = gap_record(analysis.edge_face_gap);
+  put(state, Z_ff_gap, analysis.Z_ff_gap, to_string(analysis.face_face_gap.verdict));
+  put_optional(state, "Z_ff_disagreement", analysis.disagreement(), "one of the methods gives no cut-off");
+  put_fixed(state, analysis.fixed_cutoffs);
+  state["pooled_over"] = analysis.pooled_over;
+  return state;
 }
 
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
@@ -114,9 +117,7 @@ Json angle_record(const ConvexSolid& solid, const std::vector<Alignment>& alignm
   return json;
 }
 
-}  // namespace
-
-Measurement measure_contacts(const JamResult& jam) {
+Measurement measure_contacts(const JamResult& jam, const MeasureOptions&) {
   Measurement measurement;
   PackingEnergy energy;
   const auto nearest = nearest_state(jam);
@@ -129,5 +130,9 @@ Measurement measure_contacts(const JamResult& jam) {
   }
   return measurement;
 }
+
+}  // namespace
+
+const MeasureDefinition measures::contacts{.quantities = quantities, .measure = measure_contacts, .by_default = true};
 
 }  // namespace isojam

@@ -1,23 +1,17 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/solve/jam.hpp"
-#include "tasks/json_text.hpp"
+#include "tasks/json/json.hpp"
+#include "tasks/measure/list.hpp"
+#include "tasks/measure/quantity.hpp"
 
 namespace isojam {
-
-/// What is measured on the states of an expansion, beyond φ_J. Each is a node of the task graph and depends on no
-/// other.
-enum class Measure { contacts, order, clusters, modes, moduli, rigidity };
-inline constexpr std::array all_measures{Measure::contacts, Measure::order,  Measure::clusters,
-                                         Measure::modes,    Measure::moduli, Measure::rigidity};
-std::string_view to_string(Measure measure);
 
 struct MeasureOptions {
   int modes = 50;  ///< vibrations wanted at either end of the spectrum; the paper averages over 50
@@ -30,11 +24,23 @@ struct Measurement {
   std::vector<std::string> flags;   ///< reservations about the replicate
 };
 
-/// Of a result with states. Pure; may be called from several threads at once.
+/// A measure: the numbers that tables take from it, and how it is made.
+struct MeasureDefinition {
+  std::span<const Quantity> quantities;
+  Measurement (*measure)(const JamResult& jam, const MeasureOptions& options);
+  bool by_default = false;    ///< made where a manifest names none
+  bool needs_minima = false;  ///< means something at minima only: saddles are followed downhill first
+};
+
+inline const MeasureDefinition& definition_of(Measure measure) {
+  return *measure_definitions[static_cast<std::size_t>(measure)];
+}
+
+/// The measurement of a result with states. Pure; may be called from several threads at once.
 Measurement measure(Measure what, const JamResult& jam, const MeasureOptions& options = {});
 
-/// Index in jam.states of the state nearest jamming: the one of lowest density among those of positive energy; nullopt
-/// if there is none.
+/// The index in jam.states of the state nearest jamming: the one of lowest density among those of positive energy;
+/// nullopt if there is none.
 std::optional<std::size_t> nearest_state(const JamResult& jam);
 
 }  // namespace isojam

@@ -9,6 +9,23 @@
 namespace isojam {
 namespace {
 
+constexpr std::string_view frequency = "V_p^(-1/3) sqrt(Y/ρ)";
+constexpr Quantity omega_l{"omega_l", "/modes/omega_l", mode_group, frequency, "\\langle\\omega_l\\rangle"};
+constexpr Quantity omega_h{"omega_h", "/modes/omega_h", mode_group, frequency, "\\langle\\omega_h\\rangle"};
+constexpr Quantity zero_modes{"zero_modes", "/modes/zero", mode_group, "1", "n_0"};
+constexpr Quantity negative_modes{"negative_modes", "/modes/negative", mode_group, "1", "n_-"};
+constexpr Quantity p_l{"p_l", "/modes/lowest/participation", mode_group, "1", "p_l"};
+constexpr Quantity p_h{"p_h", "/modes/highest/participation", mode_group, "1", "p_h"};
+constexpr Quantity face_face_amplitude{"face_face_amplitude", "/modes/face_face_amplitude", mode_group, "1", "a_{ff}"};
+constexpr Quantity face_face_particles{"face_face_particles", "/modes/face_face_particles", mode_group, "1", "n_{ff}"};
+constexpr Quantity x_omega_l{"x_omega_l",     "/mode_scaling/omega_l/exponent", exponent_group, "1",
+                             "x_{\\omega_l}", Quantity::Of::replicate};
+constexpr Quantity x_omega_h{"x_omega_h",     "/mode_scaling/omega_h/exponent", exponent_group, "1",
+                             "x_{\\omega_h}", Quantity::Of::replicate};
+constexpr std::array quantities{omega_l,   omega_h,  zero_modes,          negative_modes,
+                                p_l,       p_h,      face_face_amplitude, face_face_particles,
+                                x_omega_l, x_omega_h};
+
 /// Packings up to this size have all their modes computed for the density of states.
 constexpr int all_modes_up_to = 150;
 
@@ -36,17 +53,16 @@ Json frequencies(const Eigen::VectorXd& eigenvalues, double tolerance) {
   return list;
 }
 
-Json end_record(const ModeSet& modes, double tolerance) {
-  Json json;
+void put_end(Json& state, const std::string& end, const ModeSet& modes, double tolerance,
+             const Quantity& participation) {
+  Json& json = state["modes"][end];
   json["ended"] = to_string(modes.ended);
   json["attempts"] = modes.attempts;
   put_number(json, "residual", modes.residual);
   put_number(json, "relative_error", modes.relative_error);
   json["omega"] = frequencies(modes.eigenvalues, tolerance);
   const bool any = modes.size() > 0;
-  put_optional(json, "participation", any ? std::optional(participation_ratios(modes).mean()) : std::nullopt,
-               "no modes");
-  return json;
+  put(state, participation, any ? std::optional(participation_ratios(modes).mean()) : std::nullopt, "no modes");
 }
 
 Json rattler_records(const Stability& stability) {
@@ -63,7 +79,7 @@ Json rattler_records(const Stability& stability) {
 }
 
 /// Whether the highest modes sit on particles with a face-face contact.
-void put_share(Json& json, const ModeSet& highest, const ClassifiedContacts& classified, int particles) {
+void put_share(Json& state, const ModeSet& highest, const ClassifiedContacts& classified, int particles) {
   std::optional<AmplitudeShare> share;
   if (!undecided(classified.analysis)) {
     std::vector<char> marked(static_cast<std::size_t>(particles), 0);
@@ -72,25 +88,26 @@ void put_share(Json& json, const ModeSet& highest, const ClassifiedContacts& cla
     share = amplitude_share(highest, marked);
   }
   const auto why = undecided(classified.analysis).value_or("no modes");
-  put_optional(json, "face_face_amplitude", share ? std::optional(share->amplitude) : std::nullopt, why);
-  put_optional(json, "face_face_particles", share ? std::optional(share->particles) : std::nullopt, why);
+  put(state, face_face_amplitude, share ? std::optional(share->amplitude) : std::nullopt, why);
+  put(state, face_face_particles, share ? std::optional(share->particles) : std::nullopt, why);
 }
 
 Json mode_record(const Vibrations& vibrations) {
   const auto& stability = vibrations.stability;
-  Json json;
+  Json state;
+  Json& json = state["modes"];
   json["verdict"] = to_string(stability.verdict);
-  json["zero"] = stability.zero;
-  json["negative"] = stability.negative;
+  put(state, zero_modes, stability.zero);
+  put(state, negative_modes, stability.negative);
   json["positive"] = stability.positive;
   put_number(json, "zero_tolerance", stability.tolerance);
   json["near_rattlers"] = rattler_records(stability);
   put_number(json, "lambda_max", vibrations.ends.stiffness);
-  put_optional(json, "omega_l", vibrations.omega_l, "no modes, or one without a frequency");
-  put_optional(json, "omega_h", vibrations.omega_h, "no modes, or one without a frequency");
-  json["lowest"] = end_record(vibrations.ends.lowest, stability.tolerance);
-  json["highest"] = end_record(vibrations.ends.highest, stability.tolerance);
-  return json;
+  put(state, omega_l, vibrations.omega_l, "no modes, or one without a frequency");
+  put(state, omega_h, vibrations.omega_h, "no modes, or one without a frequency");
+  put_end(state, "lowest", vibrations.ends.lowest, stability.tolerance, p_l);
+  put_end(state, "highest", vibrations.ends.highest, stability.tolerance, p_h);
+  return state;
 }
 
 void put_density(Json& modes, const BlockMatrix& hessian, double tolerance) {
@@ -103,31 +120,34 @@ void put_density(Json& modes, const BlockMatrix& hessian, double tolerance) {
   json["cumulative"] = list(density->cumulative);
 }
 
-}  // namespace
-
-Measurement measure_modes(const JamResult& jam, int modes) {
+Measurement measure_modes(const JamResult& jam, const MeasureOptions& options) {
   Measurement measurement;
   PackingEnergy energy;
-  std::vector<std::optional<double>> omega_l, omega_h;
+  std::vector<std::optional<double>> lowest, highest;
   const auto nearest = nearest_state(jam);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
     const Packing& packing = jam.states[k];
     const Precision precision = jam.path[jam.state_steps[k]].summary.precision;
     const auto here = energy.evaluate(packing, precision);
     const auto hessian = energy.hessian(packing, precision);
-    const auto vibrations = vibrations_of(packing, hessian, here, modes);
-    auto json = mode_record(vibrations);
-    put_share(json, vibrations.ends.highest, classified_contacts(packing, energy), packing.size());
-    if (k == nearest && packing.size() <= all_modes_up_to) put_density(json, hessian, vibrations.stability.tolerance);
-    omega_l.push_back(vibrations.omega_l);
-    omega_h.push_back(vibrations.omega_h);
+    const auto vibrations = vibrations_of(packing, hessian, here, options.modes);
+    auto state = mode_record(vibrations);
+    put_share(state, vibrations.ends.highest, classified_contacts(packing, energy), packing.size());
+    if (k == nearest && packing.size() <= all_modes_up_to)
+      put_density(state["modes"], hessian, vibrations.stability.tolerance);
+    lowest.push_back(vibrations.omega_l);
+    highest.push_back(vibrations.omega_h);
     if (vibrations.stability.verdict != Verdict::stable && measurement.flags.empty())
       measurement.flags.emplace_back("not_stable");
-    measurement.states.push_back({{"modes", std::move(json)}});
+    measurement.states.push_back(std::move(state));
   }
-  measurement.replicate["mode_scaling"] = {{"omega_l", scaling_record(jam, omega_l)},
-                                           {"omega_h", scaling_record(jam, omega_h)}};
+  put_scaling(measurement.replicate, x_omega_l, jam, lowest);
+  put_scaling(measurement.replicate, x_omega_h, jam, highest);
   return measurement;
 }
+
+}  // namespace
+
+const MeasureDefinition measures::modes{.quantities = quantities, .measure = measure_modes, .needs_minima = true};
 
 }  // namespace isojam

@@ -5,19 +5,28 @@
 namespace isojam {
 namespace {
 
+constexpr std::string_view group = "moduli";
+constexpr Quantity K{"K", "/moduli/K", group, "Y", "K"}, G{"G", "/moduli/G", group, "Y", "G"};
+constexpr Quantity G_min{"G_min", "/moduli/G_min", group, "Y", "G_{min}"};
+constexpr Quantity x_E{"x_E", "/moduli_scaling/E/exponent", exponent_group, "1", "x_E", Quantity::Of::replicate};
+constexpr Quantity x_p{"x_p", "/moduli_scaling/p/exponent", exponent_group, "1", "x_p", Quantity::Of::replicate};
+constexpr Quantity x_K{"x_K", "/moduli_scaling/K/exponent", exponent_group, "1", "x_K", Quantity::Of::replicate};
+constexpr std::array quantities{K, G, G_min, x_E, x_p, x_K};
+
 constexpr std::string_view no_response = "the Hessian is not positive definite: no response is defined";
 
 Json moduli_record(const std::optional<ElasticTensor>& tensor) {
-  Json json;
-  const auto put = [&](const std::string& key, const auto& value_of) {
-    put_optional(json, key, tensor ? std::optional<double>(value_of(*tensor)) : std::nullopt, no_response);
+  Json state;
+  const auto value = [&](const auto& value_of) {
+    return tensor ? std::optional<double>(value_of(*tensor)) : std::nullopt;
   };
-  put("K", [](const ElasticTensor& t) { return t.bulk_modulus(); });
-  put("K_affine", [](const ElasticTensor& t) { return t.affine_bulk_modulus(); });
-  put("G", [](const ElasticTensor& t) { return t.mean_shear_modulus(); });
-  put("G_min", [](const ElasticTensor& t) { return t.shear_moduli().front(); });
-  put("G_max", [](const ElasticTensor& t) { return t.shear_moduli().back(); });
-  return json;
+  Json& json = state["moduli"];
+  put(state, K, value([](const ElasticTensor& t) { return t.bulk_modulus(); }), no_response);
+  put_optional(json, "K_affine", value([](const ElasticTensor& t) { return t.affine_bulk_modulus(); }), no_response);
+  put(state, G, value([](const ElasticTensor& t) { return t.mean_shear_modulus(); }), no_response);
+  put(state, G_min, value([](const ElasticTensor& t) { return t.shear_moduli().front(); }), no_response);
+  put_optional(json, "G_max", value([](const ElasticTensor& t) { return t.shear_moduli().back(); }), no_response);
+  return state;
 }
 
 /// K as the slope of the pressure, at the state nearest jamming: two more minimisations.
@@ -27,9 +36,7 @@ void put_slope(Json& json, const Packing& packing) {
                "a neighbouring density has no equilibrium");
 }
 
-}  // namespace
-
-Measurement measure_moduli(const JamResult& jam) {
+Measurement measure_moduli(const JamResult& jam, const MeasureOptions&) {
   Measurement measurement;
   PackingEnergy energy;
   std::vector<std::optional<double>> energies, pressures, bulk;
@@ -40,16 +47,21 @@ Measurement measure_moduli(const JamResult& jam) {
     const auto here = energy.evaluate(packing, step.summary.precision);
     const auto hessian = energy.hessian(packing, step.summary.precision);
     const auto tensor = elastic_tensor(packing, hessian, energy.contacts(packing), here);
-    auto json = moduli_record(tensor);
-    if (k == nearest) put_slope(json, packing);
+    auto state = moduli_record(tensor);
+    if (k == nearest) put_slope(state["moduli"], packing);
     energies.emplace_back(step.energy_per_particle);
     pressures.emplace_back(step.pressure);
     bulk.push_back(tensor ? std::optional(tensor->bulk_modulus()) : std::nullopt);
-    measurement.states.push_back({{"moduli", std::move(json)}});
+    measurement.states.push_back(std::move(state));
   }
-  measurement.replicate["moduli_scaling"] = {
-      {"E", scaling_record(jam, energies)}, {"p", scaling_record(jam, pressures)}, {"K", scaling_record(jam, bulk)}};
+  put_scaling(measurement.replicate, x_E, jam, energies);
+  put_scaling(measurement.replicate, x_p, jam, pressures);
+  put_scaling(measurement.replicate, x_K, jam, bulk);
   return measurement;
 }
+
+}  // namespace
+
+const MeasureDefinition measures::moduli{.quantities = quantities, .measure = measure_moduli, .needs_minima = true};
 
 }  // namespace isojam

@@ -5,16 +5,23 @@
 namespace isojam {
 namespace {
 
+constexpr std::string_view group = "order";
+constexpr Quantity Q4{"Q4", "/order/Q4", group, "1", "Q_4"}, Q6{"Q6", "/order/Q6", group, "1", "Q_6"};
+constexpr Quantity local_Q4{"local_Q4", "/order/local_Q4", group, "1", "q_4"};
+constexpr Quantity local_Q6{"local_Q6", "/order/local_Q6", group, "1", "q_6"};
+constexpr Quantity S{"S_orientation", "/order/S", group, "1", "S_o"};
+constexpr std::array quantities{Q4, Q6, local_Q4, local_Q6, S};
+
 Json order_record(const Order& order) {
-  Json json;
-  put_number(json, "Q4", order.Q4);
-  put_number(json, "Q6", order.Q6);
-  put_optional(json, "local_Q4", order.local_Q4, "no contacts");
-  put_optional(json, "local_Q6", order.local_Q6, "no contacts");
-  json["rank"] = order.rank;
-  put_number(json, "S", order.S);
-  put_number(json, "random_S", order.random_S);
-  return json;
+  Json state;
+  put(state, Q4, order.Q4);
+  put(state, Q6, order.Q6);
+  put(state, local_Q4, order.local_Q4, "no contacts");
+  put(state, local_Q6, order.local_Q6, "no contacts");
+  state["order"]["rank"] = order.rank;
+  put(state, S, order.S);
+  put_number(state["order"], "random_S", order.random_S);
+  return state;
 }
 
 Json correlation_record(const Packing& packing, unsigned rank) {
@@ -30,19 +37,21 @@ Json correlation_record(const Packing& packing, unsigned rank) {
   return json;
 }
 
-}  // namespace
-
-Measurement measure_order(const JamResult& jam) {
+Measurement measure_order(const JamResult& jam, const MeasureOptions&) {
   Measurement measurement;
   PackingEnergy energy;
   const auto nearest = nearest_state(jam);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
-    const auto order = measure_order(jam.states[k], energy.contacts(jam.states[k]));
-    auto json = order_record(order);
-    if (k == nearest) json["orientation_correlation"] = correlation_record(jam.states[k], order.rank);
-    measurement.states.push_back({{"order", std::move(json)}});
+    const auto order = order_of(jam.states[k], energy.contacts(jam.states[k]));
+    auto state = order_record(order);
+    if (k == nearest) state["order"]["orientation_correlation"] = correlation_record(jam.states[k], order.rank);
+    measurement.states.push_back(std::move(state));
   }
   return measurement;
 }
+
+}  // namespace
+
+const MeasureDefinition measures::order{.quantities = quantities, .measure = measure_order, .by_default = true};
 
 }  // namespace isojam

@@ -5,41 +5,61 @@
 namespace isojam {
 namespace {
 
-Json rigidity_record(const RigidityMatrix& matrix) {
+constexpr std::string_view group = "rigidity";
+
+/// What one way of counting constraints gives.
+struct Count {
+  std::string_view rows;  ///< key in the record
+  Quantity self_stress, floppy;
+};
+constexpr Count normals{"normals",
+                        {"self_stress_normals", "/rigidity/normals/self_stress", group, "1", "s_n"},
+                        {"floppy_normals", "/rigidity/normals/floppy", group, "1", "f_n"}};
+constexpr Count by_class{"classes",
+                         {"self_stress_classes", "/rigidity/classes/self_stress", group, "1", "s_c"},
+                         {"floppy_classes", "/rigidity/classes/floppy", group, "1", "f_c"}};
+constexpr std::array quantities{normals.self_stress, by_class.self_stress, normals.floppy, by_class.floppy};
+
+void put_rigidity(Json& state, const Count& count, const RigidityMatrix& matrix) {
   const auto rigidity = analyse_rigidity(matrix);
-  Json json;
+  Json& json = state["rigidity"][std::string(count.rows)];
   json["constraints"] = rigidity.constraints;
   json["rank"] = rigidity.rank;
-  json["self_stress"] = rigidity.self_stress;
-  json["floppy"] = rigidity.floppy;
+  put(state, count.self_stress, rigidity.self_stress);
+  put(state, count.floppy, rigidity.floppy);
   put_number(json, "tolerance", rigidity.tolerance);
   put_number(json, "least_kept", rigidity.least_kept);
   put_number(json, "largest_dropped", rigidity.largest_dropped);
-  return json;
 }
 
-Json undecided_record(std::string_view why) {
-  Json json;
-  for (const auto* key : {"constraints", "rank", "self_stress", "floppy"}) put_absent(json, key, why);
-  return json;
+void put_undecided(Json& state, const Count& count, std::string_view why) {
+  Json& json = state["rigidity"][std::string(count.rows)];
+  put_absent(json, "constraints", why);
+  put_absent(json, "rank", why);
+  put(state, count.self_stress, std::nullopt, why);
+  put(state, count.floppy, std::nullopt, why);
 }
 
-}  // namespace
-
-Measurement measure_rigidity(const JamResult& jam) {
+Measurement measure_rigidity(const JamResult& jam, const MeasureOptions&) {
   Measurement measurement;
   PackingEnergy energy;
   for (const Packing& packing : jam.states) {
     const auto classified = classified_contacts(packing, energy);
-    Json json;
-    json["normals"] = rigidity_record(normal_constraints(packing, classified.contacts));
-    const auto why = undecided(classified.analysis);
-    json["classes"] = why ? undecided_record(*why)
-                          : rigidity_record(class_constraints(packing, classified.contacts, classified.alignments,
-                                                              classified.analysis.classes));
-    measurement.states.push_back({{"rigidity", std::move(json)}});
+    Json state;
+    put_rigidity(state, normals, normal_constraints(packing, classified.contacts));
+    if (const auto why = undecided(classified.analysis)) {
+      put_undecided(state, by_class, *why);
+    } else {
+      put_rigidity(state, by_class,
+                   class_constraints(packing, classified.contacts, classified.alignments, classified.analysis.classes));
+    }
+    measurement.states.push_back(std::move(state));
   }
   return measurement;
 }
+
+}  // namespace
+
+const MeasureDefinition measures::rigidity{.quantities = quantities, .measure = measure_rigidity};
 
 }  // namespace isojam

@@ -13,15 +13,14 @@ ClassifiedContacts classified_contacts(const Packing& packing, PackingEnergy& en
   return classified;
 }
 
-void put_optional(Json& json, const std::string& key, const std::optional<double>& value, std::string_view reason) {
-  if (value) {
-    put_number(json, key, *value);
-  } else {
-    put_absent(json, key, reason);
-  }
+std::optional<std::string_view> undecided(const ContactAnalysis& analysis) {
+  if (!analysis.face_face.has_cutoff()) return "no face-face cut-off";
+  if (!analysis.edge_face.has_cutoff()) return "no edge-face cut-off";
+  return std::nullopt;
 }
 
-Json scaling_record(const JamResult& jam, const std::vector<std::optional<double>>& y) {
+void put_scaling(Json& replicate, const Quantity& exponent, const JamResult& jam,
+                 const std::vector<std::optional<double>>& y) {
   std::vector<double> distances, values;
   for (std::size_t k = 0; k < jam.states.size() && jam.phi_j; ++k) {
     const double distance = jam.states[k].density() - jam.phi_j->density;
@@ -31,12 +30,11 @@ Json scaling_record(const JamResult& jam, const std::vector<std::optional<double
   }
   const auto law = fit_power_law(distances, values);
   const bool has_interval = law && law->points > 2;
-  Json json;
-  put_optional(json, "exponent", law ? std::optional(law->exponent) : std::nullopt, "fewer than two states");
+  put(replicate, exponent, law ? std::optional(law->exponent) : std::nullopt, "fewer than two states");
+  Json& json = place_of(replicate, exponent).object;
   put_optional(json, "ci95_half_width", has_interval ? std::optional(law->ci95_half_width) : std::nullopt,
                "fewer than three states");
   json["points"] = law ? law->points : 0;
-  return json;
 }
 
 }  // namespace isojam

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "tasks/json_text.hpp"
+#include "tasks/json/json.hpp"
 #include "tasks/page/parts.hpp"
 
 namespace isojam {

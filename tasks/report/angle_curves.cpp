@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/analysis/critical_angles.hpp"
-#include "engine/analysis/empirical_cdf.hpp"
-#include "engine/analysis/random_alignment.hpp"
+#include "engine/analysis/alignment/critical_angles.hpp"
+#include "engine/analysis/alignment/empirical_cdf.hpp"
+#include "engine/analysis/alignment/random_alignment.hpp"
 
 namespace isojam {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "engine/geometry/convex_solid.hpp"
-#include "tasks/json_text.hpp"
+#include "tasks/json/json.hpp"
 
 namespace isojam {
 

@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "engine/analysis/power_law.hpp"
 #include "engine/solve/straight_line.hpp"
+#include "tasks/manifest/plan.hpp"
 #include "tasks/measure/parts.hpp"
-#include "tasks/plan.hpp"
+#include "tasks/measure/quantity.hpp"
+#include "tasks/replicate/summary.hpp"
 #include "tasks/report/angle_curves.hpp"
-#include "tasks/tables.hpp"
+#include "tasks/tables/tables.hpp"
 
 namespace isojam {
 namespace {
@@ -52,9 +55,9 @@ void add_distinct(Json& list, const Json& value) {
   if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
-std::string label_of(const Json& row) {
-  auto label = fmt::format("{}, N = {}", row.at("solid").get<std::string>(), row.at("particles").get<int>());
-  for (const auto& item : row.at("parameters").items()) {
+std::string label_of(const Row& row) {
+  auto label = fmt::format("{}, N = {}", to_string(row.solid), row.particles);
+  for (const auto& item : row.parameters.items()) {
     const auto& value = item.value();
     label += fmt::format(", {} {}", item.key(), value.is_string() ? value.get<std::string>() : value.dump());
   }
@@ -65,12 +68,12 @@ std::string point_of(const RecordSummary& summary) {
   return point_text(summary.solid, summary.particles, summary.parameters);
 }
 
-std::string point_of(const Json& row) {
-  return point_text(*solid_kind(row.at("solid").get<std::string>()), row.at("particles").get<int>(),
-                    row.at("parameters"));
-}
+std::string point_of(const Row& row) { return point_text(row.solid, row.particles, row.parameters); }
 
 double sixth_root(double energy) { return energy > 0 ? std::cbrt(std::sqrt(energy)) : 0; }
+
+/// Those of a state that charts draw against Δφ, by name.
+constexpr std::array drawn_quantities{"Z", "Z_ff", "Z_ef", "Z_l", "C", "omega_l", "omega_h"};
 
 Json state_points(const Json& record) {
   Json points = Json::array();
@@ -80,8 +83,7 @@ Json state_points(const Json& record) {
     point["phi"] = number_at(state, "/phi");
     point["delta_phi"] = number_at(state, "/delta_phi");
     point["root"] = energy.is_null() ? energy : Json(sixth_root(energy.get<double>()));
-    for (const std::string key : {"Z", "Z_ff", "Z_ef", "Z_l", "C"}) point[key] = number_at(state, "/" + key);
-    for (const std::string key : {"omega_l", "omega_h"}) point[key] = number_at(state, "/modes/" + key);
+    for (const auto* name : drawn_quantities) point[name] = number_at(state, std::string(quantity(name).pointer));
     points.push_back(std::move(point));
   }
   return points;
@@ -211,15 +213,16 @@ Json pooled_scaling(const Members& members, const std::string& key) {
   return json;
 }
 
-Json complete_row(Json row, const Members& members) {
-  row["label"] = label_of(row);
-  const auto paper = paper_density(members.front()->summary.solid, members.front()->summary.particles);
-  row["paper"] = nullptr;
-  if (paper) row["paper"] = {{"phi_j", paper->phi_j}, {"half_width", paper->half_width}};
+Json row_entry(const Row& row, const Members& members) {
+  Json json = to_json(row);
+  json["label"] = label_of(row);
+  const auto paper = paper_density(row.solid, row.particles);
+  json["paper"] = nullptr;
+  if (paper) json["paper"] = {{"phi_j", paper->phi_j}, {"half_width", paper->half_width}};
   const auto chosen = trusted(members);
-  row["scaling"] = {{"omega_l", pooled_scaling(chosen, "omega_l")}, {"omega_h", pooled_scaling(chosen, "omega_h")}};
-  row["angles"] = pooled_angles(chosen);
-  return row;
+  json["scaling"] = {{"omega_l", pooled_scaling(chosen, "omega_l")}, {"omega_h", pooled_scaling(chosen, "omega_h")}};
+  json["angles"] = pooled_angles(chosen);
+  return json;
 }
 
 Json provenance_list(const Results& results) {
@@ -243,8 +246,10 @@ Json measure_list(const Results& results) {
 
 Json column_list() {
   Json columns = Json::array();
-  for (const auto& column : all_columns)
-    columns.push_back({{"name", column.name}, {"group", column.group}, {"latex", column.latex}});
+  for (const auto& quantity : all_quantities()) {
+    columns.push_back(
+        {{"name", quantity.name}, {"group", quantity.group}, {"unit", quantity.unit}, {"latex", quantity.latex}});
+  }
   return columns;
 }
 
@@ -278,11 +283,10 @@ Json report_data(const Results& results, const std::map<std::size_t, Json>& view
   data["columns"] = column_list();
   data["rows"] = Json::array();
   std::map<std::string, int> place;
-  const auto tables = to_json(table);
-  for (const auto& row : tables.at("rows")) {
+  for (const auto& row : table.rows) {
     const auto point = point_of(row);
     place.emplace(point, static_cast<int>(place.size()));
-    data["rows"].push_back(complete_row(row, points.at(point)));
+    data["rows"].push_back(row_entry(row, points.at(point)));
   }
   data["csv"] = to_csv(table);
   data["latex"] = to_latex(table);

@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "tasks/report/results.hpp"
 #include "tasks/report/view.hpp"
+#include "tasks/store/results.hpp"
 
 namespace isojam {
 

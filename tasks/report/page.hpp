@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tasks/json_text.hpp"
+#include "tasks/json/json.hpp"
 
 namespace isojam {
 

@@ -6,9 +6,10 @@
 
 #include "engine/analysis/orientation_order.hpp"
 #include "engine/packing/energy.hpp"
-#include "engine/vibration/modes.hpp"
+#include "engine/vibration/spectrum.hpp"
+#include "tasks/manifest/plan.hpp"
 #include "tasks/measure/parts.hpp"
-#include "tasks/plan.hpp"
+#include "tasks/replicate/summary.hpp"
 
 namespace isojam {
 namespace {
@@ -90,7 +91,7 @@ Json mode_list(const Packing& packing, PackingEnergy& energy, int modes) {
   if (modes == 0) return list;
   const ModeOptions options{.lowest = modes, .highest = modes, .largest_dense = largest_dense_view};
   // The low parts decide the softest modes: without them faces that just touch may seem apart.
-  const auto ends = spectrum_ends(energy.hessian(packing, Precision::extended), options);
+  const auto ends = spectrum_ends(energy.hessian(packing, Precision::double_double), options);
   append_modes(list, ends.lowest, "lowest", packing.solid->gyration_radius());
   append_modes(list, ends.highest, "highest", packing.solid->gyration_radius());
   return list;

@@ -5,7 +5,7 @@
 
 #include "engine/analysis/clusters.hpp"
 #include "engine/packing/packing.hpp"
-#include "tasks/report/results.hpp"
+#include "tasks/store/results.hpp"
 
 namespace isojam {
 

@@ -139,7 +139,7 @@ bool register_all() {
     add("evaluate/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads") + case_of(400), evaluate, 400,
         threads, Precision::working)
         ->UseRealTime();
-  add("evaluate/extended" + case_of(100), evaluate, 100, 1, Precision::extended);
+  add("evaluate/double_double" + case_of(100), evaluate, 100, 1, Precision::double_double);
   for (const int n : {100, 400}) {
     add("hessian/analytic" + case_of(n), hessian, n);
     add("factorise/simplicial_ldlt" + case_of(n), simplicial_ldlt, n);

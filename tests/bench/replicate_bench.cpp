@@ -5,7 +5,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "engine/solve/jam.hpp"
-#include "engine/vibration/modes.hpp"
+#include "engine/vibration/spectrum.hpp"
 #include "tests/bench/states.hpp"
 
 namespace isojam::bench {

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "tasks/campaign.hpp"
-#include "tasks/graph.hpp"
+#include "tasks/run/campaign.hpp"
+#include "tasks/run/graph.hpp"
 
 namespace isojam::bench {
 namespace {

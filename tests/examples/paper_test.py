@@ -159,7 +159,7 @@ class Verdicts(unittest.TestCase):
 
 class Gathered(unittest.TestCase):
     MANIFEST = {"seed": 3, "sweep": {"solid": ["dodecahedron"], "particles": [24]}, "replicates": 2,
-                "protocol": {"initial_density": 0.2, "consolidation_step": 0.04, "approach": 0.4,
+                "protocol": {"initial_density": 0.2, "consolidation_step": 0.04, "step_fraction": 0.4,
                              "final_distance": 0.03, "fit_window": 0.1},
                 "measure": ["contacts", "clusters", "modes", "rigidity"]}
 
@@ -171,7 +171,7 @@ class Gathered(unittest.TestCase):
         subprocess.run([ISOJAM, "run", path, "-o", results / name, "--quiet"], check=True, capture_output=True)
 
     def test_what_is_left_out(self):
-        flags = {"a": [], "b": ["crystalline"], "c": ["short_of_goal", "not_stable"], "d": ["not_stable"], "e": None}
+        flags = {"a": [], "b": ["crystalline"], "c": ["goal_not_reached", "not_stable"], "d": ["not_stable"], "e": None}
         with tempfile.TemporaryDirectory() as here:
             source = Path(here) / "source"
             (source / "records").mkdir(parents=True)
@@ -197,7 +197,7 @@ class Gathered(unittest.TestCase):
             records = json.loads((results / "out" / "records.json").read_text(encoding="utf-8"))
             own = [json.loads(path.read_text(encoding="utf-8"))
                    for path in (results / "paper-100" / "records").glob("*.json")]
-        counting = [record for record in own if not {"crystalline", "short_of_goal"} & set(record["flags"])]
+        counting = [record for record in own if not {"crystalline", "goal_not_reached"} & set(record["flags"])]
         self.assertGreater(len(counting), 0)
         self.assertEqual(len(tables["main"]), 1)
         self.assertEqual(tables["nearest"], [])

@@ -5,10 +5,11 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tasks/checkpoint.hpp"
-#include "tasks/input_error.hpp"
-#include "tasks/plan.hpp"
-#include "tasks/record.hpp"
+#include "tasks/json/input_error.hpp"
+#include "tasks/json/parse.hpp"
+#include "tasks/manifest/plan.hpp"
+#include "tasks/replicate/checkpoint.hpp"
+#include "tasks/replicate/record.hpp"
 
 namespace {
 

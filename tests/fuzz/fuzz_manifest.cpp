@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tasks/input_error.hpp"
-#include "tasks/manifest.hpp"
+#include "tasks/json/input_error.hpp"
+#include "tasks/manifest/manifest.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace isojam;

@@ -5,10 +5,12 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tasks/aggregate.hpp"
-#include "tasks/input_error.hpp"
-#include "tasks/sealed_json.hpp"
-#include "tasks/tables.hpp"
+#include "tasks/json/input_error.hpp"
+#include "tasks/json/parse.hpp"
+#include "tasks/json/sealed.hpp"
+#include "tasks/replicate/summary.hpp"
+#include "tasks/tables/aggregate.hpp"
+#include "tasks/tables/tables.hpp"
 
 namespace {
 

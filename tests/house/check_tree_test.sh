@@ -39,8 +39,8 @@ good_tree
 accept 'a tree that keeps every rule'
 
 foreign='engine/ includes what is not engine/'
-reject engine/packing/energy.cpp '#include "tasks/graph.hpp"' "$foreign"
-reject engine/packing/energy.cpp '#include <tasks/graph.hpp>' "$foreign"
+reject engine/packing/energy.cpp '#include "tasks/run/graph.hpp"' "$foreign"
+reject engine/packing/energy.cpp '#include <tasks/run/graph.hpp>' "$foreign"
 reject engine/packing/energy.cpp '#include "../../tasks/graph.hpp"' "$foreign"
 reject engine/packing/energy.hpp '#include <nlohmann/json.hpp>' "$foreign"
 reject engine/packing/energy.hpp '#include <nlohmann/json_fwd.hpp>' "$foreign"
@@ -72,7 +72,7 @@ reject engine/packing/pair_loop.hpp '#include <tbb/parallel_for.h>' "$tbb"
 reject engine/packing/energy.cpp '#include <tbb/parallel_for.h>' "$tbb"
 reject engine/solve/jam.cpp '#include <oneapi/tbb/task_arena.h>' "$tbb"
 reject engine/solve/jam.cpp '#include "tbb/task_arena.h"' "$tbb"
-reject tasks/graph.hpp '#include <oneapi/tbb/flow_graph.h>' "$tbb"
+reject tasks/run/graph.hpp '#include <oneapi/tbb/flow_graph.h>' "$tbb"
 reject tasks/cli.cpp '#include <tbb/global_control.h>' "$tbb"
 reject tasks/cli.cpp '#include <execution>' "$tbb"
 

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/geometry/overlap.hpp"
+#include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 #include "tests/oracle/overlap_checks.hpp"

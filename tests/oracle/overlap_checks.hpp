@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/geometry/overlap.hpp"
+#include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 

@@ -34,16 +34,16 @@ Descent::Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions&
       evaluations_(1) {}
 
 /// Doubles do until the floor of their residual is near. Then only two of them can tell whether the goal is reached.
-void Descent::refine() {
+void Descent::raise_precision() {
   const bool near_floor = here_.residual <= std::max(options_.residual, floors_before_refining * here_.residual_floor);
-  if (precision_ == Precision::extended || !near_floor || here_.residual_floor <= options_.residual) return;
-  precision_ = Precision::extended;
+  if (precision_ == Precision::double_double || !near_floor || here_.residual_floor <= options_.residual) return;
+  precision_ = Precision::double_double;
   here_ = evaluate(packing_);
 }
 
 Evaluation Descent::evaluate(const Packing& packing) {
   ++evaluations_;
-  if (precision_ == Precision::extended) ++work_.extended_evaluations;
+  if (precision_ == Precision::double_double) ++work_.double_double_evaluations;
   return energy_.evaluate(packing, precision_);
 }
 
@@ -60,7 +60,7 @@ void Descent::count_factorisations(long factorisations, long updates) {
 std::optional<StopReason> Descent::verdict() {
   if (!std::isfinite(here_.energy) || !here_.gradient.allFinite()) return StopReason::not_finite;
   if (here_.contacts == 0) return StopReason::unjammed;
-  refine();
+  raise_precision();
   if (here_.residual <= options_.residual) return StopReason::residual_reached;
   if (here_.residual <= here_.residual_floor) return StopReason::precision_floor;
   if (here_.energy < options_.unjammed_energy * packing_.size()) return StopReason::unjammed;

@@ -20,7 +20,7 @@ class Descent {
   const MinimiseOptions& options() const { return options_; }
   long evaluations() const { return evaluations_; }
 
-  /// Why to stop in this state, if there is a reason. Goes over to extended precision where the answer needs it.
+  /// Why to stop in this state, if there is a reason. Goes over to double-double where the answer needs it.
   std::optional<StopReason> verdict();
   /// Moves along `direction` (a descent direction) by a line search from `first_step` times it; false if no lower
   /// energy was found. The step taken, as a multiple of `direction`, is in last_step().
@@ -42,7 +42,7 @@ class Descent {
 
  private:
   Evaluation evaluate(const Packing& packing);
-  void refine();
+  void raise_precision();
 
   Packing& packing_;
   PackingEnergy& energy_;

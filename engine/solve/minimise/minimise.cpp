@@ -8,11 +8,6 @@
 
 namespace isojam {
 
-std::string_view to_string(Method method) {
-  static constexpr std::array<std::string_view, 4> names{"conjugate_gradient", "fire", "lbfgs", "newton"};
-  return names[static_cast<std::size_t>(method)];
-}
-
 MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options,
                          std::stop_token stop) {
   Descent descent(packing, energy, options, std::move(stop));

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <stop_token>
 #include <string_view>
 
+#include "engine/names/enum_names.hpp"
 #include "engine/packing/energy.hpp"
 #include "engine/packing/packing.hpp"
 #include "engine/solve/minimise/summary.hpp"
@@ -11,7 +13,10 @@ namespace isojam {
 
 /// newton is the method; the others are there to be compared with. Near jamming they do not converge.
 enum class Method { conjugate_gradient, fire, lbfgs, newton };
-std::string_view to_string(Method method);
+template <>
+inline constexpr std::array enum_names<Method>{EnumName{Method::conjugate_gradient, "conjugate_gradient"},
+                                               EnumName{Method::fire, "fire"}, EnumName{Method::lbfgs, "lbfgs"},
+                                               EnumName{Method::newton, "newton"}};
 
 struct MinimiseOptions {
   Method method = Method::newton;

@@ -37,18 +37,20 @@ constexpr double updates_per_particle = 1.0 / 6;
 /// The pressed plane matters only where it is this many times as steep (squared) as the present one.
 constexpr double steeper = 2;
 
-double tilt_energy(const PressedPair& pair, const Eigen::VectorXd& step) {
+double tilt_energy(const IncipientContact& pair, const Eigen::VectorXd& step) {
   const Eigen::Vector3d tilt = step.segment<3>(6 * pair.b + 3) - step.segment<3>(6 * pair.a + 3);
   return tilt.dot(pair.tilt * tilt);
 }
 
-double contact_energy(const PressedPair& pair) { return pair.now.at_rest * pair.now.at_rest / 4; }
+double contact_energy(const IncipientContact& pair) { return pair.now.at_rest * pair.now.at_rest / 4; }
 
-double squared_norm(const VolumePlane& plane) { return plane.slope_a.squaredNorm() + plane.slope_b.squaredNorm(); }
+double squared_norm(const LinearisedOverlap& plane) {
+  return plane.slope_a.squaredNorm() + plane.slope_b.squaredNorm();
+}
 
-bool touching(const PressedPair& pair) { return pair.now.at_rest > 0; }
+bool touching(const IncipientContact& pair) { return pair.now.at_rest > 0; }
 
-bool contains(const std::vector<std::pair<int, int>>& sorted, const PressedPair& pair) {
+bool contains(const std::vector<std::pair<int, int>>& sorted, const IncipientContact& pair) {
   return std::binary_search(sorted.begin(), sorted.end(), std::pair(pair.a, pair.b));
 }
 
@@ -78,14 +80,14 @@ StepModel::StepModel(SecondOrder second, Eigen::VectorXd gradient, double longes
 }
 
 void StepModel::forget_closing_pairs() {
-  std::erase_if(second_.pairs, [](const PressedPair& pair) { return !touching(pair); });
-  for (PressedPair& pair : second_.pairs) pair.pressed = {};
+  std::erase_if(second_.pairs, [](const IncipientContact& pair) { return !touching(pair); });
+  for (IncipientContact& pair : second_.pairs) pair.pressed = {};
   states_.assign(second_.pairs.size(), {});
 }
 
 void StepModel::recall(const ActivePairs& active, double shift) {
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    const PressedPair& pair = second_.pairs[k];
+    const IncipientContact& pair = second_.pairs[k];
     states_[k] = {closing(pair, shift) && contains(active.pressed, pair),
                   touching(pair) && contains(active.tilted, pair)};
   }
@@ -94,7 +96,7 @@ void StepModel::recall(const ActivePairs& active, double shift) {
 ActivePairs StepModel::active_pairs(const Eigen::VectorXd& step) const {
   ActivePairs active;
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    const PressedPair& pair = second_.pairs[k];
+    const IncipientContact& pair = second_.pairs[k];
     if (states_[k].pressed) active.pressed.emplace_back(pair.a, pair.b);
     if (states_[k].tilted && tilt_energy(pair, step) > tilt_release * contact_energy(pair))
       active.tilted.emplace_back(pair.a, pair.b);
@@ -103,7 +105,7 @@ ActivePairs StepModel::active_pairs(const Eigen::VectorXd& step) const {
 }
 
 /// Whether the pressed plane can matter. Next to a shift that is stiffer than the pair it cannot.
-bool StepModel::closing(const PressedPair& pair, double shift) const {
+bool StepModel::closing(const IncipientContact& pair, double shift) const {
   const double pressed = squared_norm(pair.pressed);
   return pressed > 2 * shift && pressed >= steeper * squared_norm(pair.now);
 }
@@ -112,7 +114,7 @@ bool StepModel::closing(const PressedPair& pair, double shift) const {
 bool StepModel::revise(const Eigen::VectorXd& step, double shift, bool may_release) {
   bool changed = false;
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    const PressedPair& pair = second_.pairs[k];
+    const IncipientContact& pair = second_.pairs[k];
     State& state = states_[k];
     if (closing(pair, shift)) {
       const bool pressed = pair.pressed.at(step, pair.a, pair.b) > std::max(0.0, pair.now.at(step, pair.a, pair.b));
@@ -125,7 +127,7 @@ bool StepModel::revise(const Eigen::VectorXd& step, double shift, bool may_relea
 }
 
 /// How much of its tilt term a pair has.
-double StepModel::tilt_weight(const PressedPair& pair, const State& state, double shift) const {
+double StepModel::tilt_weight(const IncipientContact& pair, const State& state, double shift) const {
   if (!touching(pair) && !state.pressed) return 0;
   const double everywhere = std::min(1.0, shift / (stiffened_at * stiffness_));
   return std::max(everywhere, state.tilted ? tilted : 0.0);
@@ -143,7 +145,7 @@ BlockMatrix StepModel::assembled(double shift) const {
       sum.off_diagonal.push_back(present[next++]);
   };
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    const PressedPair& pair = second_.pairs[k];
+    const IncipientContact& pair = second_.pairs[k];
     const State& state = states_[k];
     if (!touching(pair) && !state.pressed) continue;
     copy_up_to(pair.a, pair.b);
@@ -151,7 +153,7 @@ BlockMatrix StepModel::assembled(double shift) const {
     if (blocks.empty() || blocks.back().row != pair.a || blocks.back().column != pair.b)
       blocks.push_back({pair.a, pair.b, Matrix6d::Zero()});
     if (state.pressed) {
-      const VolumePlane& plane = pair.pressed;
+      const LinearisedOverlap& plane = pair.pressed;
       sum.diagonal[pair.a] += plane.slope_a * plane.slope_a.transpose() / 2;
       sum.diagonal[pair.b] += plane.slope_b * plane.slope_b.transpose() / 2;
       blocks.back().value += plane.slope_a * plane.slope_b.transpose() / 2;
@@ -167,7 +169,7 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
   std::vector<Eigen::VectorXd> terms;
   const auto most = static_cast<std::size_t>(updates_per_particle * second_.hessian.size());
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    const PressedPair& pair = second_.pairs[k];
+    const IncipientContact& pair = second_.pairs[k];
     if (before[k].pressed && !states_[k].pressed) return std::nullopt;
     if (states_[k].pressed && !before[k].pressed)
       terms.push_back(column(pair, pair.pressed.slope_a / std::sqrt(2.0), pair.pressed.slope_b / std::sqrt(2.0)));
@@ -183,7 +185,7 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
   return u;
 }
 
-Eigen::VectorXd StepModel::column(const PressedPair& pair, const Vector6d& of_a, const Vector6d& of_b) const {
+Eigen::VectorXd StepModel::column(const IncipientContact& pair, const Vector6d& of_a, const Vector6d& of_b) const {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(gradient_.size());
   u.segment<6>(6 * pair.a) = of_a;
   u.segment<6>(6 * pair.b) = of_b;
@@ -195,7 +197,7 @@ Eigen::VectorXd StepModel::gradient() const {
   Eigen::VectorXd sum = gradient_;
   for (std::size_t k = 0; k < states_.size(); ++k) {
     if (!states_[k].pressed) continue;
-    const PressedPair& pair = second_.pairs[k];
+    const IncipientContact& pair = second_.pairs[k];
     sum.segment<6>(6 * pair.a) += pair.pressed.at_rest / 2 * pair.pressed.slope_a;
     sum.segment<6>(6 * pair.b) += pair.pressed.at_rest / 2 * pair.pressed.slope_b;
   }
@@ -207,7 +209,7 @@ double StepModel::decrease(const Eigen::VectorXd& step) const {
   double sum = -gradient_.dot(step) - step.dot(second_.hessian * step) / 2;
   for (std::size_t k = 0; k < states_.size(); ++k) {
     if (!states_[k].pressed) continue;
-    const PressedPair& pair = second_.pairs[k];
+    const IncipientContact& pair = second_.pairs[k];
     const double pressed = std::max(0.0, pair.pressed.at(step, pair.a, pair.b));
     const double now = std::max(0.0, pair.now.at(step, pair.a, pair.b));
     sum -= std::max(0.0, pressed * pressed - now * now) / 4;

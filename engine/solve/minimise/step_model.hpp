@@ -55,12 +55,12 @@ class StepModel {
 
   void recall(const ActivePairs& active, double shift);
   ActivePairs active_pairs(const Eigen::VectorXd& step) const;
-  bool closing(const PressedPair& pair, double shift) const;
+  bool closing(const IncipientContact& pair, double shift) const;
   bool revise(const Eigen::VectorXd& step, double shift, bool may_release);
-  double tilt_weight(const PressedPair& pair, const State& state, double shift) const;
+  double tilt_weight(const IncipientContact& pair, const State& state, double shift) const;
   BlockMatrix assembled(double shift) const;
   std::optional<Eigen::MatrixXd> gained(const std::vector<State>& before, double shift) const;
-  Eigen::VectorXd column(const PressedPair& pair, const Vector6d& of_a, const Vector6d& of_b) const;
+  Eigen::VectorXd column(const IncipientContact& pair, const Vector6d& of_a, const Vector6d& of_b) const;
   Eigen::VectorXd gradient() const;
   double decrease(const Eigen::VectorXd& step) const;
 

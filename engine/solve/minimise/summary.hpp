@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 
+#include "engine/names/enum_names.hpp"
 #include "engine/packing/energy.hpp"
 
 namespace isojam {
@@ -12,21 +14,29 @@ enum class StopReason {
   energy_change,     ///< relative energy change below the tolerance asked for (the paper's rule); not an equilibrium by
                      ///< itself
   unjammed,          ///< energy and forces fell to the floor of the unjammed verdict
-  precision_floor,   ///< no lower residual can be resolved, not even in two doubles
+  precision_floor,   ///< no lower residual can be resolved, not even in double-double
   budget,            ///< evaluations spent
   line_search_failed,  ///< no lower energy found along any direction tried
   not_finite,          ///< energy or gradient was not finite
   interrupted          ///< stop requested from outside
 };
-
-std::string_view to_string(StopReason reason);
+template <>
+inline constexpr std::array enum_names<StopReason>{EnumName{StopReason::not_called, "not_called"},
+                                                   EnumName{StopReason::residual_reached, "residual_reached"},
+                                                   EnumName{StopReason::energy_change, "energy_change"},
+                                                   EnumName{StopReason::unjammed, "unjammed"},
+                                                   EnumName{StopReason::precision_floor, "precision_floor"},
+                                                   EnumName{StopReason::budget, "budget"},
+                                                   EnumName{StopReason::line_search_failed, "line_search_failed"},
+                                                   EnumName{StopReason::not_finite, "not_finite"},
+                                                   EnumName{StopReason::interrupted, "interrupted"}};
 
 /// What a minimisation took beside its evaluations.
 struct MinimiseWork {
-  long extended_evaluations = 0;  ///< those of the evaluations that were in two doubles
-  long hessians = 0;              ///< second derivatives of the packing, touching pairs and near ones
-  long factorisations = 0;        ///< of a shifted Hessian, failed ones too
-  long factor_updates = 0;        ///< systems solved by updating a factor instead of factorising anew
+  long double_double_evaluations = 0;  ///< those of the evaluations that were in double-double
+  long hessians = 0;                   ///< second derivatives of the packing, touching pairs and near ones
+  long factorisations = 0;             ///< of a shifted Hessian, failed ones too
+  long factor_updates = 0;             ///< systems solved by updating a factor instead of factorising anew
 
   MinimiseWork& operator+=(const MinimiseWork& term);
   bool operator==(const MinimiseWork&) const = default;

@@ -6,11 +6,6 @@
 
 namespace isojam {
 
-std::string_view to_string(AtlasVerdict verdict) {
-  static constexpr std::array<std::string_view, 3> names{"holds", "refuses", "fails"};
-  return names[static_cast<std::size_t>(verdict)];
-}
-
 std::vector<AtlasRow> stability_atlas(const AtlasOptions& options) {
   std::vector<AtlasRow> rows;
   const auto append = [&rows](std::vector<AtlasRow> part) {

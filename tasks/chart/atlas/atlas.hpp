@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/names/enum_names.hpp"
 #include "tasks/chart/atlas/states.hpp"
 
 namespace isojam {
@@ -17,7 +19,10 @@ enum class AtlasVerdict {
   refuses,  ///< no answer, and the reason for it
   fails     ///< an answer that is wrong, or an end without one
 };
-std::string_view to_string(AtlasVerdict verdict);
+template <>
+inline constexpr std::array enum_names<AtlasVerdict>{EnumName{AtlasVerdict::holds, "holds"},
+                                                     EnumName{AtlasVerdict::refuses, "refuses"},
+                                                     EnumName{AtlasVerdict::fails, "fails"}};
 
 /// One cell of the atlas.
 struct AtlasRow {
@@ -34,7 +39,7 @@ struct AtlasRow {
 /// is right to this fraction of the mean contact force at Δφ = 5e-4.
 inline constexpr double atlas_overlap_tolerance = 1e-6;
 
-/// Overlap kernels in two doubles (the standard near jamming), in doubles (far from it), and as a plain clip of every
+/// Overlap kernels in double-double (the standard near jamming), in doubles (far from it), and as a plain clip of every
 /// face in doubles. References are closed forms, or the clip in quadruple precision. Seconds.
 std::vector<AtlasRow> overlap_atlas();
 

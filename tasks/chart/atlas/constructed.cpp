@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/overlap.hpp"
+#include "engine/geometry/overlap/overlap.hpp"
 
 namespace isojam {
 
@@ -26,11 +26,11 @@ QuadQuaternion normalised(QuadQuaternion q) {
 Pose pose_of(const Quad3& position, const QuadQuaternion& q) {
   Pose pose;
   for (int c = 0; c < 3; ++c) {
-    const TwoDouble x = narrowed(position[c]), u = narrowed(q[c + 1]);
+    const DoubleDouble x = narrowed(position[c]), u = narrowed(q[c + 1]);
     pose.position[c] = x.high, pose.position_low[c] = x.low;
     pose.orientation.coeffs()[c] = u.high, pose.orientation_low[c] = u.low;
   }
-  const TwoDouble w = narrowed(q[0]);
+  const DoubleDouble w = narrowed(q[0]);
   pose.orientation.coeffs()[3] = w.high, pose.orientation_low[3] = w.low;
   return pose;
 }

@@ -18,7 +18,7 @@ QuadQuaternion small_turn(double angle, const Eigen::Vector3d& axis);
 QuadQuaternion eighth_turn(int axis);
 QuadQuaternion operator*(const QuadQuaternion& p, const QuadQuaternion& q);
 
-/// Two solids placed in two doubles, as the design of a contact asks to 1e-31, and what their overlap is.
+/// Two solids placed in double-double, as the design of a contact asks to 1e-31, and what their overlap is.
 struct ConstructedPair {
   SolidKind a, b;
   Pose at_a, at_b;

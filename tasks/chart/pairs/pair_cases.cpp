@@ -216,13 +216,6 @@ std::optional<PairCase> attempt(RandomStream& random, SolidKind kind_a, SolidKin
 
 }  // namespace
 
-std::string_view to_string(PairClass pair_class) {
-  static constexpr std::array<std::string_view, all_pair_classes.size()> names{
-      "random",           "near-parallel faces", "edge in face", "parallel edges", "vertex-vertex",
-      "same orientation", "coplanar faces",      "coincident",   "near-coincident"};
-  return names[static_cast<std::size_t>(pair_class)];
-}
-
 std::vector<PairCase> pair_cases(SolidKind a, SolidKind b, PairClass pair_class, int count) {
   RandomStream random{seed, static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b),
                       static_cast<std::uint64_t>(pair_class)};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/geometry/convex_solid.hpp"
+#include "engine/names/enum_names.hpp"
 
 namespace isojam::oracle {
 
@@ -24,12 +25,27 @@ enum class PairClass {
   near_coincident,      ///< the same, displaced and turned by 1e-16..1e-8
 };
 
-inline constexpr std::array all_pair_classes{
-    PairClass::random_contact, PairClass::near_parallel_faces, PairClass::edge_in_face,
-    PairClass::parallel_edges, PairClass::vertex_vertex,       PairClass::same_orientation,
-    PairClass::coplanar_faces, PairClass::coincident,          PairClass::near_coincident};
+}  // namespace isojam::oracle
 
-std::string_view to_string(PairClass pair_class);
+namespace isojam {
+
+template <>
+inline constexpr std::array enum_names<oracle::PairClass>{
+    EnumName{oracle::PairClass::random_contact, "random"},
+    EnumName{oracle::PairClass::near_parallel_faces, "near-parallel faces"},
+    EnumName{oracle::PairClass::edge_in_face, "edge in face"},
+    EnumName{oracle::PairClass::parallel_edges, "parallel edges"},
+    EnumName{oracle::PairClass::vertex_vertex, "vertex-vertex"},
+    EnumName{oracle::PairClass::same_orientation, "same orientation"},
+    EnumName{oracle::PairClass::coplanar_faces, "coplanar faces"},
+    EnumName{oracle::PairClass::coincident, "coincident"},
+    EnumName{oracle::PairClass::near_coincident, "near-coincident"}};
+
+}  // namespace isojam
+
+namespace isojam::oracle {
+
+inline constexpr auto all_pair_classes = all_of<PairClass>;
 
 /// Contacts (the first five classes) have V/V_p in this range, log-uniform.
 inline constexpr double least_contact_volume = 1e-5, greatest_contact_volume = 3e-2;

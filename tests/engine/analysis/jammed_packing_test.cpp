@@ -16,10 +16,10 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/analysis/alignment/random_alignment.hpp"
 #include "engine/analysis/cluster_statistics.hpp"
 #include "engine/analysis/order.hpp"
 #include "engine/analysis/orientation_order.hpp"
-#include "engine/analysis/random_alignment.hpp"
 #include "engine/solve/jam.hpp"
 
 namespace isojam {
@@ -56,7 +56,7 @@ std::vector<double> edge_face_angles(const std::vector<Alignment>& alignments) {
 }
 
 TEST(JammedPacking, IsAtHand) {
-  ASSERT_TRUE(jammed().status == JamStatus::jammed || jammed().status == JamStatus::short_of_goal)
+  ASSERT_TRUE(jammed().status == JamStatus::jammed || jammed().status == JamStatus::goal_not_reached)
       << to_string(jammed().status);
   ASSERT_GE(jammed().states.size(), 2U);
 }
@@ -158,7 +158,7 @@ TEST(JammedPacking, ClustersHoldItsFaceFaceContacts) {
 }
 
 TEST(JammedPacking, IsDisordered) {
-  const Order order = measure_order(nearest(), contacts_of(nearest()));
+  const Order order = order_of(nearest(), contacts_of(nearest()));
   std::printf("Q4 %.3f, Q6 %.3f, local %.3f, %.3f, S_%u %.3f against %.3f by chance\n", order.Q4, order.Q6,
               order.local_Q4.value_or(-1), order.local_Q6.value_or(-1), order.rank, order.S, order.random_S);
   EXPECT_LT(order.Q6, crystalline_q6);
@@ -188,7 +188,7 @@ TEST(PerfectCrystal, OfCubesHasAnswers) {
   EXPECT_TRUE(statistics.spans);
   EXPECT_FALSE(statistics.l_max);
   EXPECT_EQ(statistics.D_max.verdict, DimensionVerdict::winds);
-  const Order order = measure_order(crystal, contacts);
+  const Order order = order_of(crystal, contacts);
   EXPECT_NEAR(order.S, 1, 1e-12);
   EXPECT_NEAR(order.local_Q6.value(), order.Q6, 1e-12);
 }

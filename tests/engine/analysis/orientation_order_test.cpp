@@ -132,7 +132,7 @@ TEST_P(OrientationOf, TurningAllChangesNothing) {
 TEST_P(OrientationOf, FewParticlesHaveAnswers) {
   for (const int n : {1, 2, 3}) {
     const Packing packing = scattered(solid, n, 10, random);
-    const Order order = measure_order(packing, {});
+    const Order order = order_of(packing, {});
     EXPECT_EQ(order.Q6, 0);
     EXPECT_FALSE(order.local_Q4);
     EXPECT_FALSE(order.local_Q6);
@@ -194,7 +194,7 @@ Lattice simple_cubic(int n) {
 TEST(Order, OfASimpleCubicLattice) {
   const Lattice lattice = simple_cubic(4);
   ASSERT_EQ(lattice.contacts.size(), 3U * 64);
-  const Order order = measure_order(lattice.packing, lattice.contacts);
+  const Order order = order_of(lattice.packing, lattice.contacts);
   EXPECT_NEAR(order.Q4, std::sqrt(7.0 / 12), 1e-12);
   EXPECT_NEAR(order.Q6, std::sqrt(1.0 / 8), 1e-12);
   EXPECT_NEAR(order.local_Q4.value(), std::sqrt(7.0 / 12), 1e-12);

@@ -94,8 +94,8 @@ TEST(ConvexSolidTest, RefusesWhatIsNoConvexSolid) {
 }
 
 TEST(ConvexSolidTest, NamesRoundTrip) {
-  for (const SolidKind kind : all_solids) EXPECT_EQ(solid_kind(to_string(kind)), kind);
-  EXPECT_FALSE(solid_kind("sphere"));
+  for (const SolidKind kind : all_solids) EXPECT_EQ(from_string<SolidKind>(to_string(kind)), kind);
+  EXPECT_FALSE(from_string<SolidKind>("sphere"));
 }
 
 }  // namespace

@@ -15,9 +15,9 @@
 #include <map>
 #include <vector>
 
-#include "engine/geometry/distances.hpp"
-#include "engine/geometry/overlap.hpp"
-#include "tests/engine/geometry/pairs.hpp"
+#include "engine/geometry/overlap/distances.hpp"
+#include "engine/geometry/overlap/overlap.hpp"
+#include "tests/engine/geometry/overlap/pairs.hpp"
 
 namespace isojam {
 namespace {

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numbers>
 
-#include "tests/engine/geometry/pairs.hpp"
+#include "tests/engine/geometry/overlap/pairs.hpp"
 
 namespace isojam {
 namespace {

@@ -20,14 +20,15 @@ constexpr double density = .7;
 
 /// Everything the energy says of a packing.
 struct Answer {
-  Evaluation evaluation, extended;
-  SecondOrder second, extended_second;
+  Evaluation evaluation, in_double_double;
+  SecondOrder second, second_in_double_double;
   std::vector<Contact> contacts;
 };
 
 Answer answer(PackingEnergy& energy, const Packing& packing) {
-  return {energy.evaluate(packing), energy.evaluate(packing, Precision::extended), energy.second_order(packing, 0.01),
-          energy.second_order(packing, 0.01, Precision::extended), energy.contacts(packing)};
+  return {energy.evaluate(packing), energy.evaluate(packing, Precision::double_double),
+          energy.second_order(packing, 0.01), energy.second_order(packing, 0.01, Precision::double_double),
+          energy.contacts(packing)};
 }
 
 Answer fresh(const Packing& packing) {
@@ -47,7 +48,7 @@ void expect_same_bits(const Evaluation& one, const Evaluation& two) {
   EXPECT_EQ(one.contacts, two.contacts);
 }
 
-void expect_same_bits(const VolumePlane& one, const VolumePlane& two) {
+void expect_same_bits(const LinearisedOverlap& one, const LinearisedOverlap& two) {
   EXPECT_EQ(one.at_rest, two.at_rest);
   EXPECT_EQ(one.slope_a, two.slope_a);
   EXPECT_EQ(one.slope_b, two.slope_b);
@@ -76,9 +77,9 @@ void expect_same_bits(const SecondOrder& one, const SecondOrder& two) {
 void expect_same_bits(const Answer& one, const Answer& two) {
   ASSERT_GT(one.evaluation.contacts, particles);
   expect_same_bits(one.evaluation, two.evaluation);
-  expect_same_bits(one.extended, two.extended);
+  expect_same_bits(one.in_double_double, two.in_double_double);
   expect_same_bits(one.second, two.second);
-  expect_same_bits(one.extended_second, two.extended_second);
+  expect_same_bits(one.second_in_double_double, two.second_in_double_double);
   ASSERT_EQ(one.contacts.size(), two.contacts.size());
   for (std::size_t k = 0; k < one.contacts.size(); ++k) {
     const Contact &c = one.contacts[k], &d = two.contacts[k];

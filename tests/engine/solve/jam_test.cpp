@@ -25,11 +25,11 @@ JamOptions lax() {
   JamOptions options;
   options.initial_density = 0.2;
   options.consolidation_step = 0.03;
-  options.approach = 0.25;
+  options.step_fraction = 0.25;
   options.final_distance = 0.02;
   options.longest_step = 0.025;
   options.fit_window = 0.06;
-  options.passing_evaluations = 200;
+  options.consolidation_evaluations = 200;
   options.minimise.residual = 1e-5;
   options.minimise.max_evaluations = 2000;
   return options;
@@ -266,7 +266,7 @@ TEST(JamTest, TheRuleOnTheEnergyLetsStatesPass) {
 TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
   JamOptions options = lax();
   // "Minimisation no longer removes the energy" must not mean that it ran out of evaluations.
-  options.passing_evaluations = 6000;
+  options.consolidation_evaluations = 6000;
   const auto top_of = [](const JamResult& result) {
     return result.path[static_cast<std::size_t>(result.state_steps.front())];
   };

@@ -62,7 +62,7 @@ TEST(StepModel, IsNewtonsWithoutPairsToCome) {
     EXPECT_TRUE(active.pressed.empty());
     const Eigen::MatrixXd hessian = dense(state.second.hessian);
     Eigen::MatrixXd matrix = hessian + shift * Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols());
-    for (const PressedPair& pair : state.second.pairs) {
+    for (const IncipientContact& pair : state.second.pairs) {
       matrix.block<3, 3>(6 * pair.a + 3, 6 * pair.a + 3) += pair.tilt;
       matrix.block<3, 3>(6 * pair.b + 3, 6 * pair.b + 3) += pair.tilt;
       matrix.block<3, 3>(6 * pair.a + 3, 6 * pair.b + 3) -= pair.tilt;
@@ -88,7 +88,7 @@ TEST(StepModel, StopsWhereFacesMeet) {
   ASSERT_TRUE(step);
   ASSERT_EQ(found.pressed, (std::vector<std::pair<int, int>>{{1, 2}}));
   // Springs of equal area in a row, the outer cubes free: what the middle one leaves, the third one takes.
-  const VolumePlane& plane = state.second.pairs.at(1).pressed;
+  const LinearisedOverlap& plane = state.second.pairs.at(1).pressed;
   const double first = state.second.pairs[0].now.at(step->displacement, 0, 1);
   const double second = plane.at(step->displacement, 1, 2);
   EXPECT_GT(second, -1e-6 * gap);

@@ -3,7 +3,7 @@
 //   Newton's method makes at most one Hessian per evaluation and factorises at most once per round of its step model,
 //   near jamming less than once: later rounds update the factor;
 //   a start in balance costs no Hessian, no factorisation and no step; consolidation makes no Hessian; expansion does;
-//   evaluations in two doubles are made only where the floor of doubles lies above the residual asked for;
+//   evaluations in double-double are made only where the floor of doubles lies above the residual asked for;
 //   the totals of a run are the sums over its steps;
 //   pairs listed are those of the list's sphere, and in an evaluation that repeats one every listed pair is out of
 //   reach, rejected by its axis, or touches: the kernel sees no pair that is apart;
@@ -14,7 +14,7 @@
 #include <cmath>
 
 #include "engine/solve/jam.hpp"
-#include "engine/vibration/modes.hpp"
+#include "engine/vibration/spectrum.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 
 namespace isojam {
@@ -35,8 +35,8 @@ const JamResult& expanded() {
 }
 
 void print(const char* what, const MinimiseSummary& summary) {
-  std::printf("%s: %s, %ld evaluations (%ld in two doubles), %ld Hessians, %ld factorisations, %ld updates\n", what,
-              to_string(summary.reason).data(), summary.evaluations, summary.work.extended_evaluations,
+  std::printf("%s: %s, %ld evaluations (%ld in double-double), %ld Hessians, %ld factorisations, %ld updates\n", what,
+              to_string(summary.reason).data(), summary.evaluations, summary.work.double_double_evaluations,
               summary.work.hessians, summary.work.factorisations, summary.work.factor_updates);
 }
 
@@ -92,11 +92,11 @@ TEST(Work, PrecisionIsWidenedOnlyAtTheFloor) {
   const MinimiseSummary far = minimised(Method::newton, start, 1e-6);
   EXPECT_TRUE(far.converged());
   EXPECT_LT(far.residual_floor, 1e-6);
-  EXPECT_EQ(far.work.extended_evaluations, 0);
+  EXPECT_EQ(far.work.double_double_evaluations, 0);
   EXPECT_EQ(far.precision, Precision::working);
   const MinimiseSummary beyond = minimised(Method::newton, start, far.residual_floor / 10);
-  EXPECT_GT(beyond.work.extended_evaluations, 0);
-  EXPECT_LT(beyond.work.extended_evaluations, beyond.evaluations) << "most of the way is made in doubles";
+  EXPECT_GT(beyond.work.double_double_evaluations, 0);
+  EXPECT_LT(beyond.work.double_double_evaluations, beyond.evaluations) << "most of the way is made in doubles";
 }
 
 TEST(Work, ConsolidationMakesNoHessian) {
@@ -110,7 +110,7 @@ TEST(Work, ConsolidationMakesNoHessian) {
       EXPECT_EQ(step.summary.work.factorisations, 0) << "at " << step.density;
     }
     EXPECT_LE(step.summary.work.hessians, step.summary.evaluations);
-    EXPECT_LE(step.summary.work.extended_evaluations, step.summary.evaluations);
+    EXPECT_LE(step.summary.work.double_double_evaluations, step.summary.evaluations);
   }
   EXPECT_GT(hessians, 0);
   EXPECT_TRUE(sum == expanded().work);
@@ -146,7 +146,7 @@ TEST(Work, AxesSpareTheKernelAlongAWholeRun) {
 
 TEST(Work, OnlyTheModesAskedFor) {
   PackingEnergy energy;
-  const BlockMatrix matrix = energy.hessian(expanded().states.front(), Precision::extended);
+  const BlockMatrix matrix = energy.hessian(expanded().states.front(), Precision::double_double);
   ModeOptions options;
   options.lowest = 5, options.highest = 3;
   const SpectrumEnds ends = spectrum_ends(matrix, options);

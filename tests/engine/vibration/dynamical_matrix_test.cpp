@@ -13,7 +13,7 @@
 #include <Eigen/Eigenvalues>
 #include <stdexcept>
 
-#include "engine/vibration/modes.hpp"
+#include "engine/vibration/spectrum.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 #include "tests/engine/vibration/jammed_states.hpp"
 
@@ -71,7 +71,7 @@ TEST(DynamicalMatrix, TranslationsAreNullVectors) {
 
 TEST(DynamicalMatrix, DifferencesBelowTheDepthOfFlatContacts) {
   const Packing& packing = octahedra();
-  const BlockMatrix blocks = PackingEnergy().hessian(packing, Precision::extended);
+  const BlockMatrix blocks = PackingEnergy().hessian(packing, Precision::double_double);
   const MatrixXd exact = dense_matrix(blocks);
   const double depth = shallowest_depth(packing), lowest = dense_modes(blocks).eigenvalues[0];
   double before = 1;
@@ -90,7 +90,7 @@ TEST(DynamicalMatrix, DifferencesBelowTheDepthOfFlatContacts) {
 
 TEST(DynamicalMatrix, DifferencesAboveTheDepthShowModesThatAreNotThere) {
   const Packing& packing = octahedra();
-  const BlockMatrix blocks = PackingEnergy().hessian(packing, Precision::extended);
+  const BlockMatrix blocks = PackingEnergy().hessian(packing, Precision::double_double);
   const double depth = shallowest_depth(packing);
   const ModeSet exact = dense_modes(blocks);
   ASSERT_GT(exact.eigenvalues[0], rounding_bound(blocks, exact.eigenvalues[exact.size() - 1]));

@@ -29,8 +29,8 @@ using Eigen::VectorXd;
 struct Measured {
   explicit Measured(const Packing& packing) : state(packing) {
     PackingEnergy energy;
-    evaluation = energy.evaluate(state, Precision::extended);
-    hessian = energy.hessian(state, Precision::extended);
+    evaluation = energy.evaluate(state, Precision::double_double);
+    hessian = energy.hessian(state, Precision::double_double);
     contacts = energy.contacts(state);
   }
   std::optional<ElasticTensor> tensor() const { return elastic_tensor(state, hessian, contacts, evaluation); }

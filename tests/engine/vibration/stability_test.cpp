@@ -49,8 +49,8 @@ TEST(StabilityTest, JammedStatesAreStrictMinima) {
       const Packing& state = result->states[s];
       PackingEnergy energy;
       const double torque =
-          unbalanced_torque(energy.evaluate(state, Precision::extended), state.solid->gyration_radius());
-      const BlockMatrix matrix = energy.hessian(state, Precision::extended);
+          unbalanced_torque(energy.evaluate(state, Precision::double_double), state.solid->gyration_radius());
+      const BlockMatrix matrix = energy.hessian(state, Precision::double_double);
       const SpectrumEnds ends = spectrum_ends(matrix);
       const Stability stability = assess(matrix, ends, torque);
       std::printf(
@@ -86,7 +86,7 @@ TEST(StabilityTest, CountsAreThoseOfTheDenseSolver) {
 }
 
 BlockMatrix jammed_matrix() {
-  return PackingEnergy().hessian(nearest_state(jammed(SolidKind::octahedron, 48, .01)), Precision::extended);
+  return PackingEnergy().hessian(nearest_state(jammed(SolidKind::octahedron, 48, .01)), Precision::double_double);
 }
 
 TEST(StabilityTest, NamesWhatHasNoContacts) {

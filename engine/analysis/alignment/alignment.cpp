@@ -1,0 +1,108 @@
+#include "engine/analysis/alignment/alignment.hpp"
+
+#include <Eigen/Geometry>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+
+namespace isojam {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// A feature of a body that takes part in the contact, its direction in the body frame of A.
+struct Direction {
+  int index = 0;
+  Vector3d unit;
+};
+
+struct EdgeFace {
+  double angle = 0;
+  int edge = -1, face = -1;
+};
+
+template <class UnitVector>
+std::vector<Direction> directions(std::uint32_t mask, const Matrix3d& rotation, const UnitVector& unit) {
+  std::vector<Direction> result;
+  result.reserve(std::popcount(mask));
+  for (; mask != 0; mask &= mask - 1) {
+    const int index = std::countr_zero(mask);
+    result.push_back({index, rotation * unit(index)});
+  }
+  return result;
+}
+
+std::vector<Direction> normals(const ConvexSolid& solid, std::uint32_t mask, const Matrix3d& rotation) {
+  assert(std::bit_width(mask) <= solid.faces().size());
+  return directions(mask, rotation, [&](int i) -> Vector3d { return solid.faces()[i].normal; });
+}
+
+std::vector<Direction> edge_directions(const ConvexSolid& solid, std::uint32_t mask, const Matrix3d& rotation) {
+  assert(std::bit_width(mask) <= solid.edges().size());
+  return directions(mask, rotation, [&](int e) -> Vector3d {
+    const Edge& edge = solid.edges()[e];
+    return (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
+  });
+}
+
+// Both angles by atan2 of sine and cosine: accurate where arccos (at 0) and arcsin (at π/2) lose half the digits.
+double opposing_angle(const Vector3d& n, const Vector3d& m) { return std::atan2(n.cross(m).norm(), -n.dot(m)); }
+double elevation(const Vector3d& e, const Vector3d& n) { return std::atan2(std::abs(e.dot(n)), e.cross(n).norm()); }
+
+std::optional<EdgeFace> best_edge_face(const std::vector<Direction>& edges, const std::vector<Direction>& faces) {
+  std::optional<EdgeFace> best;
+  for (const Direction& edge : edges) {
+    for (const Direction& face : faces) {
+      const double angle = elevation(edge.unit, face.unit);
+      if (!best || angle < best->angle) best = EdgeFace{angle, edge.index, face.index};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Alignment alignment(const ConvexSolid& solid, const Contact& contact) {
+  const Overlap& overlap = contact.overlap;
+  const Matrix3d identity = Matrix3d::Identity();
+  const std::vector<Direction> faces_a = normals(solid, overlap.faces_a, identity);
+  const std::vector<Direction> faces_b = normals(solid, overlap.faces_b, contact.pose.rotation);
+
+  Alignment result;
+  result.face_face = std::numbers::pi;
+  for (const Direction& a : faces_a) {
+    for (const Direction& b : faces_b) {
+      const double angle = opposing_angle(a.unit, b.unit);
+      if (result.face_a < 0 || angle < result.face_face) {
+        result.face_face = angle;
+        result.face_a = a.index;
+        result.face_b = b.index;
+      }
+    }
+  }
+
+  result.edge_face = std::numbers::pi / 2;
+  const auto of_a = best_edge_face(edge_directions(solid, overlap.edges_a, identity), faces_b);
+  const auto of_b = best_edge_face(edge_directions(solid, overlap.edges_b, contact.pose.rotation), faces_a);
+  if (!of_a && !of_b) return result;
+  result.edge_of_a = of_a && (!of_b || of_a->angle <= of_b->angle);
+  const EdgeFace& best = result.edge_of_a ? *of_a : *of_b;
+  result.edge_face = best.angle;
+  result.edge = best.edge;
+  result.face = best.face;
+  return result;
+}
+
+std::vector<Alignment> alignments(const ConvexSolid& solid, std::span<const Contact> contacts) {
+  std::vector<Alignment> result;
+  result.reserve(contacts.size());
+  for (const Contact& contact : contacts) result.push_back(alignment(solid, contact));
+  return result;
+}
+
+}  // namespace isojam

@@ -1,0 +1,198 @@
+#include "engine/analysis/alignment/random_alignment.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/analysis/alignment/critical_angles.hpp"
+
+namespace isojam {
+
+namespace {
+
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+double angle_between(const Vector3d& u, const Vector3d& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
+
+Vector3d random_direction(RandomStream& random) {
+  const double z = 2 * random.uniform() - 1, azimuth = 2 * pi * random.uniform();
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+/// Where the value is greatest, the first of several.
+template <class Range, class Value>
+auto greatest(const Range& range, const Value& value) {
+  auto best = range.begin();
+  double most = value(*best);
+  for (auto it = best; it != range.end(); ++it) {
+    const double here = value(*it);
+    if (here <= most) continue;
+    most = here;
+    best = it;
+  }
+  return best;
+}
+
+/// The directions of a solid's features, found once for a whole sample.
+class Features {
+ public:
+  explicit Features(const ConvexSolid& solid) : solid_(solid) {
+    for (const Edge& edge : solid.edges())
+      edges_.push_back((solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized());
+  }
+
+  const Vector3d& edge(std::size_t e) const { return edges_[e]; }
+
+  double nearest_normal(const Vector3d& direction) const {
+    const Face& nearest = *greatest(solid_.faces(), [&](const Face& face) { return face.normal.dot(direction); });
+    return angle_between(nearest.normal, direction);
+  }
+
+  /// Of the edges that meet in the outermost vertex.
+  double least_elevation(const Vector3d& direction) const {
+    const auto outermost = greatest(solid_.vertices(), [&](const Vector3d& vertex) { return vertex.dot(direction); });
+    double least = 1;
+    std::uint32_t mask = solid_.arrays().edges_at[outermost - solid_.vertices().begin()];
+    for (; mask != 0; mask &= mask - 1)
+      least = std::min(least, std::abs(edges_[std::countr_zero(mask)].dot(direction)));
+    return std::asin(least);
+  }
+
+ private:
+  const ConvexSolid& solid_;
+  std::vector<Vector3d> edges_;
+};
+
+struct Tails {
+  double at_most = 0, at_least = 0;
+};
+
+/// Probabilities of at most and of at least k of n.
+Tails binomial_tails(long n, double p, long k) {
+  const boost::math::binomial count(static_cast<double>(n), p);
+  const auto above = k == 0 ? 1 : boost::math::cdf(boost::math::complement(count, static_cast<double>(k - 1)));
+  return {boost::math::cdf(count, static_cast<double>(k)), above};
+}
+
+}  // namespace
+
+RandomAlignment::RandomAlignment(const ConvexSolid& solid)
+    : faces_(static_cast<double>(solid.faces().size())),
+      vertices_(static_cast<double>(solid.vertices().size())),
+      valence_(2 * static_cast<double>(solid.edges().size()) / vertices_) {
+  const CriticalAngles critical = critical_angles(solid);  // refuses unlike vertices or edges
+  const std::size_t sides = solid.faces().front().vertices.size();
+  for (const Face& face : solid.faces()) {
+    if (face.vertices.size() != sides)
+      throw std::invalid_argument("random alignment has a closed form for regular solids; " + solid.name() +
+                                  " is none");
+  }
+  face_sides_ = static_cast<double>(sides);
+  ff_max_ = critical.ff_vertex_face;
+  ef_max_ = critical.ef_vertex_face;
+  constrained_ff_max_ = critical.ff_edge_face;
+}
+
+double RandomAlignment::face_face(double theta) const {
+  if (theta <= 0) return 0;
+  if (theta >= ff_max_) return 1;
+  const double inradius = constrained_ff_max_;  // of the polygon that a face subtends
+  if (theta <= inradius) return faces_ * std::pow(std::sin(theta / 2), 2);
+  // Azimuth ψ about the normal from the middle of a side, where the side is at the angle ρ, tan ρ = tan(inradius)/cos
+  // ψ: within `cut` it is nearer than θ, and ∫ (1 − cos ρ) dψ = ψ − arcsin(cos(inradius) sin ψ).
+  const double cut = std::acos(std::tan(inradius) / std::tan(theta));
+  const double inside = cut - std::asin(std::cos(inradius) * std::sin(cut));
+  const double cap = (pi / face_sides_ - cut) * 2 * std::pow(std::sin(theta / 2), 2);
+  return std::min(1.0, faces_ * face_sides_ / (2 * pi) * (inside + cap));
+}
+
+// With the vertex's axis along z, the sides of the polygon are perpendicular to the edges, unit vectors
+// e_k = (cos β cos 2πk/q, cos β sin 2πk/q, sin β) from the other end to the vertex, β = ef_max; points farther than θ
+// from every side have n·e_k > sin θ. They are bounded by q arcs of circles about e_k, of geodesic curvature tan θ and
+// length φ cos θ, which meet at the exterior angle ε: the area is 2π − q(φ sin θ + ε).
+double RandomAlignment::cone_beyond(double theta) const {
+  const double half = pi / valence_, sine = std::sin(ef_max_), cosine = std::cos(ef_max_);
+  const Vector3d first(cosine, 0, sine);
+  const Vector3d second(cosine * std::cos(2 * half), cosine * std::sin(2 * half), sine);
+  // The corner between them at colatitude ρ: cos ρ sin β − sin ρ cos β cos(π/q) = sin θ.
+  const double slope = cosine * std::cos(half), radius = std::hypot(sine, slope);
+  const double rho = std::acos(std::min(1.0, std::sin(theta) / radius)) - std::atan2(slope, sine);
+  const Vector3d corner(-std::sin(rho) * std::cos(half), -std::sin(rho) * std::sin(half), std::cos(rho));
+  const double phi = 2 * std::atan2(std::abs(corner.y()), corner.dot(Vector3d(-sine, 0, cosine)));
+  const double exterior = angle_between(first.cross(corner), second.cross(corner));
+  return 2 * pi - valence_ * (phi * std::sin(theta) + exterior);
+}
+
+double RandomAlignment::edge_face(double theta) const {
+  if (theta <= 0) return 0;
+  if (theta >= ef_max_) return 1;
+  return std::clamp(1 - cone_beyond(theta) * vertices_ / (4 * pi), 0.0, 1.0);
+}
+
+double RandomAlignment::constrained_face_face(double theta) const {
+  return std::clamp(theta / constrained_ff_max_, 0.0, 1.0);
+}
+
+std::vector<AlignmentAngles> sample_unconstrained(const ConvexSolid& solid, int n, RandomStream& random) {
+  const Features features(solid);
+  std::vector<AlignmentAngles> sample;
+  sample.reserve(n);
+  for (int k = 0; k < n; ++k) {
+    const Vector3d direction = random_direction(random);
+    sample.push_back({features.nearest_normal(direction), features.least_elevation(direction)});
+  }
+  return sample;
+}
+
+std::vector<AlignmentAngles> sample_edge_constrained(const ConvexSolid& solid, int n, RandomStream& random) {
+  const Features features(solid);
+  std::vector<AlignmentAngles> sample;
+  sample.reserve(n);
+  for (int k = 0; k < n; ++k) {
+    const auto chosen = static_cast<std::size_t>(random.uniform() * static_cast<double>(solid.edges().size()));
+    const Edge& edge = solid.edges()[chosen];
+    const Vector3d& along = features.edge(chosen);
+    const Vector3d& left = solid.faces()[edge.left].normal;
+    // From one face normal at the edge to the other, which is all that an edge in a face can turn.
+    const double turn = random.uniform() * angle_between(left, solid.faces()[edge.right].normal);
+    const double sense = left.cross(solid.faces()[edge.right].normal).dot(along) < 0 ? -1 : 1;
+    const Vector3d direction = Eigen::AngleAxisd(sense * turn, along) * left;
+    sample.push_back({features.nearest_normal(direction), std::abs(std::asin(along.dot(direction)))});
+  }
+  return sample;
+}
+
+Randomness compare_with_random(std::span<const double> angles, const std::function<double(double)>& distribution,
+                               double largest, const RandomnessOptions& options) {
+  const auto proper = [](double part) { return part > 0 && part < 1; };
+  if (!proper(options.fraction) || !proper(options.level))
+    throw std::invalid_argument("fraction and level of a comparison with random contacts lie between 0 and 1");
+  const auto n = static_cast<long>(angles.size());
+  double low = 0, high = largest;
+  while (low + (high - low) / 2 > low && low + (high - low) / 2 < high) {
+    const double middle = low + (high - low) / 2;
+    (distribution(middle) < options.fraction ? low : high) = middle;
+  }
+  Randomness result;
+  result.angle = high;
+  result.below = std::count_if(angles.begin(), angles.end(), [&](double angle) { return angle < high; });
+  result.expected = options.fraction * static_cast<double>(n);
+  const Tails tails = binomial_tails(n, options.fraction, result.below);
+  result.probability = std::min({1.0, tails.at_least, tails.at_most});
+  if (std::pow(options.fraction, static_cast<double>(n)) > options.level) {
+    result.verdict = RandomnessVerdict::too_few;
+  } else if (result.probability > options.level) {
+    result.verdict = RandomnessVerdict::random;
+  } else {
+    result.verdict = tails.at_least < tails.at_most ? RandomnessVerdict::hyper_random : RandomnessVerdict::sub_random;
+  }
+  return result;
+}
+
+}  // namespace isojam

@@ -1,0 +1,289 @@
+#include "engine/geometry/overlap/contact_loop.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "engine/geometry/overlap/small_distances.hpp"
+
+// Phase 1 (distances.cpp) tabulates the signed distances of either solid's vertices from the other's planes. Phase 2,
+// here, sees nothing but this table: every edge of one solid is clipped by the planes of the other. Where it enters or
+// leaves it pierces a face, and there the loop passes from one of the edge's two faces to the other: one segment of the
+// loop ends and the next begins. Segments are identified by their pair of faces, so the loop closes if and only if
+// every pair that begins also ends, once. No segment is ever found by intersecting two planes, which is ill-conditioned
+// when they are nearly parallel.
+//
+// Contacts are so small that mispredicted branches would cost more than the arithmetic: what differs from pair to pair
+// is chosen by masks and selection, and only the lengths of loops remain unpredictable. Each loop does one thing, so
+// that several of its steps are in flight at once.
+
+namespace isojam {
+
+namespace {
+
+constexpr int capacity = SolidArrays::capacity;
+constexpr std::uint32_t none = 2 * capacity;
+
+/// A vertex on a plane, to within rounding, and not certainly outside of another one.
+bool has_vertex_on_plane(const Distances& d, double tolerance) {
+  if (d.nearest >= tolerance) return false;
+  for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
+    const double* row = d.row(std::countr_zero(rows));
+    bool on = false, outside = false;
+    for (int f = 0; f < d.planes; ++f) {
+      on |= std::abs(row[f]) < tolerance;
+      outside |= row[f] >= tolerance;
+    }
+    if (on && !outside) return true;
+  }
+  return false;
+}
+
+/// What a solid brings to the loop.
+struct Side {
+  const EdgeRecord* edge;
+  const PlacedSolid* body;
+  const double* distance;  ///< of its vertices from the other's planes,
+  const double* height;    ///< and over the reference plane, with this step from vertex to vertex
+  std::uint32_t stride;
+  std::uint32_t reference;  ///< column of the reference plane in `distance`; none if it is the solid's own
+  Lanes shift;              ///< the solid's centre; height 0
+};
+
+struct Sides {
+  Side of[2];
+};
+
+/// Chooses the plane that heights are measured from.
+Sides choose_reference(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  const Distances &of_a = loop.of_a, &of_b = loop.of_b;
+  const SolidArrays &solid_a = a.solid().arrays(), &solid_b = b.solid().arrays();
+  const int plane_a = of_b.least_penetrated, plane_b = of_a.least_penetrated;
+  // Either way is as likely: indices instead of branches.
+  const int over_b = of_a.least_penetration < of_b.least_penetration;
+  const PlacedSolid* solid[2] = {&a, &b};
+  const int plane[2] = {plane_a, plane_b};
+  loop.up = solid[over_b]->normal(plane[over_b]);
+  const double* height_a[2] = {solid_a.height[plane_a], of_a.of + plane_b};
+  const double* height_b[2] = {of_b.of + plane_a, solid_b.height[plane_b]};
+  const auto planes_a = static_cast<std::uint32_t>(of_a.planes), planes_b = static_cast<std::uint32_t>(of_b.planes);
+  const std::uint32_t stride_a[2] = {1, planes_a}, stride_b[2] = {planes_b, 1};
+  const std::uint32_t column_a[2] = {none, static_cast<std::uint32_t>(plane_b)};
+  const std::uint32_t column_b[2] = {static_cast<std::uint32_t>(plane_a), none};
+  const Lanes half = Lanes::of(r.x() / 2, r.y() / 2, r.z() / 2, 0);
+  return {{{solid_a.record, &a, of_a.of, height_a[over_b], stride_a[over_b], column_a[over_b], Lanes::all(0) - half},
+           {solid_b.record, &b, of_b.of, height_b[over_b], stride_b[over_b], column_b[over_b], half}}};
+}
+
+constexpr double at_tail = 0;
+constexpr double at_head = 1 + 64 * std::numeric_limits<double>::epsilon();  // past every tagged parameter
+
+/// Where an edge enters and leaves the other solid, in every lane: the parameter (0 at the tail, 1 at the head), tagged
+/// by the plane. Parameters closer than 64 ulp are told apart by their tags: then an edge of the intersection that
+/// short is gained or lost, or the loop does not close.
+struct Interval {
+  Lanes enter, leave;
+};
+
+template <class Count>
+Interval clip(Count vectors, const double* tail, const double* head) {
+  const Lanes start = Lanes::all(at_tail), end = Lanes::all(at_head);
+  Lanes enter = start, leave = end;
+  repeat(vectors, [&](int k) {
+    const Lanes t = Lanes::load(tail + 4 * k), h = Lanes::load(head + 4 * k);
+    const Lanes crossing = tagged(t / (t - h), 4 * k);
+    enter = max(enter, where_negative(t, start, crossing));
+    leave = min(leave, where_negative(h, end, crossing));
+  });
+  return {greatest(enter), least(leave)};
+}
+
+/// An edge that passes through the other solid: 0..31 of A, 32.. of B; the planes where it enters and leaves; and bits
+/// of `ends` that say whether it does: 0 and 1 for entering, 2 and 3 for leaving.
+struct Crossing {
+  std::uint32_t edge, into, out_of, ends;
+};
+
+/// Of the edges `alive` (of B from bit 32 on). Returns the number of crossings found so far.
+template <class Count>
+int find_crossings(Count vectors, const Sides& sides, std::uint64_t alive, Crossing* crossing, int count) {
+  const Lanes untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
+  for (; alive; alive &= alive - 1) {
+    const auto at = static_cast<std::uint32_t>(std::countr_zero(alive));
+    const Side& side = sides.of[at / capacity];
+    const EdgeRecord& edge = side.edge[at % capacity];
+    const Interval inside =
+        clip(vectors, side.distance + 4 * vectors * edge.tail, side.distance + 4 * vectors * edge.head);
+    crossing[count] = {at, tag_of(inside.enter.first()), tag_of(inside.leave.first()),
+                       ~sign_bits(equal(halves(inside.enter, inside.leave), untouched))};
+    count += inside.enter.first() < inside.leave.first();
+  }
+  return count;
+}
+
+struct Masks {
+  /// Negative where an end of an edge is its own vertex, by bit 0: it enters, bit 1: it leaves.
+  alignas(32) double own_end[4][4] = {{-1, -1, -1, -1}, {1, 1, -1, -1}, {-1, -1, 1, 1}, {1, 1, 1, 1}};
+  alignas(32) double whole[4] = {0, -1, -1, 0};
+  /// 0 in place of a height that is 0 by construction.
+  alignas(32) double height[2][4] = {{1, 1, 1, 1}, {1, 1, 1, 0}};
+};
+constexpr Masks masks;
+
+/// The two corners of an edge that passes through the other solid.
+inline void place_corners(const Side& side, const EdgeRecord& edge, int planes, const Crossing& c,
+                          double (*corner)[4]) {
+  const double *tail = side.distance + planes * edge.tail, *head = side.distance + planes * edge.head;
+  const std::uint32_t enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+  // Weights of tail and head at either end: products of distances, each right to its own last bits however small.
+  const Lanes pierced = Lanes::of(tail[c.into], head[c.into], tail[c.out_of], head[c.out_of]);
+  const Lanes d = where_negative(Lanes::load(masks.own_end[enters + 2 * leaves]), Lanes::load(masks.whole), pierced);
+  const Lanes exchanged = swapped_pairs(d), weight = exchanged / (exchanged - d);
+  const auto vertex = [&](std::uint32_t v) {
+    return with_fourth(Lanes::load(side.body->row(static_cast<int>(v))) + side.shift, side.height[side.stride * v]);
+  };
+  const Lanes p = vertex(edge.tail), q = vertex(edge.head);
+  const Lanes from = fma(p, lane<0>(weight), q * lane<1>(weight)), to = fma(p, lane<2>(weight), q * lane<3>(weight));
+  (from * Lanes::load(masks.height[enters & std::uint32_t{c.into == side.reference}])).store(corner[0]);
+  (to * Lanes::load(masks.height[leaves & std::uint32_t{c.out_of == side.reference}])).store(corner[1]);
+}
+
+/// Where an edge pierces a face: the pair of faces whose segment begins there, and the pair whose segment ends.
+struct Piercings {
+  std::uint32_t pairs[ContactLoop::max_corners + 1];  ///< begins + 2^16·ends
+  std::uint32_t corner[ContactLoop::max_corners + 1];
+  int count = 0;
+
+  void add(std::uint32_t begins_and_ends, std::uint32_t at, std::uint32_t real) {
+    pairs[count] = begins_and_ends;
+    corner[count] = at;
+    count += static_cast<int>(real);
+  }
+};
+
+/// `vectors[0]` of the planes that edges of A are clipped by, [1] of B.
+template <class Vectors>
+void place_spans(const Vectors& vectors, const Sides& sides, const Crossing* crossing, int spans, ContactLoop& loop,
+                 Piercings& piercings) {
+  std::uint64_t edges = 0, faces[2] = {};
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(spans); ++k) {
+    const Crossing& c = crossing[k];
+    const std::uint32_t of_b = c.edge / capacity;
+    const Side& side = sides.of[of_b];
+    const EdgeRecord& edge = side.edge[c.edge % capacity];
+    place_corners(side, edge, 4 * vectors(of_b), c, loop.corner + 2 * k);
+    const std::uint32_t enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+    const std::uint32_t leaving = edge.pairs[of_b], step = std::uint32_t{0x00010001} << 5 * of_b;
+    piercings.add(std::rotl(leaving, 16) + step * c.into, 2 * k, enters);
+    piercings.add(leaving + step * c.out_of, 2 * k + 1, leaves);
+    const std::uint32_t first = c.edge & capacity, left = first + edge.left, right = first + edge.right;
+    loop.span[k] = {left, right};
+    loop.hub[left] = loop.hub[right] = static_cast<std::uint16_t>(2 * k);
+    edges |= std::uint64_t{1} << c.edge;
+    faces[of_b] |= edge.faces;
+    faces[of_b ^ 1] |= enters << c.into | leaves << c.out_of;
+  }
+  loop.spans = spans;
+  for (int s = 0; s < 2; ++s) {
+    loop.edges[s] = static_cast<std::uint32_t>(edges >> capacity * s);
+    loop.faces[s] = static_cast<std::uint32_t>(faces[s]);
+  }
+}
+
+/// Joins every end to the beginning of the same pair of faces. False if the loop does not close.
+bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
+  std::uint8_t beginning[capacity * capacity];  // corner + 1; 0: none
+  std::memset(beginning, 0, std::size_t{capacity} * static_cast<std::size_t>(faces_a));
+  for (int k = 0; k < piercings.count; ++k) {
+    const std::uint32_t pair = piercings.pairs[k] & 0xFFFF, corner = piercings.corner[k];
+    beginning[pair] = static_cast<std::uint8_t>(corner + 1);
+    loop.hub[pair / capacity] = loop.hub[capacity + pair % capacity] = static_cast<std::uint16_t>(corner);
+  }
+  bool open = false;
+  for (int k = 0; k < piercings.count; ++k) {
+    const std::uint32_t pair = piercings.pairs[k] >> 16;
+    const std::uint32_t from = beginning[pair];
+    beginning[pair] = 0;
+    open |= from == 0;
+    loop.segment[k] = {pair / capacity, pair % capacity, (from - 1) % ContactLoop::max_corners, piercings.corner[k]};
+  }
+  loop.segments = piercings.count;
+  return !open;
+}
+
+/// Phase 2.
+void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  const Sides sides = choose_reference(a, b, r, loop);
+  const std::uint64_t alive_a = loop.of_a.edges, alive_b = std::uint64_t{loop.of_b.edges} << capacity;
+  const int vectors_a = loop.of_a.planes / 4, vectors_b = loop.of_b.planes / 4;
+  Crossing crossing[ContactLoop::max_spans + 1];
+  Piercings piercings;
+  if (vectors_a == vectors_b) {
+    with_vectors(vectors_a, [&](auto vectors) {
+      // One loop for both solids, so that its end is mispredicted once.
+      const int spans = find_crossings(vectors, sides, alive_a | alive_b, crossing, 0);
+      place_spans([=](std::uint32_t) { return vectors; }, sides, crossing, spans, loop, piercings);
+    });
+  } else {
+    const int of_a = find_crossings(vectors_a, sides, alive_a, crossing, 0);
+    const int spans = find_crossings(vectors_b, sides, alive_b, crossing, of_a);
+    place_spans([=](std::uint32_t of_b) { return of_b ? vectors_b : vectors_a; }, sides, crossing, spans, loop,
+                piercings);
+  }
+  if (piercings.count == 0) {
+    // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
+    loop.verdict = loop.spans == 0 ? LoopVerdict::separated : LoopVerdict::degenerate;
+  } else {
+    loop.verdict = close_loop(piercings, a.faces(), loop) ? LoopVerdict::closed : LoopVerdict::degenerate;
+  }
+}
+
+/// Whether a face separates; it becomes the loop's axis if it does so beyond the rows of the table and rounding.
+bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  using Kind = SeparatingAxis::Kind;
+  SeparatingAxis axis;
+  if (loop.of_a.least_penetration <= 0) {
+    axis = {Kind::face_b, 0, static_cast<std::uint8_t>(loop.of_a.least_penetrated)};
+  } else if (loop.of_b.least_penetration <= 0) {
+    axis = {Kind::face_a, static_cast<std::uint8_t>(loop.of_b.least_penetrated), 0};
+  } else {
+    return false;
+  }
+  if (separates(a, b, r, axis)) loop.axis = axis;
+  return true;
+}
+
+/// Phase 1.
+void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  loop.axis = {};
+  loop.spans = loop.segments = 0;
+  loop.of_a.of = loop.tables, loop.of_b.of = loop.tables + Distances::size(a, b);
+  measure(a, b, r, loop.of_a);
+  measure(b, a, -r, loop.of_b);
+}
+
+/// Phase 2; distances below `tolerance` may be zero.
+void judge(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, double tolerance, ContactLoop& loop) {
+  loop.verdict = LoopVerdict::separated;
+  if (separated_by_face(a, b, r, loop)) return;
+  loop.verdict = LoopVerdict::degenerate;
+  if (has_vertex_on_plane(loop.of_a, tolerance) || has_vertex_on_plane(loop.of_b, tolerance)) return;
+  trace(a, b, r, loop);
+}
+
+}  // namespace
+
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
+  tabulate(a, b, r, loop);
+  judge(a, b, r, gap_tolerance(a.solid(), b.solid(), r), loop);
+}
+
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, ContactLoop& loop) {
+  tabulate(a, b, r.high, loop);
+  correct_small_distances(a, b, r, loop.of_a);
+  correct_small_distances(b, a, -r, loop.of_b);
+  judge(a, b, r.high, std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high), loop);
+}
+
+}  // namespace isojam

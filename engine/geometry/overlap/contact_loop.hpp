@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "engine/geometry/overlap/distances.hpp"
+#include "engine/geometry/overlap/lanes.hpp"
+#include "engine/geometry/overlap/separating_axis.hpp"
+#include "engine/geometry/placed_solid.hpp"
+
+namespace isojam {
+
+enum class LoopVerdict : std::uint8_t {
+  separated,  ///< a face separates, or no edge of one solid reaches into the other
+  closed,     ///< every segment has its two ends: the loop is the boundary between A's part and B's
+  degenerate  ///< a vertex lies on a plane to within rounding, the loop does not close, or one solid holds the other
+};
+
+/// The edges of the intersection of A and B: parts of edges of either inside the other, and the loop where their
+/// surfaces cross. Only what the verdict and the counts say is defined: clearing the rest would cost as much as finding
+/// the loop. Face i of A has number i, face j of B face_of_b + j.
+struct ContactLoop {
+  static constexpr int capacity = SolidArrays::capacity;
+  static constexpr std::uint32_t face_of_b = capacity;
+  static constexpr int max_spans = 2 * capacity;
+  static constexpr int max_corners = 2 * max_spans;
+
+  /// Part of an edge, tail → head, from corner 2k to 2k + 1 (k its index).
+  struct Span {
+    std::uint32_t left, right;  ///< faces, by number
+  };
+  /// Where face_a (left) crosses face_b (right), counter-clockwise seen from outside A.
+  struct Segment {
+    std::uint32_t face_a, face_b;  ///< i and j, not face_of_b + j
+    std::uint32_t from, to;        ///< corners
+  };
+
+  LoopVerdict verdict = LoopVerdict::degenerate;
+  SeparatingAxis axis;  ///< the face that separates, if one was found
+  Eigen::Vector3d up;   ///< normal of the reference plane: of all face planes the one penetrated least
+  int spans = 0, segments = 0;
+  std::uint32_t faces[2], edges[2];  ///< of A and of B, those of the intersection
+  Distances of_a, of_b;              ///< of the vertices of A from the planes of B, and the other way round
+  alignas(32) double tables[2 * Distances::max_size];  ///< the memory of both, without a gap
+  /// x, y, z from the middle between the centres (lab frame), and the height over the reference plane, negative inside:
+  /// interpolated between tabulated distances, hence 0 on that plane and never a difference of larger numbers near it.
+  alignas(32) double corner[max_corners][4];
+  std::uint16_t hub[2 * capacity];  ///< of each face of the intersection, by number, one of its corners
+  Span span[max_spans];
+  Segment segment[max_corners];
+};
+
+/// Finds the loop of A and B, B's centre at r from A's (lab frame). `loop` is overwritten.
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop);
+/// The same with small distances taken in double-double: each is right to its last bits however flat the contact. A and
+/// B are placed in double-double.
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, ContactLoop& loop);
+
+}  // namespace isojam

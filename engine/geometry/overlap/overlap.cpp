@@ -1,0 +1,215 @@
+#include "engine/geometry/overlap/overlap.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "engine/geometry/overlap/contact_loop.hpp"
+#include "engine/geometry/overlap/lanes.hpp"
+
+namespace isojam {
+
+namespace {
+
+/// Σ (v−o)×(w−o) (h_o+h_v+h_w), as cross_zxy() has it, for the face left of an edge v → w with o = l, minus the same
+/// for the right with o = r: v×w (h_l−h_r) + (l (h_l+h_v+h_w) − r (h_r+h_v+h_w)) × (v−w).
+inline Lanes fan(Lanes v_cross_w, Lanes v_plus_w, Lanes w_minus_v, Lanes l, Lanes r) {
+  const Lanes lever = r * lane<3>(v_plus_w + r) - l * lane<3>(v_plus_w + l);
+  return fma(v_cross_w, lane<3>(l - r), cross_zxy(lever, w_minus_v));
+}
+
+Eigen::Vector3d vector_of(Lanes a) {
+  alignas(32) double lane[4];
+  a.store(lane);
+  return {lane[0], lane[1], lane[2]};
+}
+
+void integrate(const ContactLoop& loop, const Eigen::Vector3d& r, Overlap& result) {
+  const auto corner = [&](std::uint32_t k) { return Lanes::load(loop.corner[k]); };
+  const auto hub = [&](std::uint32_t face) { return corner(loop.hub[face]); };
+  Lanes twice_area = Lanes::all(0), moment = twice_area, prisms = twice_area;
+  for (int k = 0; k < loop.segments; ++k) {
+    const ContactLoop::Segment& s = loop.segment[k];
+    const Lanes v = corner(s.from), w = corner(s.to);
+    const Lanes cross = cross_zxy(v, w), both = v + w, along = w - v;
+    twice_area = twice_area + cross;
+    moment = fma(along, sum(without_fourth(fma(v, both, w * w))), moment);
+    prisms = prisms + fan(cross, both, along, hub(s.face_a), hub(ContactLoop::face_of_b + s.face_b));
+  }
+  for (int k = 0; k < loop.spans; ++k) {
+    const Lanes v = Lanes::load(loop.corner[2 * k]), w = Lanes::load(loop.corner[2 * k + 1]);
+    prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, hub(loop.span[k].left), hub(loop.span[k].right));
+  }
+  result.path = OverlapPath::loop;
+  result.faces_a = loop.faces[0], result.faces_b = loop.faces[1];
+  result.edges_a = loop.edges[0], result.edges_b = loop.edges[1];
+  result.volume = loop.up.dot(vector_of(yzx(prisms))) / 6;
+  result.area = vector_of(yzx(twice_area)) / 2;
+  result.moment = (r / 2).cross(result.area) - vector_of(moment) / 6;
+}
+
+Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
+  const Eigen::Matrix3d to_a = a.rotation().transpose();
+  return clipped_overlap(a.solid(), b.solid(), RelativePose{to_a * b.rotation(), to_a * r});
+}
+
+Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r) {
+  const QuadMatrix to_a = transposed(widened(a.rotation_double_double()));
+  const QuadPose pose{to_a * widened(b.rotation_double_double()), to_a * widened(r)};
+  return narrowed(clipped_overlap(a.solid(), b.solid(), pose));
+}
+
+const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
+const Eigen::Vector3d& rounded(const DoubleDoubleVector& r) { return r.high; }
+
+/// |n×m| of face i of A and face j of B.
+double sine(const PlacedSolid& a, const PlacedSolid& b, int i, int j, const Eigen::Vector3d&) {
+  return a.normal(i).cross(b.normal(j)).norm();
+}
+
+/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
+double sine(const PlacedSolid& a, const PlacedSolid& b, int i, int j, const DoubleDoubleVector&) {
+  const DoubleDoubleVector n = a.normal_double_double(i), m = b.normal_double_double(j);
+  const double sign = n.high.dot(m.high) < 0 ? 1 : -1;
+  return n.high.cross((n.high + sign * m.high) + (n.low + sign * m.low)).norm();
+}
+
+/// The columns of H_AB, each in two halves of three rows: Σ ∫ u_A u_Bᵀ dl / |n_i×n_j|. On a segment of length l and
+/// direction d both u are linear, so that the integral is l ū_A ū_Bᵀ + l/12 (0, d×n_i) (0, d×n_j)ᵀ, ū at its middle.
+class CrossHessian {
+ public:
+  CrossHessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r)
+      : a_(a), b_(b), half_(Lanes::of(r.x() / 2, r.y() / 2, r.z() / 2, 0)) {
+    for (Lanes& column : upper_) column = Lanes::all(0);
+    for (Lanes& column : lower_) column = Lanes::all(0);
+  }
+
+  /// `sine`: |n_i×n_j| of the planes that meet in the segment.
+  void add(const ContactLoop& loop, const ContactLoop::Segment& s, double sine) {
+    const Lanes v = without_fourth(Lanes::load(loop.corner[s.from])),
+                w = without_fourth(Lanes::load(loop.corner[s.to]));
+    const Lanes n = normal(a_, s.face_a), m = normal(b_, s.face_b);
+    const Lanes along = w - v, middle = Lanes::all(0.5) * (v + w);
+    if (!(sine > 0)) return;
+    const Lanes weight = Lanes::all(std::sqrt(sum(along * along).first()) / sine);
+    const Lanes arm_a = yzx(cross_zxy(middle + half_, n)), turn_a = yzx(cross_zxy(along, n));
+    const Lanes arm_b = weight * yzx(cross_zxy(middle - half_, m));
+    const Lanes turn_b = weight * Lanes::all(1.0 / 12) * yzx(cross_zxy(along, m)), push_b = weight * m;
+    add_column<0>(n, arm_a, push_b, 0), add_column<1>(n, arm_a, push_b, 0), add_column<2>(n, arm_a, push_b, 0);
+    add_column<0>(n, arm_a, arm_b, 3), add_column<1>(n, arm_a, arm_b, 3), add_column<2>(n, arm_a, arm_b, 3);
+    lower_[3] = fma(turn_a, lane<0>(turn_b), lower_[3]);
+    lower_[4] = fma(turn_a, lane<1>(turn_b), lower_[4]);
+    lower_[5] = fma(turn_a, lane<2>(turn_b), lower_[5]);
+  }
+
+  Matrix6d matrix() const {
+    Matrix6d h;
+    for (int c = 0; c < 6; ++c) h.col(c) = joined(vector_of(upper_[c]), vector_of(lower_[c]));
+    return h;
+  }
+
+ private:
+  static Lanes normal(const PlacedSolid& solid, std::uint32_t f) {
+    return Lanes::load(solid.normal_row(static_cast<int>(f)));
+  }
+  template <int k>
+  void add_column(Lanes n, Lanes arm, Lanes factors, int first) {
+    upper_[first + k] = fma(n, lane<k>(factors), upper_[first + k]);
+    lower_[first + k] = fma(arm, lane<k>(factors), lower_[first + k]);
+  }
+
+  const PlacedSolid &a_, &b_;
+  Lanes half_;
+  Lanes upper_[6], lower_[6];
+};
+
+/// In double or in double-double, as r is.
+template <class Displacement>
+Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop) {
+  CrossHessian sum(a, b, rounded(r));
+  for (int k = 0; k < loop.segments; ++k) {
+    const ContactLoop::Segment& s = loop.segment[k];
+    sum.add(loop, s, sine(a, b, static_cast<int>(s.face_a), static_cast<int>(s.face_b), r));
+  }
+  return sum.matrix();
+}
+
+/// In double or in double-double, as r is; `hessian` may be null.
+template <class Displacement>
+Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis,
+                   OverlapHessian* hessian) {
+  ContactLoop loop;
+  find_contact_loop(a, b, r, loop);
+  if (hessian) *hessian = {};
+  Overlap result;
+  if (loop.verdict == LoopVerdict::separated) {
+    axis = loop.axis;
+    return result;
+  }
+  if (loop.verdict == LoopVerdict::closed) {
+    integrate(loop, rounded(r), result);
+    if (result.volume > 0) {  // or rounding ate a sliver
+      if (!hessian) return result;
+      hessian->ab = cross_hessian(a, b, r, loop);
+      hessian->aa = overlap_own_hessian(hessian->ab, result.area, rounded(r));
+      hessian->bb = overlap_own_hessian(hessian->ab.transpose(), -result.area, -rounded(r));
+      return result;
+    }
+  }
+  result = clipped(a, b, r);
+  result.area = a.rotation() * result.area;
+  result.moment = a.rotation() * result.moment;
+  return result;
+}
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
+  return overlap_at(a, b, r, axis, nullptr);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis) {
+  return overlap_at(a, b, r, axis, nullptr);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
+                OverlapHessian& hessian) {
+  return overlap_at(a, b, r, axis, &hessian);
+}
+
+Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis,
+                OverlapHessian& hessian) {
+  return overlap_at(a, b, r, axis, &hessian);
+}
+
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
+  return overlap(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement, axis);
+}
+
+Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  SeparatingAxis unused;
+  return overlap(a, b, pose, unused);
+}
+
+Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  SeparatingAxis unused;
+  OverlapHessian hessian;
+  overlap(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement, unused,
+          hessian);
+  return hessian.ab;
+}
+
+Matrix6d overlap_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r) {
+  Matrix6d own = -cross;
+  // θ×r = −[r]×θ: a turn of A about its centre carries B along.
+  own.rightCols<3>() += cross.leftCols<3>() * skew(r);
+  own.topRightCorner<3, 3>() -= skew(area);
+  return (own + own.transpose()) / 2;
+}
+
+}  // namespace isojam

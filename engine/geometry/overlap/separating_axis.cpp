@@ -1,0 +1,136 @@
+#include "engine/geometry/overlap/separating_axis.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/geometry/overlap/lanes.hpp"
+
+namespace isojam {
+
+namespace {
+
+/// Support function max_v u·v of a solid's vertices.
+double support(const SolidArrays& solid, const Eigen::Vector3d& u) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < solid.vertices; ++k)
+    best = std::max(best, u.x() * solid.x[k] + u.y() * solid.y[k] + u.z() * solid.z[k]);
+  return best;
+}
+
+Eigen::Vector3d direction(const SolidArrays& solid, int edge) {
+  const Edge& e = solid.edge[edge];
+  return {solid.x[e.head] - solid.x[e.tail], solid.y[e.head] - solid.y[e.tail], solid.z[e.head] - solid.z[e.tail]};
+}
+
+/// Extremes of u·v over the vertices of a placed solid, u = (x, y, z) in every lane.
+struct Extent {
+  Lanes x, y, z;
+
+  Lanes along(const PlacedSolid& solid, int v) const {
+    return fma(x, Lanes::load(solid.x() + v), fma(y, Lanes::load(solid.y() + v), z * Lanes::load(solid.z() + v)));
+  }
+  double highest(const PlacedSolid& solid) const {
+    Lanes best = along(solid, 0);
+    for (int v = 4; v < solid.vertices(); v += 4) best = max(best, along(solid, v));
+    return greatest(best).first();
+  }
+  double lowest(const PlacedSolid& solid) const {
+    Lanes best = along(solid, 0);
+    for (int v = 4; v < solid.vertices(); v += 4) best = min(best, along(solid, v));
+    return least(best).first();
+  }
+};
+
+/// (x, y, z, 0) of the axis. Which kind it is cannot be predicted: all are made, and one is picked.
+inline const double* pick_direction(const PlacedSolid& a, const PlacedSolid& b, const SeparatingAxis& axis,
+                                    double* across) {
+  const EdgeRecord &e = a.solid().arrays().record[axis.a], &f = b.solid().arrays().record[axis.b];
+  const Lanes p = Lanes::load(a.row(e.head)) - Lanes::load(a.row(e.tail));
+  const Lanes q = Lanes::load(b.row(f.head)) - Lanes::load(b.row(f.tail));
+  yzx(cross_zxy(p, q)).store(across);
+  const double* by_kind[] = {across, a.normal_row(axis.a), b.normal_row(axis.b), across};
+  return by_kind[static_cast<int>(axis.kind)];
+}
+
+/// Gap along the unit vector u (A's frame) from A to B.
+double gap_along(const SolidArrays& a, const SolidArrays& b, const RelativePose& pose, const Eigen::Vector3d& u) {
+  return u.dot(pose.displacement) - support(a, u) - support(b, -(pose.rotation.transpose() * u));
+}
+
+double face_gap(const SolidArrays& face_of, const SolidArrays& other, int face, const Eigen::Matrix3d& other_to_face,
+                const Eigen::Vector3d& other_centre) {
+  const Eigen::Vector3d n(face_of.nx[face], face_of.ny[face], face_of.nz[face]);
+  return n.dot(other_centre) - face_of.offset[face] - support(other, -(other_to_face.transpose() * n));
+}
+
+double edge_gap(const SolidArrays& a, const SolidArrays& b, const RelativePose& pose, int edge_a, int edge_b) {
+  const Eigen::Vector3d p = direction(a, edge_a);
+  const Eigen::Vector3d q = pose.rotation * direction(b, edge_b);
+  Eigen::Vector3d u = p.cross(q);
+  const double norm = u.norm();
+  // Parallel edges give no axis of their own: a face normal does as well.
+  if (norm <= std::numeric_limits<double>::epsilon() * p.norm() * q.norm())
+    return -std::numeric_limits<double>::infinity();
+  u /= u.dot(pose.displacement) < 0 ? -norm : norm;
+  return gap_along(a, b, pose, u);
+}
+
+}  // namespace
+
+double gap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, const SeparatingAxis& axis) {
+  switch (axis.kind) {
+    case SeparatingAxis::Kind::none: break;
+    case SeparatingAxis::Kind::face_a:
+      return face_gap(a.arrays(), b.arrays(), axis.a, pose.rotation, pose.displacement);
+    case SeparatingAxis::Kind::face_b:
+      return face_gap(b.arrays(), a.arrays(), axis.b, pose.rotation.transpose(),
+                      -(pose.rotation.transpose() * pose.displacement));
+    case SeparatingAxis::Kind::edge_edge: return edge_gap(a.arrays(), b.arrays(), pose, axis.a, axis.b);
+  }
+  return -std::numeric_limits<double>::infinity();
+}
+
+SeparatingAxis best_axis(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  SeparatingAxis best;
+  double widest = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](SeparatingAxis::Kind kind, int fa, int fb) {
+    const SeparatingAxis axis{kind, static_cast<std::uint8_t>(fa), static_cast<std::uint8_t>(fb)};
+    const double width = gap(a, b, pose, axis);
+    if (width > widest) widest = width, best = axis;
+  };
+  for (int f = 0; f < a.arrays().faces; ++f) consider(SeparatingAxis::Kind::face_a, f, 0);
+  for (int f = 0; f < b.arrays().faces; ++f) consider(SeparatingAxis::Kind::face_b, 0, f);
+  for (int e = 0; e < a.arrays().edges; ++e) {
+    for (int f = 0; f < b.arrays().edges; ++f) consider(SeparatingAxis::Kind::edge_edge, e, f);
+  }
+  return best;
+}
+
+SeparatingAxis best_axis(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
+  const Eigen::Matrix3d to_a = a.rotation().transpose();
+  return best_axis(a.solid(), b.solid(), {to_a * b.rotation(), to_a * r});
+}
+
+double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  return gap_tolerance(a, b, pose.displacement);
+}
+
+bool separates(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const SeparatingAxis& axis) {
+  if (axis.kind == SeparatingAxis::Kind::none) return false;
+  alignas(32) double across[4];
+  const double* u = pick_direction(a, b, axis, across);
+  const double ux = u[0], uy = u[1], uz = u[2];
+  const double along = ux * r.x() + uy * r.y() + uz * r.z();
+  // From A to B. That of crossed edges may point either way.
+  const double signs[] = {1, 1, -1, std::copysign(1.0, along)};
+  const double sign = signs[static_cast<int>(axis.kind)];
+  const Extent extent{Lanes::all(sign * ux), Lanes::all(sign * uy), Lanes::all(sign * uz)};
+  const double gap = sign * along - extent.highest(a) + extent.lowest(b);
+  const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
+  // Without a square root or a quotient: u is not a unit vector.
+  return gap > 0 && gap * gap > tolerance * tolerance * (ux * ux + uy * uy + uz * uz);
+}
+
+}  // namespace isojam

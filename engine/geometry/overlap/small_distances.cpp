@@ -1,0 +1,60 @@
+#include "engine/geometry/overlap/small_distances.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/geometry/overlap/lanes.hpp"
+
+namespace isojam {
+
+namespace {
+
+/// n·(y − to_other) − offset, with products of high parts exact and low parts to first order.
+double distance_double_double(const PlacedSolid& body, int vertex, const PlacedSolid& other, int plane,
+                              const DoubleDoubleVector& to_other) {
+  const DoubleDoubleVector n = other.normal_double_double(plane), y = body.vertex_double_double(vertex);
+  DoubleDouble sum = -other.offset_double_double(plane);
+  for (int c = 0; c < 3; ++c) {
+    const DoubleDouble p = two_sum(y.high[c], -to_other.high[c]);
+    const DoubleDouble product = two_product(n.high[c], p.high);
+    const DoubleDouble next = two_sum(sum.high, product.high);
+    const double first_order = n.high[c] * (p.low + y.low[c] - to_other.low[c]) + n.low[c] * p.high;
+    sum = {next.high, sum.low + (next.low + product.low + first_order)};
+  }
+  return sum.high + sum.low;
+}
+
+std::uint32_t columns_below(double near, const double* row, int columns) {
+  std::uint32_t below = 0;
+  for (int k = 0; k < columns; k += 4) below |= sign_bits(absolute(Lanes::load(row + k)) - Lanes::all(near)) << k;
+  return below;
+}
+
+}  // namespace
+
+double double_double_below(const ConvexSolid& a, const ConvexSolid& b) {
+  return 2e-3 * std::min(a.inradius(), b.inradius());
+}
+
+void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, const DoubleDoubleVector& to_other,
+                             Distances& d) {
+  const double near = double_double_below(body.solid(), other.solid());
+  if (d.nearest >= near) return;
+  bool changed_side = false;
+  d.nearest = near;
+  for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
+    const int v = std::countr_zero(rows);
+    double* row = d.row(v);
+    for (std::uint32_t small = columns_below(near, row, d.planes); small; small &= small - 1) {
+      const int f = std::countr_zero(small);
+      const double distance = distance_double_double(body, v, other, f, to_other);
+      changed_side |= std::signbit(distance) != std::signbit(row[f]);
+      d.nearest = std::min(d.nearest, std::abs(distance));
+      row[f] = distance;
+    }
+  }
+  if (changed_side) classify(body.solid(), d);
+}
+
+}  // namespace isojam

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "engine/geometry/overlap/distances.hpp"
+#include "engine/geometry/placed_solid.hpp"
+
+namespace isojam {
+
+/// Distances smaller than this are taken in double-double in double-double: 2e-3 of the inradius. The rounding
+/// of larger ones, gap_tolerance(), is below 1e-11 of themselves.
+double double_double_below(const ConvexSolid& a, const ConvexSolid& b);
+
+/// Takes the small distances of a table, as measure() left it, again in double-double: each is right to its last bits
+/// however small it is. Both solids are placed in double-double.
+void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, const DoubleDoubleVector& to_other,
+                             Distances& d);
+
+}  // namespace isojam

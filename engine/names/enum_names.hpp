@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
+namespace isojam {
+
+/// An enumerator and what files and messages call it.
+template <class Enum>
+struct EnumName {
+  Enum value;
+  std::string_view name;
+};
+
+/// The names of an enumeration in the order in which they are offered, each enumerator once. Specialised right after
+/// the enumeration, which thereby has to_string() and from_string():
+///
+///   enum class Axis { x, y };
+///   template <>
+///   inline constexpr std::array enum_names<Axis>{EnumName{Axis::x, "x"}, EnumName{Axis::y, "y"}};
+template <class Enum>
+inline constexpr std::array<EnumName<Enum>, 0> enum_names{};
+
+template <class Enum>
+concept NamedEnum = std::is_enum_v<Enum> && !enum_names<Enum>.empty();
+
+template <NamedEnum Enum>
+constexpr std::string_view to_string(Enum value) {
+  for (const auto& entry : enum_names<Enum>) {
+    if (entry.value == value) return entry.name;
+  }
+  assert(false);
+  return "";
+}
+
+/// nullopt if no enumerator has that name.
+template <NamedEnum Enum>
+constexpr std::optional<Enum> from_string(std::string_view name) {
+  for (const auto& entry : enum_names<Enum>) {
+    if (entry.name == name) return entry.value;
+  }
+  return std::nullopt;
+}
+
+/// All enumerators that have names, in their order.
+template <NamedEnum Enum>
+inline constexpr auto all_of = [] {
+  std::array<Enum, enum_names<Enum>.size()> values{};
+  std::transform(enum_names<Enum>.begin(), enum_names<Enum>.end(), values.begin(),
+                 [](const EnumName<Enum>& entry) { return entry.value; });
+  return values;
+}();
+
+/// All names, in the same order.
+template <NamedEnum Enum>
+inline constexpr auto all_names = [] {
+  std::array<std::string_view, enum_names<Enum>.size()> names{};
+  std::transform(enum_names<Enum>.begin(), enum_names<Enum>.end(), names.begin(),
+                 [](const EnumName<Enum>& entry) { return entry.name; });
+  return names;
+}();
+
+}  // namespace isojam

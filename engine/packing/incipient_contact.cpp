@@ -1,0 +1,42 @@
+#include "engine/packing/incipient_contact.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace isojam {
+
+namespace {
+
+/// A flat contact of area A whose section line crosses its middle resists tilt about axes in its plane: V_τ ≈ A^(3/2)/5
+/// there, and ½ V_τ² = A³/50. Contacts of lower order have so small an area that it vanishes beside ½ |∇V|².
+Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, double radius) {
+  const double square = area.squaredNorm();
+  if (!(square > 0)) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - area * area.transpose() / square;
+  return square * std::sqrt(square) / (50 * radius * radius) * in_plane;
+}
+
+}  // namespace
+
+LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, double gyration_radius) {
+  const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
+  return {overlap.volume, joined(overlap.area, overlap.moment / gyration_radius),
+          joined(-overlap.area, moment_b / gyration_radius)};
+}
+
+IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& pressed, const Eigen::Vector3d& r,
+                                   double distance, double gyration_radius) {
+  IncipientContact pair;
+  pair.a = a, pair.b = b;
+  const Eigen::Vector3d approach = distance * r.normalized();
+  if (now.touching()) pair.now = tangent(now, r, gyration_radius);
+  if (pressed.touching()) {
+    pair.pressed = tangent(pressed, r - approach, gyration_radius);
+    pair.pressed.at_rest -= pressed.area.dot(approach);  // B moved by −approach, against −S_A
+  }
+  const bool wider = pressed.area.squaredNorm() > now.area.squaredNorm();
+  pair.tilt = tilt_stiffness(wider ? pressed.area : now.area, gyration_radius);
+  return pair;
+}
+
+}  // namespace isojam

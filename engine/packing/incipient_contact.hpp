@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "engine/geometry/overlap/overlap.hpp"
+
+namespace isojam {
+
+/// Overlap volume of a pair (a, b) to first order in a step s of 6N entries, per particle (x, R·θ), R the radius of
+/// gyration: V ≈ at_rest + slope_a·s_a + slope_b·s_b.
+struct LinearisedOverlap {
+  double at_rest = 0;
+  Vector6d slope_a = Vector6d::Zero(), slope_b = Vector6d::Zero();
+
+  double at(const Eigen::VectorXd& step, int a, int b) const {
+    return at_rest + slope_a.dot(step.segment<6>(6 * a)) + slope_b.dot(step.segment<6>(6 * b));
+  }
+};
+
+/// A pair of particles that touch, or would if their centres were a little closer, seen twice: as it is and pressed
+/// together by that little. Where faces are about to come flush the pressed plane is far the steeper one; V being
+/// convex in depth and tilt of a flat contact, both planes lie below it.
+struct IncipientContact {
+  int a = 0, b = 0;
+  LinearisedOverlap now;  ///< tangent in the present state; 0 if the pair is apart
+  LinearisedOverlap
+      pressed;  ///< tangent in the pressed state, extended to the present one, where it is negative for a gap
+  /// Stiffness against relative rotation (R·θ_B − R·θ_A) that a flat contact shows once its section line cuts the
+  /// face; until then V is linear in the tilt and the Hessian blind to it.
+  Eigen::Matrix3d tilt = Eigen::Matrix3d::Zero();
+};
+
+/// Tangent of V for an overlap (area S_A and moment M_A in the lab frame) at displacement r = x_B − x_A.
+LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, double gyration_radius);
+
+/// The pair with overlap `now` at r, and `pressed` with B's centre closer to A's by `distance`. Either may be empty,
+/// not both.
+IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& pressed, const Eigen::Vector3d& r,
+                                   double distance, double gyration_radius);
+
+}  // namespace isojam

@@ -1,0 +1,224 @@
+#include "engine/vibration/spectrum.hpp"
+
+#include <Spectra/SymEigsShiftSolver.h>
+#include <Spectra/SymEigsSolver.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "engine/random/stream.hpp"
+#include "engine/solve/factor/shift_invert.hpp"
+#include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/lanczos_operators.hpp"
+
+namespace isojam {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Sets residual and relative_error.
+void measure(ModeSet& modes, const BlockMatrix& matrix, double stiffness) {
+  modes.residual = modes.relative_error = 0;
+  for (Index k = 0; k < modes.size(); ++k) {
+    const VectorXd u = modes.vectors.col(k);
+    const double residual = (matrix * u - modes.eigenvalues[k] * u).norm(), size = std::abs(modes.eigenvalues[k]);
+    const double error = residual + epsilon * stiffness;
+    if (stiffness > 0) modes.residual = std::max(modes.residual, residual / stiffness);
+    modes.relative_error =
+        std::max(modes.relative_error, size > 0 ? error / size : std::numeric_limits<double>::infinity());
+  }
+}
+
+/// Runs an initialised Spectra solver. False, and no modes, if it did not converge.
+template <class Solver>
+bool take_modes(Solver& solver, Spectra::SortRule wanted, double tolerance, int restarts, ModeSet& modes) {
+  ++modes.attempts;
+  const VectorXd start = lanczos_start(modes.vectors.rows());
+  try {
+    solver.init(start.data());
+    solver.compute(wanted, restarts, tolerance, Spectra::SortRule::SmallestAlge);
+  } catch (const std::runtime_error&) {
+    return false;  // its small dense eigenproblem did not converge
+  }
+  if (solver.info() != Spectra::CompInfo::Successful) return false;
+  // Spectra keeps the order asked for, descending whatever the rule is called.
+  modes.eigenvalues = solver.eigenvalues().reverse();
+  modes.vectors = solver.eigenvectors().rowwise().reverse();
+  if (modes.eigenvalues.size() > 1 && modes.eigenvalues[0] > modes.eigenvalues[modes.size() - 1]) {
+    modes.eigenvalues.reverseInPlace();
+    modes.vectors = modes.vectors.rowwise().reverse().eval();
+  }
+  return modes.eigenvalues.allFinite();
+}
+
+/// Dimension of the Krylov space for `wanted` modes of a spectrum of `all`.
+Index subspace(Index wanted, Index all, int attempt) {
+  const Index spacious = attempt == 0 ? 2 * wanted + 20 : 4 * wanted + 60;
+  return std::min(all, spacious);
+}
+
+class Ends {
+ public:
+  Ends(const BlockMatrix& matrix, const ModeOptions& options)
+      : matrix_(matrix), options_(options), size_(6 * Index{matrix.size()}), all_(size_ - 3) {}
+
+  SpectrumEnds find() {
+    SpectrumEnds ends;
+    const double bound = norm_bound(matrix_);
+    if (all_ < 1 || !std::isfinite(bound)) {
+      ends.lowest.ended = ends.highest.ended = ModeEnd::failed;
+      return ends;
+    }
+    const Index low = std::min<Index>(options_.lowest, all_), high = std::min<Index>(options_.highest, all_);
+    const bool iterate = bound > 0 && serves(low) && serves(high);
+    if (!iterate || !find_highest(high, ends)) return densely(low, high);
+    if (!find_lowest(low, ends)) {
+      const SpectrumEnds dense = densely(low, high, ends.lowest.attempts);
+      ends.lowest = dense.lowest;
+    }
+    return ends;
+  }
+
+ private:
+  /// Lanczos needs room for as many vectors again.
+  bool serves(Index wanted) const { return wanted > 0 && 2 * wanted + 20 <= all_; }
+
+  bool find_highest(Index wanted, SpectrumEnds& ends) const {
+    Product product(matrix_);
+    Deflated<Product> operation(product);
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      ends.highest.vectors.resize(size_, 0);
+      Spectra::SymEigsSolver<Deflated<Product>> solver(operation, wanted, subspace(wanted, all_, attempt));
+      if (!take_modes(solver, Spectra::SortRule::LargestAlge, options_.highest_tolerance, options_.restarts,
+                      ends.highest))
+        continue;
+      ends.stiffness = ends.highest.eigenvalues.cwiseAbs().maxCoeff();
+      measure(ends.highest, matrix_, ends.stiffness);
+      ends.highest.ended = attempt == 0 ? ModeEnd::converged : ModeEnd::retried;
+      return true;
+    }
+    return false;
+  }
+
+  bool find_lowest(Index wanted, SpectrumEnds& ends) const {
+    ModeSet& modes = ends.lowest;
+    // Close below 0; then, for a Hessian with negative modes, below all of the spectrum.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      const double shift = attempt == 0 ? -options_.shift * ends.stiffness : below_all(ends.stiffness);
+      modes.vectors.resize(size_, 0);
+      if (!invert(wanted, attempt, shift, modes)) continue;
+      measure(modes, matrix_, ends.stiffness);
+      // ‖Du − λu‖ ≤ ‖D − σ‖ times the residual of the inverse's eigenpair, and rounding.
+      const double from_tolerance = options_.lowest_tolerance * (ends.stiffness - shift);
+      if (modes.residual * ends.stiffness > rounding_bound(matrix_, ends.stiffness) + from_tolerance) continue;
+      modes.ended = attempt == 0 ? ModeEnd::converged : ModeEnd::retried;
+      return true;
+    }
+    return false;
+  }
+
+  bool invert(Index wanted, int attempt, double shift, ModeSet& modes) const {
+    ShiftInvert inverse(matrix_);
+    Deflated<ShiftInvert> operation(inverse);
+    try {
+      Spectra::SymEigsShiftSolver<Deflated<ShiftInvert>> solver(operation, wanted, subspace(wanted, all_, attempt),
+                                                                shift);
+      if (!take_modes(solver, Spectra::SortRule::LargestMagn, options_.lowest_tolerance, options_.restarts, modes))
+        return false;
+    } catch (const std::domain_error&) {
+      ++modes.attempts;
+      return false;  // the shift hit an eigenvalue
+    }
+    return (modes.eigenvalues.array() < shift).count() == inverse.negative_pivots();
+  }
+
+  /// Below the lowest mode by a fraction of its distance from 0, or the usual shift if that is further.
+  double below_all(double stiffness) const {
+    Product product(matrix_);
+    Deflated<Product> operation(product);
+    Spectra::SymEigsSolver<Deflated<Product>> solver(operation, 1, std::min<Index>(all_, 40));
+    ModeSet lowest;
+    lowest.vectors.resize(size_, 0);
+    const double rough = 1e-2;  // of the lowest mode itself: it is only to be undercut
+    const double fallback = -norm_bound(matrix_);
+    if (!take_modes(solver, Spectra::SortRule::SmallestAlge, rough, options_.restarts, lowest)) return fallback;
+    const double lambda = lowest.eigenvalues[0];
+    return std::min(-100 * options_.shift * stiffness, lambda - 2 * rough * std::abs(lambda));
+  }
+
+  SpectrumEnds densely(Index low, Index high, int attempts = 0) const {
+    SpectrumEnds ends;
+    if (matrix_.size() > options_.largest_dense) {
+      ends.lowest.ended = ends.highest.ended = ModeEnd::failed;
+      ends.lowest.attempts = ends.highest.attempts = attempts;
+      return ends;
+    }
+    const ModeSet all = dense_modes(matrix_);
+    ends.stiffness = all.eigenvalues.cwiseAbs().maxCoeff();
+    ends.lowest = part(all, 0, low, ends.stiffness, attempts);
+    ends.highest = part(all, all_ - high, high, ends.stiffness, attempts);
+    return ends;
+  }
+
+  ModeSet part(const ModeSet& all, Index first, Index count, double stiffness, int attempts) const {
+    ModeSet modes;
+    modes.ended = all.ended == ModeEnd::failed ? ModeEnd::failed : ModeEnd::dense_fallback;
+    modes.attempts = attempts + 1;
+    modes.eigenvalues = all.eigenvalues.segment(first, count);
+    modes.vectors = all.vectors.middleCols(first, count);
+    measure(modes, matrix_, stiffness);
+    return modes;
+  }
+
+  const BlockMatrix& matrix_;
+  const ModeOptions& options_;
+  Index size_, all_;
+};
+
+}  // namespace
+
+VectorXd lanczos_start(Index rows) {
+  RandomStream random{static_cast<std::uint64_t>(rows)};
+  VectorXd start(rows);
+  for (double& entry : start) entry = random.normal();
+  remove_translations(start);
+  return start;
+}
+
+SpectrumEnds spectrum_ends(const BlockMatrix& matrix, const ModeOptions& options) {
+  return Ends(matrix, options).find();
+}
+
+ModeSet dense_modes(const BlockMatrix& matrix) {
+  ModeSet modes;
+  modes.attempts = 1;
+  modes.ended = ModeEnd::failed;
+  MatrixXd rotated = dense_matrix(matrix);
+  if (rotated.rows() <= 3 || !rotated.allFinite()) return modes;
+  // In a basis whose first three vectors are the translations, the rest of D is a matrix of its own.
+  const Eigen::HouseholderQR<MatrixXd> basis(translations(matrix.size()));
+  const Index rest = rotated.rows() - 3;
+  rotated.applyOnTheLeft(basis.householderQ().adjoint());
+  rotated.applyOnTheRight(basis.householderQ());
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rotated.bottomRightCorner(rest, rest));
+  if (solver.info() != Eigen::Success) return modes;
+  modes.ended = ModeEnd::converged;
+  modes.eigenvalues = solver.eigenvalues();
+  modes.vectors = MatrixXd::Zero(rotated.rows(), rest);
+  modes.vectors.bottomRows(rest) = solver.eigenvectors();
+  modes.vectors.applyOnTheLeft(basis.householderQ());
+  measure(modes, matrix, modes.eigenvalues.cwiseAbs().maxCoeff());
+  return modes;
+}
+
+}  // namespace isojam

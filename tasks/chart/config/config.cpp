@@ -1,0 +1,140 @@
+#include "tasks/chart/config/config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/packing/periodic_cell.hpp"
+#include "engine/solve/jam.hpp"
+#include "tasks/json/options.hpp"
+#include "tasks/json/parse.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr Range seed_range{0, 9007199254740992};  // 2^53: every reader of JSON holds integers up to here
+constexpr Range count_range{1, 1000};
+constexpr Range particle_range{8, 2000};
+constexpr Range distance_range{1e-3, 0.2};
+constexpr Range tolerance_range{0, 1, true};
+constexpr Range subspace_range{60, 1000};
+constexpr Range evaluation_range{10, 1e7};
+constexpr Range second_range{0, 1e6, true};
+constexpr Range step_range{0, 0.1, true};
+constexpr Range energy_range{1e-12, 1e-2};
+
+/// Reads or writes every field by one list, so that the two cannot differ. `Visitor` gets a key, a value and its range.
+template <class Config, class Visitor>
+void visit_phi_j(Config& config, const Visitor& visit) {
+  visit("solid", config.solid, Range{});
+  visit("replicates", config.replicates, Range{2, 1000});
+  visit("particles", config.particles, particle_range);
+  visit("consolidation_step", config.consolidation_step, step_range);
+  visit("target_energy", config.target_energy, energy_range);
+  visit("fit_window", config.fit_window, distance_range);
+  visit("residual", config.residual, tolerance_range);
+}
+
+template <class Config, class Visitor>
+void visit_chart(Config& config, const Visitor& visit) {
+  visit("compare", config.compare, Range{});
+  visit("solids", config.solids, Range{});
+  visit("seed", config.seed, seed_range);
+  visit("particles", config.particles, particle_range);
+  visit("packings", config.packings, count_range);
+  visit("distances", config.distances, distance_range);
+  visit("fit_window", config.fit_window, distance_range);
+  visit("tolerances", config.tolerances, tolerance_range);
+  visit("energy_changes", config.energy_changes, tolerance_range);
+  visit("difference_steps", config.difference_steps, tolerance_range);
+  visit("shifts", config.shifts, tolerance_range);
+  visit("subspaces", config.subspaces, subspace_range);
+  visit("pairs", config.pairs, Range{1, 1e5});
+  visit("repetitions", config.repetitions, count_range);
+  visit("max_evaluations", config.max_evaluations, evaluation_range);
+  visit("rule_evaluations", config.rule_evaluations, evaluation_range);
+  visit("point_seconds", config.point_seconds, second_range);
+  visit("total_seconds", config.total_seconds, second_range);
+}
+
+/// Calls a visitor on every key for its name alone.
+template <class Visit>
+std::vector<std::string_view> keys_of(const Visit& visit) {
+  std::vector<std::string_view> keys;
+  visit([&](std::string_view key, const auto&, const Range&) { keys.push_back(key); });
+  return keys;
+}
+
+void read_phi_j(const JsonPlace& place, PhiJConfig& config) {
+  place.expect_keys(keys_of([&](const auto& visitor) { visit_phi_j(config, visitor); }));
+  visit_phi_j(config, [&](const std::string& key, auto& value, const Range& range) {
+    if (place.has(key)) read_option(place.at(key), range, value);
+  });
+}
+
+/// The cell must be legal up to the density that jamming may pass through.
+void check_particles(const JsonPlace& root, const std::string& key, SolidKind solid, int particles) {
+  const int least = least_particles(platonic(solid), JamOptions().max_density);
+  if (particles >= least) return;
+  const JsonPlace place = root.has(key) ? root.at(key) : root;
+  place.refuse(
+      fmt::format("{} particles are too few: a {} would touch two images of another", particles, to_string(solid)),
+      fmt::format("{} or more", least));
+}
+
+}  // namespace
+
+ChartConfig full_chart_config() {
+  ChartConfig config;
+  config.solids = {SolidKind::tetrahedron, SolidKind::octahedron, SolidKind::dodecahedron, SolidKind::icosahedron};
+  config.particles = 100;
+  config.packings = 3;
+  config.distances = {0.1, 0.06, 0.04, 0.025, 0.015, 0.01, 0.007};
+  config.tolerances = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-9};
+  config.energy_changes = {1e-10, 1e-12, 1e-14};
+  config.difference_steps = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
+  config.shifts = {1e-3, 1e-6, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14};
+  config.subspaces = {80, 120, 200, 300};
+  config.pairs = 300;
+  config.max_evaluations = 20000;
+  config.rule_evaluations = 100000;
+  config.point_seconds = 30;
+  config.total_seconds = 3500;
+  config.phi_j.replicates = 8;
+  config.phi_j.particles = {100, 50, 200};
+  config.phi_j.consolidation_step = {0.02, 0.005, 0.01, 0.04};
+  config.phi_j.target_energy = {3.2e-5, 1e-6, 1e-8};
+  config.phi_j.fit_window = {0.02, 0.01, 0.05, 0.12};
+  config.phi_j.residual = {1e-6, 1e-9, 1e-4, 1e-3};
+  return config;
+}
+
+ChartConfig parse_chart_config(std::string_view text, const std::string& file) {
+  const Json document = parse_json(text, file);
+  const JsonPlace root(document, file);
+  ChartConfig config;
+  auto keys = keys_of([&](const auto& visitor) { visit_chart(config, visitor); });
+  keys.insert(keys.begin(), "$schema");
+  keys.emplace_back("phi_j");
+  root.expect_keys(keys);
+  if (root.has("$schema")) root.at("$schema").text();
+  visit_chart(config, [&](const std::string& key, auto& value, const Range& range) {
+    if (root.has(key)) read_option(root.at(key), range, value);
+  });
+  if (root.has("phi_j")) read_phi_j(root.at("phi_j"), config.phi_j);
+  for (const SolidKind solid : config.solids) check_particles(root, "particles", solid, config.particles);
+  const int fewest = *std::min_element(config.phi_j.particles.begin(), config.phi_j.particles.end());
+  check_particles(root, "phi_j", config.phi_j.solid, fewest);
+  return config;
+}
+
+Json to_json(const ChartConfig& config) {
+  Json json = Json::object();
+  visit_chart(config, [&](const std::string& key, const auto& value, const Range&) { json[key] = option_json(value); });
+  Json& phi_j = json["phi_j"] = Json::object();
+  visit_phi_j(config.phi_j,
+              [&](const std::string& key, const auto& value, const Range&) { phi_j[key] = option_json(value); });
+  return json;
+}
+
+}  // namespace isojam

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include "tasks/chart/families/comparisons.hpp"
+
+namespace isojam {
+namespace {
+
+ChartFamily equilibrium_family() {
+  return {"equilibrium",
+          "residual",
+          "Minimisers from the same starts, states of an expansion strained by one of its steps; the residual is the "
+          "largest imbalance of a particle over the mean contact force. Spread over packings; times are also over "
+          "repetitions. Bias: median difference from the reference, the default method to 1e-9.",
+          FamilyEnd::complete,
+          {}};
+}
+
+ChartFamily bias_family() {
+  return {"bias",
+          "|bias of jamming density|",
+          "What the states that each way of minimising ends in make of the jamming density, against the reference, by "
+          "the same fit. Times are of all states of a packing together, spread over packings.",
+          FamilyEnd::complete,
+          {}};
+}
+
+ChartFamily hessian_family() {
+  return {"hessian",
+          "largest relative error of an eigenvalue",
+          "The analytic Hessian of equilibria against central differences of the gradient in double-double. Error "
+          "of differences: from the analytic eigenvalues, translations apart; of the analytic ones: what rounding can "
+          "do to them at most. Failed: negative modes that are not there.",
+          FamilyEnd::complete,
+          {}};
+}
+
+ChartFamily modes_family() {
+  return {"modes",
+          "largest relative error of an eigenvalue",
+          fmt::format("The {} lowest modes beyond translations, against the dense solver; its own error is what "
+                      "rounding can do at most. Shifts are −σ/λ_max. Spread over packings.",
+                      modes_compared),
+          FamilyEnd::complete,
+          {}};
+}
+
+ChartFamily overlap_family() {
+  return {
+      "overlap",
+      "relative error of V",
+      "Overlap volumes against arithmetic of 50 digits, by class of contact. Poses are rounded to the precision of "
+      "the method first, as in a packing. Times are per pair, solids placed; spread of errors over pairs. Forces are "
+      "−VS/2: the error of S, where a method gives it, stands in the list of points.",
+      FamilyEnd::complete,
+      {}};
+}
+
+ChartFamily phi_j_family() {
+  return {"phi_j",
+          "error of jamming density (95 % bound)",
+          "Mean jamming density over replicates, one parameter of the protocol at a time moved away from the first "
+          "setting. Error: distance of the far end of the mean's 95 % interval from the mean of the first setting over "
+          "all replicates. Times are of all replicates together. That φ_J depends on the number of particles and on "
+          "the target energy is physics, not error.",
+          FamilyEnd::complete,
+          {}};
+}
+
+}  // namespace
+
+std::vector<ChartFamily> empty_families(Comparison comparison) {
+  switch (comparison) {
+    case Comparison::equilibrium: return {equilibrium_family(), bias_family()};
+    case Comparison::hessian: return {hessian_family()};
+    case Comparison::modes: return {modes_family()};
+    case Comparison::overlap: return {overlap_family()};
+    case Comparison::phi_j: return {phi_j_family()};
+    case Comparison::atlas: return {};
+  }
+  return {};
+}
+
+}  // namespace isojam

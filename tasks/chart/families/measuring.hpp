@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "tasks/chart/config/config.hpp"
+#include "tasks/chart/config/deadline.hpp"
+#include "tasks/chart/results/point.hpp"
+#include "tasks/system/console.hpp"
+#include "tasks/system/thread_clock.hpp"
+
+namespace isojam {
+
+/// What all measurements of a chart share.
+struct Measuring {
+  const ChartConfig& config;
+  std::stop_token stop;  ///< time over, or a signal
+  Console& console;
+
+  bool over() const { return stop.stop_requested(); }
+};
+
+/// What takes longer is timed once: repetitions are there for what the clock's noise can spoil.
+inline constexpr double seconds_worth_repeating = 0.1;
+
+/// Runs `work` as often as the configuration says, fewer times if it takes long, and gives the CPU times of the calling
+/// thread. `work` must give the same result each time.
+template <class Work>
+std::vector<double> timed(const Measuring& measuring, const Work& work) {
+  const auto begun = std::chrono::steady_clock::now();
+  std::vector<double> seconds;
+  while (static_cast<int>(seconds.size()) < measuring.config.repetitions) {
+    const double before = thread_cpu_seconds();
+    work();
+    seconds.push_back(thread_cpu_seconds() - before);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
+    if (measuring.over() || spent.count() > seconds_worth_repeating) break;
+  }
+  return seconds;
+}
+
+}  // namespace isojam

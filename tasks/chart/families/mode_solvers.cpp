@@ -1,0 +1,168 @@
+#include "engine/vibration/spectrum.hpp"
+
+#include <Spectra/SymEigsShiftSolver.h>
+#include <Spectra/SymEigsSolver.h>
+#include <fmt/format.h>
+
+#include <map>
+#include <stdexcept>
+
+#include "engine/solve/factor/shift_invert.hpp"
+#include "engine/vibration/lanczos_operators.hpp"
+#include "tasks/chart/families/comparisons.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int wanted = modes_compared;
+constexpr int restarts = 100;
+constexpr double tolerance = 1e-13;
+/// Eigenvalues farther off than this are not the modes that were asked for.
+constexpr double worst_useful_error = 1e-2;
+
+struct Found {
+  std::string stopped;
+  VectorXd eigenvalues;  ///< ascending; empty unless converged
+};
+
+template <class Solver>
+Found solve(Solver& solver, Index size, Spectra::SortRule rule) {
+  const VectorXd start = lanczos_start(size);
+  try {
+    solver.init(start.data());
+    solver.compute(rule, restarts, tolerance, Spectra::SortRule::SmallestAlge);
+  } catch (const std::runtime_error&) {
+    return {"small eigenproblem did not converge", {}};
+  }
+  if (solver.info() != Spectra::CompInfo::Successful) return {"restarts spent", {}};
+  VectorXd values = solver.eigenvalues();
+  std::sort(values.begin(), values.end());
+  return {"converged", std::move(values)};
+}
+
+Found by_inversion(const BlockMatrix& matrix, double shift, Index subspace) {
+  ShiftInvert inverse(matrix);
+  Deflated<ShiftInvert> operation(inverse);
+  try {
+    Spectra::SymEigsShiftSolver<Deflated<ShiftInvert>> solver(operation, wanted, subspace, shift);
+    return solve(solver, operation.rows(), Spectra::SortRule::LargestMagn);
+  } catch (const std::domain_error&) {
+    return {"shift hit an eigenvalue", {}};
+  }
+}
+
+/// D with the translations moved from 0 to `stiffness`, out of the way of the lowest modes: projected out alone, they
+/// would be found again as soon as rounding brings them back.
+class Raised {
+ public:
+  using Scalar = double;
+
+  Raised(const BlockMatrix& matrix, double stiffness) : product_(matrix), stiffness_(stiffness) {}
+
+  Index rows() const { return product_.rows(); }
+  Index cols() const { return rows(); }
+  void perform_op(const double* x, double* y) const {
+    const Eigen::Map<const VectorXd> in(x, rows());
+    VectorXd rest = in;
+    remove_translations(rest);
+    product_.perform_op(rest.data(), y);
+    Eigen::Map<VectorXd> out(y, rows());
+    remove_translations(out);
+    out += stiffness_ * (in - rest);
+  }
+
+ private:
+  Product product_;
+  double stiffness_;
+};
+
+Found by_products(const BlockMatrix& matrix, double stiffness, Index subspace) {
+  Raised operation(matrix, stiffness);
+  Spectra::SymEigsSolver<Raised> solver(operation, wanted, subspace);
+  return solve(solver, operation.rows(), Spectra::SortRule::SmallestAlge);
+}
+
+/// Points of a task, by (method, setting) in the order met.
+class TaskPoints {
+ public:
+  void add(const std::string& method, const std::string& setting, double seconds, const Found& found,
+           const VectorXd& right) {
+    auto [slot, is_new] = index_.try_emplace({method, setting}, all_.size());
+    if (is_new) all_.push_back({method, setting, {}, {}, {}, 0});
+    Samples& samples = all_[slot->second];
+    samples.seconds.push_back(seconds);
+    ++samples.stopped[found.stopped];
+    if (found.eigenvalues.size() == 0) {
+      ++samples.failed;
+      return;
+    }
+    const VectorXd lowest = right.head(found.eigenvalues.size());
+    const double error = ((found.eigenvalues - lowest).array().abs() / lowest.array().abs()).maxCoeff();
+    samples.errors.push_back(error);
+    if (!(error < worst_useful_error)) {
+      ++samples.failed;
+      ++samples.stopped["wrong modes"];
+    }
+  }
+
+  void append_to(std::vector<ChartPoint>& points, const std::string& task) const {
+    for (const Samples& samples : all_) {
+      points.push_back({task, samples.method, samples.setting, spread(samples.seconds), spread(samples.errors),
+                        reasons_text(samples.stopped), samples.failed > 0, Json::object()});
+    }
+  }
+
+ private:
+  struct Samples {
+    std::string method, setting;
+    std::vector<double> seconds, errors;
+    std::map<std::string, int> stopped;
+    int failed;
+  };
+  std::map<std::pair<std::string, std::string>, std::size_t> index_;
+  std::vector<Samples> all_;
+};
+
+void compare(const Packing& packing, const Measuring& measuring, TaskPoints& points) {
+  const BlockMatrix matrix = double_double_hessian(packing);
+  ModeSet dense;
+  const auto dense_seconds = timed(measuring, [&] { dense = dense_modes(matrix); });
+  const double stiffness = dense.eigenvalues.cwiseAbs().maxCoeff();
+  const auto measure = [&](const std::string& method, const std::string& setting, const auto& work) {
+    if (measuring.over()) return;
+    Found found;
+    const auto seconds = timed(measuring, [&] { found = work(); });
+    points.add(method, setting, spread(seconds)->median, found, dense.eigenvalues);
+  };
+  // Its own error is the bound that it gives: the others are measured by it.
+  points.add("dense", "all modes", spread(dense_seconds)->median,
+             {"converged", dense.eigenvalues * (1 + dense.relative_error)}, dense.eigenvalues);
+  const Index all = dense.eigenvalues.size();
+  for (const int subspace : measuring.config.subspaces) {
+    const Index dimension = std::min<Index>(subspace, all);
+    for (const double shift : measuring.config.shifts)
+      measure("shift-invert", fmt::format("shift {:g}, subspace {}", shift, dimension),
+              [&] { return by_inversion(matrix, -shift * stiffness, dimension); });
+    measure("Lanczos without inversion", fmt::format("subspace {}", dimension),
+            [&] { return by_products(matrix, stiffness, dimension); });
+  }
+}
+
+}  // namespace
+
+void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measuring, ChartFamily& family) {
+  for (const TaskEquilibria& task : tasks) {
+    TaskPoints points;
+    for (const Packing& packing : task.packings) {
+      if (measuring.over()) break;
+      measuring.console.tick("modes, " + task.task);
+      compare(packing, measuring, points);
+    }
+    points.append_to(family.points, task.task);
+  }
+}
+
+}  // namespace isojam

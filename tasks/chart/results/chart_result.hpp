@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tasks/chart/atlas/atlas.hpp"
+#include "tasks/chart/results/point.hpp"
+
+namespace isojam {
+
+/// The stability atlas as a chart shows it.
+struct ChartAtlas {
+  FamilyEnd ended = FamilyEnd::complete;
+  std::vector<AtlasRow> rows;
+};
+
+/// What a part of a chart cost, all that is not timed included.
+struct PartCost {
+  std::string part;  ///< "packings", "equilibria" (made once for several families), or what was compared
+  double cpu_seconds = 0;
+};
+
+/// What run_chart() measured.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
+struct ChartResult {
+  std::vector<ChartFamily> families;
+  std::optional<ChartAtlas> atlas;  ///< nullopt unless asked for
+  std::vector<PartCost> costs;      ///< in the order of measurement
+};
+
+}  // namespace isojam

@@ -1,0 +1,47 @@
+#include <filesystem>
+#include <map>
+
+#include "tasks/commands/command.hpp"
+#include "tasks/commands/shared.hpp"
+#include "tasks/report/gather.hpp"
+#include "tasks/report/page.hpp"
+#include "tasks/system/atomic_file.hpp"
+
+namespace isojam {
+namespace {
+
+struct Arguments {
+  std::string directory;
+  std::string output;  ///< empty: report.html in the directory
+};
+
+/// Writes a results directory as one interactive HTML file; its path goes to stdout.
+ExitCode report(const Arguments& arguments, Console&) {
+  const std::filesystem::path directory = arguments.directory;
+  const auto output = arguments.output.empty() ? directory / "report.html" : std::filesystem::path(arguments.output);
+  const auto results = read_results(directory);
+  const ViewOptions options;
+  std::map<std::size_t, Json> views;
+  for (const auto& chosen : choose_views(results, options)) {
+    const auto packing = read_nearest_packing(directory, results.replicates[chosen.replicate].name);
+    if (packing) views[chosen.replicate] = packing_view(*packing, chosen.with_modes ? options.modes : 0);
+  }
+  Json data = report_data(results, views);
+  // A link that is there for a reader of the directory alone: the page may be sent elsewhere without it.
+  data["chart"] = std::filesystem::exists(output.parent_path() / "chart.html");
+  write_atomically(output, report_page(data));
+  print(output.string() + "\n");
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Session& session) {
+  Arguments* arguments = nullptr;
+  auto& command =
+      add_command(app, session, "report", "Write a results directory as one interactive HTML file", arguments, report);
+  add_results_directory(command, arguments->directory);
+  command.add_option("-o,--output", arguments->output, "File to write (default: DIR/report.html)")->type_name("FILE");
+}
+
+}  // namespace isojam

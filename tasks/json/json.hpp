@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace isojam {
+
+/// Keys keep the order in which they were written, so that equal values have equal texts.
+using Json = nlohmann::ordered_json;
+
+/// The text of a value: indented by two, lists of scalars on one line, a newline at the end. Numbers round-trip
+/// exactly. The value must hold no NaN and no infinity.
+std::string pretty(const Json& value);
+
+/// Sets object[key] to a number; one that JSON cannot hold becomes null, with the reason at key + "_reason".
+void put_number(Json& object, const std::string& key, double value);
+
+/// Sets object[key] to null, with the reason at key + "_reason".
+void put_absent(Json& object, const std::string& key, std::string_view reason);
+
+/// The value, or null and the reason.
+void put_optional(Json& object, const std::string& key, const std::optional<double>& value, std::string_view reason);
+
+/// "/name", escaped as RFC 6901 wants.
+std::string pointer_step(std::string_view name);
+
+}  // namespace isojam

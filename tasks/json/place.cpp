@@ -1,0 +1,149 @@
+#include "tasks/json/place.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+#include <utility>
+
+#include "tasks/json/input_error.hpp"
+
+namespace isojam {
+namespace {
+
+/// Insertions, deletions, replacements and swaps of neighbouring letters, letters compared without case.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  const auto same = [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+  };
+  std::vector<std::size_t> before, row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::vector<std::size_t> next{i + 1};
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      auto least = std::min({row[j] + !same(a[i], b[j]), row[j + 1] + 1, next[j] + 1});
+      if (i > 0 && j > 0 && same(a[i], b[j - 1]) && same(a[i - 1], b[j])) least = std::min(least, before[j - 1] + 1);
+      next.push_back(least);
+    }
+    before = std::exchange(row, std::move(next));
+  }
+  return row.back();
+}
+
+constexpr std::size_t longest_shown = 40;
+
+/// A scalar as it stands in the file; a list or an object by its kind alone.
+std::string shown(const Json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return "a list";
+  const auto text = value.dump();
+  return text.size() <= longest_shown ? text : fmt::format("a {}", value.type_name());
+}
+
+}  // namespace
+
+std::string number_in(const Range& range) {
+  return fmt::format("a number in {}{}, {}{}", range.low_excluded ? '(' : '[', range.low, range.high,
+                     range.high_excluded ? ')' : ']');
+}
+
+std::string integer_in(const Range& range) {
+  return fmt::format("an integer from {:.0f} to {:.0f}", range.low, range.high);
+}
+
+std::string quoted_list(std::span<const std::string_view> names) {
+  std::string text;
+  for (const auto name : names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+  return text;
+}
+
+std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates) {
+  std::string_view best;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const auto candidate : candidates) {
+    const auto distance = edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return std::string(best);
+}
+
+JsonPlace JsonPlace::at(const std::string& key) const {
+  expect_object(fmt::format("an object with the key \"{}\"", key));
+  const auto pointer = pointer_ + pointer_step(key);
+  if (!value_.contains(key)) throw InputError({file_, pointer, "the required key is missing", "", ""});
+  return {value_.at(key), file_, pointer};
+}
+
+JsonPlace JsonPlace::at(std::size_t index) const {
+  return {value_.at(index), file_, fmt::format("{}/{}", pointer_, index)};
+}
+
+void JsonPlace::refuse(std::string problem, std::string allowed, std::string suggestion) const {
+  throw InputError({file_, pointer_, std::move(problem), std::move(allowed), std::move(suggestion)});
+}
+
+void JsonPlace::wrong_type(std::string_view allowed) const {
+  refuse(fmt::format("{} is of the wrong type", shown(value_)), std::string(allowed));
+}
+
+void JsonPlace::expect_object(std::string_view allowed) const {
+  if (!value_.is_object()) wrong_type(allowed);
+}
+
+std::size_t JsonPlace::expect_list(std::string_view allowed) const {
+  if (!value_.is_array()) wrong_type(allowed);
+  return value_.size();
+}
+
+void JsonPlace::expect_keys(std::span<const std::string_view> names, std::string (*elsewhere)(std::string_view)) const {
+  expect_object(fmt::format("an object with the keys {}", quoted_list(names)));
+  for (const auto& item : value_.items()) {
+    const std::string_view key = item.key();
+    if (std::find(names.begin(), names.end(), key) != names.end()) continue;
+    auto suggestion = elsewhere ? elsewhere(key) : std::string();
+    if (suggestion.empty()) suggestion = nearest_name(key, names);
+    at(item.key()).refuse("unknown key", quoted_list(names), suggestion);
+  }
+}
+
+double JsonPlace::number(const Range& range) const {
+  if (!value_.is_number()) wrong_type(number_in(range));
+  const auto x = value_.get<double>();
+  if (!range.contains(x)) refuse(fmt::format("{} is out of range", shown(value_)), number_in(range));
+  return x;
+}
+
+std::int64_t JsonPlace::integer(const Range& range) const {
+  if (!value_.is_number_integer()) wrong_type(integer_in(range));
+  // Compared as double first, so that a value beyond 2^63 is out of range rather than negative; then exactly.
+  const auto n = value_.get<std::int64_t>();
+  if (!range.contains(value_.get<double>()) || n > static_cast<std::int64_t>(range.high)) {
+    refuse(fmt::format("{} is out of range", shown(value_)), integer_in(range));
+  }
+  return n;
+}
+
+bool JsonPlace::boolean() const {
+  if (!value_.is_boolean()) wrong_type("true or false");
+  return value_.get<bool>();
+}
+
+std::string JsonPlace::text(std::string_view allowed) const {
+  if (!value_.is_string()) wrong_type(allowed);
+  return value_.get<std::string>();
+}
+
+std::size_t JsonPlace::choice(std::span<const std::string_view> names) const {
+  const auto name = text(quoted_list(names));
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    refuse(fmt::format("unknown value {}", shown(value_)), quoted_list(names), nearest_name(name, names));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace isojam

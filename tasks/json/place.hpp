@@ -1,0 +1,74 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/names/enum_names.hpp"
+#include "tasks/json/json.hpp"
+
+namespace isojam {
+
+/// An interval of numbers; ends belong to it unless excluded.
+struct Range {
+  double low = 0, high = 0;
+  bool low_excluded = false, high_excluded = false;
+
+  bool contains(double x) const {
+    return (low_excluded ? x > low : x >= low) && (high_excluded ? x < high : x <= high);
+  }
+};
+
+/// "a number in (0, 1]", "an integer from 1 to 20".
+std::string number_in(const Range& range);
+std::string integer_in(const Range& range);
+
+/// `"a", "b", "c"`
+std::string quoted_list(std::span<const std::string_view> names);
+
+/// The candidate nearest to `word` by edit distance, empty if none is near enough to have been meant.
+std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
+
+/// A value of a document with what an error about it must say. Refers to the document; must not outlive it.
+/// Every reader throws InputError.
+class JsonPlace {
+ public:
+  JsonPlace(const Json& value, std::string file, std::string pointer = "")
+      : value_(value), file_(std::move(file)), pointer_(std::move(pointer)) {}
+
+  const Json& value() const { return value_; }
+  const std::string& file() const { return file_; }
+  const std::string& pointer() const { return pointer_; }
+
+  bool has(const std::string& key) const { return value_.contains(key); }
+  JsonPlace at(const std::string& key) const;  ///< refuses where the value is no object or lacks the key
+  JsonPlace at(std::size_t index) const;
+
+  [[noreturn]] void refuse(std::string problem, std::string allowed = "", std::string suggestion = "") const;
+
+  void expect_object(std::string_view allowed) const;
+  std::size_t expect_list(std::string_view allowed) const;  ///< its size
+  /// Refuses an object with a key that is not in `names`; `elsewhere` gives a better suggestion where it has one.
+  void expect_keys(std::span<const std::string_view> names, std::string (*elsewhere)(std::string_view) = nullptr) const;
+
+  double number(const Range& range) const;
+  std::int64_t integer(const Range& range) const;
+  bool boolean() const;
+  std::string text(std::string_view allowed = "a string") const;
+  /// Index in `names`.
+  std::size_t choice(std::span<const std::string_view> names) const;
+  /// The enumerator of that name.
+  template <NamedEnum Enum>
+  Enum choice() const {
+    return all_of<Enum>[choice(all_names<Enum>)];
+  }
+
+ private:
+  [[noreturn]] void wrong_type(std::string_view allowed) const;
+
+  const Json& value_;
+  std::string file_, pointer_;
+};
+
+}  // namespace isojam

@@ -1,0 +1,84 @@
+#include "tasks/manifest/cost.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace isojam {
+namespace {
+
+/// CPU seconds = at_100 (N/100)^power.
+struct CpuLaw {
+  double at_100, power;
+};
+constexpr std::array<CpuLaw, all_solids.size()> cpu_laws{{{12, 2.3}, {9, 2.3}, {6.5, 2.3}, {4.7, 2.2}, {4, 2.3}}};
+
+/// Share of consolidation in the time of a replicate at the step of that size.
+constexpr double consolidation_share = 0.65, measured_step = 0.02;
+
+/// Packings of an expansion, and strain steps in all.
+constexpr double states = 9, steps_of_path = 50;
+/// Text of a particle in a packing, and of a step and a state in a record.
+constexpr double packing_text = 335, step_text = 400, state_text = 1500, record_text = 4000;
+
+/// Of the program at work on N particles, apart from the factorisation: packings of the expansion, passed between
+/// stages by value, overlaps and Hessians.
+constexpr double particle_bytes = 90e3;
+/// Of the factors of the Hessian and their update matrices, which fill in faster than N grows.
+constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
+
+/// A number in a file of one number; infinity if there is none ("max", or no such file).
+double number_in_file(const char* path) {
+  std::ifstream file(path);
+  double value = 0;
+  return file >> value ? value : std::numeric_limits<double>::infinity();
+}
+
+double available_of_machine() {
+  std::ifstream file("/proc/meminfo");
+  std::string key, unit;
+  double kibibytes = 0;
+  while (file >> key >> kibibytes && std::getline(file, unit)) {
+    if (key == "MemAvailable:") return 1024 * kibibytes;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Version 2 of control groups where it is mounted, else version 1.
+double available_of_control_group() {
+  const double left = number_in_file("/sys/fs/cgroup/memory.max") - number_in_file("/sys/fs/cgroup/memory.current");
+  if (std::isfinite(left)) return left;
+  return number_in_file("/sys/fs/cgroup/memory/memory.limit_in_bytes") -
+         number_in_file("/sys/fs/cgroup/memory/memory.usage_in_bytes");
+}
+
+}  // namespace
+
+Cost estimated_cost(const ReplicateSpec& spec, bool keep_path) {
+  const auto& law = cpu_laws[static_cast<std::size_t>(spec.solid)];
+  const double n = spec.particles;
+  const double consolidation = consolidation_share * measured_step / spec.options.consolidation_step;
+  Cost cost;
+  cost.cpu_seconds = law.at_100 * std::pow(n / 100, law.power) * (1 - consolidation_share + consolidation);
+  cost.memory_bytes = particle_bytes * n + factor_bytes * std::pow(n, factor_power);
+  const double packings = keep_path ? 1 + states : 1;
+  cost.disk_bytes = record_text + step_text * steps_of_path + state_text * states + packings * packing_text * n;
+  return cost;
+}
+
+double available_memory() {
+  const double of_group = available_of_control_group();
+  const double least = std::isnan(of_group) ? available_of_machine() : std::min(available_of_machine(), of_group);
+  return std::isfinite(least) ? std::max(least, 0.0) : 0;
+}
+
+int replicates_in_flight(int threads, double largest, double available) {
+  // A fifth stays free for what an estimate misses.
+  if (available <= 0 || largest <= 0) return threads;
+  return static_cast<int>(std::clamp(0.8 * available / largest, 1.0, static_cast<double>(threads)));
+}
+
+}  // namespace isojam

@@ -1,0 +1,284 @@
+#include "tasks/manifest/manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "engine/packing/periodic_cell.hpp"
+#include "tasks/json/hash.hpp"
+#include "tasks/json/options.hpp"
+#include "tasks/json/parse.hpp"
+#include "tasks/manifest/fields.hpp"
+#include "tasks/measure/quantity.hpp"
+#include "tasks/system/file.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr double greatest_seed = 9007199254740992;  // 2^53: every reader of JSON holds integers up to here
+constexpr Range particle_range{1, 100000};
+constexpr Range replicate_range{1, 1e6};
+constexpr Range least_replicate_range{2, 1e6};  // one replicate has no interval
+constexpr Range half_width_range{0, 1e6, true};
+constexpr Range mode_range{1, 1000};
+constexpr double most_replicates_in_all = 1e6;
+constexpr std::size_t longest_name = 64;
+
+constexpr std::array<std::string_view, 10> keys{"$schema",  "name",      "seed",    "sweep", "replicates",
+                                                "protocol", "minimiser", "measure", "modes", "keep_path"};
+constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
+
+/// Where a parameter belongs that stands at the wrong place.
+std::string home_of_field(std::string_view name) {
+  const auto* field = find_field(name);
+  return field ? fmt::format("/{}/{}", to_string(field->group), name) : std::string();
+}
+
+bool is_safe(std::string_view name) {
+  const auto alphanumeric = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  return !name.empty() && name.size() <= longest_name && alphanumeric(name[0]) &&
+         std::all_of(name.begin(), name.end(),
+                     [&](char c) { return alphanumeric(c) || c == '.' || c == '_' || c == '-'; });
+}
+
+std::string read_name(const JsonPlace& place) {
+  const auto allowed =
+      fmt::format("1 to {} letters, digits, '.', '_' and '-', the first a letter or digit", longest_name);
+  auto name = place.text(allowed);
+  if (!is_safe(name)) place.refuse("the name cannot serve as the name of a directory", allowed);
+  return name;
+}
+
+/// A key of an earlier version is refused by name, not as one that nobody knows.
+void refuse_renamed(const JsonPlace& place) {
+  if (!place.value().is_object()) return;
+  for (const auto& item : place.value().items()) {
+    const auto now = new_name(item.key());
+    if (!now.empty()) place.at(item.key()).refuse(fmt::format("the key has a new name, \"{}\"", now));
+  }
+}
+
+std::vector<Measure> default_measures() {
+  std::vector<Measure> list;
+  std::copy_if(all_measures.begin(), all_measures.end(), std::back_inserter(list),
+               [](Measure measure) { return definition_of(measure).by_default; });
+  return list;
+}
+
+template <class Read>
+auto read_sweep_list(const JsonPlace& place, const std::string& allowed, Read read) {
+  auto values = read_list(place, fmt::format("a list, each entry {}", allowed), read);
+  if (values.empty()) place.refuse("the list is empty", fmt::format("one or more of: {}", allowed));
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+void read_sweep(const JsonPlace& place, Manifest& manifest) {
+  std::vector<std::string_view> names{"solid", "particles"};
+  for (const auto& field : all_fields()) names.push_back(field.name);
+  refuse_renamed(place);
+  place.expect_keys(names);
+
+  manifest.solids = read_sweep_list(place.at("solid"), quoted_list(all_names<SolidKind>),
+                                    [](const JsonPlace& entry) { return entry.choice<SolidKind>(); });
+  manifest.particles = read_sweep_list(place.at("particles"), integer_in(particle_range), [](const JsonPlace& entry) {
+    return static_cast<int>(entry.integer(particle_range));
+  });
+  for (const auto& field : all_fields()) {
+    const std::string name(field.name);
+    if (!place.has(name)) continue;
+    auto values = read_sweep_list(place.at(name), allowed_values(field), [&](const JsonPlace& entry) {
+      JamOptions options;
+      read_field(entry, field, options);
+      return field_value(field, options);
+    });
+    manifest.swept.push_back({name, std::move(values)});
+  }
+  std::sort(manifest.swept.begin(), manifest.swept.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+}
+
+/// The name of a quantity that the manifest's measures give.
+std::string read_quantity(const JsonPlace& place, const std::vector<Measure>& measures) {
+  std::vector<std::string_view> names;
+  for (const auto& quantity : all_quantities()) names.push_back(quantity.name);
+  const auto& quantity = all_quantities()[place.choice(names)];
+  const auto needed = quantity.measure;
+  if (needed && std::find(measures.begin(), measures.end(), *needed) == measures.end())
+    place.refuse(fmt::format("{} is not measured", quantity.name),
+                 fmt::format("a quantity that is measured; this one is with \"{}\" in /measure", to_string(*needed)));
+  return std::string(quantity.name);
+}
+
+Replicates read_replicates(const JsonPlace& place, const std::vector<Measure>& measures) {
+  Replicates replicates;
+  if (!place.value().is_object()) {
+    if (!place.value().is_number())
+      place.refuse(
+          "neither a number nor an object",
+          fmt::format("{}, or {{\"min\", \"max\", \"quantity\", \"half_width\"}}", integer_in(replicate_range)));
+    replicates.min = replicates.max = static_cast<int>(place.integer(replicate_range));
+    return replicates;
+  }
+  place.expect_keys(goal_keys);
+  replicates.min = static_cast<int>(place.at("min").integer(least_replicate_range));
+  replicates.max =
+      static_cast<int>(place.at("max").integer({static_cast<double>(replicates.min), replicate_range.high}));
+  replicates.goal =
+      Goal{read_quantity(place.at("quantity"), measures), place.at("half_width").number(half_width_range)};
+  return replicates;
+}
+
+void read_group(const JsonPlace& root, Group group, Manifest& manifest) {
+  const std::string group_name(to_string(group));
+  if (!root.has(group_name)) return;
+  const auto place = root.at(group_name);
+  std::vector<std::string_view> names;
+  for (const auto& field : all_fields()) {
+    if (field.group == group) names.push_back(field.name);
+  }
+  refuse_renamed(place);
+  place.expect_keys(names, home_of_field);
+  for (const auto& field : all_fields()) {
+    const std::string name(field.name);
+    if (field.group != group || !place.has(name)) continue;
+    if (root.at("sweep").has(name)) {
+      place.at(name).refuse("the parameter is swept as well", fmt::format("either here or at /sweep/{}", name));
+    }
+    read_field(place.at(name), field, manifest.protocol);
+  }
+}
+
+/// Pointer of a particle number in the user's own order.
+JsonPlace place_of_particles(const JsonPlace& root, int particles) {
+  const auto list = root.at("sweep").at("particles");
+  const auto found = std::find(list.value().begin(), list.value().end(), Json(particles));
+  return list.at(static_cast<std::size_t>(found - list.value().begin()));
+}
+
+JsonPlace place_of_field(const JsonPlace& root, const std::string& group, const std::string& name) {
+  const auto sweep = root.at("sweep");
+  if (sweep.has(name)) return sweep.at(name);
+  return root.has(group) && root.at(group).has(name) ? root.at(group).at(name) : root;
+}
+
+/// What holds between values that are each allowed.
+void check_together(const JsonPlace& root, const Manifest& manifest) {
+  double count = static_cast<double>(manifest.solids.size() * manifest.particles.size()) * manifest.replicates.max;
+  for (const auto& swept : manifest.swept) count *= static_cast<double>(swept.values.size());
+  if (count > most_replicates_in_all) {
+    root.at("sweep").refuse(fmt::format("the sweep makes {:.0f} replicates", count),
+                            fmt::format("at most {:.0f}", most_replicates_in_all));
+  }
+  for (const auto& set : option_sets(manifest)) {
+    const auto& options = set.options;
+    if (options.initial_density >= options.max_density) {
+      place_of_field(root, "protocol", "initial_density")
+          .refuse(fmt::format("initial_density {} does not lie below max_density {}", options.initial_density,
+                              options.max_density));
+    }
+    for (const auto kind : manifest.solids) {
+      const int least = least_particles(platonic(kind), options.max_density);
+      if (manifest.particles.front() >= least) continue;
+      place_of_particles(root, manifest.particles.front())
+          .refuse(
+              fmt::format("{} particles are too few for the periodic cell: at max_density {} one {} would touch two "
+                          "images of another",
+                          manifest.particles.front(), options.max_density, to_string(kind)),
+              fmt::format("{} or more", least));
+    }
+  }
+}
+
+Json to_json(const Replicates& replicates) {
+  if (!replicates.goal) return replicates.max;
+  return {{"min", replicates.min},
+          {"max", replicates.max},
+          {"quantity", replicates.goal->quantity},
+          {"half_width", replicates.goal->half_width}};
+}
+
+Json values_of(const std::vector<Measure>& list) {
+  Json values = Json::array();
+  for (const auto measure : list) values.push_back(to_string(measure));
+  return values;
+}
+
+}  // namespace
+
+std::vector<OptionSet> option_sets(const Manifest& manifest) {
+  std::vector<OptionSet> sets{{Json::object(), manifest.protocol}};
+  for (const auto& swept : manifest.swept) {
+    std::vector<OptionSet> longer;
+    for (const auto& set : sets) {
+      for (const auto& value : swept.values) {
+        longer.push_back(set);
+        longer.back().parameters[swept.name] = value;
+        read_field({value, manifest.name}, *find_field(swept.name), longer.back().options);
+      }
+    }
+    sets = std::move(longer);
+  }
+  return sets;
+}
+
+Manifest parse_manifest(std::string_view text, const std::string& file) {
+  const auto document = parse_json(text, file);
+  const JsonPlace root(document, file);
+  refuse_renamed(root);
+  root.expect_keys(keys, home_of_field);
+
+  Manifest manifest;
+  if (root.has("$schema")) root.at("$schema").text();
+  manifest.name = read_name(root.at("name"));
+  manifest.seed = static_cast<std::uint64_t>(root.at("seed").integer({0, greatest_seed}));
+  read_sweep(root.at("sweep"), manifest);
+  read_group(root, Group::protocol, manifest);
+  read_group(root, Group::minimiser, manifest);
+  manifest.measures = default_measures();
+  if (root.has("measure")) {
+    manifest.measures =
+        read_list(root.at("measure"), fmt::format("a list, each entry {}", quoted_list(all_names<Measure>)),
+                  [](const JsonPlace& entry) { return entry.choice<Measure>(); });
+    std::sort(manifest.measures.begin(), manifest.measures.end());
+  }
+  manifest.replicates = read_replicates(root.at("replicates"), manifest.measures);
+  if (root.has("keep_path")) manifest.keep_path = root.at("keep_path").boolean();
+  if (root.has("modes")) manifest.measuring.modes = static_cast<int>(root.at("modes").integer(mode_range));
+  check_together(root, manifest);
+  return manifest;
+}
+
+Manifest read_manifest(const std::string& file) { return parse_manifest(read_text(file), file); }
+
+Json to_json(const Manifest& manifest) {
+  Json json;
+  json["name"] = manifest.name;
+  json["seed"] = manifest.seed;
+  auto& sweep = json["sweep"];
+  for (const auto kind : manifest.solids) sweep["solid"].push_back(to_string(kind));
+  sweep["particles"] = manifest.particles;
+  for (const auto& swept : manifest.swept) sweep[swept.name] = swept.values;
+  json["replicates"] = to_json(manifest.replicates);
+  for (const auto group : {Group::protocol, Group::minimiser}) {
+    auto values = group_values(group, manifest.protocol);
+    for (const auto& swept : manifest.swept) values.erase(swept.name);
+    json[std::string(to_string(group))] = std::move(values);
+  }
+  json["measure"] = values_of(manifest.measures);
+  json["modes"] = manifest.measuring.modes;
+  json["keep_path"] = manifest.keep_path;
+  return json;
+}
+
+std::string digest(const Manifest& manifest) {
+  auto json = to_json(manifest);
+  json.erase("replicates");
+  json.erase("keep_path");
+  return hex_hash(json.dump());
+}
+
+}  // namespace isojam

@@ -1,0 +1,97 @@
+#include "tasks/manifest/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+
+#include "tasks/json/hash.hpp"
+#include "tasks/manifest/fields.hpp"
+
+namespace isojam {
+namespace {
+
+/// What the names of a point's replicates have in common.
+std::string prefix(const ReplicateSpec& spec) {
+  const auto hash = spec.parameters.empty() ? std::string() : fmt::format("-{}", hex_hash(point_text(spec)));
+  return fmt::format("{}-N{}{}", to_string(spec.solid), spec.particles, hash);
+}
+
+}  // namespace
+
+std::string point_text(SolidKind solid, int particles, const Json& parameters) {
+  Json point;
+  point["solid"] = to_string(solid);
+  point["particles"] = particles;
+  for (const auto& item : parameters.items()) point[item.key()] = item.value();
+  return point.dump();
+}
+
+std::string point_text(const ReplicateSpec& spec) { return point_text(spec.solid, spec.particles, spec.parameters); }
+
+Plan::Plan(const Manifest& manifest)
+    : manifest_(manifest),
+      digest_(digest(manifest)),
+      sets_(option_sets(manifest)),
+      points_(manifest.solids.size() * manifest.particles.size() * sets_.size()) {
+  for (std::size_t point = 0; point < points_; ++point) point_of_prefix_[prefix(at(point, 0))] = point;
+}
+
+ReplicateSpec Plan::at(std::size_t point, int replicate) const {
+  assert(point < points_ && replicate >= 0 && replicate < replicates());
+  const auto& set = sets_[point % sets_.size()];
+  const auto size = point / sets_.size();
+  return {manifest_.solids[size / manifest_.particles.size()],
+          manifest_.particles[size % manifest_.particles.size()],
+          set.parameters,
+          replicate,
+          manifest_.seed,
+          digest_,
+          set.options,
+          manifest_.measures,
+          manifest_.measuring};
+}
+
+ReplicateSpec Plan::operator[](std::size_t index) const {
+  const auto each = static_cast<std::size_t>(replicates());
+  return at(index / each, static_cast<int>(index % each));
+}
+
+std::optional<Plan::Place> Plan::place_of(std::string_view name) const {
+  const auto split = name.rfind("-r");
+  if (split == std::string_view::npos) return std::nullopt;
+  const auto point = point_of_prefix_.find(name.substr(0, split));
+  const auto digits = name.substr(split + 2);
+  int replicate = -1;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), replicate);
+  if (point == point_of_prefix_.end() || error != std::errc() || replicate < 0 || replicate >= replicates())
+    return std::nullopt;
+  // Only the one way of writing a number is a name.
+  if (replicate_name(at(point->second, replicate)) != name) return std::nullopt;
+  return Place{point->second, replicate};
+}
+
+std::string replicate_name(const ReplicateSpec& spec) { return fmt::format("{}-r{:04}", prefix(spec), spec.replicate); }
+
+RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose) {
+  return RandomStream{spec.seed, hash_of(point_text(spec)), static_cast<std::uint64_t>(spec.replicate),
+                      static_cast<std::uint64_t>(purpose)};
+}
+
+Json to_json(const ReplicateSpec& spec) {
+  Json json;
+  json["solid"] = to_string(spec.solid);
+  json["particles"] = spec.particles;
+  json["parameters"] = spec.parameters;
+  json["replicate"] = spec.replicate;
+  for (const auto group : {Group::protocol, Group::minimiser}) {
+    json[std::string(to_string(group))] = group_values(group, spec.options);
+  }
+  json["measure"] = Json::array();
+  for (const auto measure : spec.measures) json["measure"].push_back(to_string(measure));
+  json["modes"] = spec.measuring.modes;
+  return json;
+}
+
+}  // namespace isojam

@@ -1,0 +1,154 @@
+#include "tasks/replicate/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tasks/replicate/packing_json.hpp"
+#include "tasks/replicate/record.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr Range any_number{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+constexpr Range not_negative{0, std::numeric_limits<double>::max()};
+constexpr Range count_range{0, 9007199254740992};
+
+/// A residual is infinite where no contact bears a force; JSON has no infinity.
+Json residual_json(double residual) { return std::isinf(residual) ? Json(nullptr) : Json(residual); }
+double read_residual(const JsonPlace& place) {
+  return place.value().is_null() ? std::numeric_limits<double>::infinity() : place.number(not_negative);
+}
+
+Json step_json(const JamStep& step) {
+  const auto& summary = step.summary;
+  Json json;
+  json["stage"] = to_string(step.stage);
+  json["density"] = step.density;
+  json["energy_per_particle"] = step.energy_per_particle;
+  json["pressure"] = step.pressure;
+  json["descents"] = step.descents;
+  json["stopped"] = to_string(summary.reason);
+  json["energy"] = summary.energy;
+  json["residual"] = residual_json(summary.residual);
+  json["residual_floor"] = residual_json(summary.residual_floor);
+  json["double_double"] = summary.precision == Precision::double_double;
+  json["evaluations"] = summary.evaluations;
+  json["iterations"] = summary.iterations;
+  json["work"] = to_json(summary.work);
+  return json;
+}
+
+long read_count(const JsonPlace& place) { return static_cast<long>(place.integer(count_range)); }
+
+MinimiseWork read_work(const JsonPlace& place) {
+  return {read_count(place.at("double_double_evaluations")), read_count(place.at("hessians")),
+          read_count(place.at("factorisations")), read_count(place.at("factor_updates"))};
+}
+
+JamStep read_step(const JsonPlace& place) {
+  JamStep step;
+  step.stage = place.at("stage").choice<JamStage>();
+  step.density = place.at("density").number(not_negative);
+  step.energy_per_particle = place.at("energy_per_particle").number(any_number);
+  step.pressure = place.at("pressure").number(any_number);
+  step.descents = static_cast<int>(place.at("descents").integer({0, 1e9}));
+  auto& summary = step.summary;
+  summary.reason = place.at("stopped").choice<StopReason>();
+  summary.energy = place.at("energy").number(any_number);
+  summary.residual = read_residual(place.at("residual"));
+  summary.residual_floor = read_residual(place.at("residual_floor"));
+  summary.precision = place.at("double_double").boolean() ? Precision::double_double : Precision::working;
+  summary.evaluations = place.at("evaluations").integer(count_range);
+  summary.iterations = place.at("iterations").integer(count_range);
+  summary.work = read_work(place.at("work"));
+  return step;
+}
+
+bool is_finite(const JamStep& step) {
+  const auto& summary = step.summary;
+  return std::isfinite(step.density) && std::isfinite(step.energy_per_particle) && std::isfinite(step.pressure) &&
+         std::isfinite(summary.energy) && !std::isnan(summary.residual) && !std::isnan(summary.residual_floor);
+}
+
+PairCounts read_counts(const JsonPlace& place) {
+  const auto count = [&](const std::string& key) { return read_count(place.at(key)); };
+  return {count("listed"),     count("out_of_reach"), count("by_axis"),
+          count("overlapped"), count("clipped"),      count("touching")};
+}
+
+Packing read_own_packing(const JsonPlace& place, const ReplicateSpec& spec) {
+  auto packing = read_packing(place);
+  if (packing.solid != &platonic(spec.solid) || packing.size() != spec.particles)
+    place.refuse("the packing is not one of this replicate",
+                 fmt::format("{} of solid {}", spec.particles, to_string(spec.solid)));
+  return packing;
+}
+
+void read_states(const JsonPlace& root, const ReplicateSpec& spec, JamResult& result) {
+  const auto states = root.at("states"), steps = root.at("state_steps");
+  const auto count = states.expect_list("a list of packings");
+  if (steps.expect_list("a list of steps") != count) steps.refuse("not as many steps as states", "one for each state");
+  const auto last = static_cast<double>(result.path.size()) - 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    result.states.push_back(read_own_packing(states.at(k), spec));
+    result.state_steps.push_back(static_cast<int>(steps.at(k).integer({0, last})));
+  }
+}
+
+JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
+  JamResult result;
+  result.status = root.at("status").choice<JamStatus>();
+  result.evaluations = root.at("evaluations").integer(count_range);
+  result.counts = read_counts(root.at("pairs"));
+  result.work = read_work(root.at("work"));
+  const auto path = root.at("path");
+  const auto steps = path.expect_list("a list of steps");
+  for (std::size_t k = 0; k < steps; ++k) result.path.push_back(read_step(path.at(k)));
+  read_states(root, spec, result);
+  if (result.status != JamStatus::not_called)
+    result.phi_j = fit_jamming_point(energy_points(result), spec.options.fit_window);
+  return result;
+}
+
+}  // namespace
+
+std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) {
+  const auto& progress = checkpoint.progress;
+  const auto& result = progress.result;
+  if (!std::all_of(result.path.begin(), result.path.end(), is_finite)) return std::nullopt;
+  Json json;
+  json["schema"] = checkpoint_schema;
+  json["provenance"] = provenance(spec);
+  json["spec"] = to_json(spec);
+  json["timing"] = to_json(checkpoint.spent);
+  json["status"] = to_string(result.status);
+  json["stage"] = to_string(progress.stage);
+  json["step_fraction"] = progress.step_fraction;
+  json["halvings"] = progress.halvings;
+  json["evaluations"] = result.evaluations;
+  json["pairs"] = to_json(result.counts);
+  json["work"] = to_json(result.work);
+  json["path"] = Json::array();
+  for (const auto& step : result.path) json["path"].push_back(step_json(step));
+  json["state_steps"] = result.state_steps;
+  json["states"] = Json::array();
+  for (const auto& state : result.states) json["states"].push_back(to_json(state));
+  json["packing"] = to_json(progress.packing);
+  return json;
+}
+
+Checkpoint read_checkpoint(const JsonPlace& root, const ReplicateSpec& spec) {
+  root.at("schema").choice(std::array{checkpoint_schema});
+  if (root.at("provenance").value() != provenance(spec))
+    root.at("provenance").refuse("the checkpoint is of another manifest or another build of isojam");
+  if (root.at("spec").value() != to_json(spec)) root.at("spec").refuse("the checkpoint is of another replicate");
+  const auto timing = root.at("timing");
+  return {{read_own_packing(root.at("packing"), spec), root.at("stage").choice<JamStage>(),
+           root.at("step_fraction").number({0, 1}), static_cast<int>(root.at("halvings").integer({0, 100})),
+           read_result(root, spec)},
+          {timing.at("wall_seconds").number(not_negative), timing.at("cpu_seconds").number(not_negative)}};
+}
+
+}  // namespace isojam

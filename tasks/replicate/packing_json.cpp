@@ -1,0 +1,94 @@
+#include "tasks/replicate/packing_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+namespace isojam {
+namespace {
+
+/// Far beyond any cell, and far from overflow.
+constexpr double greatest_length = 1e9;
+constexpr double most_particles = 1e6;
+
+/// Of one of the Platonic solids, which are unique.
+SolidKind kind_of(const ConvexSolid& solid) {
+  const auto found =
+      std::find_if(all_solids.begin(), all_solids.end(), [&](SolidKind kind) { return &platonic(kind) == &solid; });
+  assert(found != all_solids.end());
+  return *found;
+}
+
+template <class Vector>
+Json numbers(const Vector& v) {
+  return std::vector<double>(v.data(), v.data() + v.size());
+}
+
+/// Coefficients are stored (w, x, y, z) and held (x, y, z, w).
+Json quaternion(const Eigen::Vector4d& xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
+
+template <int size>
+Eigen::Matrix<double, size, 1> read_vector(const JsonPlace& place, double greatest) {
+  const auto allowed = fmt::format("a list of {} numbers", size);
+  if (place.expect_list(allowed) != size) place.refuse("the list has another length", allowed);
+  Eigen::Matrix<double, size, 1> v;
+  for (std::size_t c = 0; c < size; ++c) v[static_cast<Eigen::Index>(c)] = place.at(c).number({-greatest, greatest});
+  return v;
+}
+
+Eigen::Vector4d read_quaternion(const JsonPlace& place) {
+  const auto wxyz = read_vector<4>(place, 2);
+  return {wxyz[1], wxyz[2], wxyz[3], wxyz[0]};
+}
+
+JsonPlace list_of(const JsonPlace& place, const std::string& key, std::size_t size) {
+  const auto list = place.at(key);
+  const auto allowed = fmt::format("a list with an entry for each of {} particles", size);
+  if (list.expect_list(allowed) != size) list.refuse("the list has another length", allowed);
+  return list;
+}
+
+}  // namespace
+
+Json to_json(const Packing& packing) {
+  Json json;
+  json["solid"] = to_string(kind_of(*packing.solid));
+  json["phi"] = packing.density();
+  json["side"] = packing.cell.side();
+  for (const auto* key : {"positions", "orientations", "positions_low", "orientations_low"}) json[key] = Json::array();
+  for (const auto& pose : packing.poses) {
+    json["positions"].push_back(numbers(pose.position));
+    json["orientations"].push_back(quaternion(pose.orientation.coeffs()));
+    json["positions_low"].push_back(numbers(pose.position_low));
+    json["orientations_low"].push_back(quaternion(pose.orientation_low));
+  }
+  return json;
+}
+
+Packing read_packing(const JsonPlace& place) {
+  const auto& solid = platonic(place.at("solid").choice<SolidKind>());
+  const double least = least_side(solid);
+  Packing packing{&solid, PeriodicCell(place.at("side").number({least, greatest_length, true})), {}};
+  const auto n = place.at("positions").expect_list("a list of positions");
+  if (n == 0 || static_cast<double>(n) > most_particles)
+    place.at("positions").refuse("no packing", fmt::format("1 to {:.0f} particles", most_particles));
+  const auto positions = list_of(place, "positions", n), positions_low = list_of(place, "positions_low", n);
+  const auto orientations = list_of(place, "orientations", n);
+  const auto orientations_low = list_of(place, "orientations_low", n);
+  packing.poses.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    Pose& pose = packing.poses[i];
+    pose.position = read_vector<3>(positions.at(i), greatest_length);
+    pose.position_low = read_vector<3>(positions_low.at(i), greatest_length);
+    pose.orientation.coeffs() = read_quaternion(orientations.at(i));
+    pose.orientation_low = read_quaternion(orientations_low.at(i));
+    // |q| is 1 to rounding in all that is written; what is far from it is no orientation.
+    if (!(pose.orientation.squaredNorm() > 0.5))
+      orientations.at(i).refuse("not an orientation", "four numbers, the sum of squares 1");
+  }
+  return packing;
+}
+
+}  // namespace isojam

@@ -1,0 +1,176 @@
+#include "tasks/replicate/record.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include "tasks/json/hash.hpp"
+#include "tasks/replicate/packing_json.hpp"
+#include "tasks/system/version.hpp"
+
+namespace isojam {
+namespace {
+
+void put_distance(Json& json, double density, const JamResult& jam) {
+  if (jam.phi_j) {
+    put_number(json, "delta_phi", density - jam.phi_j->density);
+  } else {
+    put_absent(json, "delta_phi", "no jamming point");
+  }
+}
+
+Json step_record(const JamStep& step, const JamResult& jam) {
+  Json json;
+  json["stage"] = to_string(step.stage);
+  put_number(json, "phi", step.density);
+  put_distance(json, step.density, jam);
+  put_number(json, "energy_per_particle", step.energy_per_particle);
+  put_number(json, "pressure", step.pressure);
+  put_number(json, "residual", step.summary.residual);
+  put_number(json, "residual_floor", step.summary.residual_floor);
+  json["stopped"] = to_string(step.summary.reason);
+  json["evaluations"] = step.summary.evaluations;
+  json["iterations"] = step.summary.iterations;
+  json["descents"] = step.descents;
+  return json;
+}
+
+Json state_record(const Outcome& outcome, std::size_t index) {
+  const auto& jam = outcome.jam;
+  auto json = step_record(jam.path[jam.state_steps[index]], jam);
+  json.erase("stage");
+  json.erase("evaluations");
+  json.erase("iterations");
+  json["step"] = jam.state_steps[index];
+  for (const auto& [what, measurement] : outcome.measured) json.update(measurement.states.at(index));
+  return json;
+}
+
+double worst_residual(const JamResult& jam) {
+  double worst = 0;
+  for (const int state : jam.phi_j->states) {
+    const double residual = jam.path[jam.state_steps[state]].summary.residual;
+    // Written so that a NaN wins and is reported.
+    if (!(residual <= worst)) worst = residual;
+  }
+  return worst;
+}
+
+void put_jamming_point(Json& record, const JamResult& jam) {
+  const auto& point = *jam.phi_j;
+  put(record, phi_j_quantity, point.density);
+  Json& json = place_of(record, phi_j_quantity).object;
+  const auto put_fitted = [&](const std::string& key, double value, std::string_view reason) {
+    if (value != 0) {
+      put_number(json, key, value);
+    } else {
+      put_absent(json, key, reason);
+    }
+  };
+  put_fitted("standard_error", point.standard_error, "two states leave no degree of freedom");
+  put_fitted("ci95_half_width", point.ci95_half_width, "two states leave no degree of freedom");
+  put_number(json, "single_state", point.single_state);
+  put_fitted("exponent", point.exponent, "a free exponent could not be fitted");
+  put_number(json, "residual", worst_residual(jam));
+  json["states"] = point.states;
+}
+
+/// Of a record that has neither checksum nor digest yet.
+std::string result_digest(const Json& record) {
+  auto result = record;
+  result.erase("timing");
+  result.erase("provenance");
+  return hex_hash(result.dump());
+}
+
+}  // namespace
+
+Json provenance(const ReplicateSpec& spec) {
+  Json json;
+  json["version"] = version();
+  json["git"] = git_hash();
+  json["compiler"] = compiler();
+  json["manifest_digest"] = spec.manifest_digest;
+  json["seed"] = spec.seed;
+  return json;
+}
+
+Json to_json(const Timing& timing) {
+  return {{"wall_seconds", timing.wall_seconds}, {"cpu_seconds", timing.cpu_seconds}};
+}
+
+Json to_json(const PairCounts& counts) {
+  Json json;
+  json["listed"] = counts.listed;
+  json["out_of_reach"] = counts.out_of_reach;
+  json["by_axis"] = counts.by_axis;
+  json["overlapped"] = counts.overlapped;
+  json["clipped"] = counts.clipped;
+  json["touching"] = counts.touching;
+  return json;
+}
+
+Json to_json(const MinimiseWork& work) {
+  Json json;
+  json["double_double_evaluations"] = work.double_double_evaluations;
+  json["hessians"] = work.hessians;
+  json["factorisations"] = work.factorisations;
+  json["factor_updates"] = work.factor_updates;
+  return json;
+}
+
+Json make_record(const Outcome& outcome) {
+  assert(!outcome.interrupted);
+  const auto& jam = outcome.jam;
+  Json json;
+  json["schema"] = record_schema;
+  json["provenance"] = provenance(outcome.spec);
+  json["spec"] = to_json(outcome.spec);
+  json["status"] = outcome.failure ? "failed" : "done";
+  if (outcome.failure) {
+    json["failure"] = {{"where", outcome.failure->where}, {"why", outcome.failure->why}};
+  } else {
+    json["flags"] = flags_of(outcome);
+  }
+  json["timing"] = to_json(outcome.timing);
+  json["timing"]["stages"] = outcome.stage_seconds;
+  json["evaluations"] = jam.evaluations;
+  json["pairs"] = to_json(jam.counts);
+  json["work"] = to_json(jam.work);
+  if (!outcome.failure) {
+    put_jamming_point(json, jam);
+    json["nearest"] = state_record(outcome, *nearest_state(jam));
+    for (const auto& [what, measurement] : outcome.measured) json.update(measurement.replicate);
+  }
+  json["states"] = Json::array();
+  for (std::size_t i = 0; i < jam.states.size(); ++i) json["states"].push_back(state_record(outcome, i));
+  json["path"] = Json::array();
+  for (const auto& step : jam.path) json["path"].push_back(step_record(step, jam));
+  json["result_digest"] = result_digest(json);
+  return json;
+}
+
+Json make_packing(const Outcome& outcome) {
+  assert(!outcome.failure && !outcome.interrupted);
+  Json json;
+  json["schema"] = packing_schema;
+  json["manifest_digest"] = outcome.spec.manifest_digest;
+  json.update(to_json(outcome.jam.states[*nearest_state(outcome.jam)]));
+  return json;
+}
+
+Json make_path(const Outcome& outcome) {
+  assert(!outcome.failure && !outcome.interrupted);
+  Json json;
+  json["schema"] = path_schema;
+  json["manifest_digest"] = outcome.spec.manifest_digest;
+  json["states"] = Json::array();
+  for (const auto& packing : outcome.jam.states) {
+    Json state;
+    put_distance(state, packing.density(), outcome.jam);
+    state.update(to_json(packing));
+    json["states"].push_back(std::move(state));
+  }
+  return json;
+}
+
+}  // namespace isojam

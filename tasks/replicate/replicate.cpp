@@ -1,0 +1,65 @@
+#include "tasks/replicate/replicate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "engine/vibration/settle.hpp"
+
+namespace isojam {
+namespace {
+
+Checkpoint begin(const ReplicateSpec& spec) {
+  auto random = replicate_stream(spec, Purpose::placement);
+  return {begin_jam(random_packing(platonic(spec.solid), spec.particles, spec.options.initial_density, random),
+                    spec.options),
+          {}};
+}
+
+JamResult run_jam(const ReplicateSpec& spec, JamProgress from, std::stop_token stop, const OnProgress& on_progress) {
+  JamResult result = jam(std::move(from), spec.options, stop, on_progress);
+  const bool at_minima = std::any_of(spec.measures.begin(), spec.measures.end(),
+                                     [](Measure what) { return definition_of(what).needs_minima; });
+  if (result.status != JamStatus::interrupted && at_minima) settle(result, spec.options, stop);
+  return result;
+}
+
+}  // namespace
+
+Stages engine_stages() {
+  return {begin, run_jam, [](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
+            return measure(what, jam, spec.measuring);
+          }};
+}
+
+std::optional<Failure> failure_of(const JamResult& jam) {
+  if (jam.status == JamStatus::jammed || jam.status == JamStatus::goal_not_reached) {
+    if (jam.phi_j && nearest_state(jam)) return std::nullopt;
+    return Failure{"jam", "too few states of positive energy to find the jamming point"};
+  }
+  auto why = std::string(to_string(jam.status));
+  if (!jam.path.empty()) {
+    const auto& last = jam.path.back();
+    why += fmt::format(" after {} strain steps, at density {:.6f} in {}, E/N {:.3e}, residual {:.3e} ({})",
+                       jam.path.size(), last.density, to_string(last.stage), last.energy_per_particle,
+                       last.summary.residual, to_string(last.summary.reason));
+  }
+  return Failure{"jam", why};
+}
+
+std::vector<std::string> flags_of(const Outcome& outcome) {
+  assert(!outcome.failure);
+  std::vector<std::string> flags;
+  if (outcome.jam.status == JamStatus::goal_not_reached) flags.emplace_back("goal_not_reached");
+  const auto by_energy = [&](int step) {
+    return outcome.jam.path[static_cast<std::size_t>(step)].summary.reason == StopReason::energy_change;
+  };
+  if (std::any_of(outcome.jam.state_steps.begin(), outcome.jam.state_steps.end(), by_energy))
+    flags.emplace_back("not_balanced");
+  for (const auto& [what, measurement] : outcome.measured)
+    flags.insert(flags.end(), measurement.flags.begin(), measurement.flags.end());
+  return flags;
+}
+
+}  // namespace isojam

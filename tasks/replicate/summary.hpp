@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/geometry/convex_solid.hpp"
+#include "tasks/json/json.hpp"
+#include "tasks/measure/quantity.hpp"
+
+namespace isojam {
+
+/// For each of all_quantities(): nullopt where it was not measured, or not decided.
+using Values = std::vector<std::optional<double>>;
+inline Values no_values() { return Values(all_quantities().size()); }
+
+/// A state's place above jamming and its quantities, those of replicates left out.
+struct StateValues {
+  double delta_phi = 0;
+  Values values = no_values();
+};
+
+/// What a table needs of a record.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
+struct RecordSummary {
+  SolidKind solid = SolidKind::tetrahedron;
+  int particles = 0;
+  Json parameters;
+  int replicate = 0;
+  std::string manifest_digest;
+  Json settings;              ///< protocol, minimiser and measure
+  std::string result_digest;  ///< of all but timing and provenance: equal for two runs of the same replicate
+  double cpu_seconds = 0;
+  bool failed = false, flagged = false;
+  Values values = no_values();      ///< of the replicate, and of its state nearest jamming
+  std::vector<StateValues> states;  ///< above jamming, in order of Δφ
+  std::optional<double> residual;   ///< worst of the states behind φ_J
+};
+
+/// Throws InputError if the record is not one of ours or lacks what a table needs.
+RecordSummary summarise_record(const Json& record, const std::string& file);
+
+}  // namespace isojam

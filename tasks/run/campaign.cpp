@@ -1,0 +1,95 @@
+#include "tasks/run/campaign.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "tasks/measure/quantity.hpp"
+#include "tasks/system/file.hpp"
+
+namespace isojam {
+
+Campaign::Campaign(const Plan& plan, const Replicates& rule, const Shard& shard, const Store& store, Store::Warn warn)
+    : plan_(plan), rule_(rule), shard_(shard), store_(store), warn_(std::move(warn)), points_(plan.points()) {}
+
+bool Campaign::takes(std::size_t point, int replicate) const {
+  if (rule_.goal) return shard_.takes(point);
+  return shard_.takes(point * static_cast<std::size_t>(plan_.replicates()) + static_cast<std::size_t>(replicate));
+}
+
+/// Reads what the last round brought for the goal to look at.
+void Campaign::learn(std::size_t point) {
+  auto& state = points_[point];
+  const auto index = *quantity_index(rule_.goal->quantity);
+  for (int replicate = state.done; replicate < state.wanted; ++replicate) {
+    const auto spec = plan_.at(point, replicate);
+    const auto summary = store_.recorded(spec, warn_);
+    if (!summary) throw FileError(store_.record_path(spec).string() + ": is there no longer, or damaged");
+    state.values.push_back(summary->values[index]);
+  }
+}
+
+bool Campaign::open_round() {
+  bool any = false;
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    auto& state = points_[point];
+    if (rule_.goal && !takes(point, 0)) continue;
+    if (rule_.goal) learn(point);
+    state.done = state.wanted;
+    if (rule_.goal) {
+      state.wanted = std::max(state.done, advance_of(rule_, state.values).wanted);
+    } else {
+      state.wanted = rule_.max;
+    }
+    any = any || state.wanted > state.done;
+  }
+  at_point_ = 0;
+  at_replicate_ = points_.empty() ? 0 : points_[0].done;
+  return any;
+}
+
+std::optional<ReplicateSpec> Campaign::next() {
+  while (at_point_ < points_.size()) {
+    if (at_replicate_ >= points_[at_point_].wanted) {
+      if (++at_point_ < points_.size()) at_replicate_ = points_[at_point_].done;
+      continue;
+    }
+    const int replicate = at_replicate_++;
+    if (!takes(at_point_, replicate)) continue;
+    auto spec = plan_.at(at_point_, replicate);
+    const auto summary = store_.recorded(spec, warn_);
+    if (!summary) return spec;
+    failed_ += summary->failed;
+  }
+  return std::nullopt;
+}
+
+Campaign::Size Campaign::round_size() const {
+  std::vector<int> missing(points_.size(), 0);
+  Size size;
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    for (int r = points_[point].done; r < points_[point].wanted; ++r) missing[point] += takes(point, r);
+    size.replicates += static_cast<std::size_t>(missing[point]);
+  }
+  for (const auto& name : names_in(store_.directory() / "records")) {
+    const auto place = plan_.place_of(name);
+    if (!place || !takes(place->point, place->replicate)) continue;
+    const auto& state = points_[place->point];
+    if (place->replicate < state.done || place->replicate >= state.wanted) continue;
+    ++size.recorded;
+    --missing[place->point];
+  }
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    if (missing[point] > 0) size.work += missing[point] * estimated_cost(plan_.at(point, 0), false).cpu_seconds;
+  }
+  return size;
+}
+
+double Campaign::largest_memory() const {
+  double largest = 0;
+  for (std::size_t point = 0; point < points_.size(); ++point)
+    largest = std::max(largest, estimated_cost(plan_.at(point, 0), false).memory_bytes);
+  return largest;
+}
+
+}  // namespace isojam

@@ -1,0 +1,250 @@
+// Why a graph and not a parallel_for over replicates: the stages differ in memory and cost, measurements that do not
+// depend on each other run side by side, and writing to disk is serial. The limiter holds back what is in flight,
+// since each replicate keeps all packings of its expansion until it is stored. When fewer replicates are left than
+// threads, the pair loop inside a stage takes the idle ones.
+
+#include "tasks/run/graph.hpp"
+
+#include <tbb/flow_graph.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "tasks/system/thread_clock.hpp"
+
+namespace isojam {
+namespace {
+
+namespace flow = tbb::flow;
+
+/// What a stage passes on: its value, or the failure of this stage or an earlier one.
+template <class T>
+struct Passed {
+  std::size_t index = 0;  ///< the order in which replicates were begun, by which results of one meet
+  ReplicateSpec spec;
+  std::optional<T> value;
+  std::optional<Failure> failure;
+  Timing timing;
+};
+
+struct Begun {};
+using Input = Passed<Begun>;
+using Placed = Passed<Checkpoint>;
+using Jammed = Passed<JamResult>;
+using Measured = Passed<Measurement>;  ///< neither value nor failure: not asked for, or stopped
+
+/// Wall clock and this thread's since it was made.
+class Stopwatch {
+ public:
+  Timing elapsed() const {
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(),
+            thread_cpu_seconds() - cpu_};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  double cpu_ = thread_cpu_seconds();
+};
+
+Timing operator+(const Timing& a, const Timing& b) {
+  return {a.wall_seconds + b.wall_seconds, a.cpu_seconds + b.cpu_seconds};
+}
+
+/// Runs a stage of a replicate: measures its time and turns what it throws into a failure.
+template <class T, class From, class Stage>
+Passed<T> guarded(const From& from, std::string_view where, const Stage& stage) {
+  Passed<T> passed{from.index, from.spec, {}, {}, {}};
+  const Stopwatch watch;
+  try {
+    passed.value = stage();
+  } catch (const std::exception& error) {
+    passed.failure = Failure{std::string(where), error.what()};
+  } catch (...) {
+    passed.failure = Failure{std::string(where), "an exception of unknown type"};
+  }
+  passed.timing = watch.elapsed();
+  return passed;
+}
+
+/// One run; the bodies of the nodes.
+class Run {
+ public:
+  Run(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
+      const std::function<void(const Outcome&)>& on_outcome)
+      : next_(next), stages_(stages), options_(options), on_outcome_(on_outcome), forward_stop_(options.stop, [this] {
+          stop_.request_stop();
+        }) {}
+
+  Input next(tbb::flow_control& control) {
+    std::optional<ReplicateSpec> spec;
+    if (!stop_.stop_requested()) {
+      sheltered([&] { spec = next_(); });
+    }
+    if (spec) return {begun_++, *spec, Begun{}, {}, {}};
+    control.stop();
+    return {};
+  }
+
+  Placed begin(const Input& input) const {
+    return guarded<Checkpoint>(input, "begin", [&] { return stages_.begin(input.spec); });
+  }
+
+  Jammed jam(const Placed& placed) {
+    if (!placed.value) return {placed.index, placed.spec, std::nullopt, placed.failure, placed.timing};
+    const auto before = placed.timing + placed.value->spent;
+    const Stopwatch watch;
+    const OnProgress on_progress = [&](const JamProgress& progress) {
+      if (!options_.on_step) return;
+      sheltered([&] { options_.on_step(placed.spec, {progress, before + watch.elapsed()}); });
+    };
+    auto jammed = guarded<JamResult>(placed, "jam", [&] {
+      return stages_.jam(placed.spec, placed.value->progress, stop_.get_token(), on_progress);
+    });
+    if (jammed.value && jammed.value->status != JamStatus::interrupted) jammed.failure = failure_of(*jammed.value);
+    jammed.timing = jammed.timing + before;
+    return jammed;
+  }
+
+  Measured measure(Measure what, const Jammed& jammed) const {
+    if (!asked(what, jammed) || stop_.stop_requested()) return {jammed.index, {}, {}, {}, {}};
+    return guarded<Measurement>(jammed, to_string(what),
+                                [&] { return stages_.measure(jammed.spec, what, *jammed.value); });
+  }
+
+  /// `measured[k]` is that of all_measures[k].
+  void store(const Jammed& jammed, const std::array<const Measured*, all_measures.size()>& measured) {
+    Outcome outcome;
+    outcome.spec = jammed.spec;
+    outcome.failure = jammed.failure;
+    outcome.timing = jammed.timing;
+    outcome.stage_seconds["jam"] = jammed.timing.cpu_seconds;
+    if (jammed.value) outcome.jam = *jammed.value;
+    outcome.interrupted = outcome.jam.status == JamStatus::interrupted;
+    for (std::size_t k = 0; k < measured.size(); ++k) {
+      const Measured& one = *measured[k];
+      outcome.timing = outcome.timing + one.timing;
+      if (one.value) {
+        outcome.measured[all_measures[k]] = *one.value;
+        outcome.stage_seconds[std::string(to_string(all_measures[k]))] = one.timing.cpu_seconds;
+      }
+      if (one.failure && !outcome.failure) outcome.failure = one.failure;
+      // Left out because of a stop request.
+      outcome.interrupted |= asked(all_measures[k], jammed) && !one.value && !one.failure;
+    }
+    sheltered([&] { on_outcome_(outcome); });
+  }
+
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  bool asked(Measure what, const Jammed& jammed) const {
+    const auto& measures = jammed.spec.measures;
+    return jammed.value && std::find(measures.begin(), measures.end(), what) != measures.end();
+  }
+
+  /// What the caller's functions throw must not cross the graph: the first is kept, and ends the run.
+  void sheltered(const std::function<void()>& call) {
+    try {
+      call();
+    } catch (...) {
+      const std::lock_guard lock(error_mutex_);
+      if (!error_) error_ = std::current_exception();
+      stop_.request_stop();
+    }
+  }
+
+  const NextReplicate& next_;
+  const Stages& stages_;
+  const GraphOptions& options_;
+  const std::function<void(const Outcome&)>& on_outcome_;
+  std::stop_source stop_;
+  std::stop_callback<std::function<void()>> forward_stop_;
+  std::size_t begun_ = 0;  // touched by the input node alone
+  std::mutex error_mutex_;
+  std::exception_ptr error_;
+};
+
+/// What meets before it is stored: the result of jam, and that of every measurement.
+template <class>
+struct Meeting;
+template <std::size_t... k>
+struct Meeting<std::index_sequence<k...>> {
+  template <std::size_t>
+  using MeasuredAt = Measured;
+  using Joined = std::tuple<Jammed, MeasuredAt<k>...>;
+  using Node = flow::join_node<Joined, flow::key_matching<std::size_t>>;
+  using MeasureNode = flow::function_node<Jammed, Measured>;
+
+  Run& run;
+  std::array<MeasureNode, sizeof...(k)> measure;
+  Node join;
+
+  Meeting(flow::graph& graph, Run& the_run)
+      : run(the_run),
+        measure{MeasureNode(graph, flow::unlimited,
+                            [this](const Jammed& j) { return run.measure(all_measures[k], j); })...},
+        join(
+            graph, [](const Jammed& j) { return j.index; }, ((void)k, [](const Measured& m) { return m.index; })...) {
+    (flow::make_edge(measure[k], flow::input_port<k + 1>(join)), ...);
+  }
+
+  void follow(flow::function_node<Placed, Jammed>& jam) {
+    flow::make_edge(jam, flow::input_port<0>(join));
+    for (auto& node : measure) flow::make_edge(jam, node);
+  }
+  void store(const Joined& joined) const { run.store(std::get<0>(joined), {&std::get<k + 1>(joined)...}); }
+};
+
+void build_and_wait(Run& run, int in_flight) {
+  using AllMeet = Meeting<std::make_index_sequence<all_measures.size()>>;
+  flow::graph graph;
+  flow::input_node<Input> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
+  flow::limiter_node<Input> limiter(graph, static_cast<std::size_t>(in_flight));
+  flow::function_node<Input, Placed> begin(graph, flow::unlimited, [&](const Input& i) { return run.begin(i); });
+  flow::function_node<Placed, Jammed> jam(graph, flow::unlimited, [&](const Placed& p) { return run.jam(p); });
+  AllMeet all(graph, run);
+  flow::function_node<AllMeet::Joined> store(graph, flow::serial, [&](const AllMeet::Joined& joined) {
+    all.store(joined);
+    return flow::continue_msg();
+  });
+
+  flow::make_edge(input, limiter);
+  flow::make_edge(limiter, begin);
+  flow::make_edge(begin, jam);
+  all.follow(jam);
+  flow::make_edge(all.join, store);
+  flow::make_edge(store, limiter.decrementer());
+  input.activate();
+  graph.wait_for_all();
+}
+
+}  // namespace
+
+int default_threads() { return tbb::info::default_concurrency(); }
+
+void with_threads(int threads, const std::function<void()>& work) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(work);
+}
+
+void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
+               const std::function<void(const Outcome&)>& on_outcome) {
+  const int threads = options.threads > 0 ? options.threads : default_threads();
+  Run run(next, stages, options, on_outcome);
+  with_threads(threads, [&] { build_and_wait(run, options.in_flight > 0 ? options.in_flight : threads); });
+  run.rethrow();
+}
+
+}  // namespace isojam

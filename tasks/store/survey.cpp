@@ -1,0 +1,87 @@
+#include "tasks/store/survey.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <stdexcept>
+
+#include "tasks/json/place.hpp"
+#include "tasks/json/sealed.hpp"
+#include "tasks/manifest/cost.hpp"
+#include "tasks/replicate/summary.hpp"
+#include "tasks/store/store.hpp"
+
+namespace isojam {
+namespace {
+namespace fs = std::filesystem;
+
+double seconds_since(const fs::path& path) {
+  std::error_code error;
+  const auto written = fs::last_write_time(path, error);
+  if (error) return 0;
+  return std::max(0.0, std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
+}
+
+UnderWay under_way(const fs::path& path) {
+  const auto document = read_sealed(path.string());
+  const JsonPlace root(document, path.string());
+  UnderWay replicate;
+  replicate.name = path.stem().string();
+  replicate.steps = static_cast<int>(root.at("path").expect_list("a list of steps"));
+  replicate.stage = root.at("stage").text();
+  replicate.density = root.at("packing").at("phi").number({0, 1e9});
+  replicate.cpu_seconds = root.at("timing").at("cpu_seconds").number({0, 1e12});
+  replicate.seconds_since_step = seconds_since(path);
+  return replicate;
+}
+
+void survey_records(const fs::path& directory, const Plan& plan, Survey& survey) {
+  double measured = 0, estimated = 0;
+  for (const auto& name : names_in(directory / "records")) {
+    const auto path = (directory / "records" / (name + ".json")).string();
+    try {
+      const auto summary = summarise_record(read_sealed(path), path);
+      const auto place = plan.place_of(name);
+      if (!place) {
+        ++survey.unplanned;
+        continue;
+      }
+      auto& point = survey.points[place->point];
+      ++point.recorded;
+      point.failed += summary.failed;
+      point.flagged += summary.flagged;
+      measured += summary.cpu_seconds;
+      estimated += estimated_cost(plan.at(place->point, place->replicate), false).cpu_seconds;
+      ++survey.calibration_records;
+    } catch (const std::runtime_error& damage) {
+      survey.damaged.emplace_back(damage.what());
+    }
+  }
+  if (measured > 0 && estimated > 0) survey.calibration = measured / estimated;
+}
+
+void survey_checkpoints(const fs::path& directory, const Plan& plan, Survey& survey) {
+  const auto recorded = names_in(directory / "records");
+  for (const auto& name : names_in(directory / "checkpoints")) {
+    const auto place = plan.place_of(name);
+    if (!place || std::binary_search(recorded.begin(), recorded.end(), name)) continue;
+    try {
+      survey.under_way.push_back(under_way(directory / "checkpoints" / (name + ".json")));
+      ++survey.points[place->point].under_way;
+    } catch (const std::runtime_error& damage) {
+      survey.damaged.emplace_back(damage.what());
+    }
+  }
+}
+
+}  // namespace
+
+Survey survey_of(const fs::path& directory, const Plan& plan) {
+  Survey survey;
+  survey.points.resize(plan.points());
+  survey_records(directory, plan, survey);
+  survey_checkpoints(directory, plan, survey);
+  return survey;
+}
+
+}  // namespace isojam

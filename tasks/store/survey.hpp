@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tasks/manifest/plan.hpp"
+
+namespace isojam {
+
+/// A replicate that has a checkpoint and no record.
+struct UnderWay {
+  std::string name;
+  std::string stage;
+  double density = 0;
+  int steps = 0;
+  double cpu_seconds = 0;  ///< spent on it so far
+  double seconds_since_step = 0;
+};
+
+/// What a results directory holds, point by point.
+struct Survey {
+  struct Point {
+    int recorded = 0, failed = 0, flagged = 0, under_way = 0;
+  };
+  std::vector<Point> points;  ///< of the plan
+  int unplanned = 0;          ///< records that the plan does not know
+  std::vector<UnderWay> under_way;
+  std::vector<std::string> damaged;  ///< one line for each file
+  /// Measured CPU time over the estimated, of all records; 1 without any.
+  double calibration = 1;
+  int calibration_records = 0;
+};
+
+/// Reads only; an empty survey if there is no such directory.
+Survey survey_of(const std::filesystem::path& directory, const Plan& plan);
+
+}  // namespace isojam

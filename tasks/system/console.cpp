@@ -1,0 +1,116 @@
+#include "tasks/system/console.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace isojam {
+namespace {
+
+constexpr auto bar_interval = std::chrono::milliseconds(100);
+constexpr auto line_interval = std::chrono::seconds(5);
+constexpr int bar_width = 24;
+constexpr std::string_view red = "\033[1;31m", yellow = "\033[1;33m", plain;
+
+bool wants_colour(Colour colour, bool terminal) {
+  if (colour != Colour::automatic) return colour == Colour::always;
+  const char* no_colour = std::getenv("NO_COLOR");
+  return terminal && !(no_colour && *no_colour);
+}
+
+void put(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+Console::Console(const ConsoleOptions& options)
+    : options_(options), terminal_(isatty(STDERR_FILENO) == 1), colour_(wants_colour(options.colour, terminal_)) {}
+
+Console::~Console() { clear_bar(); }
+
+void Console::error(std::string_view message) { line("error: ", red, message); }
+void Console::warn(std::string_view message) {
+  if (!options_.quiet) line("warning: ", yellow, message);
+}
+void Console::info(std::string_view message) {
+  if (!options_.quiet) line("", plain, message);
+}
+void Console::detail(std::string_view message) {
+  if (options_.verbose && !options_.quiet) line("", plain, message);
+}
+
+void Console::begin(int total, double work) {
+  const std::lock_guard lock(mutex_);
+  total_ = total;
+  work_total_ = work;
+  begun_ = shown_ = Clock::now();
+}
+
+void Console::finished(double work, bool failed) {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  failed_ += failed;
+  work_done_ += work;
+}
+
+void Console::tick(std::string_view what) {
+  if (options_.quiet) return;
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  if (now - shown_ < (terminal_ ? Clock::duration(bar_interval) : Clock::duration(line_interval))) return;
+  shown_ = now;
+  if (!terminal_) {
+    put(total_ ? fmt::format("isojam: {}; {}\n", status(), what) : fmt::format("isojam: {}\n", what));
+    return;
+  }
+  if (total_ == 0) {
+    put(fmt::format("\r\033[K{}", what));
+    bar_shown_ = true;
+    return;
+  }
+  const int filled = bar_width * done_ / total_;
+  put(fmt::format("\r\033[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
+                  std::string(static_cast<std::size_t>(bar_width - filled), '.'), status()));
+  bar_shown_ = true;
+}
+
+void Console::end() {
+  const std::lock_guard lock(mutex_);
+  clear_bar();
+}
+
+void Console::line(std::string_view label, std::string_view style, std::string_view message) {
+  const std::lock_guard lock(mutex_);
+  clear_bar();
+  const bool styled = colour_ && !style.empty();
+  put(fmt::format("isojam: {}{}{}{}\n", styled ? style : plain, label, styled ? "\033[0m" : "", message));
+}
+
+void Console::clear_bar() {
+  if (bar_shown_) put("\r\033[K");
+  bar_shown_ = false;
+}
+
+std::string Console::status() const {
+  auto text = fmt::format("{} of {} replicates", done_, total_);
+  if (failed_) text += fmt::format(", {} failed", failed_);
+  if (work_done_ > 0 && work_done_ < work_total_) {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - begun_).count();
+    text += fmt::format(", about {} left", duration_text(elapsed * (work_total_ - work_done_) / work_done_));
+  }
+  return text;
+}
+
+std::string duration_text(double seconds) {
+  const auto s = std::lround(seconds);
+  if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
+  if (s >= 60) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} s", s);
+}
+
+}  // namespace isojam

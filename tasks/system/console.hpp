@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "engine/names/enum_names.hpp"
+
+namespace isojam {
+
+enum class Colour { automatic, always, never };
+template <>
+inline constexpr std::array enum_names<Colour>{EnumName{Colour::automatic, "auto"}, EnumName{Colour::always, "always"},
+                                               EnumName{Colour::never, "never"}};
+
+struct ConsoleOptions {
+  bool quiet = false;    ///< errors only
+  bool verbose = false;  ///< a line for each replicate
+  Colour colour = Colour::automatic;
+};
+
+/// What people read while a command works: messages and progress, all on stderr. Safe to use from several threads.
+class Console {
+ public:
+  explicit Console(const ConsoleOptions& options);
+  ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  void error(std::string_view message);
+  void warn(std::string_view message);
+  void info(std::string_view message);
+  void detail(std::string_view message);  ///< shown with -v
+
+  /// `work` measures cost (any unit), for the time left.
+  void begin(int total, double work);
+  void finished(double work, bool failed);
+  /// Redraws the bar on a terminal, prints a line every few seconds elsewhere; without begin() only what is under way.
+  void tick(std::string_view what);
+  void end();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void line(std::string_view label, std::string_view style, std::string_view message);
+  void clear_bar();
+  std::string status() const;
+
+  ConsoleOptions options_;
+  bool terminal_, colour_, bar_shown_ = false;
+  std::mutex mutex_;
+  int total_ = 0, done_ = 0, failed_ = 0;
+  double work_total_ = 0, work_done_ = 0;
+  Clock::time_point begun_, shown_;
+};
+
+/// "1 h 02 min", "3 min 20 s", "12 s".
+std::string duration_text(double seconds);
+
+}  // namespace isojam

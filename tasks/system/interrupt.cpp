@@ -1,0 +1,42 @@
+#include "tasks/system/interrupt.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+#include "tasks/system/exit_codes.hpp"
+
+namespace isojam {
+
+InterruptWatcher::InterruptWatcher() {
+  sigemptyset(&signals_);
+  sigaddset(&signals_, SIGINT);
+  sigaddset(&signals_, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  thread_ = std::thread([this] { watch(); });
+}
+
+InterruptWatcher::~InterruptWatcher() {
+  finished_ = true;
+  // Wakes sigwait in that thread and ends nothing: the signal is blocked.
+  pthread_kill(thread_.native_handle(), SIGTERM);  // NOLINT(bugprone-bad-signal-to-kill-thread)
+  thread_.join();
+  // One that is still pending came too late to stop anything, and must not kill what has ended well.
+  const timespec at_once{};
+  while (sigtimedwait(&signals_, nullptr, &at_once) > 0) {
+  }
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void InterruptWatcher::watch() {
+  int signal = 0;
+  if (sigwait(&signals_, &signal) != 0 || finished_) return;
+  source_.request_stop();
+  // What is under way is asked first. A measurement of a large packing does not listen: it is left.
+  const timespec patience{1, 500'000'000};
+  if (sigtimedwait(&signals_, nullptr, &patience) >= 0 && finished_) return;
+  std::fputs("\nisojam: warning: interrupted; what was recorded is kept, and the same command continues\n", stderr);
+  std::_Exit(static_cast<int>(ExitCode::interrupted));
+}
+
+}  // namespace isojam

@@ -1,0 +1,152 @@
+#include "tasks/tables/aggregate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tasks/json/input_error.hpp"
+#include "tasks/manifest/plan.hpp"
+#include "tasks/measure/quantity.hpp"
+#include "tasks/replicate/summary.hpp"
+#include "tasks/tables/stopping.hpp"
+
+namespace isojam {
+namespace {
+
+std::string describe(const RecordSummary& record) {
+  return fmt::format("{} replicate {} of manifest {}", point_text(record.solid, record.particles, record.parameters),
+                     record.replicate, record.manifest_digest);
+}
+
+/// Linear in ln Δφ between the states on either side of `distance`, quantity by quantity; nothing where they do not
+/// enclose it or one lacks the value.
+Values interpolated(std::span<const StateValues> states, double distance) {
+  const auto above =
+      std::find_if(states.begin(), states.end(), [=](const StateValues& s) { return s.delta_phi >= distance; });
+  if (above == states.begin() || above == states.end()) return {};
+  const StateValues &low = above[-1], &high = *above;
+  const double weight = std::log(distance / low.delta_phi) / std::log(high.delta_phi / low.delta_phi);
+  Values values = no_values();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (low.values[i] && high.values[i]) values[i] = (1 - weight) * *low.values[i] + weight * *high.values[i];
+  }
+  return values;
+}
+
+/// First path at which two JSON values differ.
+std::string difference(const Json& a, const Json& b) {
+  const auto patch = Json::diff(a, b);
+  return patch.empty() ? "" : patch.front().at("path").get<std::string>();
+}
+
+/// The values of a sweep point's replicates, quantity by quantity.
+class Samples {
+ public:
+  void add(std::size_t quantity, double value, bool flagged) {
+    all_[quantity].push_back(value);
+    if (!flagged) unflagged_[quantity].push_back(value);
+  }
+  bool empty() const {
+    return std::all_of(all_.begin(), all_.end(), [](const auto& values) { return values.empty(); });
+  }
+  /// With the flagged replicates, and without.
+  std::pair<Estimates, Estimates> estimates(const std::string& point) const {
+    std::pair<Estimates, Estimates> result{no_estimates(), no_estimates()};
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const auto seed = hash_of(point + std::string(all_quantities()[i].name));
+      result.first[i] = estimate(all_[i], seed);
+      result.second[i] = estimate(unflagged_[i], seed);
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::vector<double>> all_{all_quantities().size()}, unflagged_{all_quantities().size()};
+};
+
+constexpr std::size_t places = 1 + series_distances.size();
+
+}  // namespace
+
+Aggregation::Kept Aggregation::kept(const RecordSummary& record) {
+  Kept kept{record.result_digest, record.failed, record.flagged, record.residual, {}};
+  const auto keep = [&](const Values& values, std::size_t place) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i])
+        kept.cells.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(place), *values[i]});
+    }
+  };
+  keep(record.values, 0);
+  for (std::size_t k = 0; k < series_distances.size(); ++k)
+    keep(interpolated(record.states, series_distances[k]), k + 1);
+  kept.cells.shrink_to_fit();
+  return kept;
+}
+
+void Aggregation::add(const RecordSummary& record) {
+  auto& point = points_[{record.solid, record.particles, record.parameters}];
+  if (point.replicates.empty()) {
+    point.settings = record.settings;
+    point.first = describe(record);
+  } else if (point.settings != record.settings) {
+    throw InputError({describe(record), difference(point.settings, record.settings),
+                      "differs from the setting of " + point.first, "one table of records with the same settings", ""});
+  }
+  const auto [place, added] = point.replicates.try_emplace({record.manifest_digest, record.replicate}, kept(record));
+  if (!added && place->second.result_digest != record.result_digest) {
+    throw InputError({describe(record), "/result_digest", "is recorded twice with different results", "", ""});
+  }
+}
+
+std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const std::optional<Replicates>& rule) {
+  if (!rule || !rule->goal) return std::nullopt;
+  const auto quantity = quantity_index(rule->goal->quantity);
+  // Those from 0 on without a gap, of one manifest.
+  std::vector<std::optional<double>> values;
+  for (const auto& [key, replicate] : point.replicates) {
+    if (key.first != point.replicates.begin()->first.first || key.second != static_cast<int>(values.size())) break;
+    const auto cell = std::find_if(replicate.cells.begin(), replicate.cells.end(),
+                                   [&](const Cell& c) { return c.place == 0 && c.quantity == quantity; });
+    values.push_back(cell == replicate.cells.end() ? std::nullopt : std::optional(cell->value));
+  }
+  const auto advance = advance_of(*rule, values);
+  return GoalOutcome{*rule->goal, advance.finished ? std::optional(advance.wanted) : std::nullopt, advance.met,
+                     advance.half_width};
+}
+
+Row Aggregation::row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule) {
+  Row row;
+  std::tie(row.solid, row.particles, row.parameters) = key;
+  row.replicates = static_cast<int>(point.replicates.size());
+  std::array<Samples, places> samples;
+  for (const auto& [name, replicate] : point.replicates) {
+    row.failed += replicate.failed;
+    row.flagged += replicate.flagged;
+    if (replicate.residual) row.residual = std::max(row.residual.value_or(0), *replicate.residual);
+    for (const auto& cell : replicate.cells) samples[cell.place].add(cell.quantity, cell.value, replicate.flagged);
+  }
+  const auto text = point_text(row.solid, row.particles, row.parameters);
+  std::tie(row.estimates, row.unflagged) = samples[0].estimates(text);
+  for (std::size_t k = 0; k < series_distances.size(); ++k) {
+    if (samples[k + 1].empty()) continue;
+    row.series.push_back({series_distances[k]});
+    std::tie(row.series.back().estimates, row.series.back().unflagged) = samples[k + 1].estimates(text);
+  }
+  row.goal = goal_outcome(point, rule);
+  return row;
+}
+
+Table Aggregation::table(const std::optional<Replicates>& rule) const {
+  Table table;
+  for (const auto& [key, point] : points_) table.rows.push_back(row(key, point, rule));
+  return table;
+}
+
+Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule) {
+  Aggregation aggregation;
+  for (const auto& record : records) aggregation.add(record);
+  return aggregation.table(rule);
+}
+
+}  // namespace isojam

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "tasks/manifest/manifest.hpp"
+#include "tasks/measure/quantity.hpp"
+#include "tasks/replicate/summary.hpp"
+#include "tasks/tables/statistics.hpp"
+
+namespace isojam {
+
+/// For each of all_quantities().
+using Estimates = std::vector<Estimate>;
+inline Estimates no_estimates() { return Estimates(all_quantities().size()); }
+
+/// Estimates at one distance above jamming; those of replicates are empty.
+struct SeriesPoint {
+  double delta_phi = 0;
+  Estimates estimates = no_estimates(), unflagged = no_estimates();
+};
+
+/// How far a sweep point came towards a goal.
+struct GoalOutcome {
+  Goal goal;
+  std::optional<int> needed;         ///< replicates after which the rule stopped; nullopt if it asks for more
+  bool met = false;                  ///< false at max replicates too wide
+  std::optional<double> half_width;  ///< at the last batch that is complete
+};
+
+/// One sweep point.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
+struct Row {
+  SolidKind solid = SolidKind::tetrahedron;
+  int particles = 0;
+  Json parameters;     ///< the other swept values
+  int replicates = 0;  ///< recorded, the failed ones included
+  int failed = 0;
+  int flagged = 0;                       ///< did not fail, count in the estimates, but their records hold a reservation
+  Estimates estimates = no_estimates();  ///< over replicates that did not fail and have the value
+  Estimates unflagged = no_estimates();  ///< the same without the flagged replicates
+  std::vector<SeriesPoint> series;       ///< at those of series_distances that a replicate's states enclose
+  std::optional<double> residual;        ///< worst of the states behind φ_J; nullopt if all failed
+  std::optional<GoalOutcome> goal;
+};
+
+/// Rows in order of solid, particles, parameters.
+struct Table {
+  std::vector<Row> rows;
+};
+
+/// Gathers records one by one and keeps of each only what the table needs: a few kilobytes. The order does not matter.
+class Aggregation {
+ public:
+  /// A record that is given twice counts once. Throws InputError if records of one point were made with different
+  /// settings, or if two records of the same replicate disagree.
+  void add(const RecordSummary& record);
+
+  /// `rule` is what the records were made by; with a goal, every row says how far it came.
+  Table table(const std::optional<Replicates>& rule = std::nullopt) const;
+
+ private:
+  /// A value of a replicate: which of all_quantities(), and where: 0 its own or that of its nearest state, k at
+  /// series_distances[k − 1].
+  struct Cell {
+    std::uint16_t quantity, place;
+    double value;
+  };
+  struct Kept {
+    std::string result_digest;
+    bool failed = false, flagged = false;
+    std::optional<double> residual;
+    std::vector<Cell> cells;
+  };
+  using PointKey = std::tuple<SolidKind, int, Json>;
+  using ReplicateKey = std::pair<std::string, int>;  // manifest digest, replicate
+  struct Point {
+    Json settings;
+    std::string first;  // the record that gave them
+    std::map<ReplicateKey, Kept> replicates;
+  };
+
+  static Kept kept(const RecordSummary& record);
+  static Row row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule);
+  static std::optional<GoalOutcome> goal_outcome(const Point& point, const std::optional<Replicates>& rule);
+
+  std::map<PointKey, Point> points_;
+};
+
+/// All at once.
+Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule = std::nullopt);
+
+}  // namespace isojam

@@ -1,0 +1,109 @@
+#include "tasks/tables/tables.hpp"
+
+#include <numbers>
+
+#include "engine/analysis/alignment/critical_angles.hpp"
+#include "tasks/measure/quantity.hpp"
+
+namespace isojam {
+namespace {
+
+Json to_json(const Estimate& estimate) {
+  Json json;
+  const auto put = [&](const std::string& key, const std::optional<double>& value) {
+    json[key] = value ? Json(*value) : Json(nullptr);
+  };
+  const auto put_interval = [&](const std::string& key, const std::optional<Interval>& interval) {
+    json[key] = interval ? Json{interval->low, interval->high} : Json(nullptr);
+  };
+  put("mean", estimate.mean);
+  put_interval("ci95", estimate.ci95);
+  put("half_width", estimate.half_width);
+  put("sd", estimate.sd);
+  json["n"] = estimate.n;
+  put_interval("bootstrap95", estimate.bootstrap95);
+  if (estimate.n == 0) json["reason"] = "no replicate has this value";
+  if (estimate.n == 1) json["reason"] = "one replicate has no spread";
+  return json;
+}
+
+/// Those of the first group always, the others where they were measured.
+void put_estimates(Json& json, const Estimates& estimates) {
+  const auto quantities = all_quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (quantities[i].group != main_group && estimates[i].n == 0) continue;
+    json[std::string(quantities[i].name)] = to_json(estimates[i]);
+  }
+}
+
+void put_state_estimates(Json& json, const Estimates& estimates) {
+  const auto quantities = all_quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (quantities[i].of == Quantity::Of::state && estimates[i].n > 0)
+      json[std::string(quantities[i].name)] = to_json(estimates[i]);
+  }
+}
+
+Json to_json(const SeriesPoint& point, bool with_unflagged) {
+  Json json;
+  json["delta_phi"] = point.delta_phi;
+  put_state_estimates(json, point.estimates);
+  if (with_unflagged) {
+    json["unflagged"] = Json::object();
+    put_state_estimates(json["unflagged"], point.unflagged);
+  }
+  return json;
+}
+
+Json to_json(const GoalOutcome& outcome) {
+  Json json;
+  json["quantity"] = outcome.goal.quantity;
+  json["aim"] = outcome.goal.half_width;
+  json["reached"] = outcome.half_width ? Json(*outcome.half_width) : Json(nullptr);
+  json["met"] = outcome.met;
+  json["needed"] = outcome.needed ? Json(*outcome.needed) : Json(nullptr);
+  return json;
+}
+
+/// Degrees.
+Json critical_angle_record(SolidKind solid) {
+  const auto angles = critical_angles(platonic(solid));
+  const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
+  Json json;
+  json["ef_vertex_face"] = degrees(angles.ef_vertex_face);
+  json["ef_edge_edge"] = degrees(angles.ef_edge_edge);
+  json["ff_vertex_face"] = degrees(angles.ff_vertex_face);
+  json["ff_edge_edge"] = degrees(angles.ff_edge_edge);
+  json["ff_edge_face"] = degrees(angles.ff_edge_face);
+  return json;
+}
+
+}  // namespace
+
+Json to_json(const Row& row) {
+  Json entry;
+  entry["solid"] = to_string(row.solid);
+  entry["particles"] = row.particles;
+  entry["parameters"] = row.parameters;
+  entry["replicates"] = row.replicates;
+  entry["failed"] = row.failed;
+  entry["flagged"] = row.flagged;
+  if (row.goal) entry["goal"] = to_json(*row.goal);
+  put_estimates(entry, row.estimates);
+  if (row.flagged > 0) put_estimates(entry["unflagged"], row.unflagged);
+  entry["critical_angles"] = critical_angle_record(row.solid);
+  entry["residual"] = row.residual ? Json(*row.residual) : Json(nullptr);
+  entry["series"] = Json::array();
+  for (const auto& point : row.series) entry["series"].push_back(to_json(point, row.flagged > 0));
+  return entry;
+}
+
+Json to_json(const Table& table) {
+  Json json;
+  json["schema"] = table_schema;
+  json["rows"] = Json::array();
+  for (const auto& row : table.rows) json["rows"].push_back(to_json(row));
+  return json;
+}
+
+}  // namespace isojam

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tasks/tables/aggregate.hpp"
+
+namespace isojam {
+
+inline constexpr std::string_view table_schema = "isojam.tables.v1";
+
+/// tables.json, and one of its rows.
+Json to_json(const Table& table);
+Json to_json(const Row& row);
+
+/// Which states of the replicates: those nearest jamming, or those at each of series_distances.
+enum class View : std::uint8_t { nearest, series };
+
+/// For people: one table for each group of columns that has values, aligned; mean ± half width of the 95 % interval,
+/// (n) where fewer replicates have the value than did not fail.
+std::string to_text(const Table& table, View view = View::nearest);
+
+/// One line per row or point of a series; for each quantity mean, ci95 low and high, sd, n, bootstrap95 low and high.
+/// Empty: no value.
+std::string to_csv(const Table& table, View view = View::nearest);
+
+/// A tabular environment for each group of columns that has values.
+std::string to_latex(const Table& table, View view = View::nearest);
+
+}  // namespace isojam

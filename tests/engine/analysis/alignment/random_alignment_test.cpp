@@ -1,0 +1,261 @@
+// Facts proved, for every Platonic solid:
+//   1. a million random orientations follow the closed form of θ_ff, and of θ_ef, and a million turns about an edge
+//   that
+//      of θ_ff under the constraint, by Kolmogorov and Smirnov's test; with a solid turned into another they would not;
+//   2. the closed forms rise from 0 to 1 without a step, and at small angles are the paper's: p(θ_ff) ∝ sin θ_ff over
+//   all
+//      of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint;
+//   3. the angles sampled are those that alignment() finds where the solid is pressed on a face;
+//   4. contacts drawn at random count as random in all but the share of the level, those with more or fewer small
+//   angles
+//      as hyper-random or sub-random; probabilities are the binomial sums;
+//   5. an empirical CDF is a count, its distance the greatest of a dense search, its probability the tabulated one;
+//   6. solids with unlike faces, and what is no number or no fraction, are refused.
+
+#include "engine/analysis/alignment/random_alignment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/analysis/alignment/alignment.hpp"
+#include "engine/analysis/alignment/critical_angles.hpp"
+#include "engine/analysis/alignment/empirical_cdf.hpp"
+#include "tests/engine/analysis/constructed_contacts.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Vector3d;
+using std::numbers::pi;
+using Angle = double AlignmentAngles::*;
+
+constexpr int million = 1000000;
+
+std::vector<double> column(const std::vector<AlignmentAngles>& sample, Angle angle) {
+  std::vector<double> values;
+  for (const AlignmentAngles& angles : sample) values.push_back(angles.*angle);
+  return values;
+}
+
+/// P of Kolmogorov and Smirnov's test.
+double agreement(const EmpiricalCdf& drawn, const std::function<double(double)>& distribution) {
+  return kolmogorov_probability(kolmogorov_distance(drawn, distribution), million);
+}
+
+class RandomAlignmentOf : public testing::TestWithParam<SolidKind> {
+ protected:
+  const ConvexSolid& solid = platonic(GetParam());
+  const RandomAlignment ideal{solid};
+  RandomStream random{51, static_cast<std::uint64_t>(GetParam())};
+};
+
+TEST_P(RandomAlignmentOf, AMillionOrientationsFollowTheClosedForms) {
+  const std::vector<AlignmentAngles> sample = sample_unconstrained(solid, million, random);
+  const EmpiricalCdf face_face = empirical_cdf(column(sample, &AlignmentAngles::face_face));
+  const EmpiricalCdf edge_face = empirical_cdf(column(sample, &AlignmentAngles::edge_face));
+  const double ff = agreement(face_face, [&](double theta) { return ideal.face_face(theta); });
+  const double ef = agreement(edge_face, [&](double theta) { return ideal.edge_face(theta); });
+  std::printf("%s: P %.3f for θ_ff, %.3f for θ_ef\n", solid.name().c_str(), ff, ef);
+  EXPECT_GT(ff, 1e-3);
+  EXPECT_GT(ef, 1e-3);
+  // So many orientations see an error of a hundredth.
+  EXPECT_LT(agreement(face_face, [&](double theta) { return ideal.face_face(1.01 * theta); }), 1e-6);
+  EXPECT_LT(agreement(edge_face, [&](double theta) { return ideal.edge_face(1.01 * theta); }), 1e-6);
+}
+
+TEST_P(RandomAlignmentOf, AMillionTurnsFollowTheConstrainedForm) {
+  const std::vector<AlignmentAngles> sample = sample_edge_constrained(solid, million, random);
+  const EmpiricalCdf face_face = empirical_cdf(column(sample, &AlignmentAngles::face_face));
+  EXPECT_GT(agreement(face_face, [&](double theta) { return ideal.constrained_face_face(theta); }), 1e-3);
+  EXPECT_LT(agreement(face_face, [&](double theta) { return ideal.face_face(theta); }), 1e-6);
+  double largest = 0;
+  for (const AlignmentAngles& angles : sample) largest = std::max(largest, angles.edge_face);
+  EXPECT_LT(largest, 1e-14);
+  EXPECT_EQ(ideal.constrained_edge_face(largest), 1);
+  EXPECT_EQ(ideal.constrained_edge_face(-1e-9), 0);
+}
+
+TEST_P(RandomAlignmentOf, ClosedFormsRiseFromZeroToOne) {
+  const CriticalAngles critical = critical_angles(solid);
+  EXPECT_EQ(ideal.ff_max(), critical.ff_vertex_face);
+  EXPECT_EQ(ideal.ef_max(), critical.ef_vertex_face);
+  EXPECT_EQ(ideal.constrained_ff_max(), critical.ff_edge_face);
+  constexpr int steps = 20000;
+  const auto expect_rise = [&](const std::function<double(double)>& distribution, double largest) {
+    EXPECT_EQ(distribution(0), 0);
+    EXPECT_EQ(distribution(largest), 1);
+    double before = 0;
+    for (int k = 1; k <= steps; ++k) {
+      const double value = distribution(largest * k / steps);
+      EXPECT_GE(value, before - 1e-13) << k;
+      EXPECT_LE(value - before, 5.0 / steps) << "a step at " << largest * k / steps;
+      before = value;
+    }
+  };
+  expect_rise([&](double theta) { return ideal.face_face(theta); }, ideal.ff_max());
+  expect_rise([&](double theta) { return ideal.edge_face(theta); }, ideal.ef_max());
+  expect_rise([&](double theta) { return ideal.constrained_face_face(theta); }, ideal.constrained_ff_max());
+}
+
+TEST_P(RandomAlignmentOf, SmallAnglesFollowThePaper) {
+  const auto faces = static_cast<double>(solid.faces().size());
+  for (double theta = 1e-3; theta < critical_angles(solid).ff_edge_face; theta *= 1.1) {
+    EXPECT_NEAR(ideal.face_face(theta), faces * (1 - std::cos(theta)) / 2, 1e-12) << "∫ sin over the caps";
+  }
+  // The strip along a side of the polygon: its length over the area of all polygons, two sides to an edge.
+  const double arc = pi - std::acos(-std::cos(2 * ideal.constrained_ff_max()));
+  const double slope = 2 * static_cast<double>(solid.edges().size()) * arc / (4 * pi);
+  for (const double theta : {1e-3, 1e-4, 1e-5})
+    EXPECT_NEAR(ideal.edge_face(theta) / theta, slope, 10 * theta * slope) << theta;
+}
+
+TEST_P(RandomAlignmentOf, SamplesAreWhatAlignmentFindsOnAFace) {
+  // Two streams alike: both draw the direction from which the face is pressed on the solid.
+  RandomStream fresh{52, static_cast<std::uint64_t>(GetParam())}, twin = fresh;
+  for (const AlignmentAngles& expected : sample_unconstrained(solid, 300, fresh)) {
+    const double z = 2 * twin.uniform() - 1, azimuth = 2 * pi * twin.uniform(), r = std::sqrt(1 - z * z);
+    const Vector3d direction(r * std::cos(azimuth), r * std::sin(azimuth), z);
+    const auto& vertices = solid.vertices();
+    const auto outermost = std::max_element(vertices.begin(), vertices.end(), [&](const auto& u, const auto& v) {
+      return u.dot(direction) < v.dot(direction);
+    });
+    constructed::Site site = constructed::vertex_site(solid, static_cast<int>(outermost - vertices.begin()));
+    site.outward = direction;
+    const Alignment found =
+        alignment(solid, constructed::contact(site, constructed::face_site(solid, 0), 0.7, Vector3d::Zero(), 1e-9));
+    EXPECT_NEAR(found.face_face, expected.face_face, 1e-13);
+    EXPECT_NEAR(found.edge_face, expected.edge_face, 1e-13);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solids, RandomAlignmentOf, testing::ValuesIn(all_solids),
+                         [](const auto& solid) { return std::string(to_string(solid.param)); });
+
+const RandomAlignment& octahedral() {
+  static const RandomAlignment ideal{platonic(SolidKind::octahedron)};
+  return ideal;
+}
+
+Randomness compare(const std::vector<double>& angles) {
+  return compare_with_random(
+      angles, [](double theta) { return octahedral().edge_face(theta); }, octahedral().ef_max());
+}
+
+TEST(Randomness, OfRandomContactsAndOfOthers) {
+  RandomStream random{53};
+  constexpr int sets = 500, n = 400;
+  int unlikely = 0;
+  for (int set = 0; set < sets; ++set) {
+    std::vector<double> angles =
+        column(sample_unconstrained(platonic(SolidKind::octahedron), n, random), &AlignmentAngles::edge_face);
+    const Randomness drawn = compare(angles);
+    EXPECT_EQ(drawn.expected, 0.1 * n);
+    unlikely += drawn.verdict != RandomnessVerdict::random;
+    std::vector<double> fewer;
+    for (const double angle : angles) {
+      if (angle > drawn.angle || fewer.size() % 3 == 0) fewer.push_back(angle);
+    }
+    for (int k = 0; k < n / 10; ++k) angles[k] = 1e-4 * random.uniform();
+    EXPECT_EQ(compare(angles).verdict, RandomnessVerdict::hyper_random);
+    if (set < 20) {
+      EXPECT_EQ(compare(fewer).verdict, RandomnessVerdict::sub_random) << fewer.size();
+    }
+  }
+  EXPECT_LE(unlikely, 0.04 * sets);
+}
+
+TEST(Randomness, ProbabilityIsTheBinomialSum) {
+  for (const long n : {2L, 5L, 30L}) {
+    for (long below = 0; below <= n; ++below) {
+      std::vector<double> angles(below, 0.0);
+      angles.resize(n, 0.5);
+      double at_least = 0, at_most = 0;
+      for (long i = 0; i <= n; ++i) {
+        const double term =
+            std::pow(0.1, i) * std::pow(0.9, n - i) /
+            ((static_cast<double>(n) + 1) * std::beta(static_cast<double>(n - i + 1), static_cast<double>(i + 1)));
+        (i >= below ? at_least : at_most) += term;
+        if (i == below) at_most += term;
+      }
+      const Randomness found = compare(angles);
+      EXPECT_EQ(found.below, below);
+      EXPECT_NEAR(found.probability, std::min(at_least, at_most), 1e-10) << below << " of " << n;
+    }
+  }
+}
+
+TEST(Randomness, OfFewContactsIsUndecided) {
+  EXPECT_EQ(Randomness().verdict, RandomnessVerdict::not_called);
+  EXPECT_EQ(compare({}).verdict, RandomnessVerdict::too_few);
+  EXPECT_EQ(compare({0.0}).verdict, RandomnessVerdict::too_few);
+  EXPECT_EQ(compare({0.0, 0.0, 0.0}).verdict, RandomnessVerdict::hyper_random);
+}
+
+TEST(EmpiricalCdf, IsACount) {
+  RandomStream random{54};
+  std::vector<double> values;
+  for (int k = 0; k < 200; ++k) values.push_back(std::floor(50 * random.uniform()) / 50);
+  const EmpiricalCdf cdf = empirical_cdf(values);
+  EXPECT_TRUE(std::is_sorted(cdf.values.begin(), cdf.values.end()));
+  EXPECT_LE(cdf.values.size(), 50U);
+  for (double x = -0.1; x < 1.1; x += 0.003) {
+    const auto below = std::count_if(values.begin(), values.end(), [&](double value) { return value <= x; });
+    EXPECT_EQ(cdf(x), static_cast<double>(below) / 200) << x;
+  }
+  EXPECT_EQ(cdf(cdf.values.front()), cdf.heights.front());
+  EXPECT_EQ(cdf.heights.back(), 1);
+  EXPECT_EQ(empirical_cdf({})(0.5), 0);
+  EXPECT_THROW(empirical_cdf(std::vector<double>{1, std::numeric_limits<double>::quiet_NaN()}), std::invalid_argument);
+}
+
+TEST(EmpiricalCdf, DistanceIsTheGreatest) {
+  RandomStream random{55};
+  const auto square = [](double x) { return x * x; };
+  const auto root = [](double x) { return std::sqrt(x); };
+  for (const int n : {1, 5, 100}) {
+    std::vector<double> values;
+    for (int k = 0; k < n; ++k) values.push_back(random.uniform());
+    const EmpiricalCdf cdf = empirical_cdf(values);
+    // One that lies below the values, one above.
+    for (const auto& distribution : {+square, +root}) {
+      double greatest = 0;
+      for (int k = 0; k <= 100000; ++k) greatest = std::max(greatest, std::abs(cdf(k * 1e-5) - distribution(k * 1e-5)));
+      EXPECT_NEAR(kolmogorov_distance(cdf, distribution), greatest, 1e-3) << n;
+    }
+  }
+  EXPECT_EQ(kolmogorov_distance(EmpiricalCdf(), square), 0);
+}
+
+TEST(EmpiricalCdf, ProbabilityIsKolmogorovs) {
+  // Median and percentage points of the limit.
+  EXPECT_NEAR(kolmogorov_probability(0.82757 / 1e4, 100000000), 0.5, 1e-4);
+  EXPECT_NEAR(kolmogorov_probability(0.5 / 1e4, 100000000), 0.96394, 1e-4);
+  EXPECT_NEAR(kolmogorov_probability(1.3581 / 1e4, 100000000), 0.05, 1e-4);
+  EXPECT_NEAR(kolmogorov_probability(1.6276 / 1e4, 100000000), 0.01, 1e-4);
+  EXPECT_EQ(kolmogorov_probability(0, 100), 1);
+  EXPECT_LT(kolmogorov_probability(1, 100), 1e-80);
+}
+
+TEST(RandomAlignment, RefusesOtherSolids) {
+  std::vector<Vector3d> cuboctahedron;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int signs : {0, 1, 2, 3}) {
+      Vector3d vertex = Vector3d::Zero();
+      vertex[axis] = signs & 1 ? 1 : -1;
+      vertex[(axis + 1) % 3] = signs & 2 ? 1 : -1;
+      cuboctahedron.push_back(vertex);
+    }
+  }
+  EXPECT_THROW(RandomAlignment(ConvexSolid("cuboctahedron", cuboctahedron)), std::invalid_argument);
+  EXPECT_THROW(compare_with_random({}, [](double x) { return x; }, 1, {.fraction = 1}), std::invalid_argument);
+  EXPECT_THROW(compare_with_random({}, [](double x) { return x; }, 1, {.level = 0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,228 @@
+// Facts proved here:
+//   overlap is the same seen from B: V, S_B = −S_A and M_B = −M_A + r×S_A; and for the pair turned as a whole;
+//   contacts built face on vertex and edge on edge have V ∝ δ³ (E ∝ δ⁶), edge on face V ∝ δ² (E ∝ δ⁴) and face on
+//   face V ∝ δ (E ∝ δ²), δ the depth;
+//   S_A of a face contact is normal to the face and dV/dδ in length;
+//   the features reported are those of the contact built.
+
+#include "engine/geometry/overlap/overlap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "tests/engine/geometry/overlap/pairs.hpp"
+
+namespace isojam {
+namespace {
+
+using namespace testing_pairs;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr int cases = 20;
+
+/// Relative rounding of V, and of S and M on the scales |S| and |S|·reach, of a contact of depth ~ V/|S|: a coordinate
+/// is off by some ulp of the reach.
+double rounding(const Pair& pair, const Overlap& contact) {
+  return 64 * epsilon * pair.reach() * contact.area.norm() / contact.volume;
+}
+
+template <class Check>
+void for_each_contact(std::uint64_t seed, const Check& check) {
+  RandomStream random{3, seed};
+  for (const SolidKind a : all_solids) {
+    for (const SolidKind b : all_solids) {
+      for (int k = 0; k < cases; ++k) check(random_contact(random, a, b, 1e-5, 3e-2), random);
+    }
+  }
+}
+
+TEST(OverlapTest, IsTheSameSeenFromB) {
+  for_each_contact(1, [](const Pair& pair, RandomStream&) {
+    const Overlap from_a = overlap(pair), from_b = overlap(exchanged(pair));
+    const RelativePose pose = pair.relative();
+    const Vector3d area_b = pose.rotation * from_b.area, moment_b = pose.rotation * from_b.moment;
+    const double limit = rounding(pair, from_a), scale = from_a.area.norm();
+    EXPECT_NEAR(from_b.volume, from_a.volume, limit * from_a.volume) << describe(pair);
+    EXPECT_LE((area_b + from_a.area).norm(), limit * scale) << describe(pair);
+    EXPECT_LE((moment_b - moment_of_b(from_a, pose)).norm(), limit * scale * pair.reach()) << describe(pair);
+    EXPECT_EQ(from_b.faces_a, from_a.faces_b) << describe(pair);
+    EXPECT_EQ(from_b.faces_b, from_a.faces_a) << describe(pair);
+    EXPECT_EQ(from_b.edges_a, from_a.edges_b) << describe(pair);
+    EXPECT_EQ(from_b.edges_b, from_a.edges_a) << describe(pair);
+  });
+}
+
+TEST(OverlapTest, IsTheSameForThePairTurned) {
+  for_each_contact(2, [](const Pair& pair, RandomStream& random) {
+    Pair turned = pair;
+    const Quaterniond turn = random_orientation(random);
+    for (Pose* pose : {&turned.a, &turned.b}) {
+      pose->orientation = (turn * pose->orientation).normalized();
+      pose->position = turn * pose->position;
+    }
+    const Overlap before = overlap(pair), after = overlap(turned);
+    const double limit = rounding(pair, before), scale = before.area.norm();
+    EXPECT_NEAR(after.volume, before.volume, limit * before.volume) << describe(pair);
+    EXPECT_LE((after.area - before.area).norm(), limit * scale) << describe(pair);
+    EXPECT_LE((after.moment - before.moment).norm(), limit * scale * pair.reach()) << describe(pair);
+  });
+}
+
+/// B's orientation and where its feature meets A's, in A's frame; B then sinks in by δ along −normal.
+struct Contact {
+  SolidKind kind;
+  Quaterniond orientation;
+  Vector3d start;   ///< x_B at depth 0
+  Vector3d normal;  ///< outward from A
+  std::uint32_t faces_a = 0, faces_b = 0, edges_a = 0, edges_b = 0;
+
+  Pair at(double depth) const { return {kind, kind, {}, {start - depth * normal, orientation}}; }
+  double volume(double depth) const { return overlap(at(depth)).volume; }
+};
+
+Quaterniond turn_about(const Vector3d& axis, double angle) { return Quaterniond(Eigen::AngleAxisd(angle, axis)); }
+
+Vector3d middle(const ConvexSolid& solid, const Edge& edge) {
+  return (solid.vertices()[edge.tail] + solid.vertices()[edge.head]) / 2;
+}
+
+/// B with `feature` (a point of its surface, seen from its centre along `outward`) upon the point `on` of A, facing
+/// along −normal and turned about it.
+Contact facing(SolidKind kind, const Vector3d& on, const Vector3d& normal, const Vector3d& feature,
+               const Vector3d& outward, double spin) {
+  const Quaterniond q = turn_about(normal, spin) * Quaterniond::FromTwoVectors(outward, -normal);
+  return {kind, q.normalized(), on - q.normalized() * feature, normal};
+}
+
+std::uint32_t bit(int k) { return std::uint32_t{1} << k; }
+
+Contact vertex_on_face(SolidKind kind, double spin) {
+  const ConvexSolid& solid = platonic(kind);
+  const Face& face = solid.faces()[1];
+  const Vector3d& vertex = solid.vertices()[2];
+  Contact contact = facing(kind, face.offset * face.normal, face.normal, vertex, vertex.normalized(), spin);
+  contact.faces_a = bit(1);
+  for (std::size_t e = 0; e < solid.edges().size(); ++e) {
+    const Edge& edge = solid.edges()[e];
+    if (edge.tail != 2 && edge.head != 2) continue;
+    contact.edges_b |= bit(static_cast<int>(e));
+    contact.faces_b |= bit(edge.left) | bit(edge.right);
+  }
+  return contact;
+}
+
+Contact edge_on(SolidKind kind, const Vector3d& on, const Vector3d& normal, double spin) {
+  const ConvexSolid& solid = platonic(kind);
+  const Edge& edge = solid.edges()[1];
+  const Vector3d m = middle(solid, edge);
+  Contact contact = facing(kind, on, normal, m, m.normalized(), spin);
+  contact.edges_b = bit(1);
+  contact.faces_b = bit(edge.left) | bit(edge.right);
+  return contact;
+}
+
+Contact edge_on_edge(SolidKind kind, double crossing_angle) {
+  const ConvexSolid& solid = platonic(kind);
+  const Edge& edge = solid.edges()[0];
+  const Vector3d m = middle(solid, edge), normal = m.normalized();
+  Contact contact = edge_on(kind, m, normal, 0);
+  // Turn until the edges cross at the angle asked for.
+  const Vector3d p = (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
+  const Edge& other = solid.edges()[1];
+  const Vector3d q = contact.orientation * (solid.vertices()[other.head] - solid.vertices()[other.tail]).normalized();
+  const double now = std::atan2(p.cross(q).dot(normal), p.dot(q));
+  contact = edge_on(kind, m, normal, crossing_angle - now);
+  contact.edges_a = bit(0);
+  contact.faces_a = bit(edge.left) | bit(edge.right);
+  return contact;
+}
+
+Contact edge_on_face(SolidKind kind, double spin) {
+  const Face& face = platonic(kind).faces()[1];
+  Contact contact = edge_on(kind, face.offset * face.normal, face.normal, spin);
+  contact.faces_a = bit(1);
+  return contact;
+}
+
+Contact face_on_face(SolidKind kind, double spin) {
+  const Face &face = platonic(kind).faces()[1], &other = platonic(kind).faces()[0];
+  return facing(kind, face.offset * face.normal, face.normal, other.offset * other.normal, other.normal, spin);
+}
+
+/// d log V/d log δ between δ and 2δ.
+double exponent(const Contact& contact, double depth) {
+  return std::log2(contact.volume(2 * depth) / contact.volume(depth));
+}
+
+class OverlapOfBuiltContacts : public testing::TestWithParam<SolidKind> {
+ protected:
+  double size() const { return platonic(GetParam()).inradius(); }
+  /// Spins at which no feature of one solid lines up with one of the other.
+  static constexpr double spins[] = {.13, .29, 1.07};
+};
+
+INSTANTIATE_TEST_SUITE_P(Solids, OverlapOfBuiltContacts, testing::ValuesIn(all_solids),
+                         [](const auto& solid) { return std::string(to_string(solid.param)); });
+
+TEST_P(OverlapOfBuiltContacts, VertexOnFaceAndEdgeOnEdgeAreCubic) {
+  for (const double spin : spins) {
+    for (const double depth : {1e-2 * size(), 1e-4 * size()}) {
+      // A pyramid or a tetrahedron, exactly similar at every depth.
+      const double limit = 256 * epsilon * size() / depth;
+      EXPECT_NEAR(exponent(vertex_on_face(GetParam(), spin), depth), 3, limit) << "spin " << spin << ", δ " << depth;
+      EXPECT_NEAR(exponent(edge_on_edge(GetParam(), spin + .5), depth), 3, limit) << "spin " << spin << ", δ " << depth;
+    }
+  }
+}
+
+TEST_P(OverlapOfBuiltContacts, EdgeOnFaceIsQuadraticAndFaceOnFaceLinear) {
+  for (const double spin : spins) {
+    for (const double depth : {1e-3 * size(), 1e-5 * size()}) {
+      // What the ends of the edge and the rim of the face add is smaller by one order of depth/size.
+      const double limit = 8 * depth / size();
+      EXPECT_NEAR(exponent(edge_on_face(GetParam(), spin), depth), 2, limit) << "spin " << spin << ", δ " << depth;
+      EXPECT_NEAR(exponent(face_on_face(GetParam(), spin), depth), 1, limit) << "spin " << spin << ", δ " << depth;
+    }
+  }
+}
+
+TEST_P(OverlapOfBuiltContacts, AreaIsNormalToTheFaceAndTheSlopeOfTheVolume) {
+  const double depth = 1e-2 * size(), h = 1e-5 * size();
+  for (const double spin : spins) {
+    const Contact contact = vertex_on_face(GetParam(), spin);
+    const Overlap there = overlap(contact.at(depth));
+    const double slope = (contact.volume(depth + h) - contact.volume(depth - h)) / (2 * h);
+    // V = cδ³: the central difference is off by ch² against 3cδ².
+    EXPECT_NEAR(there.area.dot(contact.normal), slope, (h * h / (depth * depth) + 1e-9) * slope) << "spin " << spin;
+    EXPECT_LE(there.area.cross(contact.normal).norm(), 1e-12 * there.area.norm()) << "spin " << spin;
+  }
+}
+
+TEST_P(OverlapOfBuiltContacts, FeaturesAreThoseBuilt) {
+  const double depth = 1e-3 * size();
+  for (const double spin : spins) {
+    for (const Contact& contact :
+         {vertex_on_face(GetParam(), spin), edge_on_edge(GetParam(), spin + .5), edge_on_face(GetParam(), spin)}) {
+      const Overlap seen = overlap(contact.at(depth));
+      const Overlap clipped = clipped_overlap(platonic(GetParam()), platonic(GetParam()), contact.at(depth).relative());
+      // The ends of an edge that lies in a face bring the faces and edges at its ends along.
+      const bool ends = contact.edges_a == 0 && std::popcount(contact.edges_b) == 1;
+      for (const Overlap& result : {seen, clipped}) {
+        EXPECT_EQ(result.faces_a & contact.faces_a, contact.faces_a) << "spin " << spin;
+        EXPECT_EQ(result.faces_b & contact.faces_b, contact.faces_b) << "spin " << spin;
+        EXPECT_EQ(result.edges_b & contact.edges_b, contact.edges_b) << "spin " << spin;
+        if (ends) continue;
+        EXPECT_EQ(result.faces_a, contact.faces_a) << "spin " << spin;
+        EXPECT_EQ(result.faces_b, contact.faces_b) << "spin " << spin;
+        EXPECT_EQ(result.edges_a, contact.edges_a) << "spin " << spin;
+        EXPECT_EQ(result.edges_b, contact.edges_b) << "spin " << spin;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isojam

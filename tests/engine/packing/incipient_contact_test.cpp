@@ -1,0 +1,156 @@
+// Facts proved here:
+//   without pressing, the pairs are those that touch; pressed ones come in addition, in order, and are those whose
+//   solids overlap once one is moved closer;
+//   both planes of a pair are tangents: of V in the present state and in the pressed one (central differences);
+//   flat faces a gap apart have a pressed plane that is −area·gap at rest and rises with the approach by area;
+//   of a flat contact V lies above both planes, for every small approach and tilt;
+//   two nearly parallel faces that touch at a corner are given the tilt stiffness of the whole face, once pressed as
+//   far as the tilt is high; it is 0 about the common normal and positive about every axis in the face.
+
+#include "engine/packing/incipient_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <tuple>
+
+#include "tests/engine/packing/packings.hpp"
+
+namespace isojam {
+namespace {
+
+using namespace testing_packings;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+const ConvexSolid& cube() { return platonic(SolidKind::cube); }
+
+double volume_at(const ConvexSolid& solid, const Packing& packing, const IncipientContact& pair,
+                 const Vector3d& shift) {
+  const Pose &a = packing.poses[pair.a], &b = packing.poses[pair.b];
+  const Vector3d r = packing.cell.nearest_image(b.position - a.position) + shift;
+  return overlap(solid, solid, relative_pose(a.orientation, b.orientation, r)).volume;
+}
+
+/// Two unit cubes face to face along x, `gap` apart, in a cell that they do not feel.
+Packing two_cubes(double gap, const Vector3d& tilt = Vector3d::Zero()) {
+  Packing packing{&cube(), PeriodicCell(10), std::vector<Pose>(2)};
+  packing.poses[0].position = Vector3d(4, 5, 5);
+  packing.poses[1].position = Vector3d(5 + gap, 5, 5);
+  packing.poses[1].orientation = rotated(packing.poses[1].orientation, tilt);
+  return packing;
+}
+
+VectorXd approach(double distance) {
+  VectorXd step = VectorXd::Zero(12);
+  step[6] = -distance;
+  return step;
+}
+
+std::tuple<int, int> key(const IncipientContact& pair) { return {pair.a, pair.b}; }
+
+TEST(IncipientContactTest, PressingAddsPairs) {
+  for (const Packing& packing : samples(51, 100, .6)) {
+    PackingEnergy energy;
+    const long contacts = energy.evaluate(packing).contacts;
+    const double press = 0.02 * packing.solid->inradius();
+    const std::vector<IncipientContact> now = energy.second_order(packing, 0).pairs;
+    const std::vector<IncipientContact> pressed = energy.second_order(packing, press).pairs;
+    EXPECT_EQ(static_cast<long>(now.size()), contacts) << describe(packing);
+    EXPECT_GT(pressed.size(), now.size()) << describe(packing);
+    EXPECT_TRUE(
+        std::is_sorted(pressed.begin(), pressed.end(), [](const auto& p, const auto& q) { return key(p) < key(q); }));
+    std::size_t matched = 0;
+    for (const IncipientContact& pair : pressed) {
+      if (matched < now.size() && key(now[matched]) == key(pair) && pair.now.at_rest > 0) {
+        ++matched;
+        continue;
+      }
+      const Vector3d r = packing.cell.nearest_image(packing.poses[pair.b].position - packing.poses[pair.a].position);
+      EXPECT_EQ(volume_at(*packing.solid, packing, pair, Vector3d::Zero()), 0) << pair.a << ' ' << pair.b;
+      EXPECT_GT(volume_at(*packing.solid, packing, pair, -press * r.normalized()), 0) << pair.a << ' ' << pair.b;
+    }
+    EXPECT_EQ(matched, now.size()) << describe(packing);
+  }
+}
+
+/// Largest |V difference − plane| over the slope, of the present or the pressed plane, along a random direction.
+TEST(IncipientContactTest, PlanesAreTangents) {
+  RandomStream random{52};
+  for (const Packing& packing : samples(52, 100, .65)) {
+    const double press = 0.01 * packing.solid->inradius(), h = 1e-6;
+    const VectorXd direction = random_step(random, packing.size());
+    const Packing ahead = moved(packing, h * direction), behind = moved(packing, -h * direction);
+    PackingEnergy energy;
+    int checked = 0;
+    for (const IncipientContact& pair : energy.second_order(packing, press).pairs) {
+      const Vector3d r = packing.cell.nearest_image(packing.poses[pair.b].position - packing.poses[pair.a].position);
+      for (const bool pressed : {false, true}) {
+        const LinearisedOverlap& plane = pressed ? pair.pressed : pair.now;
+        if (!(plane.at_rest > 1e-5)) continue;  // deep enough for steps of h
+        const Vector3d shift = pressed ? Vector3d(-press * r.normalized()) : Vector3d::Zero();
+        const double difference =
+            (volume_at(*packing.solid, ahead, pair, shift) - volume_at(*packing.solid, behind, pair, shift)) / (2 * h);
+        const double slope = plane.at(direction, pair.a, pair.b) - plane.at_rest;
+        const double scale = direction.norm() * (plane.slope_a.norm() + plane.slope_b.norm());
+        EXPECT_NEAR(slope, difference, 1e-6 * scale) << describe(packing) << (pressed ? " pressed" : " now");
+        ++checked;
+      }
+    }
+    EXPECT_GT(checked, 50) << describe(packing);
+  }
+}
+
+TEST(IncipientContactTest, AGapIsANegativeVolume) {
+  for (const double gap : {1e-9, 1e-6, 1e-4}) {
+    const Packing packing = two_cubes(gap);
+    PackingEnergy energy;
+    ASSERT_EQ(energy.evaluate(packing).contacts, 0);
+    const std::vector<IncipientContact> pairs = energy.second_order(packing, 3 * gap).pairs;
+    ASSERT_EQ(pairs.size(), 1u) << "gap " << gap;
+    const double rounding = 64 * epsilon;
+    EXPECT_EQ(pairs[0].now.at_rest, 0);
+    EXPECT_NEAR(pairs[0].pressed.at_rest, -gap, rounding);
+    EXPECT_NEAR(pairs[0].pressed.at(approach(gap), 0, 1), 0, rounding);
+    EXPECT_NEAR(pairs[0].pressed.at(approach(5 * gap), 0, 1), 4 * gap, rounding);
+  }
+}
+
+TEST(IncipientContactTest, VolumeLiesAboveThePlanesOfAFlatContact) {
+  RandomStream random{53};
+  for (int k = 0; k < 200; ++k) {
+    const double depth = 1e-6, size = std::pow(10, -8 + 3 * random.uniform());
+    const Packing packing = two_cubes(-depth, size * Vector3d(0, random.normal(), random.normal()));
+    const std::vector<IncipientContact> pairs = PackingEnergy().second_order(packing, 5 * size).pairs;
+    ASSERT_EQ(pairs.size(), 1u);
+    VectorXd step = approach(size * random.normal());
+    for (int axis = 1; axis < 3; ++axis) step[9 + axis] = size * random.normal();
+    const double volume = volume_at(cube(), moved(packing, step), pairs[0], Vector3d::Zero());
+    // Planes are linear in the small lengths, motions of solids are not: they differ by products of two.
+    const double slack = 10 * std::pow(depth + size + step.norm(), 2);
+    EXPECT_GE(volume, pairs[0].now.at(step, 0, 1) - slack) << "size " << size;
+    EXPECT_GE(volume, pairs[0].pressed.at(step, 0, 1) - slack) << "size " << size;
+  }
+}
+
+TEST(IncipientContactTest, ACornerOfAFaceStiffensLikeTheFace) {
+  const double tilt = 1e-5;
+  // The far edge of B's face is higher by `tilt` than its middle; the near one touches by a hundredth of that.
+  const Packing packing = two_cubes(tilt / 2 * 0.99, Vector3d(0, 0, tilt));
+  const IncipientContact touching = PackingEnergy().second_order(packing, 0).pairs.at(0);
+  const IncipientContact pressed = PackingEnergy().second_order(packing, 2 * tilt).pairs.at(0);
+  const IncipientContact flat = PackingEnergy().second_order(two_cubes(-tilt), 0).pairs.at(0);
+  ASSERT_GT(touching.now.at_rest, 0);
+  EXPECT_LT(touching.tilt.trace(), 1e-3 * flat.tilt.trace());
+  EXPECT_NEAR(pressed.tilt.trace(), flat.tilt.trace(), 0.01 * flat.tilt.trace());
+  const double rounding = 64 * epsilon * flat.tilt.trace();
+  EXPECT_LE((flat.tilt * Vector3d::UnitX()).norm(), rounding);
+  for (double angle = 0; angle < 3; angle += 0.3) {
+    const Vector3d axis(0, std::cos(angle), std::sin(angle));
+    EXPECT_NEAR(axis.dot(flat.tilt * axis), flat.tilt.trace() / 2, rounding) << "angle " << angle;
+  }
+}
+
+}  // namespace
+}  // namespace isojam

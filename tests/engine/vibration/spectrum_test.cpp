@@ -1,0 +1,190 @@
+// Facts proved here, on jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32), and on cubes:
+//   both ends found by Lanczos are the dense solver's, to 1e-8 of each eigenvalue and 1e-6 for the softest tetrahedra,
+//   and no farther off than relative_error says; vectors are orthonormal, free of translations, and obey D u = λ u; the
+//   same matrix gives the same bits; a matrix with many negative modes has its lowest modes found too; more modes than
+//   Lanczos serves, no contacts at all, and too few restarts end in the dense solver; too many particles for that and
+//   what is not a number fail, and say so; the dense solver's modes are all of D: they rebuild it; u·Du = λ, and λ is
+//   the curvature of the energy along u.
+
+#include "engine/vibration/spectrum.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "engine/vibration/dynamical_matrix.hpp"
+#include "tests/engine/solve/solve_support.hpp"
+#include "tests/engine/vibration/jammed_states.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+struct System {
+  SolidKind kind;
+  int n;
+  double final_distance;
+};
+
+class Modes : public testing::TestWithParam<System> {
+ protected:
+  const JamResult& result = jammed(GetParam().kind, GetParam().n, GetParam().final_distance);
+};
+
+INSTANTIATE_TEST_SUITE_P(Systems, Modes,
+                         testing::Values(System{SolidKind::octahedron, 48, .01},
+                                         System{SolidKind::tetrahedron, 64, .02},
+                                         System{SolidKind::icosahedron, 32, .01}),
+                         [](const auto& test) { return std::string(to_string(test.param.kind)); });
+
+BlockMatrix hessian_of(const Packing& packing) { return PackingEnergy().hessian(packing, Precision::double_double); }
+
+void expect_eigenpairs(const BlockMatrix& matrix, const ModeSet& modes, double stiffness, double tolerance) {
+  const MatrixXd unity = MatrixXd::Identity(modes.size(), modes.size());
+  EXPECT_LE((modes.vectors.transpose() * modes.vectors - unity).cwiseAbs().maxCoeff(), 1e4 * eps);
+  EXPECT_LE((translations(matrix.size()).transpose() * modes.vectors).cwiseAbs().maxCoeff(), 1e4 * eps);
+  double worst = 0;
+  for (Index k = 0; k < modes.size(); ++k) {
+    const VectorXd u = modes.vectors.col(k);
+    worst = std::max(worst, (matrix * u - modes.eigenvalues[k] * u).norm() / stiffness);
+    EXPECT_NEAR(u.dot(matrix * u), modes.eigenvalues[k], tolerance * stiffness);
+    if (k > 0) {
+      EXPECT_GE(modes.eigenvalues[k], modes.eigenvalues[k - 1]);
+    }
+  }
+  EXPECT_LE(worst, tolerance);
+  EXPECT_NEAR(modes.residual, worst, 64 * eps);
+}
+
+TEST_P(Modes, AgreeWithTheDenseSolver) {
+  const double allowed = GetParam().kind == SolidKind::tetrahedron ? 1e-6 : 1e-8;
+  for (const Packing& state : result.states) {
+    const BlockMatrix matrix = hessian_of(state);
+    const SpectrumEnds ends = spectrum_ends(matrix);
+    const ModeSet all = dense_modes(matrix);
+    ASSERT_EQ(ends.lowest.ended, ModeEnd::converged) << to_string(ends.lowest.ended);
+    ASSERT_EQ(ends.highest.ended, ModeEnd::converged) << to_string(ends.highest.ended);
+    ASSERT_EQ(ends.lowest.size(), 50);
+    ASSERT_EQ(ends.highest.size(), 50);
+    ASSERT_EQ(all.size(), 6 * state.size() - 3);
+    const VectorXd low = all.eigenvalues.head(50), high = all.eigenvalues.tail(50);
+    const double at_low = ((ends.lowest.eigenvalues - low).array() / low.array()).abs().maxCoeff();
+    const double at_high = ((ends.highest.eigenvalues - high).array() / high.array()).abs().maxCoeff();
+    std::printf("λ %.1e … %.1e: lowest to %.1e, said to be %.1e; highest to %.1e, said %.1e; residual %.1e\n", low[0],
+                high[49], at_low, ends.lowest.relative_error, at_high, ends.highest.relative_error,
+                ends.lowest.residual);
+    EXPECT_LE(at_low, allowed);
+    EXPECT_LE(at_high, 1e-8);
+    EXPECT_LE(at_low, ends.lowest.relative_error + all.relative_error);
+    EXPECT_LE(at_high, ends.highest.relative_error + 1e3 * eps);
+    EXPECT_EQ(ends.stiffness, ends.highest.eigenvalues[49]);
+    expect_eigenpairs(matrix, ends.lowest, ends.stiffness, rounding_bound(matrix, ends.stiffness) / ends.stiffness);
+    expect_eigenpairs(matrix, ends.highest, ends.stiffness, 1e-8);
+  }
+}
+
+TEST_P(Modes, AreTheSameBitsAgain) {
+  const BlockMatrix matrix = hessian_of(nearest_state(result));
+  const SpectrumEnds once = spectrum_ends(matrix), again = spectrum_ends(matrix);
+  EXPECT_EQ(once.lowest.eigenvalues, again.lowest.eigenvalues);
+  EXPECT_EQ(once.lowest.vectors, again.lowest.vectors);
+  EXPECT_EQ(once.highest.vectors, again.highest.vectors);
+}
+
+TEST_P(Modes, EnergyCurvesByTheEigenvalue) {
+  const Packing& state = result.states.front();
+  PackingEnergy energy;
+  const ModeSet all = dense_modes(energy.hessian(state));
+  const double here = energy.evaluate(state).energy, h = 1e-5;
+  for (const Index k : {all.size() / 2, all.size() - 1}) {
+    const VectorXd u = all.vectors.col(k);
+    const double curvature =
+        (energy.evaluate(moved(state, h * u)).energy + energy.evaluate(moved(state, -h * u)).energy - 2 * here) /
+        (h * h);
+    EXPECT_NEAR(curvature, all.eigenvalues[k], 3e-2 * all.eigenvalues[k]) << "mode " << k;
+  }
+}
+
+TEST(ModesTest, FindsTheLowestOfAnUnstableMatrix) {
+  for (const SolidKind kind : all_solids) {
+    const BlockMatrix matrix = hessian_of(small_packing(kind, 0.7, 61, 48));  // random, far from any minimum
+    const ModeSet all = dense_modes(matrix);
+    ModeOptions options;
+    options.lowest = options.highest = 20;
+    const SpectrumEnds ends = spectrum_ends(matrix, options);
+    const double stiffness = all.eigenvalues.cwiseAbs().maxCoeff();
+    const double worst = (ends.lowest.eigenvalues - all.eigenvalues.head(20)).cwiseAbs().maxCoeff();
+    std::printf("%s: %ld negative modes, %s, lowest to %.1e of the stiffness\n", to_string(kind).data(),
+                (all.eigenvalues.array() < 0).count(), to_string(ends.lowest.ended).data(), worst / stiffness);
+    ASSERT_EQ(ends.lowest.size(), 20);
+    EXPECT_EQ(ends.lowest.ended, ModeEnd::retried) << "the shift near 0 sees other modes first";
+    EXPECT_EQ(ends.lowest.attempts, 2);
+    EXPECT_LE(worst, rounding_bound(matrix, stiffness));
+  }
+}
+
+TEST(ModesTest, DenseModesRebuildTheMatrix) {
+  const BlockMatrix matrix = hessian_of(small_packing(SolidKind::tetrahedron, 0.6, 62));
+  const ModeSet all = dense_modes(matrix);
+  const MatrixXd rebuilt = all.vectors * all.eigenvalues.asDiagonal() * all.vectors.transpose();
+  const double stiffness = all.eigenvalues.cwiseAbs().maxCoeff();
+  EXPECT_LE((rebuilt - dense_matrix(matrix)).norm(), 1e3 * eps * stiffness);
+  EXPECT_EQ(all.ended, ModeEnd::converged);
+}
+
+TEST(ModesTest, FallsBackToTheDenseSolver) {
+  const BlockMatrix matrix = hessian_of(nearest_state(jammed(SolidKind::icosahedron, 32, .01)));
+  const ModeSet all = dense_modes(matrix);
+  ModeOptions many;
+  many.lowest = 1000;
+  many.highest = 5;
+  const SpectrumEnds asked_for_all = spectrum_ends(matrix, many);
+  EXPECT_EQ(asked_for_all.lowest.ended, ModeEnd::dense_fallback);
+  EXPECT_EQ(asked_for_all.lowest.eigenvalues, all.eigenvalues);
+  EXPECT_EQ(asked_for_all.highest.eigenvalues, all.eigenvalues.tail(5));
+
+  ModeOptions hasty;
+  hasty.restarts = 0;
+  hasty.lowest = hasty.highest = 10;
+  hasty.highest_tolerance = hasty.lowest_tolerance = eps;
+  const SpectrumEnds not_converged = spectrum_ends(matrix, hasty);
+  EXPECT_EQ(not_converged.highest.ended, ModeEnd::dense_fallback) << to_string(not_converged.highest.ended);
+
+  many.largest_dense = 31;
+  const SpectrumEnds refused = spectrum_ends(matrix, many);
+  EXPECT_EQ(refused.lowest.ended, ModeEnd::failed);
+  EXPECT_FALSE(refused.complete());
+
+  BlockMatrix without_contacts;
+  without_contacts.diagonal.assign(24, Matrix6d::Zero());
+  const SpectrumEnds free = spectrum_ends(without_contacts);
+  EXPECT_EQ(free.lowest.ended, ModeEnd::dense_fallback);
+  EXPECT_EQ(free.lowest.eigenvalues, VectorXd::Zero(50));
+  EXPECT_EQ(free.stiffness, 0);
+}
+
+TEST(ModesTest, FailsOnWhatIsNotANumber) {
+  BlockMatrix matrix = hessian_of(small_packing(SolidKind::octahedron, 0.6, 63));
+  matrix.diagonal[3](1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(spectrum_ends(matrix).lowest.ended, ModeEnd::failed);
+  EXPECT_EQ(spectrum_ends(matrix).highest.ended, ModeEnd::failed);
+  EXPECT_EQ(dense_modes(matrix).ended, ModeEnd::failed);
+  EXPECT_EQ(dense_modes(BlockMatrix{}).ended, ModeEnd::failed);
+  EXPECT_EQ(spectrum_ends(BlockMatrix{}).lowest.ended, ModeEnd::failed);
+}
+
+TEST(ModesTest, NamesAreDistinct) {
+  std::set<std::string_view> names;
+  for (int k = 0; k <= static_cast<int>(ModeEnd::failed); ++k) names.insert(to_string(static_cast<ModeEnd>(k)));
+  EXPECT_EQ(names.size(), 5U);
+  EXPECT_EQ(to_string(ModeSet().ended), "not_called");
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,183 @@
+// Facts proved here, of evaluations in double-double, judged in quadruple precision:
+//   a few Newton steps bring jammed states, down to where double stops at 1e-8, to residual 1e-9 and far below; the
+//   same steps in plain double do not, and the state loses it without the low parts of positions or of orientations; a
+//   residual differs from the true one by less than residual_floor, which is not more than some hundred times larger
+//   than the difference;
+//   energy and its differences are right to energy_noise;
+//   the Hessian agrees with differences of the gradient in quadruple precision to 1e-9, far from jamming and near it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/packing/energy.hpp"
+#include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/solve/minimise/minimise.hpp"
+#include "tests/oracle/quad_packing.hpp"
+
+namespace isojam::oracle {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr int particles = 40;
+
+double true_residual(const Packing& packing) { return static_cast<double>(evaluate_in_quad(packing).residual); }
+
+/// Octahedra compressed beyond jamming, then expanded towards it until E/N < `least_energy`, minimised after each
+/// strain step.
+std::vector<Packing> jammed(double least_energy) {
+  RandomStream random{70, 1};
+  Packing packing = random_packing(platonic(SolidKind::octahedron), particles, .1, random);
+  PackingEnergy energy;
+  MinimiseOptions relax;
+  relax.method = Method::lbfgs;
+  relax.residual = 1e-3;
+  relax.max_evaluations = 300;
+  for (double density = .1; density < .78; density += .02) {
+    packing = strained_to(packing, density);
+    minimise(packing, energy, relax);
+  }
+  MinimiseOptions newton;
+  newton.residual = 1e-7;
+  std::vector<Packing> states;
+  while (states.size() < 20) {
+    minimise(packing, energy, newton);
+    const Evaluation here = energy.evaluate(packing);
+    states.push_back(packing);
+    if (here.energy < least_energy * particles) break;
+    // E ∝ Δφ⁶: the distance to jamming is 6E/(dE/dφ), dE/dφ = N p/φ².
+    const double distance = 6 * here.energy * std::pow(packing.density(), 2) / (particles * here.pressure);
+    packing = strained_to(packing, packing.density() - .35 * distance);
+  }
+  return states;
+}
+
+/// The state of least residual, as evaluated, in a few Newton steps.
+Packing polished(Packing packing, Precision precision) {
+  PackingEnergy energy;
+  Packing best = packing;
+  double least = energy.evaluate(packing, precision).residual;
+  for (int k = 0; k < 5; ++k) {
+    const BlockMatrix hessian = energy.hessian(packing, precision);
+    double stiffest = 0;
+    for (const Matrix6d& block : hessian.diagonal) stiffest = std::max(stiffest, block.diagonal().maxCoeff());
+    BlockCholesky factor;
+    double shift = 1e-15 * stiffest;
+    while (!factor.factorise(hessian, shift)) shift *= 10;
+    packing = moved(packing, -factor.solve(energy.evaluate(packing, precision).gradient));
+    const double residual = energy.evaluate(packing, precision).residual;
+    if (residual < least) least = residual, best = packing;
+  }
+  return best;
+}
+
+/// From far above jamming to near it.
+const std::vector<Packing>& states() {
+  static const std::vector<Packing> made = jammed(5e-13);
+  return made;
+}
+
+TEST(DoubleDoubleEnergy, ReachesResidualsThatDoubleDoesNot) {
+  bool near = false;
+  for (const Packing& start : states()) {
+    const Packing in_double = polished(start, Precision::working),
+                  polished_state = polished(start, Precision::double_double);
+    const Evaluation here = PackingEnergy().evaluate(polished_state, Precision::double_double);
+    const double reached = true_residual(polished_state), by_double = true_residual(in_double);
+    Packing no_position = polished_state, no_orientation = polished_state;
+    for (Pose& pose : no_position.poses) pose.position_low.setZero();
+    for (Pose& pose : no_orientation.poses) pose.orientation_low.setZero();
+    const double without_position = true_residual(no_position), without_orientation = true_residual(no_orientation);
+    std::printf(
+        "density %.3f, E/N %.1e, true residuals: %.1e; in double %.1e; without low parts of x %.1e, of q %.1e\n",
+        start.density(), here.energy / start.size(), reached, by_double, without_position, without_orientation);
+    EXPECT_LE(reached, 1e-10);
+    EXPECT_LE(here.residual_floor, 1e-9);
+    if (here.energy > 1e-11 * start.size()) continue;
+    // Near jamming every part is needed.
+    near = true;
+    EXPECT_GE(by_double, 1e-9);
+    EXPECT_GE(without_position, 1e-9);
+    EXPECT_GE(without_orientation, 1e-10);
+    EXPECT_GE(PackingEnergy().evaluate(polished_state).residual, 1e-9) << "the plain evaluation cannot even see it";
+  }
+  EXPECT_TRUE(near);
+}
+
+VectorXd random_direction(RandomStream& random) {
+  VectorXd direction(6 * particles);
+  for (double& x : direction) x = random.normal();
+  return direction.normalized();
+}
+
+TEST(DoubleDoubleEnergy, FloorAndNoiseBoundTheErrors) {
+  RandomStream random{70, 2};
+  for (const Packing& start : states()) {
+    const Packing rest = polished(start, Precision::double_double);
+    // What is left there is rounding; a floor far above it would say nothing.
+    EXPECT_GE(true_residual(rest), 1e-3 * PackingEnergy().evaluate(rest, Precision::double_double).residual_floor);
+    for (const double kick : {0.0, 1e-16, 1e-13, 1e-10, 1e-7}) {
+      const Packing packing = moved(rest, kick * random_direction(random));
+      const Evaluation here = PackingEnergy().evaluate(packing, Precision::double_double);
+      const QuadEvaluation right = evaluate_in_quad(packing);
+      EXPECT_EQ(here.contacts, right.contacts);
+      EXPECT_LE(std::abs(static_cast<double>(Quad(here.energy) - right.energy)), here.energy_noise);
+      // Of large residuals the rounding of the residual itself.
+      const double error = std::abs(static_cast<double>(Quad(here.residual) - right.residual));
+      EXPECT_LE(error, here.residual_floor + 1e-12 * here.residual)
+          << "density " << start.density() << ", kick " << kick << ", residual " << here.residual;
+    }
+  }
+}
+
+/// The derivative of the gradient by turns, less its symmetric part: ½ θ×T.
+VectorXd turned_gradient(const Packing& packing, const VectorXd& gradient, const VectorXd& direction) {
+  VectorXd result = VectorXd::Zero(direction.size());
+  for (int i = 0; i < packing.size(); ++i) {
+    const Vector3d theta = direction.segment<3>(6 * i + 3) / packing.solid->gyration_radius();
+    result.segment<3>(6 * i + 3) = theta.cross(Vector3d(gradient.segment<3>(6 * i + 3))) / 2;
+  }
+  return result;
+}
+
+TEST(DoubleDoubleEnergy, HessianIsTheDifferenceOfGradientsInQuadruplePrecision) {
+  RandomStream random{70, 3};
+  double worst = 0;
+  for (const Packing& start : states()) {
+    PackingEnergy energy;
+    const BlockMatrix hessian = energy.hessian(start, Precision::double_double);
+    const VectorXd gradient = energy.evaluate(start, Precision::double_double).gradient;
+    for (int k = 0; k < 4; ++k) {
+      const VectorXd direction =
+          k < 2 ? random_direction(random) : VectorXd::Unit(6 * particles, 6 * (7 * k) + 3 * (k % 2)).eval();
+      // Far below the depth of any contact, far above the rounding of the state.
+      const VectorXd differences =
+          difference_of_gradients(start, direction, 1e-17) - turned_gradient(start, gradient, direction);
+      const double error = (hessian * direction - differences).norm() / differences.norm();
+      EXPECT_LE(error, 1e-9) << "density " << start.density() << ", direction " << k;
+      worst = std::max(worst, error);
+    }
+  }
+  std::printf("Hessian against differences in quadruple precision: largest relative error %.1e\n", worst);
+}
+
+TEST(DoubleDoubleEnergy, AgreesWithDoubleFarFromJamming) {
+  for (const SolidKind kind : all_solids) {
+    RandomStream random{70, 4};
+    const Packing packing = random_packing(platonic(kind), 80, .5, random);
+    PackingEnergy energy;
+    const Evaluation plain = energy.evaluate(packing),
+                     in_double_double = energy.evaluate(packing, Precision::double_double);
+    EXPECT_EQ(plain.contacts, in_double_double.contacts);
+    EXPECT_NEAR(plain.energy, in_double_double.energy, 1e-12 * plain.energy);
+    EXPECT_LE((plain.gradient - in_double_double.gradient).norm(), 1e-12 * plain.gradient.norm());
+    EXPECT_LE((plain.stress - in_double_double.stress).norm(), 1e-12 * plain.stress.norm());
+  }
+}
+
+}  // namespace
+}  // namespace isojam::oracle

@@ -1,0 +1,162 @@
+// Facts proved here, of every point of a tiny but real chart:
+// - a point says why it stopped, with a spread in order and the number of runs behind it;
+// - what reached a residual is within it, and what did not is marked as failed; likewise wrong overlaps, negative modes
+//   that are none, and eigensolvers that did not converge; all but the overlaps do fail somewhere; so says the table;
+// - on the front is what no other point of its case beats, and all of that;
+// - at a vanishing tolerance the bias of the default method vanishes, and a loose minimiser's does not.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <sstream>
+
+#include "tasks/chart/results/data.hpp"
+#include "tasks/chart/run_chart.hpp"
+
+namespace isojam {
+namespace {
+
+const ChartResult& real_chart() {
+  static const ChartResult result = [] {
+    const ChartConfig config = parse_chart_config(
+        R"({"compare": ["equilibrium", "hessian", "modes", "overlap"], "solids": ["octahedron"], "particles": 45,
+            "packings": 2, "distances": [0.08, 0.03], "fit_window": 0.1, "tolerances": [1e-2, 1e-6],
+            "difference_steps": [1e-3, 1e-8], "shifts": [1e-11], "subspaces": [60, 200], "pairs": 8, "repetitions": 2,
+            "max_evaluations": 400, "rule_evaluations": 800})",
+        "points");
+    Console console({.quiet = true});
+    return run_chart(config, {}, console);
+  }();
+  return result;
+}
+
+std::string text_of(const ChartPoint& point) {
+  return point.task + " | " + point.method + " | " + point.setting + " | " + point.stopped;
+}
+
+TEST(ChartPoints, CarrySpreadsCountsAndReasons) {
+  for (const ChartFamily& family : real_chart().families) {
+    ASSERT_FALSE(family.points.empty()) << family.name;
+    for (const ChartPoint& point : family.points) {
+      EXPECT_FALSE(point.stopped.empty()) << text_of(point);
+      ASSERT_TRUE(point.seconds) << text_of(point);
+      for (const auto& spread : {point.seconds, point.error}) {
+        if (!spread) continue;
+        EXPECT_LE(spread->least, spread->median) << text_of(point);
+        EXPECT_LE(spread->median, spread->greatest) << text_of(point);
+      }
+      // Both packings; what is fast, twice each, but for families that take the median first.
+      if (family.name == "equilibrium") {
+        EXPECT_GE(point.seconds->n, 2) << text_of(point);
+        EXPECT_LE(point.seconds->n, 4) << text_of(point);
+      }
+      if (family.name == "hessian" || family.name == "modes") {
+        EXPECT_EQ(point.seconds->n, 2) << text_of(point);
+      }
+      if (family.name == "overlap") {
+        EXPECT_EQ(point.error->n, 8) << text_of(point);
+        const Json& area = point.further.at("S_error_greatest");
+        EXPECT_EQ(area.is_null(), point.method == "clip in doubles") << text_of(point);
+        // The reference has V and S from one polyhedron: who is right about one is right about the other.
+        if (!area.is_null()) {
+          EXPECT_LT(area.get<double>(), 1e-9) << text_of(point);
+        }
+      }
+    }
+  }
+}
+
+/// Checks every point's mark against what it is to be; gives how many failed.
+template <class ShouldFail>
+int count_failed(const std::string& family, const ShouldFail& should_fail) {
+  int failed = 0, fine = 0;
+  for (const ChartPoint& point : points_of(real_chart().families, family)) {
+    EXPECT_EQ(point.failed, should_fail(point)) << text_of(point);
+    ++(point.failed ? failed : fine);
+  }
+  std::printf("%s: %d failed, %d did not\n", family.c_str(), failed, fine);
+  EXPECT_GT(fine, 0) << family;
+  return failed;
+}
+
+/// What a setting of that kind asks for; nullopt for another kind.
+std::optional<double> asked(const ChartPoint& point, const std::string& kind) {
+  if (!point.setting.starts_with(kind)) return std::nullopt;
+  return std::stod(point.setting.substr(kind.size()));
+}
+
+TEST(ChartPoints, FailedMeansWhatTheFamilySays) {
+  const int unbalanced = count_failed("equilibrium", [](const ChartPoint& point) {
+    const auto residual = asked(point, "residual ");
+    // By energy a residual says nothing: only that it was not content.
+    return residual ? !(point.error->greatest <= *residual) : point.stopped != "energy_change";
+  });
+  const int unstable =
+      count_failed("hessian", [](const ChartPoint& point) { return point.further.at("negative_modes") > 0; });
+  const int lost = count_failed("modes", [](const ChartPoint& point) { return point.stopped != "converged"; });
+  count_failed("overlap", [](const ChartPoint& point) { return !(point.error->greatest < 1e-2); });
+  EXPECT_GT(unbalanced, 0);
+  EXPECT_GT(unstable, 0);
+  EXPECT_GT(lost, 0);
+}
+
+TEST(ChartPoints, TheTableMarksFailures) {
+  std::istringstream table(text_table(real_chart()));
+  int marked = 0, failed = 0;
+  for (std::string line; std::getline(table, line);) marked += line.ends_with("  FAILED");
+  for (const ChartFamily& family : real_chart().families) {
+    for (const ChartPoint& point : family.points) failed += point.failed;
+  }
+  EXPECT_EQ(marked, failed);
+}
+
+bool usable(const ChartPoint& point) { return !point.failed && point.error && point.seconds; }
+
+bool beats(const ChartPoint& a, const ChartPoint& b) {
+  const double ta = a.seconds->median, tb = b.seconds->median, ea = a.error->median, eb = b.error->median;
+  return usable(a) && a.task == b.task && ta <= tb && ea <= eb && (ta < tb || ea < eb);
+}
+
+TEST(ChartPoints, TheFrontIsWhatNothingBeats) {
+  const Json data = chart_data(ChartConfig(), real_chart());
+  int on_front = 0, all = 0;
+  for (std::size_t f = 0; f < real_chart().families.size(); ++f) {
+    const auto& points = real_chart().families[f].points;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const bool beaten = std::any_of(points.begin(), points.end(), [&](const ChartPoint& other) {
+        return points[k].error && usable(other) && beats(other, points[k]);
+      });
+      const bool said = data.at("families")[f].at("points")[k].at("on_front");
+      on_front += said, ++all;
+      if (said) {
+        EXPECT_TRUE(usable(points[k]) && !beaten) << text_of(points[k]);
+      } else {
+        const bool twin =
+            usable(points[k]) && !beaten &&
+            std::any_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(k), [&](const ChartPoint& other) {
+              return usable(other) && other.task == points[k].task && other.error->median == points[k].error->median &&
+                     other.seconds->median == points[k].seconds->median;
+            });
+        EXPECT_TRUE(!usable(points[k]) || beaten || twin) << text_of(points[k]);
+      }
+    }
+  }
+  EXPECT_GT(on_front, 0);
+  EXPECT_LT(on_front, all);
+}
+
+TEST(ChartPoints, BiasIsOfStatesThatAreOff) {
+  double ours = -1, loose = 0;
+  for (const ChartPoint& point : points_of(real_chart().families, "bias")) {
+    if (point.method == "newton" && point.setting == "residual 1e-06") ours = point.error->greatest;
+    if (point.method == "fire" && point.error) loose = std::max(loose, point.error->greatest);
+  }
+  std::printf("bias of phi_J: %.1e at a residual of 1e-6, %.1e by FIRE as far as it came\n", ours, loose);
+  ASSERT_GE(ours, 0);
+  EXPECT_LT(ours, 1e-6 * loose);
+}
+
+}  // namespace
+}  // namespace isojam

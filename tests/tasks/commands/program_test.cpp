@@ -1,0 +1,131 @@
+// Facts proved here, through the executable:
+// - every manifest of the bad corpus ends `run` and `validate` with exit 65 and one line that names the file, and
+//   nothing is written;
+// - usage errors and paths that cannot be read or written end with exit 2 and one error, and nothing is written;
+// - help and version go to stdout with exit 0;
+// - colour appears where it is asked for and not elsewhere.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using test::files_below;
+using test::isojam;
+using test::TemporaryDirectory;
+
+long lines_of(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+TEST(Program, RefusesTheBadCorpusAndWritesNothing) {
+  const TemporaryDirectory directory;
+  const auto manifest = directory / "m.json";
+  for (const auto& bad : test::bad_manifests()) {
+    test::write_text(manifest, bad.text);
+    const auto before = files_below(directory.path());
+    const auto run = isojam({"run", "m.json", "-o", "results"}, directory.path());
+    EXPECT_EQ(run.exit_code, 65) << bad.name;
+    EXPECT_EQ(run.out, "") << bad.name;
+    EXPECT_EQ(lines_of(run.err), 1) << bad.name << ": " << run.err;
+    EXPECT_EQ(run.err.rfind("isojam: error: m.json", 0), 0U) << bad.name << ": " << run.err;
+    EXPECT_NE(run.err.find(bad.pointer), std::string::npos) << bad.name << ": " << run.err;
+    EXPECT_NE(run.err.find(bad.says), std::string::npos) << bad.name << ": " << run.err;
+    EXPECT_EQ(files_below(directory.path()), before) << bad.name;
+    EXPECT_FALSE(std::filesystem::exists(directory / "results")) << bad.name;
+    const auto validate = isojam({"validate", "m.json"}, directory.path());
+    EXPECT_EQ(validate.exit_code, 65) << bad.name;
+    EXPECT_EQ(validate.err, run.err) << bad.name;
+  }
+}
+
+TEST(Program, ValidatesAGoodManifest) {
+  const TemporaryDirectory directory;
+  auto manifest = test::good_manifest();
+  manifest["sweep"]["target_energy"] = {1e-6, 1e-5, 1e-4};
+  for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
+    test::write_text(directory / "m.json", mark + manifest.dump());
+    const auto validate = isojam({"validate", "m.json"}, directory.path());
+    EXPECT_EQ(validate.exit_code, 0) << validate.err;
+    EXPECT_EQ(validate.out, "OK: tiny: 6 replicates (3 sweep points × 2)\n");
+    EXPECT_EQ(validate.err, "");
+  }
+  EXPECT_EQ(files_below(directory.path()).size(), 1U);
+}
+
+TEST(Program, UsageErrorsEndWithTwo) {
+  const TemporaryDirectory directory;
+  test::write_text(directory / "m.json", test::good_manifest().dump());
+  const std::vector<std::vector<std::string>> wrong{
+      {},
+      {"rum"},
+      {"run"},
+      {"run", "m.json", "--jobs", "2"},
+      {"run", "m.json", "-j", "0"},
+      {"run", "m.json", "-j", "-1"},
+      {"run", "m.json", "-j", "two"},
+      {"run", "m.json", "m.json"},
+      {"run", "absent.json"},
+      {"run", "."},
+      {"validate"},
+      {"validate", "absent.json"},
+      {"validate", "m.json", "--color", "sometimes"},
+      {"aggregate"},
+      {"aggregate", "absent"},
+      {"aggregate", "."},
+      {"aggregate", ".", "--format", "xml"},
+  };
+  for (const auto& arguments : wrong) {
+    std::string command;
+    for (const auto& word : arguments) command += word + " ";
+    const auto run = isojam(arguments, directory.path());
+    EXPECT_EQ(run.exit_code, 2) << command << ": " << run.err;
+    EXPECT_NE(run.err, "") << command;
+    EXPECT_EQ(run.out, "") << command;
+  }
+  EXPECT_EQ(files_below(directory.path()).size(), 1U);
+}
+
+TEST(Program, AnUnwritableDirectoryEndsWithTwo) {
+  const TemporaryDirectory directory;
+  test::write_text(directory / "m.json", test::good_manifest().dump());
+  // Permissions do not bind root; a file for a parent and the proc file system bind everyone.
+  for (const std::string output : {"m.json", "m.json/results", "/proc/isojam"}) {
+    const auto run = isojam({"run", "m.json", "-o", output}, directory.path());
+    EXPECT_EQ(run.exit_code, 2) << output << ": " << run.err;
+    EXPECT_EQ(lines_of(run.err), 1) << run.err;
+    EXPECT_NE(run.err.find(output), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(files_below(directory.path()),
+            (std::map<std::string, std::string>{{"m.json", test::good_manifest().dump()}}));
+}
+
+TEST(Program, HelpAndVersionGoToStdout) {
+  const TemporaryDirectory directory;
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"run", "--help"},
+                                                    {"validate", "-h"},
+                                                    {"aggregate", "--help"},
+                                                    {"--version"}}) {
+    const auto run = isojam(arguments, directory.path());
+    EXPECT_EQ(run.exit_code, 0) << arguments.front();
+    EXPECT_EQ(run.err, "") << arguments.front();
+    EXPECT_NE(run.out, "") << arguments.front();
+  }
+}
+
+TEST(Program, ColourAppearsWhereAsked) {
+  const TemporaryDirectory directory;
+  for (const auto& [when, coloured] : {std::pair{"always", true}, {"never", false}, {"auto", false}}) {
+    const auto run = isojam({"--color", when, "validate", "absent.json"}, directory.path());
+    EXPECT_EQ(run.err.find('\033') != std::string::npos, coloured) << when;
+    const auto after = isojam({"validate", "absent.json", "--color", when}, directory.path());
+    EXPECT_EQ(after.err, run.err) << "options may follow the command";
+  }
+}
+
+}  // namespace
+}  // namespace isojam

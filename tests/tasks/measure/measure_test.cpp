@@ -1,0 +1,177 @@
+// Facts proved here, of what measurements put into records:
+// - of a jammed packing every measurement has an entry per state, the record conforms to its schema, every column of
+//   the tables finds its number or the reason why there is none, and constraint counting closes: 6N modes in all,
+//   6N − constraints = floppy − self_stress, as many constraints as Z·N/2 and C·N/2 say;
+// - the same bits come twice;
+// - states without contacts, with one, with three particles or one, and a crystal of cubes whose contacts are all alike
+//   give records that conform, with a reason beside every null, and never a number that is none;
+// - names of measurements are distinct.
+
+#include "tasks/measure/measure.hpp"
+#include "tasks/replicate/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tasks/replicate/record.hpp"
+#include "tests/tasks/support/schema.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using test::violations;
+
+/// An outcome of `jam` with everything measured.
+Outcome measured_outcome(const JamResult& jam) {
+  Outcome outcome;
+  auto manifest = test::tiny_manifest();
+  outcome.spec = test::make_plan(parse_manifest(manifest.dump(), "tiny")).front();
+  outcome.jam = jam;
+  for (const auto what : all_measures) outcome.measured[what] = measure(what, jam);
+  return outcome;
+}
+
+const JamResult& jammed() {
+  static const JamResult result = [] {
+    RandomStream random{17};
+    JamOptions options;
+    options.consolidation_step = 0.05;
+    options.final_distance = 0.01;
+    const ConvexSolid& solid = platonic(SolidKind::octahedron);
+    return jam(random_packing(solid, least_particles(solid, options.max_density), 0.2, random), options);
+  }();
+  return result;
+}
+
+/// Paths in the document of nulls without a reason beside them.
+std::string unexplained(const Json& json, const std::string& path = "") {
+  std::string list;
+  if (json.is_array()) {
+    for (std::size_t k = 0; k < json.size(); ++k) list += unexplained(json[k], path + "/" + std::to_string(k));
+  } else if (json.is_object()) {
+    for (const auto& item : json.items()) {
+      const auto here = path + "/" + item.key();
+      if (item.value().is_null() && !json.contains(item.key() + "_reason")) list += here + " ";
+      list += unexplained(item.value(), here);
+    }
+  }
+  return list;
+}
+
+TEST(Measure, NamesAreDistinct) {
+  std::set<std::string_view> names;
+  for (const auto what : all_measures) names.insert(to_string(what));
+  EXPECT_EQ(names.size(), all_measures.size());
+}
+
+TEST(Measure, FillsTheRecordOfAJammedPacking) {
+  ASSERT_EQ(jammed().status, JamStatus::jammed);
+  const auto record = test::record_on_disk(measured_outcome(jammed()));
+  EXPECT_EQ(violations("replicate", record), "");
+  EXPECT_EQ(unexplained(record), "");
+  const auto summary = summarise_record(record, "record");
+  ASSERT_EQ(summary.states.size(), jammed().states.size());
+  for (std::size_t i = 0; i < all_columns.size(); ++i) {
+    const auto& column = all_columns[i];
+    const auto& place = column.of == Column::Of::state ? record.at("nearest") : record;
+    const Json::json_pointer pointer{std::string(column.pointer)};
+    ASSERT_TRUE(place.contains(pointer)) << column.name;
+    EXPECT_EQ(summary.values[i].has_value(), !place.at(pointer).is_null()) << column.name;
+  }
+}
+
+TEST(Measure, ConstraintCountingCloses) {
+  const auto record = test::record_on_disk(measured_outcome(jammed()));
+  const int n = jammed().states.front().size();
+  for (const auto& state : record.at("states")) {
+    const auto& modes = state.at("modes");
+    EXPECT_EQ(modes.at("zero").get<int>() + modes.at("negative").get<int>() + modes.at("positive").get<int>(), 6 * n);
+    for (const std::string rows : {"normals", "classes"}) {
+      const auto& rank = state.at("rigidity").at(rows);
+      if (rank.at("rank").is_null()) continue;
+      const int constraints = rank.at("constraints").get<int>();
+      EXPECT_EQ(6 * n - constraints, rank.at("floppy").get<int>() - rank.at("self_stress").get<int>());
+      const double per_particle = state.at(rows == "normals" ? "Z" : "C").get<double>();
+      EXPECT_NEAR(constraints, per_particle * n / 2, 1e-9 * constraints) << rows;
+    }
+  }
+}
+
+TEST(Measure, GivesTheSameBitsTwice) {
+  for (const auto what : all_measures) {
+    const auto once = measure(what, jammed()), again = measure(what, jammed());
+    EXPECT_EQ(Json(once.states).dump(), Json(again.states).dump()) << to_string(what);
+    EXPECT_EQ(once.replicate.dump(), again.replicate.dump()) << to_string(what);
+    EXPECT_EQ(once.flags, again.flags) << to_string(what);
+  }
+}
+
+/// A result whose one state is `packing`, as it is.
+JamResult result_of(const Packing& packing) {
+  const Evaluation here = PackingEnergy().evaluate(packing);
+  JamResult result;
+  JamStep step;
+  step.stage = JamStage::expansion;
+  step.density = packing.density();
+  step.energy_per_particle = here.energy / packing.size();
+  step.pressure = here.pressure;
+  step.summary.reason = StopReason::residual_reached;
+  result.path = {step};
+  result.states = {packing};
+  result.state_steps = {0};
+  result.status = JamStatus::not_jammed;
+  return result;
+}
+
+/// `n` solids in a row along x, `spacing` apart, in a cell of side `side`.
+Packing row(SolidKind kind, int n, double spacing, double side) {
+  Packing packing{&platonic(kind), PeriodicCell(side), std::vector<Pose>(static_cast<std::size_t>(n))};
+  for (int k = 0; k < n; ++k)
+    packing.poses[static_cast<std::size_t>(k)].position = Eigen::Vector3d(1 + spacing * k, side / 2, side / 2);
+  return packing;
+}
+
+/// Cubes of unit volume on a cubic lattice of spacing .999: each overlaps 6 others at faces, 12 at edges, 8 at corners.
+Packing crystal_of_cubes() {
+  constexpr int cells = 4;
+  constexpr double spacing = 0.999;
+  Packing packing{&platonic(SolidKind::cube), PeriodicCell(cells * spacing), {}};
+  for (int k = 0; k < cells * cells * cells; ++k) {
+    packing.poses.emplace_back();
+    packing.poses.back().position =
+        spacing * Eigen::Vector3d(k % cells, k / cells % cells, k / (cells * cells)) + Eigen::Vector3d::Constant(0.3);
+  }
+  return packing;
+}
+
+TEST(Measure, AnswersDegenerateStates) {
+  const std::vector<std::pair<std::string, Packing>> cases{
+      {"one particle", row(SolidKind::octahedron, 1, 0, 8)},
+      {"two apart", row(SolidKind::octahedron, 2, 4, 8)},
+      {"one contact", row(SolidKind::cube, 2, 0.99, 8)},
+      {"three, two contacts", row(SolidKind::dodecahedron, 3, 1.9 * platonic(SolidKind::dodecahedron).inradius(), 8)},
+      {"crystal of cubes", crystal_of_cubes()}};
+  for (const auto& [name, packing] : cases) {
+    auto outcome = measured_outcome(result_of(packing));
+    outcome.failure = Failure{"jam", "made up"};
+    const auto record = test::record_on_disk(outcome);
+    EXPECT_EQ(violations("replicate", record), "") << name;
+    EXPECT_EQ(unexplained(record), "") << name;
+    const auto& state = record.at("states").at(0);
+    const auto text = state.dump();
+    EXPECT_EQ(text.find("nan"), std::string::npos) << name;
+    EXPECT_EQ(text.find("inf,"), std::string::npos) << name;
+  }
+  const auto crystal = test::record_on_disk([&] {
+    auto outcome = measured_outcome(result_of(crystal_of_cubes()));
+    outcome.failure = Failure{"jam", "made up"};
+    return outcome;
+  }());
+  EXPECT_EQ(crystal.at("states").at(0).at("Z"), 26);
+  EXPECT_GT(crystal.at("states").at(0).at("order").at("S").get<double>(), 0.999);
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,286 @@
+// Facts proved here, through the executable and with real packings:
+// - -j 1 and -j 2 give byte-identical tables, packings, and records up to timing; all of them conform to the schemas;
+// - a second run repeats nothing and changes no byte; one that lost or damaged a record redoes just that one;
+// - a run stopped by SIGTERM or SIGINT ends with 75 within seconds, and the same command completes it to the same
+// bytes;
+// - a replicate gives the same bits in another sweep; more replicates leave those there untouched;
+// - a failed replicate is recorded with where and why, counted in the table, and turns the exit code to 1;
+// - a directory of another manifest ends the run with 65 and is left as it was;
+// - `aggregate` makes the tables that `run` made.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "tasks/json/parse.hpp"
+#include "tasks/system/file.hpp"
+#include "tests/tasks/support/schema.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using test::files_below;
+using test::isojam;
+using test::results_below;
+using test::TemporaryDirectory;
+
+using Files = std::map<std::string, std::string>;
+
+/// One complete run with one thread, shared by the tests; each works on a copy of its own.
+class Batch : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryDirectory>();
+    test::write_text(*shared_ / "m.json", test::tiny_manifest().dump());
+    finished_ = isojam({"run", "m.json", "-o", "results", "-j", "1"}, shared_->path());
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  void SetUp() override {
+    ASSERT_EQ(finished_.exit_code, 0) << finished_.err;
+    fs::copy(shared_->path(), here_.path(), fs::copy_options::recursive);
+  }
+
+  test::Finished run(const std::string& manifest = "m.json", const std::function<void(int)>& meanwhile = {}) {
+    return isojam({"run", manifest, "-o", "results", "-j", "2"}, here_.path(), meanwhile);
+  }
+  void edit_manifest(const std::function<void(Json&)>& change) {
+    auto manifest = test::tiny_manifest();
+    change(manifest);
+    test::write_text(here_ / "m.json", manifest.dump());
+  }
+  static Files reference() { return results_below(*shared_ / "results"); }
+  Files results() const { return results_below(here_ / "results"); }
+
+  // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): GoogleTest's way to share a costly set-up.
+  static inline std::unique_ptr<TemporaryDirectory> shared_;
+  static inline test::Finished finished_;
+  // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+  TemporaryDirectory here_;
+};
+
+Files only(const Files& files, const std::string& part) {
+  Files some;
+  for (const auto& [name, content] : files) {
+    if (name.find(part) != std::string::npos) some[name] = content;
+  }
+  return some;
+}
+
+TEST_F(Batch, ThreadsChangeNoByte) {
+  fs::remove_all(here_ / "results");
+  const auto second = run();
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(second.out, finished_.out);
+  EXPECT_EQ(results(), reference());
+  EXPECT_EQ(results().size(), 10U) << "4 records, 4 packings, manifest, tables";
+}
+
+TEST_F(Batch, EverythingConformsToTheSchemas) {
+  int checked = 0;
+  for (const auto& [name, content] : files_below(here_ / "results")) {
+    const auto schema = name == "tables.json" ? "tables" : name == "manifest.json" ? "manifest" : "replicate";
+    if (name.rfind("packings/", 0) == 0) continue;
+    EXPECT_EQ(test::violations(schema, parse_json(content, name)), "") << name;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 6);
+}
+
+TEST_F(Batch, RecordsHoldPhysics) {
+  for (const auto& [name, content] : only(results(), "records/")) {
+    const auto record = parse_json(content, name);
+    ASSERT_EQ(record.at("status"), "done") << content;
+    const auto& nearest = record.at("nearest");
+    const double phi_j = record.at("phi_j").at("phi_j").get<double>();
+    EXPECT_GT(phi_j, 0.6) << name;
+    EXPECT_LT(phi_j, 0.8) << name;
+    EXPECT_GT(nearest.at("Z").get<double>(), 5) << name;
+    EXPECT_LT(nearest.at("Z").get<double>(), 12) << name;
+    double least = 1;
+    for (const auto& state : record.at("states")) least = std::min(least, state.at("phi").get<double>());
+    EXPECT_EQ(nearest.at("phi").get<double>(), least) << name;
+
+    const auto packing = parse_json(only(results(), "packings/" + name.substr(8)).begin()->second, name);
+    const double side = packing.at("side").get<double>();
+    const auto particles = packing.at("positions").size();
+    EXPECT_EQ(particles, record.at("spec").at("particles").get<std::size_t>());
+    EXPECT_EQ(particles, packing.at("orientations").size());
+    EXPECT_NEAR(static_cast<double>(particles) / (side * side * side), least, 1e-12 * least);
+    for (const auto& q : packing.at("orientations")) {
+      double square = 0;
+      for (const double c : q) square += c * c;
+      EXPECT_NEAR(square, 1, 1e-12);
+    }
+  }
+}
+
+TEST_F(Batch, ASecondRunRepeatsNothing) {
+  const auto before = files_below(here_ / "results");
+  const auto again = run();
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.out, finished_.out);
+  EXPECT_EQ(files_below(here_ / "results"), before) << "not even timing changes";
+}
+
+TEST_F(Batch, LostAndDamagedRecordsAreRedone) {
+  const auto before = files_below(here_ / "results");
+  const std::string lost = "records/dodecahedron-N24-r0001.json", cut = "records/dodecahedron-N28-r0000.json";
+  fs::remove(here_ / "results" / lost);
+  test::write_text(here_ / "results" / cut, before.at(cut).substr(0, before.at(cut).size() / 2));
+  const auto again = run();
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.err.find(cut), std::string::npos) << again.err;
+  EXPECT_EQ(results(), reference());
+  auto after = files_below(here_ / "results");
+  for (const auto& [name, content] : before) {
+    if (name == lost || name == cut) continue;
+    EXPECT_EQ(after.at(name), content) << name << " was touched";
+  }
+}
+
+/// Number of records in a directory, 0 while there is none.
+std::size_t count_records(const fs::path& results) {
+  std::size_t count = 0;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(results / "records", error)) {
+    count += entry.path().extension() == ".json";
+  }
+  return count;
+}
+
+TEST_F(Batch, AnInterruptedRunContinues) {
+  fs::remove_all(here_ / "results");
+  // First before any record, then after one.
+  for (const auto& [signal, records] : {std::pair{SIGTERM, std::size_t{0}}, {SIGINT, std::size_t{1}}}) {
+    std::chrono::steady_clock::time_point sent;
+    const auto stopped = run("m.json", [&, wanted = records, which = signal](int process) {
+      for (int i = 0; i < 6000; ++i) {
+        if (fs::exists(here_ / "results" / "packings") && count_records(here_ / "results") >= wanted) break;
+        std::this_thread::sleep_for(5ms);
+      }
+      sent = std::chrono::steady_clock::now();
+      kill(process, which);
+    });
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, 5s);
+    EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
+    EXPECT_EQ(stopped.out, "");
+    EXPECT_NE(stopped.err.find("the same command continues"), std::string::npos) << stopped.err;
+    EXPECT_LT(count_records(here_ / "results"), 4U);
+    EXPECT_FALSE(fs::exists(here_ / "results" / "tables.json"));
+  }
+  const auto completed = run();
+  EXPECT_EQ(completed.exit_code, 0) << completed.err;
+  EXPECT_EQ(completed.out, finished_.out);
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Batch, AReplicateIsTheSameInAnotherSweep) {
+  edit_manifest([](Json& manifest) {
+    manifest["name"] = "alone";
+    manifest["sweep"]["particles"] = {28};
+    manifest["replicates"] = 1;
+  });
+  fs::remove_all(here_ / "results");
+  ASSERT_EQ(run().exit_code, 0);
+  const auto name = "dodecahedron-N28-r0000.json";
+  auto ours = results(), theirs = reference();
+  for (auto* files : {&ours, &theirs}) {
+    for (const std::string folder : {"records/", "packings/"}) {
+      auto json = test::without_checksum(parse_json(files->at(folder + name), name));
+      // The manifest differs, and nothing else.
+      (folder == "records/" ? json.at("provenance") : json).erase("manifest_digest");
+      files->at(folder + name) = pretty(json);
+    }
+  }
+  EXPECT_EQ(ours.at(std::string("records/") + name), theirs.at(std::string("records/") + name));
+  EXPECT_EQ(ours.at(std::string("packings/") + name), theirs.at(std::string("packings/") + name));
+}
+
+TEST_F(Batch, MoreReplicatesLeaveTheOthersUntouched) {
+  edit_manifest([](Json& manifest) { manifest["replicates"] = 3; });
+  const auto before = files_below(here_ / "results");
+  const auto more = run();
+  EXPECT_EQ(more.exit_code, 0) << more.err;
+  const auto after = files_below(here_ / "results");
+  EXPECT_EQ(only(after, "records/").size(), 6U);
+  for (const auto& [name, content] : only(before, "-r000")) EXPECT_EQ(after.at(name), content) << name;
+  EXPECT_EQ(parse_json(after.at("tables.json"), "tables").at("rows").at(0).at("phi_j").at("n"), 3);
+}
+
+TEST_F(Batch, FailedReplicatesAreRecordedAndCounted) {
+  edit_manifest([](Json& manifest) {
+    manifest["sweep"]["particles"] = {24};
+    manifest["sweep"]["max_steps"] = {2, 400};
+    manifest["replicates"] = 1;
+  });
+  fs::remove_all(here_ / "results");
+  const auto first = run();
+  EXPECT_EQ(first.exit_code, 1) << first.err;
+  const auto rows = read_json((here_ / "results" / "tables.json").string()).at("rows");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows.at(0).at("parameters").at("max_steps"), 2);
+  EXPECT_EQ(rows.at(0).at("failed"), 1);
+  EXPECT_EQ(rows.at(1).at("failed"), 0);
+  int failed = 0;
+  for (const auto& [name, content] : only(files_below(here_ / "results"), "records/")) {
+    const auto record = parse_json(content, name);
+    EXPECT_EQ(test::violations("replicate", record), "") << name;
+    if (record.at("status") != "failed") continue;
+    ++failed;
+    EXPECT_EQ(record.at("failure").at("where"), "jam");
+    EXPECT_EQ(record.at("failure").at("why").get<std::string>().rfind("step_limit after 2 strain steps", 0), 0U)
+        << record.at("failure");
+    EXPECT_EQ(record.at("path").size(), 2U);
+  }
+  EXPECT_EQ(failed, 1);
+  const auto before = files_below(here_ / "results");
+  EXPECT_EQ(run().exit_code, 1) << "a failure on record still counts";
+  EXPECT_EQ(files_below(here_ / "results"), before);
+}
+
+TEST_F(Batch, ADirectoryOfAnotherManifestIsLeftAlone) {
+  edit_manifest([](Json& manifest) { manifest["seed"] = 8; });
+  const auto before = files_below(here_ / "results");
+  const auto refused = run();
+  EXPECT_EQ(refused.exit_code, 65);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_NE(refused.err.find("results/manifest.json: belongs to another manifest"), std::string::npos) << refused.err;
+  EXPECT_EQ(files_below(here_ / "results"), before);
+}
+
+TEST_F(Batch, AggregateMakesTheSameTables) {
+  const auto before = files_below(here_ / "results");
+  const auto text = isojam({"aggregate", "results", "-o", "again.json"}, here_.path());
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_EQ(text.out, finished_.out);
+  EXPECT_EQ(read_text((here_ / "again.json").string()), before.at("tables.json"));
+  const auto json = isojam({"aggregate", "results", "results", "--format", "json"}, here_.path());
+  EXPECT_EQ(json.out, before.at("tables.json")) << "a directory given twice counts once";
+  for (const std::string format : {"csv", "latex"}) {
+    const auto other = isojam({"aggregate", "results", "--format", format}, here_.path());
+    EXPECT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_NE(other.out.find("dodecahedron"), std::string::npos) << other.out;
+  }
+  EXPECT_EQ(files_below(here_ / "results"), before);
+}
+
+TEST_F(Batch, QuietSaysNothingAndVerboseNamesEveryReplicate) {
+  for (const auto& [option, lines] : {std::pair{"--quiet", 0}, {"-v", 4}}) {
+    fs::remove_all(here_ / "results");
+    const auto told = isojam({option, "run", "m.json", "-o", "results"}, here_.path());
+    EXPECT_EQ(told.out, finished_.out);
+    int named = 0;
+    for (auto at = told.err.find(": phi_j "); at != std::string::npos; at = told.err.find(": phi_j ", at + 1)) ++named;
+    EXPECT_EQ(named, lines) << told.err;
+    EXPECT_EQ(told.err.empty(), lines == 0) << told.err;
+  }
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,190 @@
+// Facts proved here, with made-up outcomes:
+// - without a goal a campaign gives every replicate that has no valid record, once, in one round, and what it costs;
+// - with a goal it gives batches, and ends each point where the rule ends it on all its values; which outcome of a
+// round
+//   is recorded first, an interruption, and sharding change nothing; the table says how many were needed;
+// - shards never give the same replicate and together give all.
+
+#include "tasks/run/campaign.hpp"
+#include "tasks/replicate/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tasks/tables/aggregate.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using test::TemporaryDirectory;
+
+constexpr auto phi_j_column = std::size_t{0};
+
+Manifest manifest_of(const Json& replicates) {
+  auto json = test::good_manifest();
+  json["sweep"]["particles"] = {64, 70, 80};
+  json["replicates"] = replicates;
+  return parse_manifest(json.dump(), "m.json");
+}
+
+Manifest with_goal() { return manifest_of({{"min", 4}, {"max", 30}, {"quantity", "phi_j"}, {"half_width", 0.006}}); }
+
+void ignore(const std::string&) {}
+
+/// Runs a campaign to its end, recording the outcomes of each round in reverse if asked; the names it gave.
+std::vector<std::string> finish(Campaign& campaign, const Store& store, bool reversed, int at_most = 1 << 30) {
+  std::vector<std::string> given;
+  while (campaign.open_round()) {
+    std::vector<ReplicateSpec> specs;
+    while (auto spec = campaign.next()) specs.push_back(*spec);
+    if (reversed) std::reverse(specs.begin(), specs.end());
+    for (const auto& spec : specs) {
+      if (at_most-- == 0) return given;
+      store.write(test::made_up_outcome(spec));
+      given.push_back(replicate_name(spec));
+    }
+  }
+  return given;
+}
+
+std::vector<std::string> run_all(const std::filesystem::path& directory, const Manifest& manifest,
+                                 const Shard& shard = {}, bool reversed = false, int at_most = 1 << 30) {
+  const Plan plan(manifest);
+  const Store store(directory, manifest);
+  Campaign campaign(plan, manifest.replicates, shard, store, ignore);
+  return finish(campaign, store, reversed, at_most);
+}
+
+TEST(Campaign, GivesWhatIsMissingOnce) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_of(5);
+  const Plan plan(manifest);
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(plan[3]));
+  auto failed = test::made_up_outcome(plan[7]);
+  failed.failure = Failure{"jam", "made up"};
+  store.write(failed);
+  store.write(test::made_up_outcome(plan[9]));
+  test::write_text(store.record_path(plan[9]), "{");
+
+  Campaign campaign(plan, manifest.replicates, {}, store, ignore);
+  ASSERT_TRUE(campaign.open_round());
+  EXPECT_EQ(campaign.round_size().replicates, 15U);
+  EXPECT_EQ(campaign.round_size().recorded, 3U) << "a damaged record is found when its turn comes";
+  double work = 0;
+  for (const std::size_t k : {0, 1, 2, 4, 5, 6, 8, 10, 11, 12, 13, 14})
+    work += estimated_cost(plan[k], false).cpu_seconds;
+  EXPECT_NEAR(campaign.round_size().work, work, 1e-12 * work);
+  Campaign again(plan, manifest.replicates, {}, store, ignore);
+  const auto given = finish(again, store, false);
+  EXPECT_EQ(std::set(given.begin(), given.end()).size(), given.size());
+  EXPECT_EQ(given.size(), 13U);
+  EXPECT_EQ(again.failed(), 1);
+  EXPECT_TRUE(run_all(directory.path(), manifest).empty()) << "all is there";
+}
+
+/// Where the rule ends every point, from the values of all its replicates.
+std::set<std::string> expected_names(const Manifest& manifest) {
+  const Plan plan(manifest);
+  std::set<std::string> names;
+  for (std::size_t point = 0; point < plan.points(); ++point) {
+    std::vector<std::optional<double>> values;
+    for (int r = 0; r < plan.replicates(); ++r)
+      values.emplace_back(test::made_up_outcome(plan.at(point, r)).jam.phi_j->density);
+    const auto advance = advance_of(manifest.replicates, values);
+    EXPECT_TRUE(advance.finished);
+    for (int r = 0; r < advance.wanted; ++r) names.insert(replicate_name(plan.at(point, r)));
+  }
+  return names;
+}
+
+TEST(Campaign, EndsWhereTheGoalIsMet) {
+  const auto manifest = with_goal();
+  const auto expected = expected_names(manifest);
+  EXPECT_GT(expected.size(), 12U);
+  EXPECT_LT(expected.size(), 90U);
+  for (const bool reversed : {false, true}) {
+    const TemporaryDirectory directory;
+    const auto given = run_all(directory.path(), manifest, {}, reversed);
+    EXPECT_EQ(std::set(given.begin(), given.end()), expected);
+    EXPECT_EQ(given.size(), expected.size());
+  }
+  // Interrupted again and again.
+  const TemporaryDirectory directory;
+  std::set<std::string> given;
+  for (int process = 0; process < 100; ++process) {
+    const auto more = run_all(directory.path(), manifest, {}, process % 2 == 0, 3);
+    if (more.empty()) break;
+    given.insert(more.begin(), more.end());
+  }
+  EXPECT_EQ(given, expected);
+}
+
+TEST(Campaign, TheTableSaysHowManyWereNeeded) {
+  const TemporaryDirectory directory;
+  const auto manifest = with_goal();
+  run_all(directory.path(), manifest);
+  Aggregation aggregation;
+  for_each_record(directory.path(), [&](const RecordSummary& record) { aggregation.add(record); });
+  const auto table = aggregation.table(manifest.replicates);
+  ASSERT_EQ(table.rows.size(), 3U);
+  for (const auto& row : table.rows) {
+    ASSERT_TRUE(row.goal);
+    EXPECT_EQ(row.goal->needed, row.replicates);
+    EXPECT_EQ(row.goal->met, *row.estimates[phi_j_column].half_width <= 0.006);
+    EXPECT_NEAR(*row.goal->half_width, *row.estimates[phi_j_column].half_width, 1e-15);
+  }
+  for (const auto& row : aggregation.table().rows) EXPECT_FALSE(row.goal);
+  auto tighter = manifest.replicates;
+  tighter.goal->half_width = 1e-6;
+  for (const auto& row : aggregation.table(tighter).rows) {
+    EXPECT_FALSE(row.goal->needed) << "the tighter rule asks for more";
+    EXPECT_FALSE(row.goal->met);
+  }
+}
+
+TEST(Campaign, ShardsGiveAllAndNothingTwice) {
+  for (const auto& manifest : {manifest_of(5), with_goal()}) {
+    const TemporaryDirectory whole, parts;
+    const auto all = run_all(whole.path(), manifest);
+    std::vector<std::string> given;
+    for (const int index : {2, 0, 1}) {
+      const auto part = run_all(parts.path(), manifest, {index, 3});
+      EXPECT_FALSE(part.empty());
+      given.insert(given.end(), part.begin(), part.end());
+    }
+    EXPECT_EQ(std::set(given.begin(), given.end()), std::set(all.begin(), all.end()));
+    EXPECT_EQ(given.size(), all.size());
+  }
+}
+
+TEST(Campaign, AHundredThousandReplicatesStartAtOnce) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_of(33334);
+  const Plan plan(manifest);
+  EXPECT_GT(plan.size(), 100000U);
+  const Store store(directory.path(), manifest);
+  Campaign campaign(plan, manifest.replicates, {}, store, ignore);
+  ASSERT_TRUE(campaign.open_round());
+  EXPECT_EQ(campaign.round_size().replicates, plan.size());
+  EXPECT_EQ(replicate_name(*campaign.next()), "dodecahedron-N64-r0000");
+}
+
+TEST(Cost, GrowsWithSizeAndFitsInMemory) {
+  const auto manifest = manifest_of(1);
+  const Plan plan(manifest);
+  EXPECT_LT(estimated_cost(plan[0], false).cpu_seconds, estimated_cost(plan[2], false).cpu_seconds);
+  EXPECT_LT(estimated_cost(plan[0], false).disk_bytes, estimated_cost(plan[0], true).disk_bytes);
+  EXPECT_EQ(replicates_in_flight(8, 1e9, 0), 8) << "unknown";
+  EXPECT_EQ(replicates_in_flight(8, 1e9, 1e12), 8);
+  EXPECT_EQ(replicates_in_flight(8, 1e9, 5e9), 4);
+  EXPECT_EQ(replicates_in_flight(8, 1e9, 1e8), 1) << "one always";
+  EXPECT_GT(available_memory(), 0);
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,333 @@
+// Facts proved here, through the executable and with real packings, against one undisturbed run, byte by byte but for
+// timing:
+// - killed by SIGKILL at twenty random moments, a sweep comes to the same bytes, and what is recorded at any of them is
+//   whole;
+// - a run goes on from its checkpoints;
+// - a record, packing or checkpoint with one byte changed is noticed and redone, and nothing else is touched;
+// - a full disk, and files that may not grow, end a run with exit 1 and a message, and it comes to the same bytes when
+//   there is room;
+// - a directory that cannot be written to is refused at once;
+// - three shards at once in one directory make the records of the whole, and `aggregate` its tables;
+// - SIGINT ends a run within two seconds with exit 75 in the middle of a strain step, and leaves checkpoints;
+// - a folder that is a symbolic link is refused, and nothing is written where it points;
+// - status says what is there and what is under way, rerun redoes one and finds the same bits.
+
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "tasks/json/sealed.hpp"
+#include "tasks/store/store.hpp"
+#include "tasks/system/file.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using test::isojam;
+using test::results_below;
+using test::TemporaryDirectory;
+
+using Files = std::map<std::string, std::string>;
+
+Json crash_manifest() {
+  auto manifest = test::tiny_manifest();
+  manifest["sweep"]["particles"] = {24, 28, 40};
+  manifest["measure"] = {"contacts"};
+  manifest["keep_path"] = true;
+  return manifest;
+}
+
+class Crash : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryDirectory>();
+    test::write_text(*shared_ / "m.json", crash_manifest().dump());
+    const auto begun = std::chrono::steady_clock::now();
+    finished_ = isojam({"run", "m.json", "-o", "results"}, shared_->path());
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  void SetUp() override {
+    ASSERT_EQ(finished_.exit_code, 0) << finished_.err;
+    test::write_text(here_ / "m.json", crash_manifest().dump());
+  }
+
+  test::Finished run(const std::function<void(int)>& meanwhile = {}, const std::string& results = "results") const {
+    return isojam({"run", "m.json", "-o", results}, here_.path(), meanwhile);
+  }
+  static Files reference() { return results_below(*shared_ / "results"); }
+  Files results() const { return results_below(here_ / "results"); }
+  void copy_reference() const { fs::copy(*shared_ / "results", here_ / "results", fs::copy_options::recursive); }
+
+  // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): GoogleTest's way to share a costly set-up.
+  static inline std::unique_ptr<TemporaryDirectory> shared_;
+  static inline test::Finished finished_;
+  static inline double seconds_ = 0;
+  // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+  TemporaryDirectory here_;
+};
+
+/// Every file below that readers may take for a result is whole.
+void expect_whole(const fs::path& results) {
+  for (const std::string folder : {"records", "packings", "paths", "checkpoints"}) {
+    for (const auto& name : names_in(results / folder))
+      EXPECT_NO_THROW(read_sealed((results / folder / (name + ".json")).string())) << folder << "/" << name;
+  }
+}
+
+TEST_F(Crash, KilledTwentyTimesItComesToTheSameBytes) {
+  std::mt19937_64 random(11);
+  int kills = 0, rounds = 0, continued = 0;
+  while (kills < 20) {
+    fs::remove_all(here_ / "results");
+    ++rounds;
+    for (;;) {
+      const auto delay = std::chrono::duration<double>(seconds_ * 0.6 * static_cast<double>(random() % 1000) / 1000);
+      const bool has_checkpoint = !names_in(here_ / "results" / "checkpoints").empty();
+      const auto ended = run([&](int process) {
+        std::this_thread::sleep_for(delay);
+        kill(process, SIGKILL);
+      });
+      continued += has_checkpoint;
+      if (ended.exit_code == 0) break;
+      ASSERT_EQ(ended.exit_code, -1) << ended.err;
+      ++kills;
+      if (fs::exists(here_ / "results")) expect_whole(here_ / "results");
+    }
+    EXPECT_EQ(results(), reference());
+  }
+  std::printf("%d kills, %d complete sweeps, %d times a checkpoint was there to go on from\n", kills, rounds,
+              continued);
+  EXPECT_GT(continued, 5);
+}
+
+TEST_F(Crash, AChangedByteIsNoticedAndRedone) {
+  copy_reference();
+  const auto before = test::files_below(here_ / "results");
+  const std::vector<std::string> damaged{"records/dodecahedron-N24-r0001.json", "packings/dodecahedron-N28-r0000.json",
+                                         "paths/dodecahedron-N40-r0001.json"};
+  for (const auto& name : damaged) {
+    auto text = before.at(name);
+    text[text.size() / 2] = static_cast<char>(text[text.size() / 2] ^ 1);
+    test::write_text(here_ / "results" / name, text);
+  }
+  const auto again = run();
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  for (const auto& name : damaged) EXPECT_NE(again.err.find(name + ": /checksum"), std::string::npos) << again.err;
+  EXPECT_EQ(results(), reference());
+  const auto after = test::files_below(here_ / "results");
+  for (const auto& [name, content] : before) {
+    const bool redone =
+        std::any_of(damaged.begin(), damaged.end(),
+                    [stem = fs::path(name).stem()](const std::string& d) { return fs::path(d).stem() == stem; });
+    if (!redone) {
+      EXPECT_EQ(after.at(name), content) << name << " was touched";
+    }
+  }
+}
+
+/// Stops a run when `count` checkpoints are there.
+void stop_at_checkpoints(const fs::path& results, std::size_t count, int process, int signal) {
+  for (int i = 0; i < 20000; ++i) {
+    if (names_in(results / "checkpoints").size() >= count) break;
+    std::this_thread::sleep_for(500us);
+  }
+  kill(process, signal);
+}
+
+TEST_F(Crash, ARunGoesOnFromItsCheckpoints) {
+  run([&](int process) { stop_at_checkpoints(here_ / "results", 1, process, SIGKILL); });
+  const auto names = names_in(here_ / "results" / "checkpoints");
+  ASSERT_FALSE(names.empty());
+  // The bytes would be the same without it; that an hour was spent before, only the checkpoint knows.
+  const auto path = here_ / "results" / "checkpoints" / (names[0] + ".json");
+  auto checkpoint = read_sealed(path.string());
+  checkpoint.erase("checksum");
+  checkpoint.at("timing").at("cpu_seconds") = 3600.0;
+  test::write_text(path, sealed(checkpoint));
+  EXPECT_EQ(run().exit_code, 0);
+  const auto record = read_sealed((here_ / "results" / "records" / (names[0] + ".json")).string());
+  EXPECT_GE(record.at("timing").at("cpu_seconds").get<double>(), 3600);
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Crash, ADamagedCheckpointStartsItsReplicateAnew) {
+  run([&](int process) { stop_at_checkpoints(here_ / "results", 1, process, SIGKILL); });
+  const auto names = names_in(here_ / "results" / "checkpoints");
+  ASSERT_FALSE(names.empty());
+  const auto path = here_ / "results" / "checkpoints" / (names[0] + ".json");
+  auto text = read_text(path.string());
+  test::write_text(path, text.substr(0, text.size() - text.size() / 3));
+  const auto again = run();
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(again.err.find("starts anew"), std::string::npos) << again.err;
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Crash, FilesThatMayNotGrowEndARun) {
+  const auto ended = run([](int process) {
+    const rlimit limit{6000, 6000};
+    prlimit(process, RLIMIT_FSIZE, &limit, nullptr);
+  });
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;
+  EXPECT_NE(ended.err.find("cannot be written"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("the same command continues"), std::string::npos) << ended.err;
+  expect_whole(here_ / "results");
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Crash, AFullDiskEndsARun) {
+  const auto disk = here_ / "results";
+  fs::create_directory(disk);
+  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=160k") != 0)
+    GTEST_SKIP() << "no right to mount a small file system; files that may not grow were tested";
+  const auto ended = run();
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;
+  EXPECT_NE(ended.err.find("No space left"), std::string::npos) << ended.err;
+  expect_whole(disk);
+  const bool enlarged = mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, "size=20m") == 0;
+  EXPECT_TRUE(enlarged);
+  const auto again = run();
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(results(), reference());
+  EXPECT_EQ(umount(disk.c_str()), 0);
+}
+
+TEST_F(Crash, AReadOnlyDirectoryIsLeftAsItWas) {
+  const auto disk = here_ / "results";
+  fs::create_directory(disk);
+  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=20m") != 0)
+    GTEST_SKIP() << "no right to mount a file system that cannot be written to";
+  run([&](int process) { stop_at_checkpoints(disk, 1, process, SIGKILL); });
+  EXPECT_EQ(mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, ""), 0);
+  const auto before = test::files_below(disk);
+  const auto refused = run();
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("cannot be written to"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::files_below(disk), before);
+  EXPECT_EQ(mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, ""), 0);
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(results(), reference());
+  EXPECT_EQ(umount(disk.c_str()), 0);
+}
+
+TEST_F(Crash, ShardsAtOnceMakeTheWhole) {
+  std::vector<std::thread> shards;
+  std::vector<test::Finished> finished(3);
+  for (int k = 0; k < 3; ++k) {
+    shards.emplace_back([&, k] {
+      finished[static_cast<std::size_t>(k)] =
+          isojam({"run", "m.json", "-o", "results", "--shard", std::to_string(k + 1) + "/3"}, here_.path());
+    });
+  }
+  for (auto& shard : shards) shard.join();
+  for (const auto& shard : finished) {
+    EXPECT_EQ(shard.exit_code, 0) << shard.err;
+    EXPECT_EQ(shard.out, "") << "the table is for when all are finished";
+  }
+  EXPECT_FALSE(fs::exists(here_ / "results" / "tables.json"));
+  const auto table = isojam({"aggregate", "results", "-o", "results/tables.json"}, here_.path());
+  EXPECT_EQ(table.out, finished_.out);
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Crash, SigintEndsALargeStepWithinTwoSeconds) {
+  auto manifest = crash_manifest();
+  manifest["sweep"]["particles"] = {600};
+  manifest["protocol"] = {{"initial_density", 0.3}};
+  test::write_text(here_ / "m.json", manifest.dump());
+  std::chrono::steady_clock::time_point sent;
+  const auto stopped = run([&](int process) {
+    stop_at_checkpoints(here_ / "results", 1, process, 0);
+    sent = std::chrono::steady_clock::now();
+    kill(process, SIGINT);
+  });
+  const auto took = std::chrono::steady_clock::now() - sent;
+  EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
+  EXPECT_LT(took, 2s);
+  EXPECT_FALSE(names_in(here_ / "results" / "checkpoints").empty());
+}
+
+TEST_F(Crash, ASymbolicLinkForAFolderIsRefused) {
+  const TemporaryDirectory elsewhere;
+  for (const std::string folder : {"records", "packings", "paths", "checkpoints"}) {
+    fs::remove_all(here_ / "results");
+    fs::create_directory(here_ / "results");
+    fs::create_directory_symlink(elsewhere.path(), here_ / "results" / folder);
+    const auto refused = run();
+    EXPECT_EQ(refused.exit_code, 2) << folder << ": " << refused.err;
+    EXPECT_NE(refused.err.find("symbolic link"), std::string::npos) << refused.err;
+    EXPECT_TRUE(fs::is_empty(elsewhere.path())) << folder;
+  }
+  // A link in place of a result is replaced, not followed.
+  const auto target = elsewhere / "target.json";
+  fs::remove_all(here_ / "results");
+  copy_reference();
+  test::write_text(target, "untouched");
+  const auto record = here_ / "results" / "records" / "dodecahedron-N24-r0000.json";
+  fs::remove(record);
+  fs::create_symlink(target, record);
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(read_text(target.string()), "untouched");
+  EXPECT_FALSE(fs::is_symlink(record));
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Crash, StatusSaysWhatIsUnderWay) {
+  run([&](int process) { stop_at_checkpoints(here_ / "results", 2, process, SIGKILL); });
+  const auto under_way = isojam({"status", "results"}, here_.path());
+  EXPECT_EQ(under_way.exit_code, 0) << under_way.err;
+  EXPECT_NE(under_way.out.find("of 6 replicates recorded"), std::string::npos) << under_way.out;
+  for (const auto& name : names_in(here_ / "results" / "checkpoints")) {
+    if (!fs::exists(here_ / "results" / "records" / (name + ".json"))) {
+      EXPECT_NE(under_way.out.find(name + ": "), std::string::npos) << under_way.out;
+    }
+  }
+  EXPECT_NE(under_way.out.find(" left"), std::string::npos) << under_way.out;
+  const auto done = isojam({"status", (*shared_ / "results").string()}, here_.path());
+  EXPECT_EQ(done.out.rfind("tiny: 6 of 6 replicates recorded, 0 failed, ", 0), 0U) << done.out;
+  EXPECT_EQ(isojam({"status", "absent"}, here_.path()).exit_code, 2);
+}
+
+TEST_F(Crash, RerunFindsTheSameBits) {
+  copy_reference();
+  const std::string name = "dodecahedron-N28-r0001";
+  const auto same = isojam({"rerun", "results", name}, here_.path());
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_NE(same.err.find("the same bits"), std::string::npos) << same.err;
+  EXPECT_NE(same.err.find("expansion at density"), std::string::npos) << same.err;
+  EXPECT_EQ(parse_sealed(same.out, "stdout").at("status"), "done");
+  EXPECT_EQ(results(), reference());
+  for (const std::string wrong : {"dodecahedron-N28-r001", "../m", "dodecahedron-N28-r0002", ""}) {
+    const auto refused = isojam({"rerun", "results", wrong}, here_.path());
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_EQ(refused.out, "");
+  }
+  EXPECT_NE(isojam({"rerun", "results", "dodecahedron-N28-r001"}, here_.path()).err.find("did you mean"),
+            std::string::npos);
+}
+
+TEST_F(Crash, ADryRunWritesNothing) {
+  const auto fresh = isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path());
+  EXPECT_EQ(fresh.exit_code, 0) << fresh.err;
+  EXPECT_NE(fresh.out.find("dodecahedron N=28: 2 replicates, 0 recorded"), std::string::npos) << fresh.out;
+  EXPECT_FALSE(fs::exists(here_ / "results"));
+  copy_reference();
+  const auto before = test::files_below(here_.path());
+  const auto done = isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path());
+  EXPECT_NE(done.out.find("times from 6 records here"), std::string::npos) << done.out;
+  EXPECT_EQ(test::files_below(here_.path()), before);
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,233 @@
+// Facts proved here:
+// - a file is replaced whole or not at all, and a failed write leaves nothing behind;
+// - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
+// - a record without its packing is not held; a packing keeps every bit of its state, low parts included;
+// - a directory of another manifest is refused and left as it was, in whichever file the other manifest shows;
+// - more replicates may be asked for later, and fewer do not shrink the plan on disk;
+// - temporaries of a writer that was killed are not taken for results.
+
+#include "tasks/store/store.hpp"
+#include "tasks/replicate/summary.hpp"
+#include "tasks/system/file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tasks/json/input_error.hpp"
+#include "tasks/system/atomic_file.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using test::files_below;
+using test::TemporaryDirectory;
+
+Manifest manifest_with(int seed = 7, int replicates = 2) {
+  auto json = test::good_manifest();
+  json["seed"] = seed;
+  json["replicates"] = replicates;
+  return parse_manifest(json.dump(), "m.json");
+}
+
+struct Warnings {
+  std::vector<std::string> said;
+  Store::Warn warn() {
+    return [this](const std::string& message) { said.push_back(message); };
+  }
+};
+
+int count_records(const std::filesystem::path& directory) {
+  int count = 0;
+  for_each_record(directory, [&](const RecordSummary&) { ++count; });
+  return count;
+}
+
+TEST(AtomicFile, ReplacesTheWholeContent) {
+  const TemporaryDirectory directory;
+  const auto path = directory / "f.json";
+  for (const auto& content : {std::string("first"), std::string(100000, 'x'), std::string()}) {
+    write_atomically(path, content);
+    EXPECT_EQ(files_below(directory.path()), (std::map<std::string, std::string>{{"f.json", content}}));
+  }
+}
+
+TEST(AtomicFile, AFailedWriteLeavesNothing) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(write_atomically(directory / "absent" / "f.json", "x"), FileError);
+  std::filesystem::create_directories(directory / "taken" / "inside");
+  EXPECT_THROW(write_atomically(directory / "taken", "x"), FileError);
+  EXPECT_TRUE(files_below(directory.path()).empty());
+}
+
+TEST(Store, PackingsKeepEveryBit) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto spec = test::make_plan(manifest)[0];
+  const Store store(directory / "results", manifest);
+  auto outcome = test::made_up_outcome(spec);
+  auto& state = outcome.jam.states[*nearest_state(outcome.jam)];
+  state = moved(state, Eigen::VectorXd::LinSpaced(6 * state.size(), 1e-20, 2e-20));
+  store.write(outcome);
+  std::ifstream file(store.packing_path(spec));
+  const auto packing = Json::parse(file);
+  EXPECT_EQ(packing.at("side").get<double>(), state.cell.side());
+  for (int i = 0; i < state.size(); ++i) {
+    const auto& pose = state.poses[i];
+    EXPECT_NE(pose.position_low, Eigen::Vector3d::Zero());
+    EXPECT_NE(pose.orientation_low, Eigen::Vector4d::Zero());
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(packing.at("positions")[i][c].get<double>(), pose.position[c]);
+      EXPECT_EQ(packing.at("positions_low")[i][c].get<double>(), pose.position_low[c]);
+    }
+    for (int c = 0; c < 4; ++c) {
+      const int place = (c + 1) % 4;  // w first
+      EXPECT_EQ(packing.at("orientations")[i][place].get<double>(), pose.orientation.coeffs()[c]);
+      EXPECT_EQ(packing.at("orientations_low")[i][place].get<double>(), pose.orientation_low[c]);
+    }
+  }
+}
+
+TEST(Store, HoldsWhatWasWritten) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = test::make_plan(manifest);
+  Warnings warnings;
+  const Store store(directory / "results", manifest);
+  EXPECT_FALSE(store.recorded(plan[0], warnings.warn()));
+  store.write(test::made_up_outcome(plan[0]));
+  EXPECT_TRUE(store.recorded(plan[0], warnings.warn()));
+  EXPECT_FALSE(store.recorded(plan[1], warnings.warn()));
+  auto failed = test::made_up_outcome(plan[1]);
+  failed.failure = Failure{"jam", "made up"};
+  store.write(failed);
+  EXPECT_TRUE(store.recorded(plan[1], warnings.warn()));
+  EXPECT_TRUE(warnings.said.empty()) << warnings.said.front();
+  EXPECT_EQ(count_records(directory / "results"), 2);
+}
+
+TEST(Store, ADamagedRecordIsReportedAndNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = test::make_plan(manifest);
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(plan[0]));
+  const auto path = store.record_path(plan[0]);
+  const auto whole = read_text(path.string());
+  for (std::size_t size = 0; size + 2 < whole.size(); size += whole.size() / 37) {
+    test::write_text(path, whole.substr(0, size));
+    Warnings warnings;
+    EXPECT_FALSE(store.recorded(plan[0], warnings.warn())) << size;
+    ASSERT_EQ(warnings.said.size(), 1U) << size;
+    EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
+    EXPECT_NO_THROW(Store(directory.path(), manifest)) << "the run replaces it";
+  }
+  test::write_text(path, whole);
+  Warnings warnings;
+  EXPECT_TRUE(store.recorded(plan[0], warnings.warn()));
+}
+
+TEST(Store, ARecordUnderAnotherNameIsNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = test::make_plan(manifest);
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(plan[0]));
+  std::filesystem::copy_file(store.record_path(plan[0]), store.record_path(plan[1]));
+  std::filesystem::copy_file(store.packing_path(plan[0]), store.packing_path(plan[1]));
+  Warnings warnings;
+  EXPECT_FALSE(store.recorded(plan[1], warnings.warn()));
+  EXPECT_EQ(warnings.said.size(), 1U);
+}
+
+TEST(Store, ARecordWithoutItsPackingIsNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto spec = test::make_plan(manifest)[0];
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(spec));
+  std::filesystem::remove(store.packing_path(spec));
+  Warnings warnings;
+  EXPECT_FALSE(store.recorded(spec, warnings.warn()));
+  EXPECT_EQ(warnings.said.size(), 1U);
+}
+
+TEST(Store, RefusesADirectoryOfAnotherManifest) {
+  const TemporaryDirectory directory;
+  const Store store(directory.path(), manifest_with(7));
+  store.write(test::made_up_outcome(test::make_plan(manifest_with(7))[0]));
+  const auto refusal_of = [&](const Manifest& manifest) -> std::string {
+    try {
+      const Store other(directory.path(), manifest);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const std::string shows : {"manifest.json", "records/dodecahedron-N64-r0000.json"}) {
+    const auto before = files_below(directory.path());
+    const auto said = refusal_of(manifest_with(8));
+    EXPECT_NE(said.find(shows), std::string::npos) << said;
+    EXPECT_NE(said.find("belongs to another manifest"), std::string::npos) << said;
+    EXPECT_EQ(files_below(directory.path()), before);
+    std::filesystem::remove(directory / "manifest.json");
+  }
+}
+
+TEST(Store, RefusesADamagedRecordThatNoPlanReplaces) {
+  const TemporaryDirectory directory;
+  const Store store(directory.path(), manifest_with());
+  test::write_text(directory / "records/cube-N64-r0000.json", "{");
+  EXPECT_THROW(Store(directory.path(), manifest_with()), InputError);
+}
+
+TEST(Store, ThePlanOnlyGrows) {
+  const TemporaryDirectory directory;
+  const auto planned = [&] { return read_manifest((directory / "manifest.json").string()).replicates.max; };
+  for (const auto& [asked, expected] : {std::pair{2, 2}, {5, 5}, {3, 5}}) {
+    const Store store(directory.path(), manifest_with(7, asked));
+    EXPECT_EQ(planned(), expected);
+  }
+}
+
+TEST(Store, TemporariesAreNotResults) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const Store store(directory.path(), manifest);
+  store.write(test::made_up_outcome(test::make_plan(manifest)[0]));
+  test::write_text(directory / "records/.dodecahedron-N64-r0001.json.0123456789abcdef.tmp", "{\"half");
+  EXPECT_NO_THROW(Store(directory.path(), manifest));
+  EXPECT_EQ(count_records(directory.path()), 1);
+}
+
+TEST(Store, RecordsComeInOrderUpToTheFirstDamagedOne) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with(7, 60);
+  const auto plan = test::make_plan(manifest);
+  const Store store(directory.path(), manifest);
+  for (const auto& spec : plan) store.write(test::made_up_outcome(spec));
+  test::write_text(store.record_path(plan[40]), "{");
+  test::write_text(store.record_path(plan[50]), "[");
+  for (int trial = 0; trial < 5; ++trial) {
+    std::vector<int> seen;
+    try {
+      for_each_record(directory.path(), [&](const RecordSummary& record) { seen.push_back(record.replicate); });
+      FAIL() << "damage went unnoticed";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("-r0040.json"), std::string::npos) << error.what();
+    }
+    ASSERT_EQ(seen.size(), 40U);
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  }
+}
+
+TEST(Store, ADirectoryWithoutRecordsIsNoResultsDirectory) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(count_records(directory.path()), FileError);
+  EXPECT_THROW(count_records(directory / "absent"), FileError);
+}
+
+}  // namespace
+}  // namespace isojam

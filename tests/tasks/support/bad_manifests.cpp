@@ -1,0 +1,180 @@
+#include "tests/tasks/support/bad_manifests.hpp"
+
+namespace isojam::test {
+namespace {
+
+using Pointer = Json::json_pointer;
+
+std::string with(const std::string& pointer, const Json& value) {
+  auto manifest = good_manifest();
+  manifest[Pointer(pointer)] = value;
+  return manifest.dump();
+}
+
+std::string without(const std::string& key) {
+  auto manifest = good_manifest();
+  manifest.erase(key);
+  return manifest.dump();
+}
+
+/// The good manifest's text with `from` replaced.
+std::string replaced(const std::string& from, const std::string& to) {
+  auto text = good_manifest().dump();
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// A value set where it must not be; a schema can tell.
+BadManifest set(const std::string& name, const std::string& at, const Json& value, const std::string& says,
+                const std::string& pointer = "") {
+  return {name, with(at, value), pointer.empty() ? at : pointer, says, true};
+}
+
+/// Keys and values outside the sweep that a schema refuses.
+std::vector<BadManifest> malformed() {
+  return {
+      set("unknown key", "/replicate", 4, "did you mean \"replicates\"?"),
+      set("unknown key like nothing", "/zzzzzz", 4, "unknown key; allowed: \"$schema\", \"name\""),
+      set("unknown key with odd letters", "/a~1b~0c", 4, "unknown key"),
+      set("protocol key at the root", "/target_energy", 1e-5, "did you mean \"/protocol/target_energy\"?"),
+      set("minimiser key in the protocol", "/protocol/method", "lbfgs", "did you mean \"/minimiser/method\"?"),
+      set("misspelt protocol key", "/protocol/target_enery", 1e-5, "did you mean \"target_energy\"?"),
+      set("name is a number", "/name", 4, "wrong type"),
+      set("name leaves the directory", "/name", "../x", "letters, digits"),
+      set("name is empty", "/name", "", "letters, digits"),
+      set("name is too long", "/name", std::string(65, 'a'), "letters, digits"),
+      {"no name", without("name"), "/name", "missing", true},
+      {"no seed", without("seed"), "/seed", "missing", true},
+      {"no sweep", without("sweep"), "/sweep", "missing", true},
+      {"no replicates", without("replicates"), "/replicates", "missing", true},
+      set("seed is negative", "/seed", -1, "an integer from 0 to 9007199254740992"),
+      set("seed is a fraction", "/seed", 1.5, "an integer from 0"),
+      set("seed is a string", "/seed", "7", "\"7\" is of the wrong type"),
+      set("seed is null", "/seed", nullptr, "wrong type"),
+      set("seed is beyond 2^53", "/seed", 9007199254740994, "out of range"),
+      set("seed is beyond 2^64", "/seed", 1e30, "an integer from 0"),
+      set("no replicate", "/replicates", 0, "an integer from 1 to 1000000"),
+      set("too many replicates", "/replicates", 1000001, "an integer from 1 to 1000000"),
+      set("replicates as a text", "/replicates", "many", "neither a number nor an object"),
+      {"a goal without a maximum", with("/replicates", {{"min", 2}, {"quantity", "Z"}, {"half_width", 1}}),
+       "/replicates/max", "missing", true},
+      {"a goal with a typing error", with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "Z"}, {"halfwidth", 1}}),
+       "/replicates/halfwidth", "did you mean \"half_width\"?", true},
+      {"a goal of one replicate", with("/replicates", {{"min", 1}, {"max", 4}, {"quantity", "Z"}, {"half_width", 1}}),
+       "/replicates/min", "an integer from 2 to 1000000", true},
+      {"a goal of no width", with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "Z"}, {"half_width", 0}}),
+       "/replicates/half_width", "a number in (0", true},
+      set("half a replicate", "/replicates", 2.5, "an integer from 1"),
+      set("protocol is a string", "/protocol", "paper", "an object"),
+      set("negative density", "/protocol/initial_density", -0.1, "a number in (0, 1]"),
+      set("open end of a range", "/protocol/step_fraction", 1.0, "a number in (0, 1)"),
+      set("huge number", "/protocol/max_steps", 1e300, "an integer from 1 to 1000000"),
+      set("number for a truth value", "/protocol/target_before_relaxation", 1, "true or false"),
+      set("misspelt method", "/minimiser/method", "lbgfs", "did you mean \"lbfgs\"?"),
+      set("method is a number", "/minimiser/method", 3, "\"conjugate_gradient\", \"fire\""),
+      set("misspelt measure", "/measure", {"contact"}, "did you mean \"contacts\"?", "/measure/0"),
+      set("measure is no list", "/measure", "contacts", "a list"),
+      set("no modes", "/modes", 0, "out of range"),
+      set("modes are no number", "/modes", "all", "integer"),
+      set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
+      set("$schema is a number", "/$schema", 7, "a string"),
+      {"root is a list", "[1]", "", "an object with the keys", true},
+  };
+}
+
+/// Values in the sweep that a schema refuses.
+std::vector<BadManifest> malformed_sweep() {
+  return {
+      set("misspelt sweep key", "/sweep/particle", Json{64}, "did you mean \"particles\"?"),
+      set("unknown solid", "/sweep/solid", {"octahedra"}, "did you mean \"octahedron\"?", "/sweep/solid/0"),
+      set("solid is a number", "/sweep/solid", {8}, "\"tetrahedron\", \"cube\"", "/sweep/solid/0"),
+      set("solid is no list", "/sweep/solid", "cube", "a list"),
+      set("no solid", "/sweep/solid", Json::array(), "the list is empty"),
+      set("solid given twice", "/sweep/solid", {"cube", "cube"}, "given twice", "/sweep/solid/1"),
+      set("particles given twice", "/sweep/particles", {64, 32, 64}, "given twice", "/sweep/particles/2"),
+      set("no particles", "/sweep/particles", Json::array(), "the list is empty"),
+      set("zero particles", "/sweep/particles", {64, 0}, "an integer from 1 to 100000", "/sweep/particles/1"),
+      set("a fraction of a particle", "/sweep/particles", {64.5}, "an integer", "/sweep/particles/0"),
+      set("too many particles", "/sweep/particles", {1000000}, "an integer from 1 to 100000", "/sweep/particles/0"),
+      set("swept value out of range", "/sweep/target_energy", {1e-5, 0.0}, "(0, 1]", "/sweep/target_energy/1"),
+      set("swept value of the wrong type", "/sweep/target_energy", {"x"}, "(0, 1]", "/sweep/target_energy/0"),
+      set("swept value given twice", "/sweep/target_energy", {1e-5, 0.00001}, "twice", "/sweep/target_energy/1"),
+      set("swept list is empty", "/sweep/method", Json::array(), "\"conjugate_gradient\", \"fire\""),
+      set("swept method misspelt", "/sweep/method", {"lbgfs"}, "did you mean \"lbfgs\"?", "/sweep/method/0"),
+      set("sweep is a list", "/sweep", Json::array(), "an object"),
+  };
+}
+
+/// Rules between values.
+std::vector<BadManifest> inconsistent() {
+  auto crowded = good_manifest();
+  crowded["sweep"]["max_density"] = {0.8, 2.0};
+  crowded["sweep"]["particles"] = {64, 30};
+  auto both = good_manifest();
+  both["sweep"]["target_energy"] = {1e-5};
+  both["protocol"]["target_energy"] = 1e-5;
+  auto many = good_manifest();
+  many["replicates"] = 1000000;
+  for (int n = 1; n <= 101; ++n) many["sweep"]["max_steps"].push_back(n);
+  return {
+      {"too few particles", with("/sweep/particles", {64, 5}), "/sweep/particles/1", "or more", false},
+      {"too few at a swept density", crowded.dump(), "/sweep/particles/1", "max_density 2", false},
+      {"swept and fixed", both.dump(), "/protocol/target_energy", "either here or at /sweep/target_energy", false},
+      {"starts above its limit", with("/protocol/initial_density", 0.95), "/protocol/initial_density",
+       "does not lie below max_density 0.93", false},
+      {"fewer at most than at least",
+       with("/replicates", {{"min", 5}, {"max", 4}, {"quantity", "Z"}, {"half_width", 1}}), "/replicates/max",
+       "an integer from 5 to 1000000", false},
+      {"a goal of no quantity", with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "phi_i"}, {"half_width", 1}}),
+       "/replicates/quantity", "did you mean \"phi_j\"?", false},
+      {"a goal that is not measured",
+       with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "omega_l"}, {"half_width", 1}}),
+       "/replicates/quantity", "\"modes\" in /measure", false},
+      {"a million replicates", many.dump(), "/sweep", "at most 1000000", false},
+      {"one beyond 2^53", with("/seed", 9007199254740993), "/seed", "out of range", false},
+  };
+}
+
+/// Texts that are not JSON, or that JSON leaves open.
+std::vector<BadManifest> unreadable() {
+  const auto good = good_manifest().dump();
+  return {
+      {"empty", "", "", "the file is empty", false},
+      {"blank", " \n\n", "", "the file is empty", false},
+      {"prose", "hello", "", ":1:1: not valid JSON", false},
+      {"truncated", good.substr(0, good.size() / 2), "", "not valid JSON", false},
+      {"last brace missing", good.substr(0, good.size() - 1), "", "unexpected end of input", false},
+      {"second line", "{\n  \"name\": ,\n}", "/name", ":2:11: ", false},
+      {"trailing comma", replaced("\"replicates\":2", "\"replicates\":2,"), "", "not valid JSON", false},
+      {"trailing text", good + "x", "", "not valid JSON", false},
+      {"two documents", good + good, "", "not valid JSON", false},
+      {"comment", "// sweep\n" + good, "", ":1:1: not valid JSON", false},
+      {"single quotes", replaced("\"name\"", "'name'"), "", "not valid JSON", false},
+      {"not a number", replaced("\"seed\":7", "\"seed\":NaN"), "/seed", "not valid JSON", false},
+      {"infinity", replaced("\"seed\":7", "\"seed\":Infinity"), "/seed", "not valid JSON", false},
+      {"beyond double", replaced("\"seed\":7", "\"seed\":1e400"), "/seed", "number 1e400 is too large", false},
+      {"beyond double in a list", replaced("[64]", "[64,-1e400]"), "/sweep/particles/1", "too large", false},
+      {"duplicate key", replaced("\"seed\":7", "\"seed\":7,\"seed\":8"), "/seed", "duplicate key", false},
+      {"duplicate nested key", replaced("\"particles\":", "\"solid\":[\"cube\"],\"particles\":"), "/sweep/solid",
+       "duplicate key", false},
+      {"deep", std::string(100000, '['), "", "nested too deep; allowed: at most 16 levels", false},
+      {"deep in a value", replaced("\"seed\":7", "\"seed\":" + std::string(20, '[') + std::string(20, ']')), "",
+       "nested too deep", false},
+      {"not UTF-8", replaced("tiny", "t\xff"), "/name", "not valid JSON", false},
+      {"NUL", replaced("tiny", std::string("t\0y", 3)), "/name", "not valid JSON", false},
+  };
+}
+
+}  // namespace
+
+Json good_manifest() {
+  return Json::parse(R"({"name":"tiny","seed":7,"sweep":{"solid":["dodecahedron"],"particles":[64]},"replicates":2})");
+}
+
+std::vector<BadManifest> bad_manifests() {
+  auto all = malformed();
+  for (const auto& more : {malformed_sweep(), inconsistent(), unreadable()})
+    all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+}  // namespace isojam::test

@@ -1,0 +1,153 @@
+#include "tests/tasks/support/support.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tasks/json/parse.hpp"
+#include "tasks/json/sealed.hpp"
+#include "tasks/replicate/record.hpp"
+#include "tasks/system/file.hpp"
+
+namespace isojam::test {
+namespace fs = std::filesystem;
+
+TemporaryDirectory::TemporaryDirectory() {
+  auto name = (fs::temp_directory_path() / "isojam-test-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory");
+  path_ = name;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+  std::error_code error;
+  fs::remove_all(path_, error);
+  EXPECT_FALSE(error) << error.message();
+}
+
+Finished isojam(const std::vector<std::string>& arguments, const fs::path& directory,
+                const std::function<void(int)>& meanwhile) {
+  const TemporaryDirectory capture;
+  const auto out = capture / "out", err = capture / "err";
+  std::vector<std::string> words{ISOJAM_EXECUTABLE};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  const pid_t child = fork();
+  if (child == 0) {
+    const int out_fd = ::open(out.c_str(), O_WRONLY | O_CREAT, 0600);
+    const int err_fd = ::open(err.c_str(), O_WRONLY | O_CREAT, 0600);
+    if (dup2(out_fd, 1) < 0 || dup2(err_fd, 2) < 0 || chdir(directory.c_str()) != 0) _exit(126);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  if (meanwhile) meanwhile(child);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out.string()), read_text(err.string())};
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  if (!stream.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+std::map<std::string, std::string> files_below(const fs::path& directory) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    if (!entry.is_regular_file()) continue;
+    files[fs::relative(entry.path(), directory).string()] = read_text(entry.path().string());
+  }
+  return files;
+}
+
+std::map<std::string, std::string> results_below(const fs::path& directory) {
+  auto files = files_below(directory);
+  std::erase_if(files, [](const auto& file) { return fs::path(file.first).filename().string().starts_with('.'); });
+  for (auto& [name, content] : files) {
+    if (name.rfind("records/", 0) == 0) content = pretty(without_checksum(parse_json(content, name)));
+  }
+  return files;
+}
+
+std::vector<ReplicateSpec> make_plan(const Manifest& manifest) {
+  const Plan plan(manifest);
+  std::vector<ReplicateSpec> specs;
+  for (std::size_t i = 0; i < plan.size(); ++i) specs.push_back(plan[i]);
+  return specs;
+}
+
+Json without_checksum(Json document) {
+  document.erase("checksum");
+  document.erase("timing");
+  return document;
+}
+
+Json record_on_disk(const Outcome& outcome) { return parse_sealed(sealed(make_record(outcome)), "record"); }
+
+Json tiny_manifest() {
+  return parse_json(R"({
+    "name": "tiny", "seed": 7,
+    "sweep": {"solid": ["dodecahedron"], "particles": [24, 28]},
+    "replicates": 2,
+    "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
+                 "step_fraction": 0.4, "final_distance": 0.03, "fit_window": 0.1, "consolidation_residual": 0.1},
+    "minimiser": {"residual": 1e-3, "max_evaluations": 2000, "unjammed_energy": 1e-14},
+    "measure": ["contacts", "order", "clusters", "modes", "moduli", "rigidity"]
+  })",
+                    "tiny");
+}
+
+ContactAnalysis made_up_contacts(double z) {
+  ContactAnalysis analysis;
+  analysis.face_face.verdict = analysis.edge_face.verdict = FitVerdict::fitted;
+  analysis.numbers = {z, 0.5, 2, z - 2.5, z - 2.5 + 1.5 + 4};
+  return analysis;
+}
+
+void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis) {
+  auto& measured = outcome.measured.at(Measure::contacts);
+  measured.states.back() = contact_record(analysis);
+  measured.flags = contact_flags(analysis);
+}
+
+Outcome made_up_outcome(const ReplicateSpec& spec) {
+  auto random = replicate_stream(spec, Purpose::placement);
+  const auto start = random_packing(platonic(spec.solid), spec.particles, 0.5, random);
+  Outcome outcome;
+  outcome.spec = spec;
+  outcome.timing = {random.uniform(), random.uniform()};
+  auto& jam = outcome.jam;
+  JammingPoint point;
+  point.density = 0.68 + 0.01 * random.normal();
+  point.single_state = point.density + 1e-4;
+  for (int i = 4; i > 0; --i) {
+    const double distance = 0.01 * i;
+    JamStep step;
+    step.stage = JamStage::expansion;
+    step.density = point.density + distance;
+    step.energy_per_particle = std::pow(distance, 6);
+    step.pressure = std::pow(distance, 5);
+    step.summary.reason = StopReason::residual_reached;
+    step.summary.residual = 1e-7 * random.uniform();
+    step.summary.evaluations = 10 * i;
+    point.states.insert(point.states.begin(), static_cast<int>(jam.states.size()));
+    jam.state_steps.push_back(static_cast<int>(jam.path.size()));
+    jam.path.push_back(step);
+    jam.states.push_back(strained_to(start, step.density));
+    for (const auto what : {Measure::order, Measure::clusters}) outcome.measured[what].states.push_back(Json::object());
+    outcome.measured[Measure::contacts].states.push_back(contact_record(made_up_contacts(9 + random.uniform())));
+  }
+  jam.phi_j = point;
+  jam.status = JamStatus::jammed;
+  jam.evaluations = 100;
+  return outcome;
+}
+
+}  // namespace isojam::test

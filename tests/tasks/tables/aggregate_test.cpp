@@ -1,0 +1,210 @@
+// Facts proved here:
+// - the table does not depend on the order of the records, nor on a record being given twice;
+// - failed replicates are counted and in no mean; flagged ones are counted and in the means they have a value for;
+// - against Δφ, quantities are interpolated in ln Δφ between the states of a replicate and not beyond them;
+// - the residual of a row is the worst of its replicates;
+// - records of other settings, and two results of one replicate, are refused;
+// - a record that lacks something the table needs is refused with its pointer.
+
+#include "tasks/tables/aggregate.hpp"
+#include "tasks/replicate/record.hpp"
+#include "tasks/replicate/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tasks/json/input_error.hpp"
+#include "tasks/tables/tables.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+std::vector<ReplicateSpec> plan(const std::function<void(Json&)>& change = {}) {
+  auto manifest = test::good_manifest();
+  manifest["sweep"]["solid"] = {"octahedron", "tetrahedron"};
+  manifest["sweep"]["particles"] = {200, 100};
+  manifest["sweep"]["target_energy"] = {1e-6, 1e-5};
+  manifest["replicates"] = 5;
+  if (change) change(manifest);
+  return test::make_plan(parse_manifest(manifest.dump(), "m"));
+}
+
+RecordSummary summary_of(const Outcome& outcome) { return summarise_record(make_record(outcome), "made up"); }
+
+std::vector<RecordSummary> summaries() {
+  std::vector<RecordSummary> all;
+  for (const auto& spec : plan()) all.push_back(summary_of(test::made_up_outcome(spec)));
+  return all;
+}
+
+std::string refusal(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Aggregate, OrderAndRepetitionDoNotMatter) {
+  auto records = summaries();
+  const auto table = pretty(to_json(aggregate(records)));
+  records.insert(records.end(), records.begin(), records.begin() + 7);
+  for (unsigned trial = 0; trial < 5; ++trial) {
+    std::shuffle(records.begin(), records.end(), std::mt19937(trial));
+    EXPECT_EQ(pretty(to_json(aggregate(records))), table);
+  }
+}
+
+TEST(Aggregate, RowsAreInCanonicalOrder) {
+  const auto table = aggregate(summaries());
+  ASSERT_EQ(table.rows.size(), 8U);
+  std::vector<std::tuple<SolidKind, int, double>> keys;
+  for (const auto& row : table.rows) {
+    keys.emplace_back(row.solid, row.particles, row.parameters.at("target_energy").get<double>());
+    EXPECT_EQ(row.replicates, 5);
+  }
+  EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
+}
+
+TEST(Aggregate, CountsFailedAndFlagged) {
+  const auto specs = plan();
+  std::vector<RecordSummary> records;
+  double expected_sum = 0, worst = 0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    auto outcome = test::made_up_outcome(specs[i]);
+    if (i == 1) outcome.failure = Failure{"jam", "made up"};
+    if (i == 2) outcome.jam.status = JamStatus::goal_not_reached;
+    if (i == 3) {
+      auto undecided = test::made_up_contacts(9);
+      undecided.edge_face.verdict = FitVerdict::too_few;
+      test::set_nearest_contacts(outcome, undecided);
+    }
+    if (i != 1) {
+      expected_sum += outcome.jam.phi_j->density;
+      for (const auto& step : outcome.jam.path) worst = std::max(worst, step.summary.residual);
+    }
+    records.push_back(summary_of(outcome));
+  }
+  const auto row = aggregate(records).rows.at(0);
+  EXPECT_EQ(row.replicates, 5);
+  EXPECT_EQ(row.failed, 1);
+  EXPECT_EQ(row.flagged, 2);
+  std::map<std::string_view, int> n;
+  for (std::size_t i = 0; i < all_columns.size(); ++i) {
+    if (all_columns[i].group == main_group) n[all_columns[i].name] = row.estimates[i].n;
+  }
+  const std::map<std::string_view, int> expected{{"phi_j", 4}, {"Z", 4},   {"Z_ff", 4},
+                                                 {"Z_ef", 3},  {"Z_l", 3}, {"C", 3}};
+  EXPECT_EQ(n, expected);
+  EXPECT_NEAR(*row.estimates[0].mean, expected_sum / 4, 1e-15);
+  EXPECT_EQ(row.unflagged[0].n, 2);
+  const double kept =
+      test::made_up_outcome(specs[0]).jam.phi_j->density + test::made_up_outcome(specs[4]).jam.phi_j->density;
+  EXPECT_NEAR(*row.unflagged[0].mean, kept / 2, 1e-15);
+  EXPECT_EQ(row.residual, worst);
+}
+
+std::size_t column(std::string_view name) {
+  return static_cast<std::size_t>(
+      std::find_if(all_columns.begin(), all_columns.end(), [&](const Column& c) { return c.name == name; }) -
+      all_columns.begin());
+}
+
+TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
+  const auto z = column("Z");
+  RecordSummary record;
+  record.particles = 100;
+  std::vector<RecordSummary> records;
+  // Z = a + b ln Δφ is interpolated exactly wherever the states lie.
+  const auto law = [](int replicate, double distance) { return 9 + 0.1 * replicate + 0.3 * std::log(distance); };
+  const std::vector<std::vector<double>> distances{{.003, .011, .07}, {.0049, .0051, .2}, {.021, .039}, {.01}};
+  for (int k = 0; k < 4; ++k) {
+    record.replicate = k;
+    record.states.clear();
+    for (const double distance : distances[static_cast<std::size_t>(k)]) {
+      record.states.push_back({distance, {}});
+      record.states.back().values[z] = law(k, distance);
+    }
+    if (k == 1) record.states[1].values[z].reset();
+    records.push_back(record);
+  }
+  const auto series = aggregate(records).rows.at(0).series;
+  // Replicate 1 lacks the value between its outer states; replicate 2 encloses no point, replicate 3 has one state.
+  std::vector<std::pair<double, std::vector<int>>> expected{{.04, {0}}, {.02, {0}}, {.01, {0}}, {.005, {0}}};
+  ASSERT_EQ(series.size(), expected.size());
+  for (std::size_t p = 0; p < expected.size(); ++p) {
+    EXPECT_EQ(series[p].delta_phi, expected[p].first);
+    EXPECT_EQ(series[p].estimates[z].n, 1) << expected[p].first;
+    EXPECT_NEAR(*series[p].estimates[z].mean, law(0, expected[p].first), 1e-14) << expected[p].first;
+    EXPECT_EQ(series[p].estimates[column("phi_j")].n, 0);
+  }
+  const auto text = to_text(aggregate(records), View::series);
+  EXPECT_NE(text.find(" 0.02 "), std::string::npos) << text;
+}
+
+TEST(Aggregate, ARowOfFailuresHasNoMean) {
+  auto outcome = test::made_up_outcome(plan()[0]);
+  outcome.failure = Failure{"place", "made up"};
+  const auto row = aggregate(std::vector{summary_of(outcome)}).rows.at(0);
+  EXPECT_EQ(row.failed, 1);
+  EXPECT_FALSE(row.estimates[0].mean);
+  EXPECT_FALSE(row.residual);
+}
+
+TEST(Aggregate, PoolsReplicatesOfOtherSeeds) {
+  auto records = summaries();
+  for (const auto& spec : plan([](Json& manifest) { manifest["seed"] = 8; })) {
+    records.push_back(summary_of(test::made_up_outcome(spec)));
+  }
+  for (const auto& row : aggregate(records).rows) EXPECT_EQ(row.replicates, 10);
+}
+
+TEST(Aggregate, RefusesOtherSettings) {
+  auto records = summaries();
+  const auto other = plan([](Json& manifest) { manifest["protocol"]["step_fraction"] = 0.125; });
+  records.push_back(summary_of(test::made_up_outcome(other[3])));
+  const auto said = refusal([&] { aggregate(records); });
+  EXPECT_NE(said.find("/protocol/step_fraction: differs"), std::string::npos) << said;
+}
+
+TEST(Aggregate, RefusesTwoResultsOfOneReplicate) {
+  auto records = summaries();
+  auto outcome = test::made_up_outcome(plan()[2]);
+  outcome.timing.wall_seconds += 1;
+  records.push_back(summary_of(outcome));
+  EXPECT_EQ(refusal([&] { aggregate(records); }), "") << "timing may differ";
+  outcome.jam.phi_j->density += 1e-15;
+  records.push_back(summary_of(outcome));
+  const auto said = refusal([&] { aggregate(records); });
+  EXPECT_NE(said.find("recorded twice with different results"), std::string::npos) << said;
+}
+
+TEST(Record, WhatATableNeedsIsRequired) {
+  const auto record = make_record(test::made_up_outcome(plan()[0]));
+  for (const std::string pointer :
+       {"/schema", "/spec", "/spec/solid", "/spec/particles", "/spec/parameters", "/spec/replicate", "/spec/protocol",
+        "/provenance", "/provenance/manifest_digest", "/status", "/timing", "/timing/cpu_seconds", "/result_digest",
+        "/flags", "/phi_j", "/phi_j/phi_j", "/phi_j/residual", "/nearest"}) {
+    auto damaged = record;
+    const Json::json_pointer at(pointer);
+    damaged.at(at.parent_pointer()).erase(at.back());
+    const auto said = refusal([&] { summarise_record(damaged, "r.json"); });
+    EXPECT_EQ(said, "r.json: " + pointer + ": the required key is missing");
+  }
+  for (const std::string pointer :
+       {"/schema", "/spec/solid", "/spec/particles", "/status", "/phi_j/phi_j", "/nearest/Z"}) {
+    auto damaged = record;
+    damaged[Json::json_pointer(pointer)] = Json::array();
+    const auto said = refusal([&] { summarise_record(damaged, "r.json"); });
+    EXPECT_EQ(said.rfind("r.json: " + pointer + ": a list is of the wrong type", 0), 0U) << said;
+  }
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,203 @@
+// Facts proved here:
+// - defaults, ranges, choices and places of the manifest's schema are those of the program;
+// - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
+// - of the bad corpus the schema refuses all that it can express;
+// - the schema of tables knows every column;
+// - records and tables conform, failed and flagged ones too; a damaged one does not.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tasks/json/input_error.hpp"
+#include "tasks/json/parse.hpp"
+#include "tasks/json/sealed.hpp"
+#include "tasks/manifest/fields.hpp"
+#include "tasks/manifest/manifest.hpp"
+#include "tasks/replicate/record.hpp"
+#include "tasks/replicate/summary.hpp"
+#include "tasks/system/file.hpp"
+#include "tasks/tables/aggregate.hpp"
+#include "tasks/tables/tables.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/schema.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using test::violations;
+
+Json expected_definition(const Field& field) {
+  JamOptions options;
+  const auto slot = field.slot(options);
+  Json json;
+  if (std::holds_alternative<bool*>(slot)) {
+    json["type"] = "boolean";
+  } else if (std::holds_alternative<Method*>(slot)) {
+    for (const auto name : method_names()) json["enum"].push_back(name);
+  } else {
+    json["type"] = std::holds_alternative<double*>(slot) ? "number" : "integer";
+    json[field.range.low_excluded ? "exclusiveMinimum" : "minimum"] = field.range.low;
+    json[field.range.high_excluded ? "exclusiveMaximum" : "maximum"] = field.range.high;
+  }
+  json["default"] = field_value(field, {});
+  return json;
+}
+
+TEST(ManifestSchema, SaysWhatTheProgramSays) {
+  const auto schema = test::schema("manifest");
+  const auto& properties = schema.at("properties");
+  std::size_t described = 0;
+  for (const auto& field : all_fields()) {
+    const std::string name(field.name);
+    ASSERT_TRUE(schema.at("definitions").contains(name)) << name;
+    auto definition = schema.at("definitions").at(name);
+    EXPECT_FALSE(definition.at("description").get<std::string>().empty()) << name;
+    definition.erase("description");
+    // As unordered objects: the order of a schema's keys means nothing.
+    EXPECT_EQ(nlohmann::json(definition), nlohmann::json(expected_definition(field))) << name;
+    const Json reference{{"$ref", "#/definitions/" + name}};
+    EXPECT_EQ(properties.at(std::string(to_string(field.group))).at("properties").at(name), reference) << name;
+    EXPECT_EQ(properties.at("sweep").at("properties").at(name).at("items"), reference) << name;
+    ++described;
+  }
+  EXPECT_EQ(properties.at("protocol").at("properties").size() + properties.at("minimiser").at("properties").size(),
+            described);
+  EXPECT_EQ(properties.at("sweep").at("properties").size(), described + 2);
+  Json solids = Json::array(), measures = Json::array(), all = Json::array();
+  for (const auto kind : all_solids) solids.push_back(to_string(kind));
+  EXPECT_EQ(schema.at("definitions").at("solid").at("enum"), solids);
+  for (const auto measure : parse_manifest(test::good_manifest().dump(), "good").measures) {
+    measures.push_back(to_string(measure));
+  }
+  EXPECT_EQ(properties.at("measure").at("default"), measures);
+  for (const auto measure : all_measures) all.push_back(to_string(measure));
+  EXPECT_EQ(properties.at("measure").at("items").at("enum"), all);
+}
+
+TEST(ManifestSchema, AcceptsWhatTheProgramAccepts) {
+  auto swept = test::good_manifest();
+  swept["$schema"] = "../schemas/manifest.schema.json";
+  for (const auto& field : all_fields()) swept["sweep"][std::string(field.name)] = Json{field_value(field, {})};
+  auto sequential = test::good_manifest();
+  sequential["replicates"] = {{"min", 4}, {"max", 40}, {"quantity", "phi_j"}, {"half_width", 0.003}};
+  sequential["keep_path"] = true;
+  for (const auto& manifest : {test::good_manifest(), test::tiny_manifest(), swept, sequential}) {
+    EXPECT_EQ(violations("manifest", manifest), "") << manifest;
+    const auto canonical = to_json(parse_manifest(manifest.dump(), "manifest"));
+    EXPECT_EQ(violations("manifest", canonical), "") << canonical;
+  }
+}
+
+TEST(ManifestSchema, AcceptsEveryExample) {
+  const std::filesystem::path examples = std::string(ISOJAM_SOURCE_DIR) + "/examples";
+  if (!std::filesystem::exists(examples)) GTEST_SKIP() << "no examples in this tree";
+  int seen = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(examples)) {
+    // Results that an example shows are no manifests.
+    if (entry.path().extension() != ".json" || entry.path().parent_path().filename() == "data") continue;
+    ++seen;
+    const auto text = read_text(entry.path().string());
+    EXPECT_NO_THROW(parse_manifest(text, entry.path().string()));
+    EXPECT_EQ(violations("manifest", parse_json(text, entry.path().string())), "") << entry.path();
+  }
+  EXPECT_GT(seen, 0);
+}
+
+TEST(ManifestSchema, RefusesWhatItCanExpress) {
+  int refused = 0;
+  for (const auto& bad : test::bad_manifests()) {
+    if (!bad.schema_can_tell) continue;
+    EXPECT_NE(violations("manifest", parse_json(bad.text, bad.name)), "") << bad.name << ": " << bad.text;
+    ++refused;
+  }
+  EXPECT_GT(refused, 40);
+}
+
+std::vector<Json> made_up_records() {
+  auto manifest = test::good_manifest();
+  manifest["sweep"]["target_energy"] = {1e-6, 3.2e-5};
+  std::vector<Json> records;
+  for (const auto& spec : test::make_plan(parse_manifest(manifest.dump(), "good"))) {
+    auto outcome = test::made_up_outcome(spec);
+    auto contacts = test::made_up_contacts(9);
+    if (records.empty()) contacts.Q6 = 0.5;
+    if (records.size() == 1) contacts.face_face.verdict = FitVerdict::collapsed;
+    test::set_nearest_contacts(outcome, contacts);
+    if (records.size() == 2) {
+      outcome.jam.status = JamStatus::step_limit;
+      outcome.jam.phi_j.reset();
+      outcome.jam.path.front().summary.residual = std::numeric_limits<double>::infinity();
+      outcome.failure = failure_of(outcome.jam);
+    }
+    if (records.size() == 3) outcome.measured.clear();
+    records.push_back(test::record_on_disk(outcome));
+  }
+  return records;
+}
+
+TEST(RecordSchema, StatesThatTheEnergyLetPassAreFlagged) {
+  auto outcome = test::made_up_outcome(Plan(parse_manifest(test::good_manifest().dump(), "manifest")).at(0, 0));
+  EXPECT_TRUE(flags_of(outcome).empty());
+  outcome.jam.path[static_cast<std::size_t>(outcome.jam.state_steps[1])].summary.reason = StopReason::energy_change;
+  outcome.jam.status = JamStatus::goal_not_reached;
+  EXPECT_EQ(flags_of(outcome), (std::vector<std::string>{"goal_not_reached", "not_balanced"}));
+  EXPECT_EQ(violations("replicate", parse_json(sealed(make_record(outcome)), "record")), "");
+}
+
+TEST(RecordSchema, AcceptsRecords) {
+  const auto records = made_up_records();
+  EXPECT_EQ(records.at(1).at("flags"), Json{"classes_undecided"});
+  EXPECT_TRUE(records.at(1).at("nearest").at("Z_ff").is_null());
+  EXPECT_EQ(records.at(0).at("flags"), Json{"crystalline"});
+  EXPECT_EQ(records.at(2).at("status"), "failed");
+  EXPECT_EQ(records.at(2).at("path").at(0).at("residual_reason"), "infinite");
+  for (const auto& record : records) EXPECT_EQ(violations("replicate", record), "") << record.dump(1);
+}
+
+TEST(RecordSchema, RefusesDamagedRecords) {
+  const auto record = made_up_records().front();
+  for (const auto& item : record.items()) {
+    auto damaged = record;
+    damaged.erase(item.key());
+    EXPECT_NE(violations("replicate", damaged), "") << "without " << item.key();
+  }
+  for (const std::string pointer :
+       {"/status", "/phi_j/phi_j", "/states/0/phi", "/path/0/stage", "/timing/wall_seconds"}) {
+    auto damaged = record;
+    damaged[Json::json_pointer(pointer)] = "x";
+    EXPECT_NE(violations("replicate", damaged), "") << pointer;
+  }
+  auto both = record;
+  both["failure"] = {{"where", "jam"}, {"why", "because"}};
+  EXPECT_NE(violations("replicate", both), "");
+}
+
+TEST(TableSchema, NamesEveryColumn) {
+  const auto schema = test::schema("tables");
+  const auto& row = schema.at("properties").at("rows").at("items");
+  const auto& series = row.at("properties").at("series").at("items").at("properties");
+  for (const auto& column : all_columns) {
+    const std::string name(column.name);
+    EXPECT_TRUE(row.at("properties").contains(name)) << name;
+    EXPECT_TRUE(row.at("properties").at("unflagged").at("properties").contains(name)) << name;
+    EXPECT_EQ(series.contains(name), column.of == Column::Of::state) << name;
+    EXPECT_EQ(series.at("unflagged").at("properties").contains(name), column.of == Column::Of::state) << name;
+  }
+}
+
+TEST(TableSchema, AcceptsTables) {
+  std::vector<RecordSummary> summaries;
+  for (const auto& record : made_up_records()) summaries.push_back(summarise_record(record, "made up"));
+  for (std::size_t n = 1; n <= summaries.size(); ++n) {
+    const auto table = to_json(aggregate(std::span(summaries).first(n)));
+    EXPECT_EQ(violations("tables", table), "") << table.dump(1);
+    auto damaged = table;
+    damaged["rows"][0].erase("failed");
+    EXPECT_NE(violations("tables", damaged), "");
+  }
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,136 @@
+// Facts proved here:
+// - the text table is aligned, carries two significant digits of each half width, and says where fewer replicates
+//   have a value; without an interval it shows none;
+// - groups of columns beyond the first have tables of their own where they were measured, small numbers with a common
+//   power of ten;
+// - CSV and LaTeX have as many cells in every row as in their head, and CSV's numbers are those of tables.json.
+
+#include "tasks/tables/tables.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace isojam {
+namespace {
+
+Row row(SolidKind solid, int particles, const std::vector<double>& values) {
+  Row row;
+  row.solid = solid;
+  row.particles = particles;
+  row.parameters = Json{{"target_energy", 1e-5}};
+  row.replicates = static_cast<int>(values.size());
+  for (std::size_t i = 0; i < all_columns.size(); ++i) {
+    if (all_columns[i].group == main_group) row.estimates[i] = estimate(values, i);
+  }
+  row.residual = 1.25e-7;
+  return row;
+}
+
+Table table() {
+  Table table;
+  table.rows.push_back(row(SolidKind::octahedron, 64, {0.6812, 0.6844, 0.6789, 0.6803}));
+  table.rows.push_back(row(SolidKind::dodecahedron, 1000, {11.5}));
+  table.rows.push_back(row(SolidKind::cube, 8, {}));
+  table.rows[0].estimates[2] = estimate({9.0, 10.5}, 1);
+  table.rows[2].replicates = table.rows[2].failed = 3;
+  table.rows[2].residual.reset();
+  return table;
+}
+
+std::vector<std::string> split(const std::string& text, const std::string& separator) {
+  std::vector<std::string> parts;
+  std::size_t at = 0;
+  for (auto next = text.find(separator); next != std::string::npos; next = text.find(separator, at)) {
+    parts.push_back(text.substr(at, next - at));
+    at = next + separator.size();
+  }
+  parts.push_back(text.substr(at));
+  return parts;
+}
+
+std::size_t characters(const std::string& text) {
+  std::size_t n = 0;
+  for (const char c : text) n += (c & 0xC0) != 0x80;
+  return n;
+}
+
+TEST(Tables, TextIsAlignedAndRounded) {
+  const auto lines = split(to_text(table()), "\n");
+  ASSERT_EQ(lines.size(), 5U);
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(characters(lines[i]), characters(lines[0])) << lines[i];
+  EXPECT_EQ(lines[0].rfind("solid", 0), 0U);
+  // Mean .6812, sd .002332, t 3.182, n 4: half width .00371.
+  EXPECT_NE(lines[1].find(" 0.6812 ± 0.0037 "), std::string::npos) << lines[1];
+  EXPECT_NE(lines[1].find(" 9.8 ± 9.5 (2) "), std::string::npos) << lines[1];
+  EXPECT_NE(lines[1].find(" 1.2e-07"), std::string::npos) << lines[1];
+  EXPECT_NE(lines[2].find(" 11.5000 "), std::string::npos) << lines[2];
+  EXPECT_EQ(lines[2].find("±"), std::string::npos) << lines[2];
+  EXPECT_NE(lines[3].find(" 3 "), std::string::npos) << lines[3];
+}
+
+TEST(Tables, CsvHasTheNumbersOfTheJson) {
+  const auto lines = split(to_csv(table()), "\n");
+  const auto head = split(lines[0], ",");
+  const auto json = to_json(table());
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto cells = split(lines[r + 1], ",");
+    ASSERT_EQ(cells.size(), head.size()) << lines[r + 1];
+    for (std::size_t i = 0; i < head.size(); ++i) {
+      const auto end = head[i].rfind("_mean");
+      if (end == std::string::npos) continue;
+      if (!json.at("rows").at(r).contains(head[i].substr(0, end))) {
+        EXPECT_EQ(cells[i], "") << head[i] << " was not measured";
+        continue;
+      }
+      const auto& mean = json.at("rows").at(r).at(head[i].substr(0, end)).at("mean");
+      if (mean.is_null()) {
+        EXPECT_EQ(cells[i], "");
+      } else {
+        EXPECT_EQ(std::strtod(cells[i].c_str(), nullptr), mean.get<double>()) << head[i];
+      }
+    }
+  }
+}
+
+TEST(Tables, LatexRowsHaveTheSameNumberOfCells) {
+  const auto text = to_latex(table());
+  std::size_t rows = 0, cells = 0;
+  for (const auto& line : split(text, "\n")) {
+    if (line.find(" & ") == std::string::npos) continue;
+    if (rows++ == 0) cells = split(line, " & ").size();
+    EXPECT_EQ(split(line, " & ").size(), cells) << line;
+  }
+  EXPECT_EQ(rows, 4U);
+  EXPECT_NE(text.find("target\\_energy"), std::string::npos);
+  EXPECT_NE(text.find("{l" + std::string(cells - 1, 'r') + "}"), std::string::npos) << text;
+}
+
+TEST(Tables, OtherGroupsFollowWhereTheyWereMeasured) {
+  auto measured = table();
+  const auto q6 = static_cast<std::size_t>(
+      std::find_if(all_columns.begin(), all_columns.end(), [](const Column& c) { return c.name == "Q6"; }) -
+      all_columns.begin());
+  EXPECT_EQ(to_text(measured).find("Q6"), std::string::npos);
+  measured.rows[1].estimates[q6] = estimate({2.5e-7, 3.5e-7}, 1);
+  const auto text = to_text(measured);
+  EXPECT_NE(text.find("\norder\n"), std::string::npos) << text;
+  // Mean 3e-7, sd 7.07e-8, t 12.71, n 2: half width 6.35e-7.
+  EXPECT_NE(text.find("(3.00 ± 6.35)e-07"), std::string::npos) << text;
+  EXPECT_EQ(text.find("clusters"), std::string::npos) << text;
+  EXPECT_TRUE(to_json(measured).at("rows").at(1).contains("Q6"));
+  EXPECT_FALSE(to_json(measured).at("rows").at(0).contains("Q6"));
+}
+
+TEST(Tables, JsonSaysWhyThereIsNoInterval) {
+  const auto rows = to_json(table()).at("rows");
+  EXPECT_FALSE(rows.at(0).at("phi_j").contains("reason"));
+  EXPECT_TRUE(rows.at(1).at("phi_j").at("ci95").is_null());
+  EXPECT_EQ(rows.at(1).at("phi_j").at("reason"), "one replicate has no spread");
+  EXPECT_TRUE(rows.at(2).at("phi_j").at("mean").is_null());
+  EXPECT_EQ(rows.at(2).at("phi_j").at("reason"), "no replicate has this value");
+}
+
+}  // namespace
+}  // namespace isojam
