@@ -16,10 +16,10 @@ constexpr auto exit_codes =
     "the command line that cannot be read or written; 65 bad manifest or record, or a directory of another manifest; "
     "75 interrupted, the same command continues.";
 
-void add_options(CLI::App& app, ConsoleOptions& options) {
-  app.add_flag("--quiet", options.quiet, "Errors only on stderr");
-  app.add_flag("-v,--verbose", options.verbose, "A line for each replicate");
-  add_choice(app, "--color", options.colour, "Colour on stderr");
+void add_console_options(Options options, ConsoleOptions& console) {
+  options.flag("--quiet", console.quiet, "Errors only on stderr");
+  options.flag("-v,--verbose", console.verbose, "A line for each replicate");
+  options.choice("--color", console.colour, "Colour on stderr");
 }
 
 ExitCode parse_and_run(int argc, char** argv) {
@@ -29,7 +29,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   app.fallthrough();
   app.set_version_flag("--version", "isojam " + std::string(version()) + " (" + std::string(git_hash()) + ")");
   app.footer(exit_codes);
-  add_options(app, session.console);
+  add_console_options(Options(app), session.console);
   for (const AddCommand add : all_commands) add(app, session);
   try {
     app.parse(argc, argv);

@@ -1,12 +1,11 @@
 #include "engine/rigidity/rigidity.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
 #include "engine/random/stream.hpp"
 #include "engine/rigidity/soft_rows.hpp"
+#include "engine/solve/factor/dense.hpp"
 
 namespace isojam {
 
@@ -31,26 +30,21 @@ struct SoftSpace {
   VectorXd sigma;         ///< k, descending
 };
 
-MatrixXd orthonormal(const MatrixXd& columns) {
-  return Eigen::HouseholderQR<MatrixXd>(columns).householderQ() * MatrixXd::Identity(columns.rows(), columns.cols());
-}
-
 /// Rayleigh and Ritz: not of rows·rowsᵀ, whose small eigenvalues would drown, but by the singular values of rowsᵀ·Q.
 SoftSpace diagonalised(const RigidityMatrix& matrix, const MatrixXd& q) {
   const MatrixXd image = matrix.rows.transpose() * q;
   const Index k = q.cols();
   SoftSpace space;
   if (image.rows() < k) {
-    const Eigen::BDCSVD<MatrixXd> svd(image, Eigen::ComputeFullV);
+    const RightSingular svd = right_singular(image);
     space.sigma = VectorXd::Zero(k);
-    space.sigma.head(svd.singularValues().size()) = svd.singularValues();
-    space.combinations = q * svd.matrixV();
+    space.sigma.head(svd.values.size()) = svd.values;
+    space.combinations = q * svd.vectors;
     return space;
   }
-  const MatrixXd r = Eigen::HouseholderQR<MatrixXd>(image).matrixQR().topRows(k).triangularView<Eigen::Upper>();
-  const Eigen::BDCSVD<MatrixXd> svd(r, Eigen::ComputeFullV);
-  space.sigma = svd.singularValues();
-  space.combinations = q * svd.matrixV();
+  const RightSingular svd = right_singular(triangular_factor(image));
+  space.sigma = svd.values;
+  space.combinations = q * svd.vectors;
   return space;
 }
 
@@ -95,7 +89,7 @@ Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& o
 
 VectorXd singular_values(const RigidityMatrix& matrix) {
   if (matrix.rows.rows() == 0) return {};
-  return Eigen::BDCSVD<MatrixXd>(MatrixXd(matrix.rows)).singularValues();
+  return singular_values_of(MatrixXd(matrix.rows));
 }
 
 }  // namespace isojam

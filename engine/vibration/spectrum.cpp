@@ -1,9 +1,5 @@
 #include "engine/vibration/spectrum.hpp"
 
-#include <Spectra/SymEigsShiftSolver.h>
-#include <Spectra/SymEigsSolver.h>
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
@@ -12,8 +8,10 @@
 #include <stdexcept>
 
 #include "engine/random/stream.hpp"
+#include "engine/solve/factor/dense.hpp"
 #include "engine/solve/factor/shift_invert.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/lanczos.hpp"
 #include "engine/vibration/lanczos_operators.hpp"
 
 namespace isojam {
@@ -27,7 +25,7 @@ using Eigen::VectorXd;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Sets residual and relative_error.
-void measure(ModeSet& modes, const BlockMatrix& matrix, double stiffness) {
+void judge(ModeSet& modes, const BlockMatrix& matrix, double stiffness) {
   modes.residual = modes.relative_error = 0;
   for (Index k = 0; k < modes.size(); ++k) {
     const VectorXd u = modes.vectors.col(k);
@@ -39,21 +37,15 @@ void measure(ModeSet& modes, const BlockMatrix& matrix, double stiffness) {
   }
 }
 
-/// Runs an initialised Spectra solver. False, and no modes, if it did not converge.
-template <class Solver>
-bool take_modes(Solver& solver, Spectra::SortRule wanted, double tolerance, int restarts, ModeSet& modes) {
+/// The modes of an operation, ascending. False, and no modes, if Lanczos did not converge.
+bool take_modes(LanczosOperation operation, LanczosRequest request, ModeSet& modes) {
   ++modes.attempts;
-  const VectorXd start = lanczos_start(modes.vectors.rows());
-  try {
-    solver.init(start.data());
-    solver.compute(wanted, restarts, tolerance, Spectra::SortRule::SmallestAlge);
-  } catch (const std::runtime_error&) {
-    return false;  // its small dense eigenproblem did not converge
-  }
-  if (solver.info() != Spectra::CompInfo::Successful) return false;
+  request.start = lanczos_start(operation.rows());
+  LanczosModes found = lanczos(std::move(operation), request);
+  if (found.ended != LanczosEnd::converged) return false;
   // Spectra keeps the order asked for, descending whatever the rule is called.
-  modes.eigenvalues = solver.eigenvalues().reverse();
-  modes.vectors = solver.eigenvectors().rowwise().reverse();
+  modes.eigenvalues = found.eigenvalues.reverse();
+  modes.vectors = found.vectors.rowwise().reverse();
   if (modes.eigenvalues.size() > 1 && modes.eigenvalues[0] > modes.eigenvalues[modes.size() - 1]) {
     modes.eigenvalues.reverseInPlace();
     modes.vectors = modes.vectors.rowwise().reverse().eval();
@@ -97,13 +89,14 @@ class Ends {
     Product product(matrix_);
     Deflated<Product> operation(product);
     for (int attempt = 0; attempt < 2; ++attempt) {
-      ends.highest.vectors.resize(size_, 0);
-      Spectra::SymEigsSolver<Deflated<Product>> solver(operation, wanted, subspace(wanted, all_, attempt));
-      if (!take_modes(solver, Spectra::SortRule::LargestAlge, options_.highest_tolerance, options_.restarts,
-                      ends.highest))
-        continue;
+      const LanczosRequest request{.wanted = LanczosWanted::greatest,
+                                   .modes = wanted,
+                                   .subspace = subspace(wanted, all_, attempt),
+                                   .tolerance = options_.highest_tolerance,
+                                   .restarts = options_.restarts};
+      if (!take_modes(LanczosOperation(operation), request, ends.highest)) continue;
       ends.stiffness = ends.highest.eigenvalues.cwiseAbs().maxCoeff();
-      measure(ends.highest, matrix_, ends.stiffness);
+      judge(ends.highest, matrix_, ends.stiffness);
       ends.highest.ended = attempt == 0 ? ModeEnd::converged : ModeEnd::retried;
       return true;
     }
@@ -115,9 +108,8 @@ class Ends {
     // Close below 0; then, for a Hessian with negative modes, below all of the spectrum.
     for (int attempt = 0; attempt < 2; ++attempt) {
       const double shift = attempt == 0 ? -options_.shift * ends.stiffness : below_all(ends.stiffness);
-      modes.vectors.resize(size_, 0);
       if (!invert(wanted, attempt, shift, modes)) continue;
-      measure(modes, matrix_, ends.stiffness);
+      judge(modes, matrix_, ends.stiffness);
       // ‖Du − λu‖ ≤ ‖D − σ‖ times the residual of the inverse's eigenpair, and rounding.
       const double from_tolerance = options_.lowest_tolerance * (ends.stiffness - shift);
       if (modes.residual * ends.stiffness > rounding_bound(matrix_, ends.stiffness) + from_tolerance) continue;
@@ -131,12 +123,13 @@ class Ends {
     ShiftInvert inverse(matrix_);
     Deflated<ShiftInvert> operation(inverse);
     try {
-      Spectra::SymEigsShiftSolver<Deflated<ShiftInvert>> solver(operation, wanted, subspace(wanted, all_, attempt),
-                                                                shift);
-      if (!take_modes(solver, Spectra::SortRule::LargestMagn, options_.lowest_tolerance, options_.restarts, modes))
-        return false;
+      const LanczosRequest request{.modes = wanted,
+                                   .subspace = subspace(wanted, all_, attempt),
+                                   .shift = shift,
+                                   .tolerance = options_.lowest_tolerance,
+                                   .restarts = options_.restarts};
+      if (!take_modes(LanczosOperation(operation), request, modes)) return false;
     } catch (const std::domain_error&) {
-      ++modes.attempts;
       return false;  // the shift hit an eigenvalue
     }
     return (modes.eigenvalues.array() < shift).count() == inverse.negative_pivots();
@@ -146,12 +139,15 @@ class Ends {
   double below_all(double stiffness) const {
     Product product(matrix_);
     Deflated<Product> operation(product);
-    Spectra::SymEigsSolver<Deflated<Product>> solver(operation, 1, std::min<Index>(all_, 40));
     ModeSet lowest;
-    lowest.vectors.resize(size_, 0);
     const double rough = 1e-2;  // of the lowest mode itself: it is only to be undercut
     const double fallback = -norm_bound(matrix_);
-    if (!take_modes(solver, Spectra::SortRule::SmallestAlge, rough, options_.restarts, lowest)) return fallback;
+    const LanczosRequest request{.wanted = LanczosWanted::least,
+                                 .modes = 1,
+                                 .subspace = std::min<Index>(all_, 40),
+                                 .tolerance = rough,
+                                 .restarts = options_.restarts};
+    if (!take_modes(LanczosOperation(operation), request, lowest)) return fallback;
     const double lambda = lowest.eigenvalues[0];
     return std::min(-100 * options_.shift * stiffness, lambda - 2 * rough * std::abs(lambda));
   }
@@ -176,7 +172,7 @@ class Ends {
     modes.attempts = attempts + 1;
     modes.eigenvalues = all.eigenvalues.segment(first, count);
     modes.vectors = all.vectors.middleCols(first, count);
-    measure(modes, matrix_, stiffness);
+    judge(modes, matrix_, stiffness);
     return modes;
   }
 
@@ -210,14 +206,14 @@ ModeSet dense_modes(const BlockMatrix& matrix) {
   const Index rest = rotated.rows() - 3;
   rotated.applyOnTheLeft(basis.householderQ().adjoint());
   rotated.applyOnTheRight(basis.householderQ());
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rotated.bottomRightCorner(rest, rest));
-  if (solver.info() != Eigen::Success) return modes;
+  const SymmetricEigen found = symmetric_eigen(rotated.bottomRightCorner(rest, rest));
+  if (found.values.size() == 0) return modes;
   modes.ended = ModeEnd::converged;
-  modes.eigenvalues = solver.eigenvalues();
+  modes.eigenvalues = found.values;
   modes.vectors = MatrixXd::Zero(rotated.rows(), rest);
-  modes.vectors.bottomRows(rest) = solver.eigenvectors();
+  modes.vectors.bottomRows(rest) = found.vectors;
   modes.vectors.applyOnTheLeft(basis.householderQ());
-  measure(modes, matrix, modes.eigenvalues.cwiseAbs().maxCoeff());
+  judge(modes, matrix, modes.eigenvalues.cwiseAbs().maxCoeff());
   return modes;
 }
 

@@ -46,13 +46,12 @@ ExitCode aggregate_directories(const Arguments& arguments, Console&) {
 
 void add_aggregate(CLI::App& app, Session& session) {
   Arguments* arguments = nullptr;
-  auto& command = add_command(app, session, "aggregate", "Make a table of the records in results directories",
-                              arguments, aggregate_directories);
-  command.add_option("directories", arguments->directories, "Results directories")->required()->type_name("DIR");
-  command.add_option("-o,--output", arguments->output, "Write the table as JSON to this file as well")
-      ->type_name("FILE");
-  add_choice(command, "--format", arguments->format, "Format on stdout");
-  command.add_flag("--series", arguments->series, "Quantities against the distance above jamming (JSON has both)");
+  auto options = add_command(app, session, "aggregate", "Make a table of the records in results directories",
+                             aggregate_directories, arguments);
+  options.texts("directories", arguments->directories, "Results directories", "DIR");
+  options.text("-o,--output", arguments->output, "Write the table as JSON to this file as well", "FILE");
+  options.choice("--format", arguments->format, "Format on stdout");
+  options.flag("--series", arguments->series, "Quantities against the distance above jamming (JSON has both)");
 }
 
 }  // namespace isojam

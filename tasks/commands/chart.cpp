@@ -60,16 +60,14 @@ ExitCode chart(const Arguments& arguments, Console& console) {
 
 void add_chart(CLI::App& app, Session& session) {
   Arguments* arguments = nullptr;
-  auto& command =
+  auto options =
       add_command(app, session, "chart", "Compare methods on this machine: accuracy against speed, and what fails",
-                  arguments, chart);
-  auto* config =
-      command.add_option("config", arguments->config, "What to compare (default: five minutes of everything)")
-          ->type_name("CONFIG");
-  command.add_flag("--full", arguments->full, "An hour of everything")->excludes(config);
-  command.add_option("-o,--output", arguments->directory, "Directory for data.json, table.txt and chart.html")
-      ->required()
-      ->type_name("DIR");
+                  chart, arguments);
+  options.text("config", arguments->config, "What to compare (default: five minutes of everything)", "CONFIG");
+  options.flag("--full", arguments->full, "An hour of everything");
+  options.exclusive("--full", "config");
+  options.text("-o,--output", arguments->directory, "Directory for data.json, table.txt and chart.html", "DIR",
+               Options::Need::required);
 }
 
 }  // namespace isojam

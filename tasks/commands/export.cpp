@@ -143,17 +143,15 @@ ExitCode export_packings(const Arguments& arguments, Console& console) {
 
 void add_export(CLI::App& app, Session& session) {
   Arguments* arguments = nullptr;
-  auto& command = add_command(app, session, "export", "Write packings for HOOMD-blue and OVITO, ParaView, or as text",
-                              arguments, export_packings);
-  add_results_directory(command, arguments->directory);
-  command.add_option("replicate", arguments->replicate, "Name of a replicate, as its record's file has it, or all")
-      ->required()
-      ->type_name("REPLICATE");
-  add_choice(command, "--format", arguments->format, "Format of the files")->required();
-  command.add_option("-o,--output", arguments->output, "File to write; of all replicates, the directory for them")
-      ->required()
-      ->type_name("FILE");
-  command.add_flag("--path", arguments->path, "Every state of the expansion (of manifests with keep_path)");
+  auto options = add_command(app, session, "export", "Write packings for HOOMD-blue and OVITO, ParaView, or as text",
+                             export_packings, arguments);
+  options.results_directory(arguments->directory);
+  options.text("replicate", arguments->replicate, "Name of a replicate, as its record's file has it, or all",
+               "REPLICATE", Options::Need::required);
+  options.choice("--format", arguments->format, "Format of the files", Options::Need::required);
+  options.text("-o,--output", arguments->output, "File to write; of all replicates, the directory for them", "FILE",
+               Options::Need::required);
+  options.flag("--path", arguments->path, "Every state of the expansion (of manifests with keep_path)");
 }
 
 }  // namespace isojam

@@ -38,10 +38,10 @@ ExitCode report(const Arguments& arguments, Console&) {
 
 void add_report(CLI::App& app, Session& session) {
   Arguments* arguments = nullptr;
-  auto& command =
-      add_command(app, session, "report", "Write a results directory as one interactive HTML file", arguments, report);
-  add_results_directory(command, arguments->directory);
-  command.add_option("-o,--output", arguments->output, "File to write (default: DIR/report.html)")->type_name("FILE");
+  auto options =
+      add_command(app, session, "report", "Write a results directory as one interactive HTML file", report, arguments);
+  options.results_directory(arguments->directory);
+  options.text("-o,--output", arguments->output, "File to write (default: DIR/report.html)", "FILE");
 }
 
 }  // namespace isojam

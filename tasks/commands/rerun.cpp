@@ -74,13 +74,12 @@ ExitCode rerun(const Arguments& arguments, Console& console) {
 
 void add_rerun(CLI::App& app, Session& session) {
   Arguments* arguments = nullptr;
-  auto& command =
-      add_command(app, session, "rerun", "Redo one replicate, with a line for every strain step", arguments, rerun);
-  add_results_directory(command, arguments->directory);
-  command.add_option("replicate", arguments->replicate, "Its name, as its files are called")
-      ->required()
-      ->type_name("REPLICATE");
-  add_threads(command, arguments->threads);
+  auto options =
+      add_command(app, session, "rerun", "Redo one replicate, with a line for every strain step", rerun, arguments);
+  options.results_directory(arguments->directory);
+  options.text("replicate", arguments->replicate, "Its name, as its files are called", "REPLICATE",
+               Options::Need::required);
+  options.threads(arguments->threads);
 }
 
 }  // namespace isojam

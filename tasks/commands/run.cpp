@@ -139,27 +139,23 @@ ExitCode run(const RunArguments& arguments, Console& console) {
 
 void add_run(CLI::App& app, Session& session) {
   RunArguments* arguments = nullptr;
-  auto& command = add_command(app, session, "run",
-                              "Run what a manifest plans and the results directory does not hold yet", arguments, run);
-  command.add_option("manifest", arguments->manifest, "Manifest of the sweep")->required()->type_name("MANIFEST");
-  command.add_option("-o,--output", arguments->directory, "Results directory (default: results/<name>)")
-      ->type_name("DIR");
-  add_threads(command, arguments->threads);
-  const auto* shard = command
-                          .add_option_function<std::string>(
-                              "--shard", [=](const std::string& text) { arguments->shard = *parse_shard(text); },
-                              "Run part I of N of the sweep; within a Slurm array, by default, the part of the task")
-                          ->check([](const std::string& text) {
-                            return parse_shard(text) ? "" : "not I/N with whole numbers 1 <= I <= N <= 100000: " + text;
-                          })
-                          ->type_name("I/N");
-  command.parse_complete_callback([=] {
-    if (shard->count() == 0) arguments->shard = shard_of_environment();
-  });
-  command.add_option("--memory", arguments->memory_gib, "Memory for replicates in flight (default: what is available)")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("GIB");
-  command.add_flag("--dry-run", arguments->dry_run, "Print the plan and what it will cost, and do nothing");
+  auto options = add_command(app, session, "run",
+                             "Run what a manifest plans and the results directory does not hold yet", run, arguments);
+  options.text("manifest", arguments->manifest, "Manifest of the sweep", "MANIFEST", Options::Need::required);
+  options.text("-o,--output", arguments->directory, "Results directory (default: results/<name>)", "DIR");
+  options.threads(arguments->threads);
+  const auto read_shard = [arguments](const std::string& text) -> std::optional<std::string> {
+    const auto shard = parse_shard(text);
+    if (!shard) return "not I/N with whole numbers 1 <= I <= N <= 100000: " + text;
+    arguments->shard = *shard;
+    return std::nullopt;
+  };
+  options.parsed(
+      "--shard", read_shard, [arguments] { arguments->shard = shard_of_environment(); },
+      "Run part I of N of the sweep; within a Slurm array, by default, the part of the task", "I/N");
+  options.positive("--memory", arguments->memory_gib, "Memory for replicates in flight (default: what is available)",
+                   "GIB");
+  options.flag("--dry-run", arguments->dry_run, "Print the plan and what it will cost, and do nothing");
 }
 
 }  // namespace isojam

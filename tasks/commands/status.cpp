@@ -75,9 +75,9 @@ ExitCode status(const Arguments& arguments, Console&) {
 
 void add_status(CLI::App& app, Session& session) {
   Arguments* arguments = nullptr;
-  auto& command = add_command(app, session, "status", "Say what a results directory holds and what is under way in it",
-                              arguments, status);
-  add_results_directory(command, arguments->directory);
+  auto options = add_command(app, session, "status", "Say what a results directory holds and what is under way in it",
+                             status, arguments);
+  options.results_directory(arguments->directory);
 }
 
 }  // namespace isojam

@@ -25,9 +25,9 @@ ExitCode validate(const Arguments& arguments, Console&) {
 
 void add_validate(CLI::App& app, Session& session) {
   Arguments* arguments = nullptr;
-  auto& command = add_command(app, session, "validate", "Check a manifest and say how many replicates it plans",
-                              arguments, validate);
-  command.add_option("manifest", arguments->manifest, "Manifest of the sweep")->required()->type_name("MANIFEST");
+  auto options = add_command(app, session, "validate", "Check a manifest and say how many replicates it plans",
+                             validate, arguments);
+  options.text("manifest", arguments->manifest, "Manifest of the sweep", "MANIFEST", Options::Need::required);
 }
 
 }  // namespace isojam

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+template class nlohmann::basic_json<nlohmann::ordered_map>;
+
 namespace isojam {
 namespace {
 

@@ -5,6 +5,9 @@
 #include <string>
 #include <string_view>
 
+// Compiled once, in json.cpp.
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
+
 namespace isojam {
 
 /// Keys keep the order in which they were written, so that equal values have equal texts.

@@ -13,9 +13,10 @@ struct Cost {
   double disk_bytes = 0;    ///< record, packing, and the path where it is kept
 };
 
-/// From replicates measured with the default protocol at N = 100 and 400 (two virtual cores of an AMD EPYC): a power
-/// of N for each solid, and the share of consolidation, which grows as its steps shrink. Right to a factor of two or
-/// so; another machine or protocol shifts all of them alike, which what is recorded already can tell.
+/// The cost of a replicate, from replicates measured with the default protocol at N = 100 and 400 (two virtual cores of
+/// an AMD EPYC): a power of N for each solid, and the share of consolidation, which grows as its steps shrink. Right to
+/// a factor of two or so; another machine or protocol shifts all of them alike, which what is recorded already can
+/// tell.
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path);
 
 /// Bytes that this process may still take without driving the machine, or the control group that it is in, out of

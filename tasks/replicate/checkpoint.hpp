@@ -13,8 +13,8 @@ inline constexpr std::string_view checkpoint_schema = "isojam.checkpoint.v2";
 /// number is not finite that should be; such a run is about to end.
 std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint);
 
-/// The same checkpoint, bit for bit. Throws InputError if it is none, or one of another replicate, manifest or build:
-/// another build may round differently, and the bits would depend on when the replicate was interrupted.
+/// Reads back a checkpoint, bit for bit. Throws InputError if it is none, or one of another replicate, manifest or
+/// build: another build may round differently, and the bits would depend on when the replicate was interrupted.
 Checkpoint read_checkpoint(const JsonPlace& root, const ReplicateSpec& spec);
 
 }  // namespace isojam

@@ -10,7 +10,7 @@
 
 namespace isojam {
 
-/// For each of all_quantities(): nullopt where it was not measured, or not decided.
+/// Values of all_quantities(), in their order: nullopt where it was not measured, or not decided.
 using Values = std::vector<std::optional<double>>;
 inline Values no_values() { return Values(all_quantities().size()); }
 

@@ -22,8 +22,8 @@ struct ChosenView {
   bool with_modes = false;    ///< beyond the budget views go without
 };
 
-/// Of each sweep point the first replicate without failure, an unflagged one if there is one; then further ones, sweep
-/// points in turn, within the budget. In order of replicates.
+/// Chooses of each sweep point the first replicate without failure, an unflagged one if there is one; then further
+/// ones, sweep points in turn, within the budget. In order of replicates.
 std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& options = {});
 
 /// A packing for the three-dimensional view: positions (in the cell), orientations (w, x, y, z), per particle its

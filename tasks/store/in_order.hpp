@@ -1,6 +1,6 @@
 #pragma once
 
-#include <atomic>
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -8,89 +8,107 @@
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace isojam {
 
-/// Makes `count` values on several threads and gives them to `use` on the calling one, in the order of their indices;
-/// few are in memory at once. What `make` throws for the first index that fails is thrown from here, after all before
-/// it were used: which of several failures is reported does not depend on who was first. What `use` throws ends it too.
-/// A machine that has no further thread to give makes it slower, not impossible.
-template <class Make, class Use>
-void in_order(std::size_t count, const Make& make, const Use& use) {
-  using Value = decltype(make(std::size_t{}));
+/// Values made by several threads and handed out in the order of their indices, from a ring of slots: nobody makes one
+/// that has no slot yet, so that few are in memory at once.
+template <class Make>
+class InOrder {
+ public:
+  using Value = decltype(std::declval<const Make&>()(std::size_t{}));
+
+  InOrder(std::size_t count, const Make& make)
+      : make_(make), count_(count), slots_(4 * std::max(1U, std::thread::hardware_concurrency())) {
+    // The calling thread makes values too: a machine that has no further thread to give makes it slower, not
+    // impossible.
+    try {
+      for (std::size_t k = 1; k < slots_.size() / 4; ++k) threads_.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+      return;
+    }
+  }
+  ~InOrder() {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    changed_.notify_all();
+  }
+  InOrder(const InOrder&) = delete;
+  InOrder& operator=(const InOrder&) = delete;
+
+  /// The next value; what `make` threw for it is thrown from here. nullopt after the last.
+  std::optional<Value> next() {
+    std::unique_lock lock(mutex_);
+    if (used_ == count_) return std::nullopt;
+    Slot& slot = slots_[used_ % slots_.size()];
+    while (!slot.made) {
+      if (room()) {
+        make_next(lock);
+      } else {
+        changed_.wait(lock);
+      }
+    }
+    Slot taken = std::exchange(slot, {});
+    ++used_;
+    changed_.notify_all();
+    if (taken.error) std::rethrow_exception(taken.error);
+    return std::move(taken.value);
+  }
+
+ private:
   struct Slot {
     std::optional<Value> value;
     std::exception_ptr error;
     bool made = false;
   };
-  const std::size_t workers = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<Slot> slots(4 * workers);
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::size_t next = 0, used = 0;  // the first index that nobody makes, and that was not used
-  bool stopped = false;
 
-  const auto make_next = [&](std::unique_lock<std::mutex>& lock) {
-    const std::size_t index = next++;
+  bool room() const { return begun_ < count_ && begun_ < used_ + slots_.size(); }
+
+  void make_next(std::unique_lock<std::mutex>& lock) {
+    const std::size_t index = begun_++;
     lock.unlock();
     Slot slot;
     try {
-      slot.value.emplace(make(index));
+      slot.value.emplace(make_(index));
     } catch (...) {
       slot.error = std::current_exception();
     }
     slot.made = true;
     lock.lock();
-    slots[index % slots.size()] = std::move(slot);
-    changed.notify_all();
-  };
-  const auto room = [&] { return next < count && next < used + slots.size(); };
-  const auto work = [&] {
-    std::unique_lock lock(mutex);
-    while (true) {
-      changed.wait(lock, [&] { return stopped || next >= count || room(); });
-      if (stopped || next >= count) return;
-      make_next(lock);
-    }
-  };
+    slots_[index % slots_.size()] = std::move(slot);
+    changed_.notify_all();
+  }
 
-  std::vector<std::jthread> threads;
-  const struct Stop {
-    std::mutex& mutex;
-    std::condition_variable& changed;
-    bool& stopped;
-    ~Stop() {
-      const std::lock_guard lock(mutex);
-      stopped = true;
-      changed.notify_all();
-    }
-  } stop{mutex, changed, stopped};
-  for (std::size_t k = 1; k < workers; ++k) {
-    try {
-      threads.emplace_back(work);
-    } catch (const std::system_error&) {
-      break;
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (!stopped_ && begun_ < count_) {
+      if (room()) {
+        make_next(lock);
+      } else {
+        changed_.wait(lock);
+      }
     }
   }
 
-  std::unique_lock lock(mutex);
-  while (used < count) {
-    Slot& slot = slots[used % slots.size()];
-    if (!slot.made && room()) {
-      make_next(lock);
-      continue;
-    }
-    changed.wait(lock, [&] { return slot.made || room(); });
-    if (!slot.made) continue;
-    Slot taken = std::exchange(slot, {});
-    lock.unlock();
-    if (taken.error) std::rethrow_exception(taken.error);
-    use(*taken.value);
-    lock.lock();
-    ++used;
-    changed.notify_all();
-  }
+  const Make& make_;
+  std::size_t count_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Slot> slots_;
+  std::size_t begun_ = 0, used_ = 0;
+  bool stopped_ = false;
+  std::vector<std::jthread> threads_;  // last: they end before what they use does
+};
+
+/// Makes `count` values on all threads and gives them to `use` on the calling one, in the order of their indices; few
+/// are in memory at once. What `make` throws for the first index that fails is thrown from here, after all before it
+/// were used: which of several failures is reported does not depend on who was first. What `use` throws ends it too.
+template <class Make, class Use>
+void in_order(std::size_t count, const Make& make, const Use& use) {
+  InOrder<Make> values(count, make);
+  while (const auto value = values.next()) use(*value);
 }
 
 }  // namespace isojam

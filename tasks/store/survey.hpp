@@ -32,7 +32,7 @@ struct Survey {
   int calibration_records = 0;
 };
 
-/// Reads only; an empty survey if there is no such directory.
+/// Surveys a directory, reading only; an empty survey if there is no such directory.
 Survey survey_of(const std::filesystem::path& directory, const Plan& plan);
 
 }  // namespace isojam

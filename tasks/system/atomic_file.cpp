@@ -10,7 +10,6 @@
 #include <random>
 #include <system_error>
 
-#include "tasks/json/input_error.hpp"
 #include "tasks/system/file.hpp"
 
 namespace isojam {

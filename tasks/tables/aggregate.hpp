@@ -17,7 +17,7 @@
 
 namespace isojam {
 
-/// For each of all_quantities().
+/// Estimates of all_quantities(), in their order.
 using Estimates = std::vector<Estimate>;
 inline Estimates no_estimates() { return Estimates(all_quantities().size()); }
 
@@ -94,7 +94,7 @@ class Aggregation {
   std::map<PointKey, Point> points_;
 };
 
-/// All at once.
+/// The table of several records at once.
 Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule = std::nullopt);
 
 }  // namespace isojam

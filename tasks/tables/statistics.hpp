@@ -25,7 +25,7 @@ inline constexpr int bootstrap_resamples = 2000;
 /// Beyond this many values the bootstrap would cost minutes to say what Student's interval says.
 inline constexpr int most_bootstrapped = 1000;
 
-/// The same bits for any order of `values`; the bootstrap draws from a stream of `key` and n alone.
+/// Estimates a mean: the same bits for any order of `values`; the bootstrap draws from a stream of `key` and n alone.
 Estimate estimate(std::vector<double> values, std::uint64_t key);
 
 /// t_{0.975, n−1} · sd / √n; nullopt for fewer than two values. The same bits for any order of `values`.

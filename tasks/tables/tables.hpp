@@ -16,8 +16,8 @@ Json to_json(const Row& row);
 /// Which states of the replicates: those nearest jamming, or those at each of series_distances.
 enum class View : std::uint8_t { nearest, series };
 
-/// For people: one table for each group of columns that has values, aligned; mean ± half width of the 95 % interval,
-/// (n) where fewer replicates have the value than did not fail.
+/// The tables as text for people: one for each group of columns that has values, aligned; mean ± half width of the 95 %
+/// interval, (n) where fewer replicates have the value than did not fail.
 std::string to_text(const Table& table, View view = View::nearest);
 
 /// One line per row or point of a series; for each quantity mean, ci95 low and high, sd, n, bootstrap95 low and high.

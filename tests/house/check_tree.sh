@@ -4,9 +4,10 @@
 #   1. engine/ includes only engine/, the standard library, Eigen, Spectra and Boost.Math: nothing of tasks/, no JSON,
 #      no formatting or command-line library, no file, clock, stream or environment; nor does it name these by
 #      way of a header that happens to bring them.
-#   2. inside engine/, includes never point upwards: random < geometry < packing < solve < analysis <
-#      vibration < rigidity.
-#   3. oneTBB (also by way of <execution>) enters engine/packing/pair_loop.cpp and tasks/graph.cpp, nothing else.
+#   2. inside engine/ and inside tasks/, includes never point upwards in the order of rooms below, and every source but
+#      tasks/main.cpp stands in one of them.
+#   3. oneTBB (also by way of <execution>) enters engine/packing/pair_loop.cpp and tasks/run/graph.cpp, nothing else;
+#      CLI11 enters tasks/commands/options.cpp and tasks/main.cpp.
 #   4. no source of engine/, tasks/ or tests/ is longer than 400 lines.
 #   5. nothing stands at the top that is not agreed on, build directories and results apart, which git ignores.
 # Prints one line per breach, `file:line: why: text`, and exits 1 if there is one.
@@ -15,8 +16,10 @@ export LC_ALL=C
 cd "${1:?usage: check_tree.sh ROOT}"
 
 readonly max_lines=400
-readonly ranks='random geometry packing solve analysis vibration rigidity'
-readonly tbb_sources=' engine/packing/pair_loop.cpp tasks/graph.cpp '
+readonly engine_rooms='names random geometry packing solve analysis vibration rigidity'
+readonly tasks_rooms='system json measure manifest replicate store tables run page report export chart commands'
+readonly tbb_sources=' engine/packing/pair_loop.cpp tasks/run/graph.cpp '
+readonly cli_sources=' tasks/commands/options.cpp tasks/main.cpp '
 readonly banned_headers=' filesystem chrono ctime fstream iostream istream ostream sstream syncstream cstdio iomanip execution '
 readonly system_headers=' quadmath.h immintrin.h '
 readonly banned_names='std::(chrono|filesystem|cout|cerr|clog|random_device)\b|\b(std::)?(getenv|fopen|printf|clock_gettime)\('
@@ -27,21 +30,27 @@ breach() {  # file line why text
   breaches=$((breaches + 1))
 }
 
-rank() {  # directory of engine/ -> its place in the order, or nothing
-  local place=0 name
-  for name in $ranks; do
-    [[ $name == "$1" ]] && { echo "$place"; return; }
+rank() {  # half/room/... -> the room's place in the order of its half, or nothing
+  local place=0 name half=${1%%/*} room rooms
+  room=$(cut -d/ -f2 <<<"$1")
+  rooms=${half}_rooms
+  for name in ${!rooms}; do
+    [[ $name == "$room" ]] && { echo "$place"; return; }
     place=$((place + 1))
   done
 }
 
-check_engine_include() {  # file line header
+check_order() {  # file line header; both of one half
+  [[ $1 != tasks/main.cpp ]] || return 0
   local own theirs
+  own=$(rank "$1") theirs=$(rank "${3:1:-1}")
+  [[ -n $own && -n $theirs ]] || breach "$1" "$2" "room of ${1%%/*}/ without a place in the order" "$3"
+  [[ -z $own || -z $theirs || $theirs -le $own ]] || breach "$1" "$2" 'include points upwards' "$3"
+}
+
+check_engine_include() {  # file line header
   case $3 in
-    \"engine/*)
-      own=$(rank "$(cut -d/ -f2 <<<"$1")") theirs=$(rank "$(cut -d/ -f2 <<<"$3")")
-      [[ -n $own && -n $theirs ]] || breach "$1" "$2" 'room of engine/ without a place in the order' "$3"
-      [[ -z $own || -z $theirs || $theirs -le $own ]] || breach "$1" "$2" 'include points upwards' "$3" ;;
+    \"engine/*) check_order "$@" ;;
     \"*) breach "$1" "$2" 'engine/ includes what is not engine/' "$3" ;;
     '<Eigen/'* | '<Spectra/'* | '<boost/math/'*) ;;
     '<tbb/'* | '<oneapi/'*) ;;  # rule 3
@@ -52,9 +61,12 @@ check_engine_include() {  # file line header
 
 check_include() {  # file line header
   [[ $1 != engine/* ]] || check_engine_include "$@"
+  [[ $1 != tasks/* || $3 != \"tasks/* ]] || check_order "$@"
   case $3 in
     [\<\"]tbb/* | [\<\"]oneapi/* | '<execution>')
       [[ $tbb_sources == *" $1 "* ]] || breach "$1" "$2" 'oneTBB outside its two sources' "$3" ;;
+    [\<\"]CLI/*)
+      [[ $cli_sources == *" $1 "* ]] || breach "$1" "$2" 'CLI11 outside its two sources' "$3" ;;
   esac
 }
 

@@ -12,9 +12,9 @@ namespace isojam {
 /// A quaternion (w, x, y, z) of any length but 0.
 using QuadQuaternion = std::array<Quad, 4>;
 
-/// By `angle` about `axis`, of any length. Right to 1e-32 however small the angle.
+/// Rotation by `angle` about `axis`, of any length. Right to 1e-32 however small the angle.
 QuadQuaternion small_turn(double angle, const Eigen::Vector3d& axis);
-/// By 45° about coordinate axis 0, 1 or 2.
+/// Rotation by 45° about coordinate axis 0, 1 or 2.
 QuadQuaternion eighth_turn(int axis);
 QuadQuaternion operator*(const QuadQuaternion& p, const QuadQuaternion& q);
 

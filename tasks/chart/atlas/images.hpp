@@ -6,7 +6,7 @@ namespace isojam {
 
 /// E from every image of every pair, self-images too, by the clip in quadruple precision: true in any cell.
 double energy_over_images(const Packing& packing);
-/// The same from the nearest image of each pair alone.
+/// The energy from the nearest image of each pair alone.
 double energy_of_nearest_images(const Packing& packing);
 
 /// n tetrahedra at random about the corner of a cell, so near each other that all touch, most across a boundary.

@@ -1,13 +1,14 @@
 #include "engine/vibration/spectrum.hpp"
 
-#include <Spectra/SymEigsSolver.h>
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 
+#include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/lanczos.hpp"
+#include "engine/vibration/lanczos_operators.hpp"
 #include "engine/vibration/stability.hpp"
 #include "tasks/chart/atlas/atlas.hpp"
 #include "tasks/chart/atlas/cells.hpp"
@@ -28,31 +29,15 @@ double deviation(const Eigen::VectorXd& found, const Eigen::VectorXd& exact) {
   return ((found.head<wanted>() - exact.head<wanted>()).array().abs() / exact.head<wanted>().array().abs()).maxCoeff();
 }
 
-class Product {
- public:
-  using Scalar = double;
-
-  explicit Product(const BlockMatrix& matrix) : matrix_(matrix) {}
-  Eigen::Index rows() const { return 6 * Eigen::Index{matrix_.size()}; }
-  Eigen::Index cols() const { return rows(); }
-  void perform_op(const double* x, double* y) const {
-    Eigen::Map<Eigen::VectorXd>(y, rows()) = matrix_ * Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(x, rows()));
-  }
-
- private:
-  const BlockMatrix& matrix_;
-};
-
 AtlasRow by_plain_lanczos(AtlasRow row, const BlockMatrix& matrix, const Eigen::VectorXd& exact) {
   Product product(matrix);
-  Spectra::SymEigsSolver<Product> solver(product, wanted + 3, 60);
-  solver.init();
-  solver.compute(Spectra::SortRule::SmallestAlge, 300, 1e-10, Spectra::SortRule::SmallestAlge);
-  if (solver.info() != Spectra::CompInfo::Successful) {
-    row.figure = fmt::format("{} products", solver.num_operations());
+  const LanczosModes modes =
+      lanczos(LanczosOperation(product), {.wanted = LanczosWanted::least, .modes = wanted + 3, .subspace = 60});
+  if (modes.ended != LanczosEnd::converged) {
+    row.figure = fmt::format("{} products", modes.products);
     return refused(row, "not converged");
   }
-  const Eigen::VectorXd found = solver.eigenvalues().tail(wanted);
+  const Eigen::VectorXd found = modes.eigenvalues.tail(wanted);
   return judged(row, deviation(found, exact), mode_tolerance, "relative error of λ");
 }
 
@@ -92,8 +77,7 @@ constexpr double difference_tolerance = 1e-2;
 
 /// Negative modes that are none, and an error in the softest that is real.
 AtlasRow judged_hessian(AtlasRow row, const Eigen::MatrixXd& matrix, double softest) {
-  const Eigen::VectorXd lambda =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd lambda = symmetric_eigenvalues(matrix);
   const long negative = (lambda.array() < -softest / 2).count();
   const double error = std::abs(lambda[3] - softest) / softest;
   row = judged(row, error, difference_tolerance, fmt::format("{} negative modes, error of the softest", negative));

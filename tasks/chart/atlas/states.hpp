@@ -17,7 +17,7 @@ class AtlasStates {
   bool empty() const { return states_.empty(); }
 
   double phi_j() const { return phi_j_; }
-  /// Of the expansion, density descending.
+  /// States of the expansion, density descending.
   const std::vector<Packing>& all() const { return states_; }
   /// φ − φ_J of a state of it.
   double distance_of(const Packing& packing) const { return packing.density() - phi_j_; }

@@ -52,7 +52,7 @@ struct ChartConfig {
   int pairs = 40;                                        ///< per solid and class of contact
   int repetitions = 3;                                   ///< of what is timed
   long max_evaluations = 4000;                           ///< of one minimisation
-  /// The same for the paper's rule, which takes its time to be content.
+  /// Evaluations of one minimisation by the paper's rule, which takes its time to be content.
   long rule_evaluations = 20000;
   double point_seconds = 10;   ///< of one point, wall clock
   double total_seconds = 280;  ///< after which no further point is begun and the one under way is stopped

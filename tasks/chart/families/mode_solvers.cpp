@@ -1,13 +1,13 @@
 #include "engine/vibration/spectrum.hpp"
 
-#include <Spectra/SymEigsShiftSolver.h>
-#include <Spectra/SymEigsSolver.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
 #include "engine/solve/factor/shift_invert.hpp"
+#include "engine/vibration/lanczos.hpp"
 #include "engine/vibration/lanczos_operators.hpp"
 #include "tasks/chart/families/comparisons.hpp"
 
@@ -28,27 +28,24 @@ struct Found {
   VectorXd eigenvalues;  ///< ascending; empty unless converged
 };
 
-template <class Solver>
-Found solve(Solver& solver, Index size, Spectra::SortRule rule) {
-  const VectorXd start = lanczos_start(size);
-  try {
-    solver.init(start.data());
-    solver.compute(rule, restarts, tolerance, Spectra::SortRule::SmallestAlge);
-  } catch (const std::runtime_error&) {
-    return {"small eigenproblem did not converge", {}};
-  }
-  if (solver.info() != Spectra::CompInfo::Successful) return {"restarts spent", {}};
-  VectorXd values = solver.eigenvalues();
-  std::sort(values.begin(), values.end());
-  return {"converged", std::move(values)};
+template <class Operation>
+Found solve(Operation& operation, LanczosRequest request) {
+  request.modes = wanted;
+  request.restarts = restarts;
+  request.tolerance = tolerance;
+  request.start = lanczos_start(operation.rows());
+  LanczosModes modes = lanczos(LanczosOperation(operation), request);
+  if (modes.ended == LanczosEnd::small_problem_failed) return {"small eigenproblem did not converge", {}};
+  if (modes.ended == LanczosEnd::restarts_spent) return {"restarts spent", {}};
+  std::sort(modes.eigenvalues.begin(), modes.eigenvalues.end());
+  return {"converged", std::move(modes.eigenvalues)};
 }
 
 Found by_inversion(const BlockMatrix& matrix, double shift, Index subspace) {
   ShiftInvert inverse(matrix);
   Deflated<ShiftInvert> operation(inverse);
   try {
-    Spectra::SymEigsShiftSolver<Deflated<ShiftInvert>> solver(operation, wanted, subspace, shift);
-    return solve(solver, operation.rows(), Spectra::SortRule::LargestMagn);
+    return solve(operation, {.subspace = subspace, .shift = shift});
   } catch (const std::domain_error&) {
     return {"shift hit an eigenvalue", {}};
   }
@@ -63,7 +60,7 @@ class Raised {
   Raised(const BlockMatrix& matrix, double stiffness) : product_(matrix), stiffness_(stiffness) {}
 
   Index rows() const { return product_.rows(); }
-  Index cols() const { return rows(); }
+  void set_shift(double) {}
   void perform_op(const double* x, double* y) const {
     const Eigen::Map<const VectorXd> in(x, rows());
     VectorXd rest = in;
@@ -81,8 +78,7 @@ class Raised {
 
 Found by_products(const BlockMatrix& matrix, double stiffness, Index subspace) {
   Raised operation(matrix, stiffness);
-  Spectra::SymEigsSolver<Raised> solver(operation, wanted, subspace);
-  return solve(solver, operation.rows(), Spectra::SortRule::SmallestAlge);
+  return solve(operation, {.wanted = LanczosWanted::least, .subspace = subspace});
 }
 
 /// Points of a task, by (method, setting) in the order met.

@@ -36,7 +36,7 @@ struct TaskEquilibria {
   std::vector<Packing> packings;
 };
 
-/// For every solid and distance of the configuration, in this order; after a stop request, those until then.
+/// Starts for every solid and distance of the configuration, in this order; after a stop request, those until then.
 std::vector<TaskEquilibria> all_equilibria(std::span<const JammedSolid> jammed, const Measuring& measuring);
 
 /// Dynamical matrix of an equilibrium, as accurate as the state is.

@@ -14,7 +14,7 @@ namespace isojam {
 /// the conclusion.
 Json chart_data(const ChartConfig& config, const ChartResult& result);
 
-/// Of the family of that name; none if there is none.
+/// The family of that name; none if there is none.
 std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std::string_view name);
 
 /// A table of each family and of the atlas, what the parts cost, and the conclusion.

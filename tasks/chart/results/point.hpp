@@ -18,7 +18,7 @@ struct Spread {
   int n = 0;
 };
 
-/// Of finite values; nullopt if there are none. The median of an even number is the mean of the middle two.
+/// The spread of finite values; nullopt if there are none. The median of an even number is the mean of the middle two.
 std::optional<Spread> spread(std::vector<double> values);
 
 /// "budget 2, residual_reached 1": each reason, with its count where there are several.

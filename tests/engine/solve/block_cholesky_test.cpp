@@ -10,10 +10,10 @@
 #include "engine/solve/factor/block_cholesky.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <limits>
 
+#include "engine/solve/factor/dense.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 
 namespace isojam {
@@ -30,9 +30,9 @@ struct System {
 
 System system_of(const std::string& name, const BlockMatrix& matrix) {
   System system{name, matrix, dense(matrix)};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(system.full, Eigen::EigenvaluesOnly);
-  system.lowest = solver.eigenvalues().minCoeff();
-  system.highest = solver.eigenvalues().maxCoeff();
+  const Eigen::VectorXd lambda = symmetric_eigenvalues(system.full);
+  system.lowest = lambda.minCoeff();
+  system.highest = lambda.maxCoeff();
   return system;
 }
 

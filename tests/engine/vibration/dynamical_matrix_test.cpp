@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <stdexcept>
 
+#include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/spectrum.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 #include "tests/engine/vibration/jammed_states.hpp"
@@ -35,9 +35,7 @@ double shallowest_depth(const Packing& packing) {
   return least;
 }
 
-VectorXd spectrum(const MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
-}
+VectorXd spectrum(const MatrixXd& matrix) { return symmetric_eigenvalues(matrix); }
 
 TEST(DynamicalMatrix, FormsAgree) {
   RandomStream random{51};

@@ -19,7 +19,6 @@
 #include "tasks/chart/results/data.hpp"
 #include "tasks/chart/results/front.hpp"
 #include "tasks/chart/run_chart.hpp"
-#include "tasks/commands/chart.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/parse.hpp"
 #include "tests/tasks/support/schema.hpp"

@@ -73,12 +73,12 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
   EXPECT_EQ(unexplained(record), "");
   const auto summary = summarise_record(record, "record");
   ASSERT_EQ(summary.states.size(), jammed().states.size());
-  for (std::size_t i = 0; i < all_columns.size(); ++i) {
-    const auto& column = all_columns[i];
-    const auto& place = column.of == Column::Of::state ? record.at("nearest") : record;
-    const Json::json_pointer pointer{std::string(column.pointer)};
-    ASSERT_TRUE(place.contains(pointer)) << column.name;
-    EXPECT_EQ(summary.values[i].has_value(), !place.at(pointer).is_null()) << column.name;
+  for (std::size_t i = 0; i < all_quantities().size(); ++i) {
+    const auto& quantity = all_quantities()[i];
+    const auto& place = quantity.of == Quantity::Of::state ? record.at("nearest") : record;
+    const Json::json_pointer pointer{std::string(quantity.pointer)};
+    ASSERT_TRUE(place.contains(pointer)) << quantity.name;
+    EXPECT_EQ(summary.values[i].has_value(), !place.at(pointer).is_null()) << quantity.name;
   }
 }
 

@@ -96,8 +96,8 @@ TEST(Aggregate, CountsFailedAndFlagged) {
   EXPECT_EQ(row.failed, 1);
   EXPECT_EQ(row.flagged, 2);
   std::map<std::string_view, int> n;
-  for (std::size_t i = 0; i < all_columns.size(); ++i) {
-    if (all_columns[i].group == main_group) n[all_columns[i].name] = row.estimates[i].n;
+  for (std::size_t i = 0; i < all_quantities().size(); ++i) {
+    if (all_quantities()[i].group == main_group) n[all_quantities()[i].name] = row.estimates[i].n;
   }
   const std::map<std::string_view, int> expected{{"phi_j", 4}, {"Z", 4},   {"Z_ff", 4},
                                                  {"Z_ef", 3},  {"Z_l", 3}, {"C", 3}};
@@ -110,11 +110,7 @@ TEST(Aggregate, CountsFailedAndFlagged) {
   EXPECT_EQ(row.residual, worst);
 }
 
-std::size_t column(std::string_view name) {
-  return static_cast<std::size_t>(
-      std::find_if(all_columns.begin(), all_columns.end(), [&](const Column& c) { return c.name == name; }) -
-      all_columns.begin());
-}
+std::size_t column(std::string_view name) { return *quantity_index(name); }
 
 TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
   const auto z = column("Z");
@@ -128,7 +124,7 @@ TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
     record.replicate = k;
     record.states.clear();
     for (const double distance : distances[static_cast<std::size_t>(k)]) {
-      record.states.push_back({distance, {}});
+      record.states.push_back({distance});
       record.states.back().values[z] = law(k, distance);
     }
     if (k == 1) record.states[1].values[z].reset();

@@ -1,0 +1,1 @@
+// Nothing but the headers that most tests read, which CMake compiles for all of them.

@@ -1,0 +1,71 @@
+// Facts proved here, of the table of quantities:
+// - names and places are distinct, pointers are pointers, and every text is there;
+// - φ_J comes first and is of no measure; every other quantity is of the measure whose source tells it; a group stands
+// in
+//   one piece, the main one first;
+// - a quantity that is written is found where it says, with integers as integers, and null beside its reason.
+
+#include "tasks/measure/quantity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "tasks/measure/measure.hpp"
+
+namespace isojam {
+namespace {
+
+TEST(Quantities, AreToldOnce) {
+  std::set<std::string_view> names;
+  std::set<std::pair<Quantity::Of, std::string_view>> places;
+  for (const auto& quantity : all_quantities()) {
+    EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name << " is the name of two";
+    EXPECT_TRUE(places.insert({quantity.of, quantity.pointer}).second) << quantity.pointer << " is the place of two";
+    EXPECT_NO_THROW(Json::json_pointer(std::string(quantity.pointer))) << quantity.name;
+    for (const auto text : {quantity.name, quantity.pointer, quantity.group, quantity.unit, quantity.latex})
+      EXPECT_FALSE(text.empty()) << quantity.name;
+  }
+}
+
+TEST(Quantities, BelongToTheirMeasures) {
+  EXPECT_EQ(all_quantities().front().name, "phi_j");
+  EXPECT_FALSE(all_quantities().front().measure);
+  std::size_t told = 1;
+  for (const Measure measure : all_measures) {
+    for (const auto& row : definition_of(measure).quantities) {
+      ++told;
+      EXPECT_EQ(quantity(row.name).measure, measure) << row.name;
+      EXPECT_EQ(quantity(row.name).pointer, row.pointer);
+    }
+  }
+  EXPECT_EQ(told, all_quantities().size());
+  EXPECT_FALSE(quantity_index("phi_K"));
+}
+
+TEST(Quantities, GroupsAreInOnePiece) {
+  std::vector<std::string_view> groups;
+  for (const auto& quantity : all_quantities()) {
+    if (groups.empty() || groups.back() != quantity.group) groups.push_back(quantity.group);
+  }
+  EXPECT_EQ(groups.front(), main_group);
+  EXPECT_EQ(std::set(groups.begin(), groups.end()).size(), groups.size()) << ::testing::PrintToString(groups);
+}
+
+TEST(Quantities, AreWrittenWhereTheySay) {
+  for (const auto& quantity : all_quantities()) {
+    const Json::json_pointer pointer{std::string(quantity.pointer)};
+    Json record;
+    put(record, quantity, 2.5);
+    EXPECT_EQ(record.at(pointer), 2.5) << record;
+    put(record, quantity, 3);
+    EXPECT_EQ(record.at(pointer).dump(), "3");
+    put(record, quantity, std::nullopt, "none");
+    EXPECT_TRUE(record.at(pointer).is_null());
+    EXPECT_EQ(record.at(Json::json_pointer(std::string(quantity.pointer) + "_reason")), "none");
+  }
+}
+
+}  // namespace
+}  // namespace isojam
