@@ -1,6 +1,6 @@
 // Facts proved here, of what measurements put into records:
-// - of a jammed packing every measurement has an entry per state, the record conforms to its schema, every column of
-//   the tables finds its number or the reason why there is none;
+// - of a jammed packing every measurement has an entry per state, the record conforms to its schema, every quantity
+//   of the tables finds its number or the reason why there is none;
 // - its zero, negative and positive modes are counted right: as many as a dense solver finds among all 6N eigenvalues;
 // - its constraints are Z·N/2 and C·N/2, as many as contacts counted by their angles have, and rank, states of
 //   self-stress and floppy motions those of all singular values of the rows;
@@ -71,12 +71,12 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
   EXPECT_EQ(unexplained(record), "");
   const auto summary = summarise_record(record, "record");
   ASSERT_EQ(summary.states.size(), jammed().states.size());
-  for (std::size_t i = 0; i < all_columns.size(); ++i) {
-    const auto& column = all_columns[i];
-    const auto& place = column.of == Column::Of::state ? record.at("nearest") : record;
-    const Json::json_pointer pointer{std::string(column.pointer)};
-    ASSERT_TRUE(place.contains(pointer)) << column.name;
-    EXPECT_EQ(summary.values[i].has_value(), !place.at(pointer).is_null()) << column.name;
+  for (std::size_t i = 0; i < all_quantities().size(); ++i) {
+    const auto& quantity = all_quantities()[i];
+    const auto& place = quantity.of == Quantity::Of::state ? record.at("nearest") : record;
+    const Json::json_pointer pointer{std::string(quantity.pointer)};
+    ASSERT_TRUE(place.contains(pointer)) << quantity.name;
+    EXPECT_EQ(summary.values[i].has_value(), !place.at(pointer).is_null()) << quantity.name;
   }
 }
 

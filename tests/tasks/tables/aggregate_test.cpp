@@ -96,8 +96,8 @@ TEST(Aggregate, CountsFailedAndFlagged) {
   EXPECT_EQ(row.failed, 1);
   EXPECT_EQ(row.flagged, 2);
   std::map<std::string_view, int> n;
-  for (std::size_t i = 0; i < all_columns.size(); ++i) {
-    if (all_columns[i].group == main_group) n[all_columns[i].name] = row.estimates[i].n;
+  for (std::size_t i = 0; i < all_quantities().size(); ++i) {
+    if (all_quantities()[i].group == main_group) n[all_quantities()[i].name] = row.estimates[i].n;
   }
   const std::map<std::string_view, int> expected{{"phi_j", 4}, {"Z", 4},   {"Z_ff", 4},
                                                  {"Z_ef", 3},  {"Z_l", 3}, {"C", 3}};
@@ -110,14 +110,8 @@ TEST(Aggregate, CountsFailedAndFlagged) {
   EXPECT_EQ(row.residual, worst);
 }
 
-std::size_t column(std::string_view name) {
-  return static_cast<std::size_t>(
-      std::find_if(all_columns.begin(), all_columns.end(), [&](const Column& c) { return c.name == name; }) -
-      all_columns.begin());
-}
-
 TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
-  const auto z = column("Z");
+  const auto z = quantity_index("Z").value();
   RecordSummary record;
   record.particles = 100;
   std::vector<RecordSummary> records;
@@ -142,7 +136,7 @@ TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
     EXPECT_EQ(series[p].delta_phi, expected[p].first);
     EXPECT_EQ(series[p].estimates[z].n, 1) << expected[p].first;
     EXPECT_NEAR(*series[p].estimates[z].mean, law(0, expected[p].first), 1e-14) << expected[p].first;
-    EXPECT_EQ(series[p].estimates[column("phi_j")].n, 0);
+    EXPECT_EQ(series[p].estimates[quantity_index("phi_j").value()].n, 0);
   }
   const auto text = to_text(aggregate(records), View::series);
   EXPECT_NE(text.find(" 0.02 "), std::string::npos) << text;

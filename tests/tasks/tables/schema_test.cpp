@@ -2,7 +2,7 @@
 // - defaults, ranges, choices and places of the manifest's schema are those of the program;
 // - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
 // - of the bad corpus the schema refuses all that it can express;
-// - the schema of tables knows every column;
+// - the schema of tables knows every quantity;
 // - records and tables conform, failed and flagged ones too; a damaged one does not.
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ Json expected_definition(const Field& field) {
   if (std::holds_alternative<bool*>(slot)) {
     json["type"] = "boolean";
   } else if (std::holds_alternative<Method*>(slot)) {
-    for (const auto name : method_names()) json["enum"].push_back(name);
+    for (const auto name : all_names<Method>) json["enum"].push_back(name);
   } else {
     json["type"] = std::holds_alternative<double*>(slot) ? "number" : "integer";
     json[field.range.low_excluded ? "exclusiveMinimum" : "minimum"] = field.range.low;
@@ -174,16 +174,16 @@ TEST(RecordSchema, RefusesDamagedRecords) {
   EXPECT_NE(violations("replicate", both), "");
 }
 
-TEST(TableSchema, NamesEveryColumn) {
+TEST(TableSchema, NamesEveryQuantity) {
   const auto schema = test::schema("tables");
   const auto& row = schema.at("properties").at("rows").at("items");
   const auto& series = row.at("properties").at("series").at("items").at("properties");
-  for (const auto& column : all_columns) {
-    const std::string name(column.name);
+  for (const auto& quantity : all_quantities()) {
+    const std::string name(quantity.name);
     EXPECT_TRUE(row.at("properties").contains(name)) << name;
     EXPECT_TRUE(row.at("properties").at("unflagged").at("properties").contains(name)) << name;
-    EXPECT_EQ(series.contains(name), column.of == Column::Of::state) << name;
-    EXPECT_EQ(series.at("unflagged").at("properties").contains(name), column.of == Column::Of::state) << name;
+    EXPECT_EQ(series.contains(name), quantity.of == Quantity::Of::state) << name;
+    EXPECT_EQ(series.at("unflagged").at("properties").contains(name), quantity.of == Quantity::Of::state) << name;
   }
 }
 

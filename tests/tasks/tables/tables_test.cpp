@@ -21,8 +21,8 @@ Row row(SolidKind solid, int particles, const std::vector<double>& values) {
   row.particles = particles;
   row.parameters = Json{{"target_energy", 1e-5}};
   row.replicates = static_cast<int>(values.size());
-  for (std::size_t i = 0; i < all_columns.size(); ++i) {
-    if (all_columns[i].group == main_group) row.estimates[i] = estimate(values, i);
+  for (std::size_t i = 0; i < all_quantities().size(); ++i) {
+    if (all_quantities()[i].group == main_group) row.estimates[i] = estimate(values, i);
   }
   row.residual = 1.25e-7;
   return row;
@@ -109,9 +109,7 @@ TEST(Tables, LatexRowsHaveTheSameNumberOfCells) {
 
 TEST(Tables, OtherGroupsFollowWhereTheyWereMeasured) {
   auto measured = table();
-  const auto q6 = static_cast<std::size_t>(
-      std::find_if(all_columns.begin(), all_columns.end(), [](const Column& c) { return c.name == "Q6"; }) -
-      all_columns.begin());
+  const auto q6 = quantity_index("Q6").value();
   EXPECT_EQ(to_text(measured).find("Q6"), std::string::npos);
   measured.rows[1].estimates[q6] = estimate({2.5e-7, 3.5e-7}, 1);
   const auto text = to_text(measured);
