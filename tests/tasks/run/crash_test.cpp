@@ -2,7 +2,7 @@
 // timing:
 // - killed by SIGKILL at twenty random moments, a sweep comes to the same bytes, and what is recorded at any of them is
 //   whole;
-// - a run goes on from its checkpoints;
+// - a run goes on from its checkpoints; one that outlived its record goes with the next run;
 // - a record, packing or checkpoint with one byte changed is noticed and redone, and nothing else is touched;
 // - a full disk, and files that may not grow, end a run with exit 1 and a message, and it comes to the same bytes when
 //   there is room;
@@ -219,6 +219,18 @@ TEST_F(Crash, ADamagedCheckpointStartsItsReplicateAnew) {
   const auto again = run();
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("starts anew"), std::string::npos) << again.err;
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Crash, ACheckpointThatOutlivedItsRecordGoes) {
+  copy_reference();
+  // As if killed between the two, and one that belongs to no replicate of this plan.
+  const auto checkpoints = here_ / "results" / "checkpoints";
+  test::write_text(checkpoints / "dodecahedron-N28-r0001.json", "{}");
+  test::write_text(checkpoints / "another.json", "{}");
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(names_in(checkpoints), std::vector<std::string>{"another"});
+  fs::remove(checkpoints / "another.json");
   EXPECT_EQ(results(), reference());
 }
 
