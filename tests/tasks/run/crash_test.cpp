@@ -6,9 +6,8 @@
 // - a record, packing or checkpoint with one byte changed is noticed and redone, and nothing else is touched;
 // - a full disk, and files that may not grow, end a run with exit 1 and a message, and it comes to the same bytes when
 //   there is room;
-// - a directory that cannot be written to is refused at once (this and the full disk where a file system may be
-// mounted;
-//   elsewhere their tests are skipped and say so);
+// - a directory that cannot be written to is refused at once; where no file system may be mounted, this test and that
+//   of the full disk are skipped and say so;
 // - three shards at once in one directory make the records of the whole, and `aggregate` its tables;
 // - SIGINT ends a run within two seconds with exit 75 in the middle of a strain step, and leaves checkpoints;
 // - a folder that is a symbolic link is refused, and nothing is written where it points;
@@ -224,7 +223,7 @@ TEST_F(Crash, ADamagedCheckpointStartsItsReplicateAnew) {
 
 TEST_F(Crash, ACheckpointThatOutlivedItsRecordGoes) {
   copy_reference();
-  // As if killed between the two, and one that belongs to no replicate of this plan.
+  // One is left as by a kill between the two, the other belongs to nothing recorded here.
   const auto checkpoints = here_ / "results" / "checkpoints";
   test::write_text(checkpoints / "dodecahedron-N28-r0001.json", "{}");
   test::write_text(checkpoints / "another.json", "{}");
