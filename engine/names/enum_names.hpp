@@ -16,6 +16,9 @@ struct EnumName {
   Enum value;
   std::string_view name;
 };
+/// g++ deduces as much by itself; clang does so from 17 on, and clang-tidy 14 is what reads these headers.
+template <class Enum>
+EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
 /// The names of an enumeration in the order in which they are offered, each enumerator once. Specialised right after
 /// the enumeration, which thereby has to_string() and from_string():

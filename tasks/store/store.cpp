@@ -69,6 +69,15 @@ void make_own_folder(const fs::path& folder) {
   remove_stale_temporaries(folder);
 }
 
+/// Those that a writer leaves that is killed after the record and before its checkpoint went.
+void remove_outlived_checkpoints(const fs::path& directory) {
+  for (const auto& name : names_in(directory / "checkpoints")) {
+    std::error_code gone;
+    if (fs::exists(directory / "records" / (name + ".json"), gone))
+      fs::remove(directory / "checkpoints" / (name + ".json"), gone);
+  }
+}
+
 /// A plan only grows: records beyond a smaller number of replicates are kept and counted.
 Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
   if (before) manifest.replicates.max = std::max(manifest.replicates.max, before->replicates.max);
@@ -89,6 +98,7 @@ Store::Store(fs::path directory, const Manifest& manifest)
   make_folder(directory_);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
   if (keep_path_) make_own_folder(directory_ / "paths");
+  remove_outlived_checkpoints(directory_);
   check_writable(directory_ / "records");
   const auto text = pretty(to_json(grown(manifest, before)));
   if (!before || text != pretty(to_json(*before))) write_atomically(manifest_path, text);
@@ -142,7 +152,7 @@ void Store::write(const Outcome& outcome) const {
   if (!outcome.failure) write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome)));
   if (!outcome.failure && keep_path_) write_atomically(path_path(outcome.spec), sealed(make_path(outcome)));
   write_atomically(record_path(outcome.spec), sealed(make_record(outcome)));
-  // One that stays is of no consequence: the record comes first.
+  // One that stays is of no consequence, for the record comes first, and goes with the next run.
   std::error_code ignored;
   fs::remove(checkpoint_path(outcome.spec), ignored);
 }

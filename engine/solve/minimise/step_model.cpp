@@ -16,8 +16,8 @@ namespace isojam {
 
 namespace {
 
-/// Rounds of the active-set iteration; in the later ones pairs are added and none released, so that it ends.
-constexpr int rounds = 4, releasing_rounds = 2;
+/// Of the rounds of the active-set iteration; in later ones pairs are added and none released, so that it ends.
+constexpr int releasing_rounds = 2;
 
 /// The tilt term of a contact that the step tilts, in units of its stiffness when half cut. A contact that is cut
 /// elsewhere resists less.
@@ -221,7 +221,7 @@ std::optional<ModelStep> StepModel::minimise(double shift, StepFactor& factor, A
   recall(active, shift);
   Eigen::VectorXd step;
   std::vector<State> factorised;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     const auto update = round > 0 ? gained(factorised, shift) : std::nullopt;
     if (update) {
       ++factor.updates;

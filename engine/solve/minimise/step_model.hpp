@@ -34,9 +34,12 @@ struct ModelStep {
 ///   planes), and E of the pair is V²/4 of the pressed plane.
 ///   Flat contacts tilt until their section line cuts the face. Where the step would tilt one so far, it is given a
 ///   stiffness against tilt.
-/// Which pairs do either is found with the step, by turns: an active-set iteration, cut short after a few rounds.
+/// Which pairs do either is found with the step, by turns: an active-set iteration, cut short after most_rounds.
 class StepModel {
  public:
+  /// Systems that one minimise() solves at most, each by a factorisation or an update of one: what it may cost.
+  static constexpr int most_rounds = 4;
+
   /// At the state with `gradient`; lengths of `longest` and more (largest displacement of a particle) are cut down.
   StepModel(SecondOrder second, Eigen::VectorXd gradient, double longest);
 

@@ -2,13 +2,13 @@
 //   1. contacts whose features make them vertex-face or edge-edge stay below the critical angles of Table II, and come
 //      near the greater ones;
 //   2. the fit and the gap agree on the face-face contacts, within their errors; fixed cut-offs count far more
-//      constraints than either; the pool of all states classifies as many contacts as there are;
+//      constraints than either; the pool of all states has the cut-offs that a fit to all their angles gives, and
+//      counts the contacts of each state by them;
 //   3. θ_ef is hyper-random at small angles, as the paper found, and more contacts are aligned than random ones are;
 //   4. clusters of face-face contacts partition the particles, hold every bond, and give the S of their sizes;
 //   5. the packing is disordered: Q6 below the crystalline threshold, orientations no more aligned than chance allows;
 //   6. a perfect crystal of cubes, slightly pressed, has an answer everywhere: all contacts face-face by either method,
-//   one
-//      cluster that winds in all directions and so has neither length nor dimension, perfect order.
+//      one cluster that winds in all directions and so has neither length nor dimension, perfect order.
 
 #include <gtest/gtest.h>
 
@@ -113,12 +113,42 @@ TEST(JammedPacking, MethodsAgreeWhereTheyShould) {
   EXPECT_NEAR(*analysis.disagreement(), 0, 2 * analysis.face_face.a0_error * analysis.numbers.Z + 4.0 / particles);
   EXPECT_GT(analysis.fixed_cutoffs.C, 1.3 * analysis.numbers.C);
   EXPECT_NEAR(analysis.numbers.C, 12, 1.5);
+}
 
+TEST(JammedPacking, PoolHasOneCutOffForAllItsStates) {
   std::vector<std::vector<Alignment>> pool;
-  for (const Packing& state : jammed().states) pool.push_back(alignments(solid(), contacts_of(state)));
-  for (const ContactAnalysis& pooled : analyse_pooled(solid(), particles, pool)) {
-    EXPECT_EQ(pooled.pooled_over, static_cast<int>(jammed().states.size()));
-    EXPECT_NEAR(pooled.numbers.Z, pooled.numbers.Z_ff + pooled.numbers.Z_ef + pooled.numbers.Z_l, 1e-12);
+  std::vector<double> face_face, edge_face;
+  for (const Packing& state : jammed().states) {
+    pool.push_back(alignments(solid(), contacts_of(state)));
+    for (const Alignment& angles : pool.back()) {
+      face_face.push_back(angles.face_face);
+      edge_face.push_back(angles.edge_face);
+    }
+  }
+  const CriticalAngles critical = critical_angles(solid());
+  const double ff_cutoff = fit_cdf(face_face, critical.ff_min() / 2).cutoff;
+  const double ef_cutoff = fit_cdf(edge_face, critical.ef_min() / 2).cutoff;
+  std::printf("%zu contacts of %zu states: θ_ff below %.2e, θ_ef below %.2e\n", face_face.size(), pool.size(),
+              ff_cutoff, ef_cutoff);
+  ASSERT_GT(ff_cutoff, 0);
+  ASSERT_GT(ef_cutoff, 0);
+  const std::vector<ContactAnalysis> pooled = analyse_pooled(solid(), particles, pool);
+  ASSERT_EQ(pooled.size(), pool.size());
+  for (std::size_t k = 0; k < pool.size(); ++k) {
+    EXPECT_EQ(pooled[k].pooled_over, static_cast<int>(pool.size()));
+    EXPECT_EQ(pooled[k].face_face.cutoff, ff_cutoff);
+    EXPECT_EQ(pooled[k].edge_face.cutoff, ef_cutoff);
+    long flat = 0, on_edge = 0;
+    for (const Alignment& angles : pool[k]) {
+      flat += angles.face_face < ff_cutoff;
+      on_edge += angles.face_face >= ff_cutoff && angles.edge_face < ef_cutoff;
+    }
+    const long all = PackingEnergy().evaluate(jammed().states[k]).contacts;
+    const auto contacts_in = [](double per_particle) { return std::lround(per_particle * particles / 2); };
+    EXPECT_EQ(contacts_in(pooled[k].numbers.Z_ff), flat) << "state " << k;
+    EXPECT_EQ(contacts_in(pooled[k].numbers.Z_ef), on_edge) << "state " << k;
+    EXPECT_EQ(contacts_in(pooled[k].numbers.Z_l), all - flat - on_edge) << "state " << k;
+    EXPECT_EQ(contacts_in(pooled[k].numbers.Z), all) << "state " << k;
   }
 }
 
@@ -170,7 +200,7 @@ TEST(PerfectCrystal, OfCubesHasAnswers) {
   constexpr int n = 4;
   Packing crystal{&platonic(SolidKind::cube), PeriodicCell(0.98 * n), {}};
   for (int k = 0; k < n * n * n; ++k)
-    crystal.poses.push_back({.position = 0.98 * Eigen::Vector3d(k % n, k / n % n, k / n / n)});
+    crystal.poses.push_back({.position = 0.98 * Eigen::Vector3i(k % n, k / n % n, k / (n * n)).cast<double>()});
   const std::vector<Contact> contacts = contacts_of(crystal);
   const std::vector<Alignment> all = alignments(*crystal.solid, contacts);
   const ContactAnalysis analysis = analyse_contacts(*crystal.solid, crystal.size(), all);

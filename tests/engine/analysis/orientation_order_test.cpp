@@ -181,7 +181,7 @@ struct Lattice {
 Lattice simple_cubic(int n) {
   Lattice lattice{{&platonic(SolidKind::cube), PeriodicCell(n), {}}, {}};
   for (int k = 0; k < n * n * n; ++k)
-    lattice.packing.poses.push_back({.position = Vector3d(k % n, k / n % n, k / n / n)});
+    lattice.packing.poses.push_back({.position = Eigen::Vector3i(k % n, k / n % n, k / (n * n)).cast<double>()});
   for (const NeighbourPair& pair : find_neighbours(lattice.packing, 1.1)) {
     Contact contact;
     contact.pair = pair;

@@ -1,8 +1,8 @@
 // Facts proved here:
 //   in a state without pairs to come, the step is Newton's: −(H + μ)⁻¹ g with the tilt terms that μ calls for, and the
 //   decrease that of E + g·s + ½ s·H s;
-//   a face pushed across a gap stops where it meets the other: the pressed plane is as deep there as the spring of its
-//   area balances the push, whatever the first guess; the model without closing pairs runs through;
+//   a face pushed across a gap stops where it meets the other: the step of three cubes in a row is that of springs of
+//   their faces' area in one dimension, whatever the first guess; the model without closing pairs runs through;
 //   pairs that a later round adds to the factors give the step that they give from the start;
 //   the pairs found are handed back as the next first guess;
 //   the promised decrease of an anticipated contact is the one that the energy delivers, and without anticipation
@@ -75,6 +75,14 @@ TEST(StepModel, IsNewtonsWithoutPairsToCome) {
   }
 }
 
+/// Where (V_01² + V_12²)/4 + shift·s²/2 is least over steps s of the three cubes along the row. Faces have area 1:
+/// V_01 = depth + s_0 − s_1 and V_12 = s_1 − s_2 − gap, whatever their signs, or V_12 = 0 unless they are to `meet`.
+Vector3d balanced_row(double depth, double gap, double shift, bool meet) {
+  const Vector3d first(1, -1, 0), second = meet ? Vector3d(0, 1, -1) : Vector3d::Zero();
+  const Eigen::Matrix3d matrix = (first * first.transpose() + second * second.transpose()) / 2;
+  return (matrix + shift * Eigen::Matrix3d::Identity()).llt().solve((gap * second - depth * first) / 2);
+}
+
 /// The middle cube is pushed away by the first, across the gap, to the third.
 TEST(StepModel, StopsWhereFacesMeet) {
   const double depth = 1e-4, gap = 1e-6;
@@ -87,22 +95,28 @@ TEST(StepModel, StopsWhereFacesMeet) {
   const auto step = model.minimise(shift, factor, found);
   ASSERT_TRUE(step);
   ASSERT_EQ(found.pressed, (std::vector<std::pair<int, int>>{{1, 2}}));
-  // Springs of equal area in a row, the outer cubes free: what the middle one leaves, the third one takes.
+  const auto expect_balanced = [&](const ModelStep& seen, bool meet) {
+    VectorXd along = VectorXd::Zero(18);
+    along(Eigen::seqN(0, 3, 6)) = balanced_row(depth, gap, shift, meet);
+    EXPECT_LE((seen.displacement - along).norm(), 1e-9 * along.norm())
+        << seen.displacement.transpose() << "\ninstead of " << along.transpose();
+  };
+  expect_balanced(*step, true);
   const LinearisedOverlap& plane = state.second.pairs.at(1).pressed;
-  const double first = state.second.pairs[0].now.at(step->displacement, 0, 1);
-  const double second = plane.at(step->displacement, 1, 2);
-  EXPECT_GT(second, -1e-6 * gap);
-  EXPECT_LT(first, depth);
+  const double overlap = plane.at(step->displacement, 1, 2), taken_up = 2 * shift * step->displacement[12];
+  EXPECT_GT(overlap, 0);
+  EXPECT_NEAR(overlap, taken_up, 1e-6 * overlap) << "half of V is the push that the third cube takes up";
   for (ActivePairs guess : {found, wrong}) {
     const auto again = model.minimise(shift, factor, guess);
     ASSERT_TRUE(again);
-    EXPECT_LE((again->displacement - step->displacement).norm(), 1e-6 * step->displacement.norm());
+    expect_balanced(*again, true);
     EXPECT_EQ(guess.pressed, found.pressed);
   }
   model.forget_closing_pairs();
   const auto blind = model.minimise(shift, factor, none);
   ASSERT_TRUE(blind);
   EXPECT_TRUE(none.pressed.empty());
+  expect_balanced(*blind, false);
   EXPECT_GT(plane.at(blind->displacement, 1, 2), 10 * gap) << "nothing in its way";
 }
 

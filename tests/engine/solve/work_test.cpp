@@ -5,23 +5,23 @@
 //   a start in balance costs no Hessian, no factorisation and no step; consolidation makes no Hessian; expansion does;
 //   evaluations in double-double are made only where the floor of doubles lies above the residual asked for;
 //   the totals of a run are the sums over its steps;
-//   pairs listed are those of the list's sphere, and in an evaluation that repeats one every listed pair is out of
-//   reach, rejected by its axis, or touches: the kernel sees no pair that is apart;
+//   pairs listed are those whose circumspheres meet, counted one by one, and less than half as many beyond; in an
+//   evaluation that repeats one every listed pair is out of reach, rejected by its axis, or touches: the kernel sees
+//   no pair that is apart;
 //   as many modes are computed as were asked for.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "engine/packing/neighbours.hpp"
 #include "engine/solve/jam.hpp"
+#include "engine/solve/minimise/step_model.hpp"
 #include "engine/vibration/spectrum.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 
 namespace isojam {
 namespace {
-
-/// Rounds of the step model's active-set iteration.
-constexpr long rounds = 4;
 
 const JamResult& expanded() {
   static const JamResult result = [] {
@@ -72,7 +72,7 @@ TEST(Work, FactorsAreUpdatedWhereThatIsCheaper) {
   EXPECT_TRUE(is_equilibrium(summary));
   EXPECT_GT(work.factor_updates, 0);
   EXPECT_GE(work.factorisations, summary.iterations);
-  EXPECT_LE(work.factorisations + work.factor_updates, rounds * summary.evaluations);
+  EXPECT_LE(work.factorisations + work.factor_updates, StepModel::most_rounds * summary.evaluations);
   EXPECT_LT(2 * work.factorisations, 3 * summary.evaluations) << "as many as if nothing were ever updated";
 }
 
@@ -129,10 +129,10 @@ TEST(Work, TheKernelSeesNoPairThatIsApart) {
                 to_string(kind).data(), cold.listed, cold.out_of_reach, cold.overlapped, overlapped, cold.touching);
     EXPECT_GT(cold.overlapped, cold.touching) << "nothing to be spared";
     EXPECT_EQ(overlapped, cold.touching);
-    // Centres at random: as many pairs as the sphere of reach and skin holds, and their scatter.
-    const double reach = 2.15 * packing.solid->circumradius();
-    const double mean = packing.size() * packing.density() * 2 * std::acos(-1.0) / 3 * std::pow(reach, 3);
-    EXPECT_LT(static_cast<double>(cold.listed), mean + 6 * std::sqrt(mean));
+    const double reach = 2 * packing.solid->circumradius();
+    const auto near = static_cast<long>(find_neighbours_brute_force(packing, reach).size());
+    EXPECT_EQ(cold.listed - cold.out_of_reach, near);
+    EXPECT_LT(cold.out_of_reach, near / 2) << "the list's skin is as thick as what it covers";
   }
 }
 

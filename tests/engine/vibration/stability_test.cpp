@@ -1,10 +1,10 @@
 // Facts proved here:
 //   every state of jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32) has exactly 3 zero modes,
-//   none negative and 6N − 3 positive, or its near-rattlers are named; counts of random packings, full of negative
-//   modes, are the dense solver's, with or without modes at hand; a particle without contacts brings six zero modes and
-//   is named; one that is pressed between two is named; a negative mode of one particle names that particle; the
-//   tolerance grows with the unbalanced torque, and not beyond the softest mode of a jammed state; what is not a number
-//   is undetermined.
+//   none negative and 6N − 3 positive; counts there and of random packings, full of negative modes, are those of all
+//   6N eigenvalues of a dense solver, with or without modes at hand; a particle without contacts brings six zero modes
+//   and is named; so is one with fewer than four contacts; a negative mode of one particle names that particle, and one
+//   of two the one that carries it; the tolerance grows with the unbalanced torque, and not beyond the softest mode of
+//   a jammed state; what is not a number is undetermined.
 
 #include "engine/vibration/stability.hpp"
 
@@ -27,10 +27,11 @@ struct Counts {
   long negative = 0, zero = 0, positive = 0;
 };
 
+/// Of all 6N eigenvalues, translations among them: none is taken to be zero.
 Counts dense_counts(const BlockMatrix& matrix, double tolerance) {
-  const VectorXd lambda = dense_modes(matrix).eigenvalues;
-  const long negative = (lambda.array() < -tolerance).count(), positive = (lambda.array() > tolerance).count();
-  return {negative, lambda.size() + 3 - negative - positive, positive};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(matrix), Eigen::EigenvaluesOnly);
+  const auto lambda = solver.eigenvalues().array();
+  return {(lambda < -tolerance).count(), (lambda.abs() <= tolerance).count(), (lambda > tolerance).count()};
 }
 
 void expect_counts(const Stability& stability, const BlockMatrix& matrix) {
@@ -38,7 +39,6 @@ void expect_counts(const Stability& stability, const BlockMatrix& matrix) {
   EXPECT_EQ(stability.negative, expected.negative);
   EXPECT_EQ(stability.zero, expected.zero);
   EXPECT_EQ(stability.positive, expected.positive);
-  EXPECT_EQ(stability.negative + stability.zero + stability.positive, 6 * matrix.size());
   EXPECT_LE(stability.translation_error, stability.tolerance);
 }
 

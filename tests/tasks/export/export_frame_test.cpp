@@ -76,7 +76,8 @@ ConstructedPairs constructed_pairs(std::uint64_t seed) {
       contact.pose.displacement = (2 * solid.inradius() - 1e-4) * on_a.outward;
     }
     Pose a, b;
-    a.position = spacing * Vector3d(k % pairs_a_side, k / pairs_a_side % pairs_a_side, k / pairs_a_side / pairs_a_side);
+    const Eigen::Vector3i site(k % pairs_a_side, k / pairs_a_side % pairs_a_side, k / (pairs_a_side * pairs_a_side));
+    a.position = spacing * site.cast<double>();
     a.orientation = constructed::random_orientation(random);
     b.position = a.position + a.orientation * contact.pose.displacement;
     b.orientation = a.orientation * Eigen::Quaterniond(contact.pose.rotation);

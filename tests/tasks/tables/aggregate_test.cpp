@@ -110,10 +110,8 @@ TEST(Aggregate, CountsFailedAndFlagged) {
   EXPECT_EQ(row.residual, worst);
 }
 
-std::size_t column(std::string_view name) { return *quantity_index(name); }
-
 TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
-  const auto z = column("Z");
+  const auto z = quantity_index("Z").value();
   RecordSummary record;
   record.particles = 100;
   std::vector<RecordSummary> records;
@@ -138,7 +136,7 @@ TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
     EXPECT_EQ(series[p].delta_phi, expected[p].first);
     EXPECT_EQ(series[p].estimates[z].n, 1) << expected[p].first;
     EXPECT_NEAR(*series[p].estimates[z].mean, law(0, expected[p].first), 1e-14) << expected[p].first;
-    EXPECT_EQ(series[p].estimates[column("phi_j")].n, 0);
+    EXPECT_EQ(series[p].estimates[quantity_index("phi_j").value()].n, 0);
   }
   const auto text = to_text(aggregate(records), View::series);
   EXPECT_NE(text.find(" 0.02 "), std::string::npos) << text;

@@ -2,7 +2,7 @@
 // - defaults, ranges, choices and places of the manifest's schema are those of the program;
 // - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
 // - of the bad corpus the schema refuses all that it can express;
-// - the schema of tables knows every column;
+// - the schema of tables knows every quantity;
 // - records and tables conform, failed and flagged ones too; a damaged one does not.
 
 #include <gtest/gtest.h>
@@ -174,7 +174,7 @@ TEST(RecordSchema, RefusesDamagedRecords) {
   EXPECT_NE(violations("replicate", both), "");
 }
 
-TEST(TableSchema, NamesEveryColumn) {
+TEST(TableSchema, NamesEveryQuantity) {
   const auto schema = test::schema("tables");
   const auto& row = schema.at("properties").at("rows").at("items");
   const auto& series = row.at("properties").at("series").at("items").at("properties");

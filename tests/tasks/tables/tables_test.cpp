@@ -109,7 +109,7 @@ TEST(Tables, LatexRowsHaveTheSameNumberOfCells) {
 
 TEST(Tables, OtherGroupsFollowWhereTheyWereMeasured) {
   auto measured = table();
-  const auto q6 = *quantity_index("Q6");
+  const auto q6 = quantity_index("Q6").value();
   EXPECT_EQ(to_text(measured).find("Q6"), std::string::npos);
   measured.rows[1].estimates[q6] = estimate({2.5e-7, 3.5e-7}, 1);
   const auto text = to_text(measured);
