@@ -45,8 +45,7 @@ void expect_counts(const Stability& stability, const BlockMatrix& matrix) {
 TEST(StabilityTest, JammedStatesAreStrictMinima) {
   for (const JamResult* result : {&jammed(SolidKind::octahedron, 48, .01), &jammed(SolidKind::tetrahedron, 64, .02),
                                   &jammed(SolidKind::icosahedron, 32, .01)}) {
-    for (std::size_t s = 0; s < result->states.size(); ++s) {
-      const Packing& state = result->states[s];
+    for (const Packing& state : result->states) {
       PackingEnergy energy;
       const double torque =
           unbalanced_torque(energy.evaluate(state, Precision::double_double), state.solid->gyration_radius());
