@@ -21,7 +21,7 @@ inline constexpr std::array enum_names<DimensionVerdict>{
     EnumName{DimensionVerdict::not_called, "not_called"}, EnumName{DimensionVerdict::fitted, "fitted"},
     EnumName{DimensionVerdict::winds, "winds"}, EnumName{DimensionVerdict::too_small, "too_small"}};
 
-/// D in s ∝ ρ^D for connected pieces of s particles and size ρ.
+/// Fractal dimension D, s ∝ ρ^D, of connected pieces of s particles and size ρ.
 struct FractalDimension {
   DimensionVerdict verdict = DimensionVerdict::not_called;
   double D = 0;
@@ -29,8 +29,8 @@ struct FractalDimension {
   int points = 0;    ///< radii ℓ that the line was fitted to
 };
 
-/// The pieces are all that lies within ℓ bonds of a member, ℓ = 1, 2, ... until a piece is the whole cluster; the line
-/// goes through the means over the members of log ρ and log s at each ℓ, with equal weights.
+/// Fits D to pieces of one cluster: all that lies within ℓ bonds of a member, ℓ = 1, 2, ... until a piece is the whole
+/// cluster; the line goes through the means over the members of log ρ and log s at each ℓ, with equal weights.
 /// ρ² = R_g² + a²/12, R_g the radius of gyration of the centres and a² the mean square of bond lengths: each particle
 /// stands for a rod of the length of a bond, so that straight chains have D = 1 exactly whatever their length.
 /// Pieces overlap, hence the error is that of the line, not of D over clusters like this one.
@@ -38,7 +38,7 @@ struct FractalDimension {
 FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluster,
                                    std::span<const NeighbourPair> bonds);
 
-/// Table IV of the paper.
+/// Sizes and extents of clusters of face-face contacts, the paper's Table IV; lengths in L.
 struct ClusterStatistics {
   double S = 0;  ///< mean size of the cluster of a particle, Σs²/Σs over clusters, lone particles too
   int largest = 0;
@@ -51,7 +51,7 @@ struct ClusterStatistics {
   FractalDimension D_max;  ///< of the longest cluster
 };
 
-/// `clusters` are find_clusters(packing, bonds). Throws std::invalid_argument if there are none.
+/// Statistics of `clusters`, which are find_clusters(packing, bonds). Throws std::invalid_argument if there are none.
 ClusterStatistics cluster_statistics(const Packing& packing, std::span<const NeighbourPair> bonds,
                                      std::span<const Cluster> clusters);
 

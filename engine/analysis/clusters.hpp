@@ -15,12 +15,13 @@ namespace isojam {
 /// of its own periodic images; the displacements of such images, in cells, form a lattice.
 struct Cluster {
   std::vector<int> members;  ///< ascending; the first is the cluster's label
-  /// Per member: followed along bonds from the label, its centre is at x + L·image. One of many choices if it winds.
+  /// Image of each member: followed along bonds from the label, its centre is at x + L·image. One of many choices if
+  /// the cluster winds.
   std::vector<Eigen::Vector3i> images;
   /// Linearly independent windings, in cells: as many as the lattice has dimensions. None: no periodic closure.
   std::vector<Eigen::Vector3i> windings;
-  /// Between outermost centres along x, y, z, followed along bonds; none along an axis on which it winds, where it has
-  /// no end.
+  /// Extent between outermost centres along x, y, z (V_p^(1/3)), followed along bonds; none along an axis on which it
+  /// winds, where it has no end.
   std::array<std::optional<double>, 3> extent;
   std::array<std::optional<double>, 3> body_extent;  ///< the same between outermost vertices
 
@@ -34,17 +35,17 @@ struct Cluster {
   std::optional<double> longest_extent() const;
 };
 
-/// All clusters of the packing, lone particles too, by label. Bonds in any order and either direction, repeated or
-/// not; a bond of a particle with its own image closes a winding. Windings are found by union-find in which every
+/// Finds all clusters of the packing, lone particles too, by label. Bonds in any order and either direction, repeated
+/// or not; a bond of a particle with its own image closes a winding. Windings are found by union-find in which every
 /// particle carries its image relative to its root, in integers: exact. O((N + bonds) log N).
 /// Throws std::invalid_argument if a bond names no particle.
 std::vector<Cluster> find_clusters(const Packing& packing, std::span<const NeighbourPair> bonds);
 
-/// The contacts of one class.
+/// Bonds made by the contacts of one class.
 std::vector<NeighbourPair> bonds_of(std::span<const Contact> contacts, std::span<const ContactClass> classes,
                                     ContactClass wanted = ContactClass::face_face);
 
-/// Per particle the label of its cluster.
+/// Label of the cluster of every particle.
 std::vector<int> cluster_labels(std::span<const Cluster> clusters, int particles);
 
 }  // namespace isojam

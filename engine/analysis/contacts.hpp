@@ -20,7 +20,7 @@ inline constexpr std::array enum_names<ContactClass>{EnumName{ContactClass::face
                                                      EnumName{ContactClass::edge_face, "edge_face"},
                                                      EnumName{ContactClass::lower_order, "lower_order"}};
 
-/// Mean numbers per particle. C = 3 Z_ff + 2 Z_ef + Z_l.
+/// Mean contact and constraint numbers per particle, C = 3 Z_ff + 2 Z_ef + Z_l (the paper's Table III).
 struct ContactNumbers {
   double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;
 };
@@ -44,8 +44,8 @@ struct ContactAnalysis {
 /// edge-face if θ_ef < its cut-off and not face-face, lower order otherwise. A collapsed fit leaves its cut-off at 0.
 ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments);
 
-/// The same of several packings of as many particles each (replicates of a sweep point): fits and gaps are found from
-/// the angles of all, and each packing is classified by the common cut-offs. Results in the order given.
+/// Analyses several packings of as many particles each (replicates of a sweep point) together: fits and gaps are found
+/// from the angles of all, and each packing is classified by the common cut-offs. Results in the order given.
 std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
                                             std::span<const std::vector<Alignment>> packings);
 
@@ -54,7 +54,8 @@ ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> al
 
 /// Classes for given cut-offs (radians).
 std::vector<ContactClass> classify(std::span<const Alignment> alignments, double ff_cutoff, double ef_cutoff);
-/// Each contact counts for two particles. Throws std::invalid_argument if particles < 1.
+/// Numbers of a packing with these contacts; each counts for two particles.
+/// Throws std::invalid_argument if particles < 1.
 ContactNumbers contact_numbers(int particles, std::span<const ContactClass> classes);
 
 }  // namespace isojam

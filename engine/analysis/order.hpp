@@ -16,8 +16,9 @@ double steinhardt_order(std::span<const Eigen::Vector3d> bonds, unsigned l);
 /// Q6 over the centre-to-centre lines of all contacts.
 double contact_q6(std::span<const Contact> contacts);
 
-/// Packings above count as partly crystalline. Of 187 packings of N = 100 near jamming (tetrahedra to icosahedra) 175
-/// had Q6 up to .281 and 12 from .359 on, 11 of icosahedra and one of dodecahedra, whose φ_J were higher by .02 to .08.
+/// Q6 above which packings count as partly crystalline. Of 187 packings of N = 100 near jamming (tetrahedra to
+/// icosahedra) 175 had Q6 up to .281 and 12 from .359 on, 11 of icosahedra and one of dodecahedra, whose φ_J were
+/// higher by .02 to .08.
 inline constexpr double crystalline_q6 = 0.32;
 
 }  // namespace isojam

@@ -15,8 +15,8 @@ namespace isojam {
 /// vanish.
 unsigned orientation_rank(const ConvexSolid& solid);
 
-/// Of every particle the 2l + 1 components Σ_v Y_lm(v) over its vertex directions in the lab frame, real harmonics, of
-/// unit norm: (2l + 1) × N. Particles alike but for a symmetry of the solid have equal columns.
+/// Spherical harmonics of every particle, (2l + 1) × N: the components Σ_v Y_lm(v) over its vertex directions in the
+/// lab frame, real harmonics, columns of unit norm. Particles alike but for a symmetry of the solid have equal columns.
 /// Products of columns are q_ij = Σ_vw P_l(v·w)/Σ_vv' P_l(v·v'), 1 if i and j are aligned, 0 on average if their
 /// orientations are independent.
 Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l);
@@ -37,6 +37,7 @@ struct Order {
   double S = 0;                              ///< orientation_order of that rank
   double random_S = 0;                       ///< 1/√N, what independent orientations give
 };
+/// Order of a packing with its contacts (PackingEnergy::contacts).
 Order order_of(const Packing& packing, std::span<const Contact> contacts);
 
 /// Mean q_ij of pairs whose centres are k·width to (k + 1)·width apart.

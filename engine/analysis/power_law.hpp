@@ -5,7 +5,7 @@
 
 namespace isojam {
 
-/// y = prefactor · x^exponent, by least squares in logarithms.
+/// Power law y = prefactor · x^exponent, by least squares in logarithms.
 struct PowerLaw {
   double exponent = 0, prefactor = 0;
   double standard_error = 0;   ///< of the exponent; 0 with two points
@@ -13,7 +13,7 @@ struct PowerLaw {
   int points = 0;
 };
 
-/// Of the points with x > 0 and y > 0. nullopt if fewer than two x among them differ: with an interval, three are
+/// Fits the points with x > 0 and y > 0. nullopt if fewer than two x among them differ: with an interval, three are
 /// needed. Throws std::invalid_argument if there are not as many y as x.
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
 

@@ -41,11 +41,11 @@ struct Edge {
 struct EdgeRecord {
   std::uint16_t tail, head, left, right;
   std::uint32_t faces;  ///< left and right, as bits
-  /// [0] as an edge of A: 32·left + 2^16·32·right; [1] as an edge of B: right + 2^16·left.
+  /// Pairs, [0] as an edge of A: 32·left + 2^16·32·right; [1] as an edge of B: right + 2^16·left.
   std::uint32_t pairs[2];
 };
 
-/// The same solid as flat arrays for the kernels. Vertices and edges are padded with copies of the first, faces with
+/// A solid as flat arrays for the kernels. Vertices and edges are padded with copies of the first, faces with
 /// planes 0·y = far that everything lies inside of.
 struct SolidArrays {
   static constexpr int capacity = 32;
@@ -53,7 +53,7 @@ struct SolidArrays {
   int vertices = 0, faces = 0, edges = 0;
   alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
   alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
-  /// What rounding left of each: value = entry + low entry to 1e-32.
+  /// Low parts, what rounding left of each: value = entry + low entry to 1e-32.
   alignas(32) double x_low[capacity], y_low[capacity], z_low[capacity];
   alignas(32) double nx_low[capacity], ny_low[capacity], nz_low[capacity], offset_low[capacity];
   Edge edge[capacity];
@@ -61,10 +61,11 @@ struct SolidArrays {
   alignas(32) std::uint8_t tail[capacity], head[capacity];  ///< of the edges
   std::uint32_t around[capacity];                           ///< per vertex: itself and its neighbours
   std::uint32_t edges_at[capacity];                         ///< per vertex: the edges that meet there
-  /// Of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the face.
+  /// Heights of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the
+  /// face.
   alignas(32) double height[capacity][capacity];
 
-  /// In quadruple precision, low parts included.
+  /// Constants in quadruple precision, low parts included.
   Quad3 vertex(int v) const {
     return {widened({x[v], x_low[v]}), widened({y[v], y_low[v]}), widened({z[v], z_low[v]})};
   }
@@ -83,7 +84,7 @@ class ConvexSolid {
   /// Hull of `vertices` (all of them extreme), moved and scaled to unit volume and centroid 0.
   /// Throws std::invalid_argument if a vertex is not extreme or the limits are exceeded.
   ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vertices);
-  /// The same from vertices in quadruple precision, so that every constant is the nearest double and its low part
+  /// Hull of vertices in quadruple precision, so that every constant is the nearest double and its low part
   /// correct to 1e-32.
   ConvexSolid(std::string name, std::span<const Quad3> vertices);
 
@@ -95,7 +96,8 @@ class ConvexSolid {
   double inradius() const { return inradius_; }          ///< least distance of a face from the centroid
   double circumradius() const { return circumradius_; }  ///< greatest distance of a vertex from the centroid
   double diameter() const { return diameter_; }          ///< greatest distance between two vertices
-  /// R = sqrt(I/m), I the mean principal moment of inertia (they are equal for the Platonic solids).
+  /// Radius of gyration about an axis, R = sqrt(I/m), I the mean principal moment of inertia (they are equal for the
+  /// Platonic solids).
   double gyration_radius() const { return gyration_radius_; }
 
  private:

@@ -4,9 +4,10 @@
 
 namespace isojam {
 
-/// The unevaluated sum high + low of two doubles, high = fl(high + low): some 106 bits. Notation: fl rounds to double,
-/// u = 2⁻⁵³. Relative errors: sum and difference 4 u², product 8 u², quotient and reciprocal root 16 u², unless
-/// something over- or underflows. They rest on every operation being rounded once: no -ffast-math, no contraction.
+/// A double-double: the unevaluated sum high + low of two doubles, high = fl(high + low), some 106 bits (Dekker 1971,
+/// Knuth). Notation: fl rounds to double, u = 2⁻⁵³. Relative errors: sum and difference 4 u², product 8 u², quotient
+/// and reciprocal root 16 u², unless something over- or underflows. They rest on every operation being rounded once: no
+/// -ffast-math, no contraction.
 struct DoubleDouble {
   double high = 0, low = 0;
 
@@ -16,20 +17,20 @@ struct DoubleDouble {
   DoubleDouble(double head, double tail) : high(head), low(tail) {}
 };
 
-/// a + b without error, if |a| ≥ |b| or a = 0.
+/// Sum a + b without error, if |a| ≥ |b| or a = 0.
 inline DoubleDouble fast_two_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// a + b without error (Knuth).
+/// Sum a + b without error (Knuth).
 inline DoubleDouble two_sum(double a, double b) {
   const double sum = a + b;
   const double b_part = sum - a;
   return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-/// a·b without error, unless it underflows.
+/// Product a·b without error, unless it underflows.
 inline DoubleDouble two_product(double a, double b) {
   const double product = a * b;
   return {product, std::fma(a, b, -product)};
@@ -43,7 +44,7 @@ inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
   return fast_two_sum(sum.high, sum.low + low.low);
 }
 
-/// a + b at half the cost, with an error of 4 u² (|a| + |b|).
+/// Sum a + b at half the cost, with an error of 4 u² (|a| + |b|).
 inline DoubleDouble short_sum(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble high = two_sum(a.high, b.high);
   return fast_two_sum(high.high, high.low + (a.low + b.low));
@@ -64,7 +65,7 @@ inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
   return fast_two_sum(first, second) + rest_of_rest.high / b.high;
 }
 
-/// 1/√a for a > 0.
+/// Reciprocal root 1/√a for a > 0.
 inline DoubleDouble reciprocal_sqrt(const DoubleDouble& a) {
   const double guess = 1 / std::sqrt(a.high);
   // One step of Newton's method doubles the digits.

@@ -15,7 +15,7 @@ class PlacedSolid {
   PlacedSolid() = default;
   /// Keeps a pointer to the solid, which must outlive this. `rotation`: body frame → lab frame.
   PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation);
-  /// The same in double-double: vertices and normals have low parts.
+  /// Places the solid in double-double: vertices and normals have low parts.
   PlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation);
 
   const ConvexSolid& solid() const { return *solid_; }
@@ -36,7 +36,7 @@ class PlacedSolid {
   Eigen::Vector3d vertex(int v) const { return {x_[v], y_[v], z_[v]}; }
   Eigen::Vector3d normal(int f) const { return {nx()[f], ny()[f], nz()[f]}; }
 
-  /// With low parts, of solids placed in double-double only.
+  /// Vectors with low parts, of solids placed in double-double only.
   DoubleDoubleVector vertex_double_double(int v) const { return {vertex(v), {x_low_[v], y_low_[v], z_low_[v]}}; }
   DoubleDoubleVector normal_double_double(int f) const { return {normal(f), {nx_low_[f], ny_low_[f], nz_low_[f]}}; }
   DoubleDouble offset_double_double(int f) const { return {offset()[f], solid_->arrays().offset_low[f]}; }

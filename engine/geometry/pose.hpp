@@ -24,8 +24,8 @@ struct DoubleDoubleMatrix {
   void set(int r, int c, const DoubleDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
 };
 
-/// Position of the centre (V_p^(1/3)) and orientation (quaternion q, body frame → lab frame) of a particle, in two
-/// doubles each: x = position + position_low, q = orientation + orientation_low, with the first the nearest double of
+/// Position of the centre (V_p^(1/3)) and orientation (quaternion q, body frame → lab frame) of a particle, each a
+/// double-double: x = position + position_low, q = orientation + orientation_low, with the first the nearest double of
 /// the sum. The rotation is the one by q/|q|, whatever |q|. Whoever assigns a first part resets the second.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -68,6 +68,7 @@ struct QuadPose {
   Quad3 displacement{};
 };
 
+/// Position in quadruple precision, low part included.
 Quad3 quad_position(const Pose& pose);
 /// Rotation by q/|q|, body frame → lab frame.
 QuadMatrix quad_rotation(const Pose& pose);

@@ -15,7 +15,7 @@ using QuadMatrix = std::array<Quad3, 3>;  ///< rows
 
 inline Quad widened(const DoubleDouble& x) { return Quad(x.high) + Quad(x.low); }
 
-/// Nearest double, and nearest double of the rest.
+/// Nearest double-double: the nearest double, and the nearest double of the rest.
 inline DoubleDouble narrowed(Quad x) {
   const auto high = static_cast<double>(x);
   return {high, static_cast<double>(x - Quad(high))};
@@ -44,7 +44,7 @@ inline QuadMatrix operator*(const QuadMatrix& m, const QuadMatrix& n) {
   return transposed({m * columns[0], m * columns[1], m * columns[2]});
 }
 
-/// Newton's method doubles the digits of the best guess that the standard library has.
+/// √x: Newton's method doubles the digits of the best guess that the standard library has.
 inline Quad square_root(Quad x) {
   if (!(x > 0)) return 0;
   const Quad guess = std::sqrt(static_cast<long double>(x));

@@ -177,20 +177,20 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   return result;
 }
 
-SecondOrder PackingEnergy::second_order(const Packing& packing, double press, Precision precision) {
+SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_distance, Precision precision) {
   overlap_all(packing, precision);
   hessians_.resize(pairs_.size());
   pair_hessians(packing, precision, placed_, pairs_, overlaps_, hessians_);
-  pressed_.assign(pairs_.size(), Overlap{});
-  if (press > 0) press_pairs(packing, placed_, pairs_, axes_, press, pressed_);
+  closed_.assign(pairs_.size(), Overlap{});
+  if (probe_distance > 0) probe_pairs(packing, placed_, pairs_, axes_, probe_distance, closed_);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
   std::vector<BlockMatrix::Block>& blocks = result.hessian.off_diagonal;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const NeighbourPair& pair = pairs_[k];
-    if (!overlaps_[k].touching() && !pressed_[k].touching()) continue;
-    result.pairs.push_back(incipient_contact(pair.a, pair.b, overlaps_[k], pressed_[k], displacement(packing, pair),
-                                             press, packing.solid->gyration_radius()));
+    if (!overlaps_[k].touching() && !closed_[k].touching()) continue;
+    result.pairs.push_back(incipient_contact(pair.a, pair.b, overlaps_[k], closed_[k], displacement(packing, pair),
+                                             probe_distance, packing.solid->gyration_radius()));
     if (!overlaps_[k].touching()) continue;
     result.hessian.diagonal[pair.a] += hessians_[k].aa;
     result.hessian.diagonal[pair.b] += hessians_[k].bb;

@@ -9,7 +9,8 @@
 
 namespace isojam {
 
-/// E = Σ_pairs V²/4 and what follows from the same overlaps (energies in Y·V_p, lengths in V_p^(1/3)).
+/// E = Σ_pairs V²/4 (Smith, Fisher, Alam 2011, E_αβ = Y V²/4V_p) and what follows from the same overlaps; energies in
+/// Y·V_p, lengths in V_p^(1/3), pressure and stress in Y.
 struct Evaluation {
   double energy = 0;
   Eigen::VectorXd gradient;  ///< 6N: per particle (−F, −T/R), lab frame; R the radius of gyration
@@ -19,15 +20,15 @@ struct Evaluation {
   /// max over particles and both kinds of |F_i|, |T_i|/R, divided by mean_force. Infinity if mean_force is 0 and
   /// some force is not; 0 if all are.
   double residual = 0;
-  /// What rounding alone can make of the residual; no minimiser can be trusted below it.
-  /// In working precision that of the coordinates: λ_max·ulp(L)/mean_force, λ_max bounded by the stiffest particle.
-  /// In double-double that of the contacts: the largest Σ_c ρ_c |F_c| R_c/R of a particle over mean_force, where
+  /// Residual that rounding alone can make; no minimiser can be trusted below it.
+  /// Working precision rounds the coordinates: λ_max·ulp(L)/mean_force, λ_max bounded by the stiffest particle.
+  /// Double-double rounds the contacts: the largest Σ_c ρ_c |F_c| R_c/R of a particle over mean_force, where
   /// R_c is the circumradius, longest lever of a force, and ρ_c the relative error of V and S of a contact. Plane
   /// distances are then wrong by τ = gap_tolerance() if they exceed double_double_below(), and right to their last bits
   /// otherwise, so ρ_c = τ/max(double_double_below(), V/|S|) + τ/√|S|, the second term for the corners, whose
   /// coordinates are doubles.
   double residual_floor = 0;
-  /// What the same rounding can do to the energy: Σ|F|·ulp(L), and Σ ρ_c V²/2. Smaller differences mean nothing.
+  /// Energy that the same rounding can make: Σ|F|·ulp(L), and Σ ρ_c V²/2. Smaller differences mean nothing.
   double energy_noise = 0;
   long contacts = 0;
 };
@@ -35,11 +36,11 @@ struct Evaluation {
 /// Second derivatives of the energy, and what they leave out.
 struct SecondOrder {
   BlockMatrix hessian;  ///< ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient
-  /// Pairs that touch, and pairs that would if pressed together; in order of (a, b, shift).
+  /// Pairs that touch, and pairs that would with their gap closed; in order of (a, b, shift).
   std::vector<IncipientContact> pairs;
 };
 
-/// A touching pair. `overlap`: area and moment in A's body frame.
+/// A touching pair. `overlap`: vector area and moment in A's body frame.
 struct Contact {
   NeighbourPair pair;
   Eigen::Vector3d displacement;  ///< x_b − x_a, the touching image, lab frame
@@ -47,7 +48,7 @@ struct Contact {
   Overlap overlap;
 };
 
-/// What one contact adds to an Evaluation.
+/// Terms that one contact adds to an Evaluation.
 struct ContactTerms {
   Eigen::Vector3d dx, dtheta_a, dtheta_b;  ///< to the gradient: of a (of b −dx), and of rotations over R
   Eigen::Matrix3d stress;                  ///< times −V_cell
@@ -61,12 +62,12 @@ struct ContactTerms {
 class PackingEnergy {
  public:
   /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
-  /// In double-double V, S and M of every contact are computed from the low parts of the state too, at a tenth
-  /// more cost; sums are in double in either.
+  /// Precision::double_double computes V, S and M of every contact from the low parts of the state too, at a tenth more
+  /// cost; sums are in double in either.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
-  /// Analytic; where two images of a particle touch another, their blocks are summed. Pairs are pressed together by
-  /// `press`, a distance.
-  SecondOrder second_order(const Packing& packing, double press, Precision precision = Precision::working);
+  /// Analytic Hessian; where two images of a particle touch another, their blocks are summed. Incipient contacts are
+  /// those that touch once their centres are closer by `probe_distance` (V_p^(1/3)); with 0, the contacts alone.
+  SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working);
   BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working) {
     return second_order(packing, 0, precision).hessian;
   }
@@ -84,7 +85,7 @@ class PackingEnergy {
   std::vector<SeparatingAxis> axes_;
   std::vector<PlacedSolid> placed_;
   std::vector<Overlap> overlaps_;  ///< lab frame
-  std::vector<Overlap> pressed_;
+  std::vector<Overlap> closed_;    ///< lab frame, with gaps closed by the probe distance
   std::vector<ContactTerms> terms_;
   std::vector<PairHessian> hessians_;
   std::vector<Eigen::Vector3d> list_positions_;

@@ -7,8 +7,9 @@ namespace isojam {
 
 namespace {
 
-/// A flat contact of area A whose section line crosses its middle resists tilt about axes in its plane: V_τ ≈ A^(3/2)/5
-/// there, and ½ V_τ² = A³/50. Contacts of lower order have so small an area that it vanishes beside ½ |∇V|².
+/// A flat contact of vector area S whose section line crosses its middle resists tilt about axes in its plane:
+/// V_τ ≈ |S|^(3/2)/5 there, and ½ V_τ² = |S|³/50. Contacts of lower order have so small an area that it vanishes beside
+/// ½ |∇V|².
 Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, double radius) {
   const double square = area.squaredNorm();
   if (!(square > 0)) return Eigen::Matrix3d::Zero();
@@ -24,18 +25,18 @@ LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, doub
           joined(-overlap.area, moment_b / gyration_radius)};
 }
 
-IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& pressed, const Eigen::Vector3d& r,
-                                   double distance, double gyration_radius) {
+IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& closed, const Eigen::Vector3d& r,
+                                   double probe_distance, double gyration_radius) {
   IncipientContact pair;
   pair.a = a, pair.b = b;
-  const Eigen::Vector3d approach = distance * r.normalized();
+  const Eigen::Vector3d approach = probe_distance * r.normalized();
   if (now.touching()) pair.now = tangent(now, r, gyration_radius);
-  if (pressed.touching()) {
-    pair.pressed = tangent(pressed, r - approach, gyration_radius);
-    pair.pressed.at_rest -= pressed.area.dot(approach);  // B moved by −approach, against −S_A
+  if (closed.touching()) {
+    pair.closed = tangent(closed, r - approach, gyration_radius);
+    pair.closed.at_rest -= closed.area.dot(approach);  // B moved by −approach, against −S_A
   }
-  const bool wider = pressed.area.squaredNorm() > now.area.squaredNorm();
-  pair.tilt = tilt_stiffness(wider ? pressed.area : now.area, gyration_radius);
+  const bool wider = closed.area.squaredNorm() > now.area.squaredNorm();
+  pair.tilt = tilt_stiffness(wider ? closed.area : now.area, gyration_radius);
   return pair;
 }
 

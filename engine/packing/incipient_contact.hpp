@@ -7,7 +7,7 @@
 namespace isojam {
 
 /// Overlap volume of a pair (a, b) to first order in a step s of 6N entries, per particle (x, R·θ), R the radius of
-/// gyration: V ≈ at_rest + slope_a·s_a + slope_b·s_b.
+/// gyration: V ≈ at_rest + slope_a·s_a + slope_b·s_b. V in V_p, slopes in V_p^(2/3).
 struct LinearisedOverlap {
   double at_rest = 0;
   Vector6d slope_a = Vector6d::Zero(), slope_b = Vector6d::Zero();
@@ -17,25 +17,25 @@ struct LinearisedOverlap {
   }
 };
 
-/// A pair of particles that touch, or would if their centres were a little closer, seen twice: as it is and pressed
-/// together by that little. Where faces are about to come flush the pressed plane is far the steeper one; V being
-/// convex in depth and tilt of a flat contact, both planes lie below it.
+/// A pair of particles that touch, or would if their centres were a little closer, with V linearised twice: as the pair
+/// is, and with the gap closed by that little, the probe distance. Where faces are about to come flush the second
+/// tangent is far the steeper one; V being convex in depth and tilt of a flat contact, both lie below it.
 struct IncipientContact {
   int a = 0, b = 0;
   LinearisedOverlap now;  ///< tangent in the present state; 0 if the pair is apart
-  LinearisedOverlap
-      pressed;  ///< tangent in the pressed state, extended to the present one, where it is negative for a gap
+  /// Tangent with the gap closed, continued to the present state, where it is negative for a gap; 0 if still apart.
+  LinearisedOverlap closed;
   /// Stiffness against relative rotation (R·θ_B − R·θ_A) that a flat contact shows once its section line cuts the
   /// face; until then V is linear in the tilt and the Hessian blind to it.
   Eigen::Matrix3d tilt = Eigen::Matrix3d::Zero();
 };
 
-/// Tangent of V for an overlap (area S_A and moment M_A in the lab frame) at displacement r = x_B − x_A.
+/// Tangent of V for an overlap (vector area S_A and moment M_A in the lab frame) at displacement r = x_B − x_A.
 LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, double gyration_radius);
 
-/// The pair with overlap `now` at r, and `pressed` with B's centre closer to A's by `distance`. Either may be empty,
-/// not both.
-IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& pressed, const Eigen::Vector3d& r,
-                                   double distance, double gyration_radius);
+/// The pair with overlap `now` at r, and `closed` with B's centre closer to A's by `probe_distance` (V_p^(1/3)). Either
+/// may be empty, not both.
+IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& closed, const Eigen::Vector3d& r,
+                                   double probe_distance, double gyration_radius);
 
 }  // namespace isojam

@@ -14,15 +14,16 @@ struct NeighbourPair {
   Eigen::Vector3i shift = Eigen::Vector3i::Zero();
 };
 
+/// Displacement x_b − x_a + L·shift of a pair, from the high parts of positions.
 Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair);
-/// The same from low parts too.
+/// Displacement in double-double, from the low parts of positions too.
 DoubleDoubleVector displacement_double_double(const Packing& packing, const NeighbourPair& pair);
 
 /// All pairs and images with centre distance < reach, in order of (a, b, shift). O(N) by cells of side ≥ reach,
 /// or brute force where the cell has fewer than 3 of them a side.
 std::vector<NeighbourPair> find_neighbours(const Packing& packing, double reach);
 
-/// The same list from all N(N−1)/2 pairs: the oracle.
+/// find_neighbours() from all N(N−1)/2 pairs: the oracle.
 std::vector<NeighbourPair> find_neighbours_brute_force(const Packing& packing, double reach);
 
 }  // namespace isojam

@@ -20,12 +20,12 @@ struct Packing {
   double density() const { return size() / cell.volume(); }
 };
 
-/// n particles, positions uniform in the cell, orientations uniform on SO(3), at density φ. Numbered along a
-/// curve through the cell, so that neighbours have near numbers.
+/// Random packing of n particles at density φ: positions uniform in the cell, orientations uniform on SO(3). Numbered
+/// along a curve through the cell, so that neighbours have near numbers.
 /// Throws std::invalid_argument if n < 1, φ is not in (0, 1], or the cell is not larger than least_side(solid).
 Packing random_packing(const ConvexSolid& solid, int n, double density, RandomStream& random);
 
-/// The same packing at another density: isotropic strain moves centres affinely and leaves orientations alone.
+/// The packing at another density: isotropic strain moves centres affinely and leaves orientations alone.
 Packing strained_to(const Packing& packing, double density);
 
 /// Moves every particle: step has 6N entries, per particle (dx, R·dθ), lab frame, R the radius of gyration.

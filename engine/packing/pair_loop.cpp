@@ -40,14 +40,14 @@ void overlap_pair(const Packing& packing, Precision precision, std::span<const P
   if (!out.touching() && axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
 }
 
-void press_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
-                const SeparatingAxis& axis, double distance, Overlap& out) {
+void probe_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
+                const SeparatingAxis& axis, double probe_distance, Overlap& out) {
   const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
   const Eigen::Vector3d r = displacement(packing, pair);
   const double length = r.norm(), reach = 2 * packing.solid->circumradius();
   out = {};
-  if (length - distance >= reach || length <= distance) return;
-  const Eigen::Vector3d closer = (1 - distance / length) * r;
+  if (length - probe_distance >= reach || length <= probe_distance) return;
+  const Eigen::Vector3d closer = (1 - probe_distance / length) * r;
   if (separates(a, b, closer, axis)) return;
   SeparatingAxis unused;
   out = overlap(a, b, closer, unused);
@@ -66,7 +66,7 @@ void for_each_block(std::size_t blocks, const Run& run) {
 
 std::size_t block_count(std::size_t pairs) { return (pairs + grain - 1) / grain; }
 
-/// Of the energy, ½ (g gᵀ + V H(V)), g = ∇V; θ → R·θ in rows and columns.
+/// Second derivatives of the energy, ½ (g gᵀ + V H(V)), g = ∇V; θ → R·θ in rows and columns.
 void pair_hessian(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
                   const NeighbourPair& pair, PairHessian& out) {
   const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
@@ -74,8 +74,8 @@ void pair_hessian(const Packing& packing, Precision precision, std::span<const P
   SeparatingAxis unused;
   OverlapHessian h;
   const Overlap value = precision == Precision::double_double
-                            ? overlap(a, b, displacement_double_double(packing, pair), unused, h)
-                            : overlap(a, b, r, unused, h);
+                            ? overlap_with_hessian(a, b, displacement_double_double(packing, pair), unused, h)
+                            : overlap_with_hessian(a, b, r, unused, h);
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>().setConstant(1 / packing.solid->gyration_radius());
   const Vector6d ga = joined(value.area, value.moment);
@@ -134,13 +134,13 @@ PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<
   return sum;
 }
 
-void press_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
-                 std::span<const SeparatingAxis> axes, double distance, std::span<Overlap> out) {
+void probe_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
+                 std::span<const SeparatingAxis> axes, double probe_distance, std::span<Overlap> out) {
   assert(axes.size() == pairs.size() && out.size() == pairs.size());
   const std::size_t n = pairs.size();
   for_each_block(block_count(n), [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
-      press_pair(packing, placed, pairs[k], axes[k], distance, out[k]);
+      probe_pair(packing, placed, pairs[k], axes[k], probe_distance, out[k]);
   });
 }
 

@@ -11,7 +11,7 @@
 
 namespace isojam {
 
-/// What the broad and narrow phases did in one evaluation.
+/// Counts of what the broad and narrow phases did in one evaluation.
 struct PairCounts {
   long listed = 0;        ///< pairs in the neighbour list
   long out_of_reach = 0;  ///< circumspheres apart
@@ -23,30 +23,29 @@ struct PairCounts {
   PairCounts& operator+=(const PairCounts& term);
 };
 
-/// Which digits of the state an evaluation reads.
+/// Which digits of the state an evaluation reads: those of the high parts, or of the whole double-double.
 enum class Precision {
   working,       ///< doubles: enough until forces balance to residual_floor, 1e-8 and worse near jamming
-  double_double  ///< two doubles: enough for a residual of 1e-9 at any distance from jamming
+  double_double  ///< low parts too: enough for a residual of 1e-9 at any distance from jamming
 };
 
-/// run(k) for every k < slots, parallel on oneTBB where there are enough of them. It may write to slot k only, so that
-/// the result does not depend on the number of threads.
+/// Calls run(k) for every k < slots, parallel on oneTBB where there are enough of them. It may write to slot k only, so
+/// that the result does not depend on the number of threads.
 void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run);
 
 /// Every particle's solid in its orientation, in the order of particles. `placed` is overwritten.
 void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed);
 
-/// Overlap of every listed pair into its own slot (lab frame), parallel over pairs on
-/// oneTBB where there are enough of them. `placed` as place_all left it for the same precision. Slots of pairs that do
-/// not touch are left with volume 0. axes[k] is read and updated: a cache that changes the cost and never the result.
-/// All spans have the size of `pairs`.
+/// Overlap of every listed pair into its own slot (lab frame), parallel over pairs on oneTBB where there are enough of
+/// them. `placed` as place_all left it for the same precision. Slots of pairs that do not touch are left with volume 0.
+/// axes[k] is read and updated: a cache that changes the cost and never the result. All spans have the size of `pairs`.
 PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
 
-/// Overlap of every listed pair as it would be with B's centre closer to A's by `distance`; volume 0 where they would
-/// still be apart. `axes` as overlap_pairs left them.
-void press_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
-                 std::span<const SeparatingAxis> axes, double distance, std::span<Overlap> out);
+/// Overlap of every listed pair as it would be with the gap closed, B's centre closer to A's by `probe_distance`
+/// (V_p^(1/3)); volume 0 where they would still be apart. `axes` as overlap_pairs left them.
+void probe_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
+                 std::span<const SeparatingAxis> axes, double probe_distance, std::span<Overlap> out);
 
 /// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
 /// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
@@ -54,7 +53,8 @@ struct PairHessian {
   Matrix6d aa, ab, bb;
 };
 
-/// Of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left them.
+/// PairHessian of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left
+/// them.
 void pair_hessians(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
                    std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps, std::span<PairHessian> out);
 

@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// What a stream of random bits is used for; part of its key.
+/// Purpose of a stream of random bits; part of its key.
 enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2 };
 
 /// A reproducible stream of random bits, a function of its key alone: (manifest seed, sweep point, replicate,

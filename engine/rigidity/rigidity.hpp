@@ -6,7 +6,8 @@
 
 namespace isojam {
 
-/// Are the constraints independent? Maxwell and Calladine: 6N − constraints = floppy − self_stress, exactly.
+/// Rank of the constraints, whether they are independent: 6N − constraints = floppy − self_stress, exactly (Maxwell
+/// 1864, Calladine 1978).
 struct Rigidity {
   int constraints = 0;  ///< rows; Z·N/2 from normals, C·N/2 by class
   int rank = 0;
@@ -29,10 +30,10 @@ struct RigidityOptions {
   double margin = 100;
 };
 
-/// States of self-stress by inverse subspace iteration with SoftRows and the Rayleigh–Ritz method on its left singular
-/// vectors, from a random start (Halko, Martinsson & Tropp 2011) that is the same for every matrix of a size. Throws
-/// std::invalid_argument if the rows hold what is not a number. Singular values up to max(rows, 6N)·ε times a bound of
-/// the largest, or up to `margin` times the imbalance of the forces, are zero. N = 400 takes about a second.
+/// Finds the states of self-stress by inverse subspace iteration with SoftRows and the Rayleigh–Ritz method on its left
+/// singular vectors, from a random start (Halko, Martinsson & Tropp 2011) that is the same for every matrix of a size.
+/// Throws std::invalid_argument if the rows hold what is not a number. Singular values up to max(rows, 6N)·ε times a
+/// bound of the largest, or up to `margin` times the imbalance of the forces, are zero. N = 400 takes about a second.
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 
 /// All singular values of the rows, descending: the oracle. Dense and slower still; for N ≤ 100.

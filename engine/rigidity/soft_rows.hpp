@@ -13,12 +13,13 @@ namespace isojam {
 /// factorisation takes half a minute.
 class SoftRows {
  public:
-  /// `rows`, constraints × 6N, must outlive this. Throws std::invalid_argument if they hold what is not a number.
+  /// Keeps a reference to `rows`, constraints × 6N, which must outlive this. Throws std::invalid_argument if they hold
+  /// what is not a number.
   explicit SoftRows(const Eigen::SparseMatrix<double>& rows);
 
-  /// τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x (Sherman, Morrison, Woodbury), for each column:
-  /// combinations with singular value σ are multiplied by τ²/(σ² + τ²), states of self-stress by one. τ is 1e-6 of
-  /// stiffest().
+  /// Damped x, τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x (Sherman, Morrison, Woodbury), for each
+  /// column: combinations with singular value σ are multiplied by τ²/(σ² + τ²), states of self-stress by one. τ is 1e-6
+  /// of stiffest().
   Eigen::MatrixXd damped(const Eigen::MatrixXd& x) const;
 
   /// A bound for the largest singular value, the root of the largest row sum of |rowsᵀrows|.
@@ -30,7 +31,7 @@ class SoftRows {
   double stiffest_ = 0;
 };
 
-/// rowsᵀrows, of rows that are 6N long.
+/// Gram matrix rowsᵀrows, of rows that are 6N long.
 BlockMatrix gram(const Eigen::SparseMatrix<double>& rows);
 
 }  // namespace isojam

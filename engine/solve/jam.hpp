@@ -14,18 +14,20 @@
 
 namespace isojam {
 
-/// Jamming protocol: consolidate in small isotropic strain steps, then expand towards φ_J, minimising after each.
+/// Jamming protocol of Smith, Fisher, Alam 2011 (and 2010): consolidate in small isotropic strain steps, then expand
+/// towards φ_J, minimising after each. Energies in Y·V_p.
 struct JamOptions {
   double initial_density = 0.05;
   /// Δφ of a strain step on the way up. Over 16 packings of 100 each, steps of .005, .01 and .02 gave the same φ_J and
   /// the same scatter (octahedra .684, .684, .684 with standard deviations .004, .005, .003): the longest costs least.
   double consolidation_step = 0.02;
   double target_energy = 3.2e-5;  ///< E/N at which consolidation ends (the paper's)
-  /// false: consolidation ends at the minimised state with E/N ≥ target_energy. true: the other reading of the
-  /// paper, each strain step is as large as keeps the unrelaxed E/N below target_energy, and consolidation ends
-  /// when minimisation no longer removes the energy.
+  /// Reading of the paper's target. false: consolidation ends at the minimised state with E/N ≥ target_energy. true:
+  /// each strain step is as large as keeps the unrelaxed E/N below target_energy, and consolidation ends when
+  /// minimisation no longer removes the energy.
   bool target_before_relaxation = false;
-  /// Refuse to go beyond; the cell must be legal up to here. Crystals can pass .9 before they reach the target energy.
+  /// Density that is not exceeded; the cell must be legal up to here. Crystals can pass .9 before they reach the target
+  /// energy.
   double max_density = 0.93;
   /// An expansion step is this fraction of the distance φ − φ_J as the last state shows it, halved where a step failed
   /// and grown back where one succeeded, but no longer than longest_step, nor far beyond final_distance.
@@ -34,7 +36,7 @@ struct JamOptions {
   double final_distance = 0.004;  ///< expansion ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this give φ_J
   int max_steps = 400;            ///< strain steps in all
-  /// On the way up states are only passed through: L-BFGS relaxes each until forces balance to consolidation_residual,
+  /// Consolidation only passes through its states: L-BFGS relaxes each until forces balance to consolidation_residual,
   /// E/N falls below consolidation_energy, or consolidation_evaluations are spent. The state at the target is then
   /// minimised fully.
   double consolidation_residual = 1e-3;
@@ -48,7 +50,7 @@ template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "consolidation"},
                                                  EnumName{JamStage::expansion, "expansion"}};
 
-/// A minimised state on the path.
+/// A minimised state on the path; energy in Y·V_p, pressure in Y.
 struct JamStep {
   JamStage stage = JamStage::consolidation;
   double density = 0;
@@ -89,7 +91,7 @@ struct JamResult {
   MinimiseWork work;  ///< of the minimisers, summed over all steps
 };
 
-/// What fit_jamming_point() is given: the energies of the states.
+/// Energies of the states, as fit_jamming_point() is given them.
 std::vector<EnergyPoint> energy_points(const JamResult& result);
 
 /// A run between two strain steps: a value. Whoever goes on from it, in this process or another, gets the same bits as
@@ -97,18 +99,18 @@ std::vector<EnergyPoint> energy_points(const JamResult& result);
 struct JamProgress {
   Packing packing;  ///< minimised, where the next strain step starts; as placed before the first
   JamStage stage = JamStage::consolidation;  ///< of the next step
-  double step_fraction =
-      0;             ///< fraction of the distance that the next expansion step goes, see JamOptions::step_fraction
-  int halvings = 0;  ///< expansion steps that failed
-  JamResult result;  ///< so far; not_called while steps remain
+  double step_fraction = 0;  ///< of the distance φ − φ_J, for the next expansion step; see JamOptions::step_fraction
+  int halvings = 0;          ///< expansion steps that failed
+  JamResult result;          ///< so far; not_called while steps remain
 
   bool ended() const { return result.status != JamStatus::not_called; }
 };
 
+/// Progress of a run before its first strain step.
 JamProgress begin_jam(Packing start, const JamOptions& options);
 
-/// The next strain step of a run that has not ended, minimised and appended to the path, its state kept if it is one
-/// of the expansion and an equilibrium, or ended by minimise.energy_change. After a stop request the run ends as
+/// Makes the next strain step of a run that has not ended: minimised and appended to the path, its state kept if it is
+/// one of the expansion and an equilibrium, or ended by minimise.energy_change. After a stop request the run ends as
 /// interrupted, with the step in whatever state it was: to go on, start from the progress before it.
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop = {});
 

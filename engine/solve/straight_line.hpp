@@ -11,10 +11,10 @@ struct Line {
   double intercept_variance = 0, slope_variance = 0;  ///< 0 with two points
 };
 
-/// At least two points, not all at the same x.
+/// Fits at least two points, not all at the same x.
 Line fit_line(std::span<const double> x, std::span<const double> y);
 
-/// t with P(|T| < t) = .95, T Student's with `degrees` ≥ 1 of freedom.
+/// Quantile t with P(|T| < t) = .95, T Student's with `degrees` ≥ 1 of freedom.
 double student_95(double degrees);
 
 }  // namespace isojam

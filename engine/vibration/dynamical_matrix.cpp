@@ -43,14 +43,14 @@ double norm_bound(const BlockMatrix& matrix) {
   return sums.size() == 0 ? 0 : sums.maxCoeff();
 }
 
-double rounding_bound(const BlockMatrix& matrix, double stiffness) {
+double rounding_bound(const BlockMatrix& matrix, double lambda_max) {
   std::vector<int> blocks(matrix.diagonal.size(), 1);
   for (const BlockMatrix::Block& block : matrix.off_diagonal) {
     ++blocks[block.row];
     ++blocks[block.column];
   }
   const int most = blocks.empty() ? 0 : *std::max_element(blocks.begin(), blocks.end());
-  return std::numeric_limits<double>::epsilon() * std::sqrt(6.0 * matrix.size()) * most * stiffness;
+  return std::numeric_limits<double>::epsilon() * std::sqrt(6.0 * matrix.size()) * most * lambda_max;
 }
 
 Eigen::MatrixXd difference_hessian(const Packing& packing, double h, Precision precision) {

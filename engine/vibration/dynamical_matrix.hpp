@@ -11,7 +11,7 @@ namespace isojam {
 
 // The dynamical matrix D of a packing, ω² u = D u, is what PackingEnergy::hessian returns. Its coordinates are
 // r = {x, R·θ} per particle, R the radius of gyration; a particle has mass 1, and so has the coordinate R·θ, since
-// ½ I θ'² = ½ (R θ')². Nothing is left to be scaled: D = ∂²E/∂r², λ = ω² in Y·V_p^(-2/3) per unit mass.
+// ½ I θ'² = ½ (R θ')². Nothing is left to be scaled: D = ∂²E/∂r², λ = ω² in (Y/ρ)·V_p^(-2/3).
 
 /// Both halves of D, 6N × 6N.
 Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix);
@@ -20,20 +20,20 @@ Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix);
 /// The three translations of the packing as a whole, 6N × 3, orthonormal: null vectors of D in any state.
 Eigen::MatrixXd translations(int particles);
 
-/// max_i Σ_j |D_ij|, which no |λ| exceeds; 0 without contacts, infinity if D is not finite.
+/// Norm max_i Σ_j |D_ij|, which no |λ| exceeds; 0 without contacts, infinity if D is not finite.
 double norm_bound(const BlockMatrix& matrix);
 
-/// What rounding can do to an eigenvalue when |λ| goes up to `stiffness`: ε √(6N) (z + 1) · stiffness, z the most
-/// blocks beside the diagonal in a row. Entries are sums over contacts and wrong by ε of the stiffest, a row has z + 1
-/// blocks of them, and errors of a factorisation or a sum over 6N of them add up as in a random walk (Higham and Mary
-/// 2019). No eigenvalue nearer to 0 can be told from 0.
-double rounding_bound(const BlockMatrix& matrix, double stiffness);
+/// Bound on what rounding does to an eigenvalue when |λ| goes up to `lambda_max`: ε √(6N) (z + 1) · lambda_max, z the
+/// most blocks beside the diagonal in a row. Entries are sums over contacts and wrong by ε of the stiffest, a row has
+/// z + 1 blocks of them, and errors of a factorisation or a sum over 6N of them add up as in a random walk (Higham and
+/// Mary 2019). No eigenvalue nearer to 0 can be told from 0.
+double rounding_bound(const BlockMatrix& matrix, double lambda_max);
 
-/// The oracle for D: central differences of the gradient, (∇E(r + h e_k) − ∇E(r − h e_k)) / 2h for each of the 6N
-/// coordinates, moved as minimisers move them, then symmetrised (turns of a particle that is not in balance do not
-/// commute). 12N evaluations; dense, 6N × 6N. Right only while h is smaller than the shallowest flat contact is deep,
-/// beyond which pairs close and open within a step.
-/// Throws std::invalid_argument unless h > 0.
+/// The oracle for D, and the paper's way to it: central differences of the gradient,
+///   (∇E(r + h e_k) − ∇E(r − h e_k)) / 2h
+/// for each of the 6N coordinates, moved as minimisers move them, then symmetrised (turns of a particle that is not
+/// in balance do not commute). 12N evaluations; dense, 6N × 6N. Right only while h is smaller than the shallowest flat
+/// contact is deep, beyond which pairs close and open within a step. Throws std::invalid_argument unless h > 0.
 Eigen::MatrixXd difference_hessian(const Packing& packing, double h, Precision precision = Precision::double_double);
 
 }  // namespace isojam

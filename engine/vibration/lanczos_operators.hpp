@@ -15,11 +15,11 @@ inline void remove_translations(Eigen::Ref<Eigen::VectorXd> u) {
   for (Eigen::Index k = 0; k < u.size(); k += 6) u.segment<3>(k) -= mean;
 }
 
-/// Where Lanczos starts: the same for every matrix of 6N rows, without symmetry that could hide a mode from it.
+/// Start vector of Lanczos, the same for every matrix of 6N rows, without symmetry that could hide a mode from it.
 Eigen::VectorXd lanczos_start(Eigen::Index rows);
 
-/// P op P, P the projector that removes translations: the form in which Spectra takes an operator. It must outlive
-/// this.
+/// Operator P op P, P the projector that removes translations: the form in which Spectra takes an operator. It must
+/// outlive this.
 template <class Operation>
 class Deflated {
  public:
@@ -41,7 +41,7 @@ class Deflated {
   Operation& operation_;
 };
 
-/// x ↦ D x, which must outlive it.
+/// Operator x ↦ D x; D must outlive it.
 class Product {
  public:
   explicit Product(const BlockMatrix& matrix) : matrix_(matrix) {}

@@ -119,11 +119,10 @@ double ElasticTensor::mean_shear_modulus() const {
 
 std::optional<ElasticTensor> elastic_tensor(const Packing& packing, const BlockMatrix& hessian,
                                             std::span<const Contact> contacts, const Evaluation& evaluation) {
-  const double stiffness = norm_bound(hessian);
-  if (!(stiffness > 0) || !std::isfinite(stiffness)) return std::nullopt;
+  const double bound = norm_bound(hessian);
+  if (!(bound > 0) || !std::isfinite(bound)) return std::nullopt;
   BlockCholesky cholesky;
-  if (!cholesky.factorise(pinned_matrix(hessian, stiffness, Pinning::translations_and_untouched), 0))
-    return std::nullopt;
+  if (!cholesky.factorise(pinned_matrix(hessian, bound, Pinning::translations_and_untouched), 0)) return std::nullopt;
   const Affine affine = affine_response(packing, hessian, contacts, evaluation);
   Eigen::MatrixXd moves(affine.forces.rows(), 6), reactions(affine.forces.rows(), 6);
   for (int i = 0; i < 6; ++i) {

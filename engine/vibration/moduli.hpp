@@ -16,7 +16,8 @@ namespace isojam {
 //   (ε_xx, ε_yy, ε_zz, √2 ε_yz, √2 ε_zx, √2 ε_xy)   (Mandel),
 // in which rotations are orthogonal and eigenvalues mean something.
 
-/// C_IJ = (1/V) d²E/dε_I dε_J at ε = 0, in Y. Isotropic: 3K − 3p along the trace, 2G on the traceless five.
+/// Elastic tensor C_IJ = (1/V) d²E/dε_I dε_J at ε = 0, in Y. Isotropic: 3K − 3p along the trace, 2G on the traceless
+/// five.
 struct ElasticTensor {
   Matrix6d affine = Matrix6d::Zero();  ///< all centres follow the strain, orientations fixed
   Matrix6d relaxed = Matrix6d::Zero();  ///< the packing relaxes at every strain: affine − Ξᵀ D⁺ Ξ, Ξ = ∂²E/∂r∂ε over V
@@ -28,16 +29,16 @@ struct ElasticTensor {
   double mean_shear_modulus() const;           ///< over them (Voigt's average)
 };
 
-/// From the Hessian, the contacts (PackingEnergy::contacts) and the evaluation of one equilibrium. Blocks whose pair
-/// has no contact in the list, which may happen to overlaps that only double-double sees, are strained at the
-/// nearest image. Particles without contacts take no part. nullopt if D is not positive definite beyond translations
-/// and those: then no response is defined.
+/// Elastic tensor from the Hessian, the contacts (PackingEnergy::contacts) and the evaluation of one equilibrium.
+/// Blocks whose pair has no contact in the list, which may happen to overlaps that only double-double sees, are
+/// strained at the nearest image. Particles without contacts take no part. nullopt if D is not positive definite beyond
+/// translations and those: then no response is defined.
 std::optional<ElasticTensor> elastic_tensor(const Packing& packing, const BlockMatrix& hessian,
                                             std::span<const Contact> contacts, const Evaluation& evaluation);
 
 struct PressureSlopeOptions {
-  /// Δφ/φ of the neighbours. K ∝ (φ − φ_J)⁴ curves, so that it must stay small beside (φ − φ_J)/φ; less is lost to
-  /// rounding.
+  /// Strain Δφ/φ of the neighbours. K ∝ (φ − φ_J)⁴ curves, so that it must stay small beside (φ − φ_J)/φ; less is lost
+  /// to rounding.
   double strain = 1e-6;
   MinimiseOptions minimise{.residual = 1e-9};
 };

@@ -4,13 +4,13 @@
 
 namespace isojam {
 
-BlockMatrix pinned_matrix(const BlockMatrix& matrix, double stiffness, Pinning pinning) {
+BlockMatrix pinned_matrix(const BlockMatrix& matrix, double held_diagonal, Pinning pinning) {
   BlockMatrix pinned = matrix;
   if (matrix.size() == 0) return pinned;
   Matrix6d& first = pinned.diagonal[0];
   first.topRows<3>().setZero();
   first.leftCols<3>().setZero();
-  first.topLeftCorner<3, 3>().diagonal().setConstant(stiffness);
+  first.topLeftCorner<3, 3>().diagonal().setConstant(held_diagonal);
   std::vector<char> touched(matrix.diagonal.size(), 0);
   for (BlockMatrix::Block& block : pinned.off_diagonal) {
     if (block.row == 0) block.value.topRows<3>().setZero();
@@ -19,7 +19,7 @@ BlockMatrix pinned_matrix(const BlockMatrix& matrix, double stiffness, Pinning p
   }
   if (pinning == Pinning::translations) return pinned;
   for (int k = 0; k < matrix.size(); ++k) {
-    if (!touched[k]) pinned.diagonal[k] = stiffness * Matrix6d::Identity();
+    if (!touched[k]) pinned.diagonal[k] = held_diagonal * Matrix6d::Identity();
   }
   return pinned;
 }

@@ -25,13 +25,13 @@ using Eigen::VectorXd;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Sets residual and relative_error.
-void judge(ModeSet& modes, const BlockMatrix& matrix, double stiffness) {
+void judge(ModeSet& modes, const BlockMatrix& matrix, double lambda_max) {
   modes.residual = modes.relative_error = 0;
   for (Index k = 0; k < modes.size(); ++k) {
     const VectorXd u = modes.vectors.col(k);
     const double residual = (matrix * u - modes.eigenvalues[k] * u).norm(), size = std::abs(modes.eigenvalues[k]);
-    const double error = residual + epsilon * stiffness;
-    if (stiffness > 0) modes.residual = std::max(modes.residual, residual / stiffness);
+    const double error = residual + epsilon * lambda_max;
+    if (lambda_max > 0) modes.residual = std::max(modes.residual, residual / lambda_max);
     modes.relative_error =
         std::max(modes.relative_error, size > 0 ? error / size : std::numeric_limits<double>::infinity());
   }
@@ -95,8 +95,8 @@ class Ends {
                                    .tolerance = options_.highest_tolerance,
                                    .restarts = options_.restarts};
       if (!take_modes(LanczosOperation(operation), request, ends.highest)) continue;
-      ends.stiffness = ends.highest.eigenvalues.cwiseAbs().maxCoeff();
-      judge(ends.highest, matrix_, ends.stiffness);
+      ends.lambda_max = ends.highest.eigenvalues.cwiseAbs().maxCoeff();
+      judge(ends.highest, matrix_, ends.lambda_max);
       ends.highest.ended = attempt == 0 ? ModeEnd::converged : ModeEnd::retried;
       return true;
     }
@@ -107,12 +107,12 @@ class Ends {
     ModeSet& modes = ends.lowest;
     // Close below 0; then, for a Hessian with negative modes, below all of the spectrum.
     for (int attempt = 0; attempt < 2; ++attempt) {
-      const double shift = attempt == 0 ? -options_.shift * ends.stiffness : below_all(ends.stiffness);
+      const double shift = attempt == 0 ? -options_.shift * ends.lambda_max : below_all(ends.lambda_max);
       if (!invert(wanted, attempt, shift, modes)) continue;
-      judge(modes, matrix_, ends.stiffness);
+      judge(modes, matrix_, ends.lambda_max);
       // ‖Du − λu‖ ≤ ‖D − σ‖ times the residual of the inverse's eigenpair, and rounding.
-      const double from_tolerance = options_.lowest_tolerance * (ends.stiffness - shift);
-      if (modes.residual * ends.stiffness > rounding_bound(matrix_, ends.stiffness) + from_tolerance) continue;
+      const double from_tolerance = options_.lowest_tolerance * (ends.lambda_max - shift);
+      if (modes.residual * ends.lambda_max > rounding_bound(matrix_, ends.lambda_max) + from_tolerance) continue;
       modes.ended = attempt == 0 ? ModeEnd::converged : ModeEnd::retried;
       return true;
     }
@@ -136,7 +136,7 @@ class Ends {
   }
 
   /// Below the lowest mode by a fraction of its distance from 0, or the usual shift if that is further.
-  double below_all(double stiffness) const {
+  double below_all(double lambda_max) const {
     Product product(matrix_);
     Deflated<Product> operation(product);
     ModeSet lowest;
@@ -149,7 +149,7 @@ class Ends {
                                  .restarts = options_.restarts};
     if (!take_modes(LanczosOperation(operation), request, lowest)) return fallback;
     const double lambda = lowest.eigenvalues[0];
-    return std::min(-100 * options_.shift * stiffness, lambda - 2 * rough * std::abs(lambda));
+    return std::min(-100 * options_.shift * lambda_max, lambda - 2 * rough * std::abs(lambda));
   }
 
   SpectrumEnds densely(Index low, Index high, int attempts = 0) const {
@@ -160,19 +160,19 @@ class Ends {
       return ends;
     }
     const ModeSet all = dense_modes(matrix_);
-    ends.stiffness = all.eigenvalues.cwiseAbs().maxCoeff();
-    ends.lowest = part(all, 0, low, ends.stiffness, attempts);
-    ends.highest = part(all, all_ - high, high, ends.stiffness, attempts);
+    ends.lambda_max = all.eigenvalues.cwiseAbs().maxCoeff();
+    ends.lowest = part(all, 0, low, ends.lambda_max, attempts);
+    ends.highest = part(all, all_ - high, high, ends.lambda_max, attempts);
     return ends;
   }
 
-  ModeSet part(const ModeSet& all, Index first, Index count, double stiffness, int attempts) const {
+  ModeSet part(const ModeSet& all, Index first, Index count, double lambda_max, int attempts) const {
     ModeSet modes;
     modes.ended = all.ended == ModeEnd::failed ? ModeEnd::failed : ModeEnd::dense_fallback;
     modes.attempts = attempts + 1;
     modes.eigenvalues = all.eigenvalues.segment(first, count);
     modes.vectors = all.vectors.middleCols(first, count);
-    judge(modes, matrix_, stiffness);
+    judge(modes, matrix_, lambda_max);
     return modes;
   }
 

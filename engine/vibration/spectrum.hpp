@@ -29,26 +29,26 @@ struct ModeSet {
   Eigen::VectorXd eigenvalues;  ///< ascending
   Eigen::MatrixXd vectors;      ///< 6N × modes, orthonormal, no translation in them; coordinates as D
   double residual = 0;          ///< max ‖Du − λu‖ / λ_max
-  /// max (‖Du − λu‖ + ε λ_max)/|λ|: an eigenvalue of D lies no farther (Weyl), and D is no better known than to ε
-  /// λ_max. Infinity if some λ is 0.
+  /// Relative error max (‖Du − λu‖ + ε λ_max)/|λ|: an eigenvalue of D lies no farther (Weyl), and D is no better known
+  /// than to ε λ_max. Infinity if some λ is 0.
   double relative_error = 0;
   int attempts = 0;
 
   Eigen::Index size() const { return eigenvalues.size(); }
 };
 
-/// Both ends of a spectrum.
+/// Both ends of a spectrum, eigenvalues in (Y/ρ)·V_p^(-2/3).
 struct SpectrumEnds {
   ModeSet lowest, highest;
-  double stiffness = 0;  ///< λ_max
+  double lambda_max = 0;  ///< greatest |λ|
 
   bool complete() const { return lowest.size() > 0 && highest.size() > 0; }
 };
 
 struct ModeOptions {
   int lowest = 50, highest = 50;  ///< modes wanted, all if there are fewer
-  /// −σ/λ_max of the first attempt. Above what rounding leaves of the translations in the factorisation, and below the
-  /// softest modes: λ_l/λ_h ~ Δφ⁴ is 1e-12 for tetrahedra nearest jamming. (1e-6 gives wrong modes there.)
+  /// Shift −σ/λ_max of the first attempt. Above what rounding leaves of the translations in the factorisation, and
+  /// below the softest modes: λ_l/λ_h ~ Δφ⁴ is 1e-12 for tetrahedra nearest jamming. (1e-6 gives wrong modes there.)
   double shift = 1e-11;
   /// Relative accuracy of 1/(λ − σ); the inverse converges so fast that it may as well be all there is.
   double lowest_tolerance = 1e-13;
@@ -60,8 +60,8 @@ struct ModeOptions {
   int largest_dense = 500;
 };
 
-/// The lowest modes by shift-invert Lanczos, shift below 0, and the highest by Lanczos on D itself. Start vectors are
-/// fixed: the same matrix gives the same bits. A set that does not converge, or whose residual shows that a
+/// Finds the lowest modes by shift-invert Lanczos, shift below 0, and the highest by Lanczos on D itself. Start vectors
+/// are fixed: the same matrix gives the same bits. A set that does not converge, or whose residual shows that a
 /// factorisation went wrong, or that misses modes below the shift (Sylvester's inertia says how many there are), is
 /// tried again, with a larger subspace and a shift below all of the spectrum, and then densely. Never throws.
 SpectrumEnds spectrum_ends(const BlockMatrix& matrix, const ModeOptions& options = {});

@@ -28,12 +28,12 @@ std::optional<int> count_below(const BlockMatrix& matrix, double sigma) {
 
 bool all_above(const BlockMatrix& matrix, double sigma) { return BlockCholesky().factorise(matrix, -sigma); }
 
-void count_modes(const BlockMatrix& matrix, double stiffness, Stability& stability) {
+void count_modes(const BlockMatrix& matrix, double lambda_max, Stability& stability) {
   const int all = 6 * matrix.size();
   const double tolerance = stability.tolerance;
   // Pinning one particle cuts a space of 6N − 3 dimensions out of 6N: the least eigenvalue there is at most the fourth
   // of D. The first three belong to the translations.
-  if (all_above(pinned_matrix(matrix, stiffness, Pinning::translations), tolerance)) {
+  if (all_above(pinned_matrix(matrix, lambda_max, Pinning::translations), tolerance)) {
     stability.zero = 3;
     stability.positive = all - 3;
     stability.verdict = Verdict::stable;
@@ -76,19 +76,19 @@ std::vector<NearRattler> find_near_rattlers(const BlockMatrix& matrix, const Mod
   std::vector<NearRattler> found;
   for (int i = 0; i < matrix.size(); ++i) {
     const Eigen::SelfAdjointEigenSolver<Matrix6d> own(matrix.diagonal[i], Eigen::EigenvaluesOnly);
-    const double stiffness = own.eigenvalues()[0];
+    const double least_eigenvalue = own.eigenvalues()[0];
     const bool few = contacts[i] < 4;
-    if (!few && stiffness > tolerance && !carries[i]) continue;
+    if (!few && least_eigenvalue > tolerance && !carries[i]) continue;
     using enum NearRattler::Reason;
-    found.push_back({i, few ? few_contacts : vanishing_stiffness, contacts[i], stiffness});
+    found.push_back({i, few ? few_contacts : vanishing_stiffness, contacts[i], least_eigenvalue});
   }
   return found;
 }
 
 }  // namespace
 
-double zero_tolerance(const BlockMatrix& matrix, double stiffness, double unbalanced_torque) {
-  return rounding_bound(matrix, stiffness) + unbalanced_torque;
+double zero_tolerance(const BlockMatrix& matrix, double lambda_max, double unbalanced_torque) {
+  return rounding_bound(matrix, lambda_max) + unbalanced_torque;
 }
 
 double unbalanced_torque(const Evaluation& evaluation, double gyration_radius) {
@@ -106,13 +106,13 @@ Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unb
     return stability;
   }
   // Without the highest modes their bound serves.
-  const double stiffness = ends.stiffness > 0 ? ends.stiffness : bound;
-  if (stiffness == 0) {
+  const double lambda_max = ends.lambda_max > 0 ? ends.lambda_max : bound;
+  if (lambda_max == 0) {
     stability.zero = 6 * matrix.size();
     stability.verdict = Verdict::marginal;
   } else {
-    stability.tolerance = zero_tolerance(matrix, stiffness, unbalanced_torque);
-    count_modes(matrix, stiffness, stability);
+    stability.tolerance = zero_tolerance(matrix, lambda_max, unbalanced_torque);
+    count_modes(matrix, lambda_max, stability);
     const Eigen::MatrixXd moves = translations(matrix.size());
     for (int c = 0; c < 3; ++c)
       stability.translation_error = std::max(stability.translation_error, (matrix * moves.col(c)).norm());

@@ -33,7 +33,7 @@ struct NearRattler {
   int particle = 0;
   Reason reason = Reason::few_contacts;
   int contacts = 0;
-  double stiffness = 0;  ///< least eigenvalue of its own block of D
+  double least_eigenvalue = 0;  ///< of its own block of D
 };
 template <>
 inline constexpr std::array enum_names<NearRattler::Reason>{
@@ -48,18 +48,19 @@ struct Stability {
   std::vector<NearRattler> near_rattlers;    ///< ascending by particle; at most one entry for each
 };
 
-/// What separates zero from small: rounding_bound(D, λ_max) + the largest |T_i|/R² of an unbalanced torque. The second,
-/// because turns do not commute: the Hessian of a particle that feels a torque T depends by up to T/2 on what is meant
-/// by a small turn.
-double zero_tolerance(const BlockMatrix& matrix, double stiffness, double unbalanced_torque = 0);
+/// Tolerance that separates zero from small: rounding_bound(D, λ_max) + the largest |T_i|/R² of an unbalanced torque.
+/// The second, because turns do not commute: the Hessian of a particle that feels a torque T depends by up to T/2 on
+/// what is meant by a small turn.
+double zero_tolerance(const BlockMatrix& matrix, double lambda_max, double unbalanced_torque = 0);
 
-/// max_i |T_i|/R² of an evaluation, the second argument of zero_tolerance.
+/// Largest |T_i|/R² of an evaluation, the second argument of zero_tolerance.
 double unbalanced_torque(const Evaluation& evaluation, double gyration_radius);
 
 /// Counts all modes of D, by the number of eigenvalues below −tolerance and above +tolerance, and names near-rattlers.
 /// A packing whose D with one particle pinned is above the tolerance has 6N − 3 positive modes (eigenvalues
 /// interlace), which a Cholesky factorisation shows; anything else is counted by LDLᵀ.
-/// Four: forces on fewer than four points balance in a plane, and nothing opposes a motion out of it to first order.
+/// Four contacts are the fewest that can hold a particle: forces on fewer than four points balance in a plane, and
+/// nothing opposes a motion out of it to first order.
 Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque = 0);
 
 }  // namespace isojam

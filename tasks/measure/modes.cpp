@@ -72,7 +72,7 @@ Json rattler_records(const Stability& stability) {
     json["particle"] = rattler.particle;
     json["reason"] = to_string(rattler.reason);
     json["contacts"] = rattler.contacts;
-    put_number(json, "stiffness", rattler.stiffness);
+    put_number(json, "stiffness", rattler.least_eigenvalue);
     list.push_back(std::move(json));
   }
   return list;
@@ -102,7 +102,7 @@ Json mode_record(const Vibrations& vibrations) {
   json["positive"] = stability.positive;
   put_number(json, "zero_tolerance", stability.tolerance);
   json["near_rattlers"] = rattler_records(stability);
-  put_number(json, "lambda_max", vibrations.ends.stiffness);
+  put_number(json, "lambda_max", vibrations.ends.lambda_max);
   put(state, omega_l, vibrations.omega_l, "no modes, or one without a frequency");
   put(state, omega_h, vibrations.omega_h, "no modes, or one without a frequency");
   put_end(state, "lowest", vibrations.ends.lowest, stability.tolerance, p_l);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "tests/bench/pair_set.hpp"
 #include "tests/bench/peers.hpp"
 
@@ -49,7 +50,7 @@ void with_hessian(benchmark::State& state, SolidKind kind) {
   time_pairs(state, set.size(), [&](std::size_t k) {
     SeparatingAxis axis;
     OverlapHessian hessian;
-    return overlap(set.a(k), set.b(k), set.r(k), axis, hessian).volume + hessian.bb(5, 5);
+    return overlap_with_hessian(set.a(k), set.b(k), set.r(k), axis, hessian).volume + hessian.bb(5, 5);
   });
 }
 

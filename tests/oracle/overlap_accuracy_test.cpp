@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
@@ -27,7 +28,7 @@ namespace isojam::oracle {
 namespace {
 
 Overlap engine_overlap(const PairCase& pair) {
-  return overlap(platonic(pair.a), platonic(pair.b), rounded(exact_pose(pair)));
+  return relative_overlap(platonic(pair.a), platonic(pair.b), rounded(exact_pose(pair)));
 }
 
 double median(std::vector<double> values) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/packing/neighbours.hpp"
 
 namespace isojam::oracle {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/geometry/overlap/overlap.hpp"
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/packing/packing.hpp"
 
 namespace isojam::oracle {

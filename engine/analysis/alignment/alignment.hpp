@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// Alignment angles of a contact (radians) and the features that give them.
+/// Alignment angles θ_ff and θ_ef of a contact (the paper's, radians) and the features that give them.
 struct Alignment {
   double face_face = 0;          ///< θ_ff = π − arccos(min n_i·n_j) over intersecting faces, by cross products
   double edge_face = 0;          ///< θ_ef = arcsin(min |e·n|), the smaller of the two directions
@@ -16,11 +16,11 @@ struct Alignment {
   bool edge_of_a = true;         ///< the edge belongs to A, the face to B, or the other way round
 };
 
-/// θ_ef = π/2 if no edge of either body has a segment inside the other, θ_ff = π if a body has no face in the
-/// contact (one inside the other).
+/// Returns the angles of one contact. θ_ef = π/2 if no edge of either body has a segment inside the other, θ_ff = π if
+/// a body has no face in the contact (one inside the other).
 Alignment alignment(const ConvexSolid& solid, const Contact& contact);
 
-/// Of all contacts, in their order.
+/// Alignments of all contacts, in their order.
 std::vector<Alignment> alignments(const ConvexSolid& solid, std::span<const Contact> contacts);
 
 }  // namespace isojam

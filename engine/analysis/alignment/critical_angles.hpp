@@ -14,8 +14,9 @@ struct CriticalAngles {
   double ff_min() const;  ///< least of the θ_ff
 };
 
-/// In closed form from the dihedral angle and the vertex figure of the solid. Throws std::invalid_argument if its
-/// vertices or edges are not all alike: the orientation of highest symmetry is then not defined.
+/// Returns the angles in closed form, from the dihedral angle and the vertex figure of the solid. Throws
+/// std::invalid_argument if its vertices or edges are not all alike: the orientation of highest symmetry is then not
+/// defined.
 CriticalAngles critical_angles(const ConvexSolid& solid);
 
 }  // namespace isojam

@@ -34,16 +34,18 @@ struct GapSplit {
   GapVerdict verdict = GapVerdict::not_called;
   double cutoff = 0;      ///< radians, the middle of the gap in log θ; 0 unless separated or all_alike
   double separation = 0;  ///< η
-  /// What η must exceed. Without a gap, angles that follow any power law, c ∝ θ^p, have η = max t²/(e^t − 1) = .648, as
-  /// their logarithms are exponential; angles spread evenly over decades have 3/4 ± sqrt(.075/n), n angles below
-  /// `upper` (first order in the influence of each, (4u − 3u² − 1)·3/4 with u uniform on [0, 1]).
+  /// Value that η must exceed. Without a gap, angles that follow any power law, c ∝ θ^p, have
+  /// η = max t²/(e^t − 1) = .648, as their logarithms are exponential; angles spread evenly over decades have 3/4 ±
+  /// sqrt(.075/n), n angles below `upper` (first order in the influence of each, (4u − 3u² − 1)·3/4 with u uniform on
+  /// [0, 1]).
   double critical = 0;
   double gap_from = 0, gap_to = 0;  ///< neighbouring angles on both sides of the cut-off, or the last and `upper`
   int below = 0;                    ///< angles under the cut-off
 };
 
-/// Face-face contacts lie decades under the others near jamming, and no form of c is assumed here. Angles in any order,
-/// radians. Throws std::invalid_argument if one is negative or not finite, or unless 0 < resolution < upper.
+/// Splits angles where they leave a gap: near jamming face-face contacts lie decades under the others, and no form of c
+/// is assumed here. Angles in any order, radians. Throws std::invalid_argument if one is negative or not finite, or
+/// unless 0 < resolution < upper.
 GapSplit split_at_gap(std::span<const double> angles, double upper, const GapOptions& options = {});
 
 }  // namespace isojam

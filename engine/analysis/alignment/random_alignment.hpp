@@ -23,11 +23,11 @@ class RandomAlignment {
   /// Throws std::invalid_argument unless the faces, edges and vertices of the solid are all alike.
   explicit RandomAlignment(const ConvexSolid& solid);
 
-  /// θ_ff is the angle from a random direction to the nearest face normal: the part of the sphere within θ of one, caps
-  /// cut to the regular polygons that the faces subtend.
+  /// Distribution of θ_ff, the angle from a random direction to the nearest face normal: the part of the sphere within
+  /// θ of one, caps cut to the regular polygons that the faces subtend.
   double face_face(double theta) const;
-  /// θ_ef is the least angle from a random direction to the sides of the polygon that the vertex's normal cone cuts out
-  /// of the sphere: 1 − the part of that polygon farther than θ from all sides, by Gauss and Bonnet.
+  /// Distribution of θ_ef, the least angle from a random direction to the sides of the polygon that the vertex's normal
+  /// cone cuts out of the sphere: 1 − the part of that polygon farther than θ from all sides, by Gauss and Bonnet.
   double edge_face(double theta) const;
   double constrained_face_face(double theta) const;
   double constrained_edge_face(double theta) const { return theta < 0 ? 0 : 1; }
@@ -48,9 +48,10 @@ struct AlignmentAngles {
   double face_face = 0, edge_face = 0;
 };
 
-/// The oracle: n orientations drawn at random, angles from the features of the solid. Any convex solid.
+/// Samples n orientations at random, the oracle of the unconstrained distributions: angles from the features of the
+/// solid. Any convex solid.
 std::vector<AlignmentAngles> sample_unconstrained(const ConvexSolid& solid, int n, RandomStream& random);
-/// n turns of a random edge that lies in the face.
+/// Samples n turns of a random edge that lies in the face.
 std::vector<AlignmentAngles> sample_edge_constrained(const ConvexSolid& solid, int n, RandomStream& random);
 
 enum class RandomnessVerdict {
@@ -80,8 +81,8 @@ struct Randomness {
   double probability = 1;  ///< of at least so many (hyper-random) or at most so many, binomial, the smaller of both
 };
 
-/// `distribution` is one of RandomAlignment, `largest` where it reaches 1. Throws std::invalid_argument unless fraction
-/// and level lie between 0 and 1.
+/// Compares angles (radians) with `distribution`, one of RandomAlignment, which reaches 1 at `largest`. Throws
+/// std::invalid_argument unless fraction and level lie between 0 and 1.
 Randomness compare_with_random(std::span<const double> angles, const std::function<double(double)>& distribution,
                                double largest, const RandomnessOptions& options = {});
 

@@ -259,8 +259,8 @@ void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d&
   loop.axis = {};
   loop.spans = loop.segments = 0;
   loop.of_a.of = loop.tables, loop.of_b.of = loop.tables + Distances::size(a, b);
-  measure(a, b, r, loop.of_a);
-  measure(b, a, -r, loop.of_b);
+  tabulate_distances(a, b, r, loop.of_a);
+  tabulate_distances(b, a, -r, loop.of_b);
 }
 
 /// Phase 2; distances below `tolerance` may be zero.

@@ -52,8 +52,8 @@ struct ContactLoop {
 
 /// Finds the loop of A and B, B's centre at r from A's (lab frame). `loop` is overwritten.
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop);
-/// The same with small distances taken in double-double: each is right to its last bits however flat the contact. A and
-/// B are placed in double-double.
+/// Finds the loop with small distances taken in double-double, each right to its last bits however flat the contact. A
+/// and B are placed in double-double.
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, ContactLoop& loop);
 
 }  // namespace isojam

@@ -102,7 +102,8 @@ constexpr bool few(const Counts<v, p, e>&) {
 
 }  // namespace
 
-void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other, Distances& d) {
+void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
+                        Distances& d) {
   const SolidArrays& solid = body.solid().arrays();
   with_counts(solid, other.faces(), [&](const auto& counts) {
     d.planes = 4 * counts.vectors;

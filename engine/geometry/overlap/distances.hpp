@@ -9,8 +9,8 @@
 
 namespace isojam {
 
-/// Signed distances of the vertices of one solid from the planes of the other, > 0 outside. Vertices that lie certainly
-/// outside, with every edge that ends there, may have no row.
+/// Signed distances (V_p^(1/3)) of the vertices of one solid from the planes of the other, > 0 outside. Vertices that
+/// lie certainly outside, with every edge that ends there, may have no row.
 struct Distances {
   /// The largest table: three edges end at every vertex and surround every face, so that 32 edges allow 21 of each.
   static constexpr int max_size = 21 * 24;
@@ -31,9 +31,10 @@ struct Distances {
 };
 
 /// Fills the table, d.of, for `body`, the centre of `other` being at `to_other` from its own.
-void measure(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other, Distances& d);
+void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
+                        Distances& d);
 
-/// Everything but the rows and the table anew, after entries of the table have been changed.
+/// Sets everything but the rows and the table anew, after entries of the table have been changed.
 void classify(const ConvexSolid& body, Distances& d);
 
 /// Numbers of vertices and of vectors of 4 planes, known to the compiler for the Platonic solids.
@@ -71,7 +72,7 @@ inline void repeat(int n, const Function& function) {
   for (int k = 0; k < n; ++k) function(k);
 }
 
-/// The number of vectors alone.
+/// Calls function with the number of vectors alone, known to the compiler where it is that of a Platonic solid.
 template <class Function>
 void with_vectors(int vectors, const Function& function) {
   switch (vectors) {

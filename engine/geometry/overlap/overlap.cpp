@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/contact_loop.hpp"
 #include "engine/geometry/overlap/lanes.hpp"
 
@@ -122,7 +123,7 @@ class CrossHessian {
   Lanes upper_[6], lower_[6];
 };
 
-/// In double or in double-double, as r is.
+/// In doubles or in double-double, as r is.
 template <class Displacement>
 Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop) {
   CrossHessian sum(a, b, rounded(r));
@@ -133,7 +134,7 @@ Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Displac
   return sum.matrix();
 }
 
-/// In double or in double-double, as r is; `hessian` may be null.
+/// In doubles or in double-double, as r is; `hessian` may be null.
 template <class Displacement>
 Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis,
                    OverlapHessian* hessian) {
@@ -177,30 +178,30 @@ Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVe
   return overlap_at(a, b, r, axis, nullptr);
 }
 
-Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
-                OverlapHessian& hessian) {
+Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
+                             OverlapHessian& hessian) {
   return overlap_at(a, b, r, axis, &hessian);
 }
 
-Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis,
-                OverlapHessian& hessian) {
+Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
+                             SeparatingAxis& axis, OverlapHessian& hessian) {
   return overlap_at(a, b, r, axis, &hessian);
 }
 
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
+Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
   return overlap(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement, axis);
 }
 
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis unused;
-  return overlap(a, b, pose, unused);
+  return relative_overlap(a, b, pose, unused);
 }
 
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis unused;
   OverlapHessian hessian;
-  overlap(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement, unused,
-          hessian);
+  overlap_with_hessian(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement,
+                       unused, hessian);
   return hessian.ab;
 }
 

@@ -10,15 +10,17 @@
 
 namespace isojam {
 
-/// Which way an overlap was found. `clip` is the slow, exact-minded path for degenerate pairs.
+/// Which way an overlap was found. `clip` is the slow, exact-minded path for degenerate pairs, clipped_overlap().
 enum class OverlapPath : std::uint8_t { separated, loop, clip };
 
-/// Intersection of solids A and B. Vectors taken about A's centre, in the frame that both solids were given in: the
+/// Intersection of solids A and B. Vectors are taken about A's centre, in the frame that both solids were given in: the
 /// lab for placed solids, A's body frame where B is given by its pose relative to A.
 ///   volume  V
-///   area    S_A = ½ Σ_C v×w = ∂V/∂x_A                  (force on A: F_A = −(V/2) S_A)
-///   moment  M_A = ∫ r×n dS over A's part = ∂V/∂θ_A       (torque on A: T_A = −(V/2) M_A)
-/// B: S_B = −S_A about its own centre M_B = −M_A + r×S_A, r = x_B − x_A.
+///   area    S_A = ½ Σ_C v×w = ∂V/∂x_A, the vector area of A's part of the boundary of the intersection
+///   moment  M_A = ∫ r×n dS over A's part = ∂V/∂θ_A
+/// B has S_B = −S_A and, about its own centre, M_B = −M_A + r×S_A, r = x_B − x_A. V and M in V_p, S in V_p^(2/3).
+/// With E = V²/4, the paper's contact model (Smith, Fisher, Alam 2011: E_αβ = Y V²/4V_p), the force on A is
+/// F_A = −(V/2) S_A and the torque T_A = −(V/2) M_A.
 /// Bit i of faces_a: face i of A bounds the intersection. Bit e of edges_a: edge e of A has a segment inside B.
 struct Overlap {
   double volume = 0;
@@ -34,28 +36,29 @@ struct Overlap {
 /// Intersection of A with B, B's centre at r = x_B − x_A, by the closed loop where their surfaces cross. Notation:
 /// v → w is a segment of the loop C, on face i of A and face j of B, oriented counter-clockwise seen from outside A;
 /// coordinates from a vertex of the loop, so that nothing large cancels:
-///   S_A = ½ Σ_C v×w,  M_A = −½ Σ_C (w−v)(|v|² + v·w + |w|²)/3,
-///   V = Σ_f ∫_f h n_P·n_f dA over the faces f of the intersection, h the height over the least-penetrated plane P,
-///     = (1/6) Σ over its edges of n_P·((v−o)×(w−o)) (h_o+h_v+h_w) for the face left of the edge − the same for the
-///     right,
-/// o a vertex of the face. Heights are interpolated between tabulated plane distances, never taken from coordinates:
-/// they are 0 on P and small near it, so that V of two faces in contact is as accurate as the table at any depth.
-/// If the loop does not close, or a vertex lies on a face plane to within rounding, the
-/// answer comes from clipped_overlap. Never silently wrong; never throws.
+///   S_A = ½ Σ_C v×w
+///   M_A = −½ Σ_C (w−v)(|v|² + v·w + |w|²)/3
+///   V   = Σ_f ∫_f h n_P·n_f dA  over the faces f of the intersection, h the height over the least-penetrated plane P
+///       = (1/6) Σ n_P·((v−o)×(w−o)) (h_o+h_v+h_w)  over its edges, for the face left of the edge − the same for the
+///         right, o a vertex of the face
+/// Heights are interpolated between tabulated plane distances, never taken from coordinates: they are 0 on P and small
+/// near it, so that V of two faces in contact is as accurate as the table at any depth.
+/// If the loop does not close, or a vertex lies on a face plane to within rounding, the answer comes from
+/// clipped_overlap(). Never silently wrong; never throws.
 /// If a face of A or B separates the solids, `axis` is set to it, for later use with separates().
+/// A DoubleDoubleVector r makes use of the low parts of A, B and r: V, S and M are then right to a few 1e-16 of
+/// themselves however flat the contact.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
-/// In double-double, from the low parts of A, B and r: V, S and M to a few 1e-16 of themselves however flat the
-/// contact.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis);
 
-/// The same of solids given by their relative pose, in A's body frame.
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
-Overlap overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
+/// overlap() of solids given by their relative pose, in A's body frame.
+Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
+Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// (translation, rotation) in one vector.
+/// Vector (translation, rotation).
 inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d& rotation) {
   Vector6d both;
   both.head<3>() = translation;
@@ -64,38 +67,26 @@ inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d
 }
 
 /// Second derivatives of V by (x_A, θ_A) and (x_B, θ_B), rotations about each body's own centre; frame as in Overlap.
-///   H_AB = ab = Σ_C ∫ u_A u_Bᵀ dl / |n_i×n_j|,  u_A = (n_i, (y−x_A)×n_i),  u_B = (n_j, (y−x_B)×n_j);
-/// the other blocks follow from it by rigid motion of both bodies, overlap_own_hessian().
+///   H_AB = ab = Σ_C ∫ u_A u_Bᵀ dl / |n_i×n_j|
+///   u_A = (n_i, (y−x_A)×n_i)
+///   u_B = (n_j, (y−x_B)×n_j)
+/// The other blocks follow from it by rigid motion of both bodies, overlap_own_hessian().
 struct OverlapHessian {
   Matrix6d aa = Matrix6d::Zero(), ab = Matrix6d::Zero(), bb = Matrix6d::Zero();
 };
 
-/// The overlap and its Hessian from one loop. Zero where the loop does not close: a degenerate pair has no second
-/// derivative.
-Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
-                OverlapHessian& hessian);
-Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis,
-                OverlapHessian& hessian);
+/// overlap() and its Hessian from one loop. The Hessian is zero where the loop does not close: a degenerate pair has no
+/// second derivative.
+Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis,
+                             OverlapHessian& hessian);
+Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
+                             SeparatingAxis& axis, OverlapHessian& hessian);
 
 /// H_AB alone, in A's body frame.
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
-/// ∂²V/∂(x_A, θ_A)² from H_AB: −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised, Tr: (a, θ) → (a + θ×r, θ);
+/// Own block ∂²V/∂(x_A, θ_A)² from H_AB: −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised, Tr: (a, θ) → (a + θ×r, θ);
 /// r = x_B − x_A. For B exchange the bodies: H_BAᵀ, S_B = −S_A, −r.
 Matrix6d overlap_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r);
-
-/// An Overlap in quadruple precision.
-struct QuadOverlap {
-  Quad volume = 0;
-  Quad3 area{}, moment{};
-  std::uint32_t faces_a = 0, faces_b = 0;
-  std::uint32_t edges_a = 0, edges_b = 0;
-};
-
-Overlap narrowed(const QuadOverlap& overlap);
-
-/// The slow path and oracle: A cut by the face planes of B one after another in quadruple precision.
-QuadOverlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
-Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
 }  // namespace isojam

@@ -24,7 +24,7 @@ double gap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose,
 /// two convex polyhedra are disjoint exactly if this gap is positive).
 SeparatingAxis best_axis(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
-/// The same for placed solids, B's centre at r from A's.
+/// The axis with the largest gap between placed solids, B's centre at r from A's.
 SeparatingAxis best_axis(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
 
 /// A gap larger than this proves separation in spite of rounding: a multiple of ulp(|r| + circumradii), r = x_B − x_A.

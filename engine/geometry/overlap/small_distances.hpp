@@ -5,12 +5,12 @@
 
 namespace isojam {
 
-/// Distances smaller than this are taken in double-double in double-double: 2e-3 of the inradius. The rounding
-/// of larger ones, gap_tolerance(), is below 1e-11 of themselves.
+/// Distance below which a double-double overlap takes distances in double-double too: 2e-3 of the inradius. The
+/// rounding of larger ones, gap_tolerance(), is below 1e-11 of themselves.
 double double_double_below(const ConvexSolid& a, const ConvexSolid& b);
 
-/// Takes the small distances of a table, as measure() left it, again in double-double: each is right to its last bits
-/// however small it is. Both solids are placed in double-double.
+/// Takes the small distances of a table, as tabulate_distances() left it, again in double-double: each is right to its
+/// last bits however small it is. Both solids are placed in double-double.
 void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, const DoubleDoubleVector& to_other,
                              Distances& d);
 

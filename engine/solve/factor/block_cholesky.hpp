@@ -18,9 +18,10 @@ namespace isojam {
 ///   if (factor.factorise(energy.hessian(packing), 1e-9)) step = -factor.solve(gradient);
 class BlockCholesky {
  public:
-  /// False if the shifted matrix is not positive definite to working precision; then solve() must not be called.
+  /// Factorises; false if the shifted matrix is not positive definite to working precision; then solve() must not be
+  /// called.
   bool factorise(const BlockMatrix& matrix, double shift);
-  /// (H + shift·1)⁻¹ b, b with 6 entries per particle.
+  /// Solution (H + shift·1)⁻¹ b, b with 6 entries per particle.
   Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& b) const;
 
  private:

@@ -19,7 +19,7 @@ struct Elimination {
   std::vector<Supernode> supernodes;  ///< children before parents, in order of `first`
 };
 
-/// For the pattern of `matrix`; a function of the pattern alone.
+/// Plans the elimination for the pattern of `matrix`; a function of the pattern alone.
 Elimination plan_elimination(const BlockMatrix& matrix);
 
 }  // namespace isojam

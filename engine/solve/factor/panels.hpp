@@ -15,24 +15,24 @@ inline constexpr int height = 12;
 constexpr std::ptrdiff_t size(int count, int columns) { return std::ptrdiff_t{height} * count * columns; }
 constexpr std::ptrdiff_t packed_size(int count) { return std::ptrdiff_t{height} * height * count * (count + 1) / 2; }
 
-/// L of A = L Lᵀ in place of the lower half of A, which has `width` rows and columns, a multiple of 6; what was above
-/// the diagonal becomes zero. `reciprocals` receives 1/L_kk. B L⁻ᵀ in place of B, which has `count` panels.
+/// Puts L of A = L Lᵀ in place of the lower half of A, which has `width` rows and columns, a multiple of 6; what was
+/// above the diagonal becomes zero. `reciprocals` receives 1/L_kk. B L⁻ᵀ in place of B, which has `count` panels.
 /// False if a pivot was not a positive number.
 bool factorise(double* a, int width, double* reciprocals, double* b, int count);
 
-/// The lower half of C − X Xᵀ in place of C, which is packed; X has `count` panels of `width` columns.
+/// Puts the lower half of C − X Xᵀ in place of C, which is packed; X has `count` panels of `width` columns.
 void subtract_square(const double* x, int width, int count, double* c);
 
-/// L⁻¹ y in place of y, which has `width` entries.
+/// Puts L⁻¹ y in place of y, which has `width` entries.
 void solve_forward(const double* l, int width, const double* reciprocals, double* y);
 
-/// L⁻ᵀ y in place of y.
+/// Puts L⁻ᵀ y in place of y.
 void solve_backward(const double* l, int width, const double* reciprocals, double* y);
 
-/// y −= X z, z of `width` entries, y of 12·count.
+/// Takes X z from y: y −= X z, z of `width` entries, y of 12·count.
 void subtract_product(const double* x, int width, int count, const double* z, double* y);
 
-/// z −= Xᵀ y.
+/// Takes Xᵀ y from z: z −= Xᵀ y.
 void subtract_transposed(const double* x, int width, int count, const double* y, double* z);
 
 }  // namespace isojam::panels

@@ -8,11 +8,12 @@
 
 namespace isojam {
 
-/// (H − σ·1)⁻¹ for any σ that is not an eigenvalue: by BlockCholesky while the shifted matrix is positive definite, by
-/// Eigen's SimplicialLDLT where it is not. The operator that Spectra's shift-invert solvers ask for; H must outlive it.
+/// Operator (H − σ·1)⁻¹ for any σ that is not an eigenvalue: by BlockCholesky while the shifted matrix is positive
+/// definite, by Eigen's SimplicialLDLT where it is not. The form is the one that Spectra's shift-invert solvers ask
+/// for; H must outlive it.
 ///
 ///   ShiftInvert operation(hessian);
-///   Spectra::SymEigsShiftSolver<ShiftInvert> solver(operation, 53, 120, -1e-9 * stiffness);
+///   Spectra::SymEigsShiftSolver<ShiftInvert> solver(operation, 53, 120, -1e-9 * lambda_max);
 class ShiftInvert {
  public:
   using Scalar = double;
@@ -24,7 +25,7 @@ class ShiftInvert {
   /// Factorises. Throws std::domain_error if a pivot is zero or not finite: σ is an eigenvalue (of a leading part) of H
   /// to working precision, or H holds what is not a number.
   void set_shift(double sigma);
-  /// y = (H − σ·1)⁻¹ x, both of rows() entries.
+  /// Sets y = (H − σ·1)⁻¹ x, both of rows() entries.
   void perform_op(const double* x, double* y) const;
 
   bool positive_definite() const { return positive_definite_; }  ///< of H − σ·1
@@ -39,7 +40,7 @@ class ShiftInvert {
   int negative_pivots_ = 0;
 };
 
-/// H + shift·1, its lower half.
+/// Lower half of H + shift·1.
 Eigen::SparseMatrix<double> lower_half(const BlockMatrix& matrix, double shift);
 
 }  // namespace isojam

@@ -47,9 +47,9 @@ Evaluation Descent::evaluate(const Packing& packing) {
   return energy_.evaluate(packing, precision_);
 }
 
-SecondOrder Descent::second_order(const Packing& packing, double press) {
+SecondOrder Descent::second_order(const Packing& packing, double probe_distance) {
   ++work_.hessians;
-  return energy_.second_order(packing, press, precision_);
+  return energy_.second_order(packing, probe_distance, precision_);
 }
 
 void Descent::count_factorisations(long factorisations, long updates) {

@@ -9,8 +9,8 @@
 
 namespace isojam {
 
-/// What every minimiser shares: the current state, the best one seen, the evaluations spent and the reasons to stop.
-/// Steps are accepted only downhill, so the current state is the best one.
+/// State that every minimiser shares: the current state, the best one seen, the evaluations spent and the reasons to
+/// stop. Steps are accepted only downhill, so the current state is the best one.
 class Descent {
  public:
   Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop);
@@ -20,22 +20,22 @@ class Descent {
   const MinimiseOptions& options() const { return options_; }
   long evaluations() const { return evaluations_; }
 
-  /// Why to stop in this state, if there is a reason. Goes over to double-double where the answer needs it.
+  /// Reason to stop in this state, if there is one. Goes over to double-double where the answer needs it.
   std::optional<StopReason> verdict();
   /// Moves along `direction` (a descent direction) by a line search from `first_step` times it; false if no lower
   /// energy was found. The step taken, as a multiple of `direction`, is in last_step().
   bool advance(const Eigen::VectorXd& direction, double first_step, double curvature);
   double last_step() const { return last_step_; }
-  /// No particle moves farther than this in one trial step.
+  /// Bound on the displacement of every particle in one trial step (V_p^(1/3)).
   double longest_displacement() const;
-  /// Of any state; pairs pressed together by `press`.
-  SecondOrder second_order(const Packing& packing, double press);
+  /// Second derivatives at any state, and its incipient contacts within `probe_distance` (V_p^(1/3)).
+  SecondOrder second_order(const Packing& packing, double probe_distance);
   /// Evaluates the state at `step` from another one without moving there.
   Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
   /// Moves to a probed state.
   void accept(Packing there, Evaluation value);
 
-  /// Solver's share of the summary's work.
+  /// Adds the solver's share of the summary's work.
   void count_factorisations(long factorisations, long updates);
 
   MinimiseSummary finish(StopReason reason) const;

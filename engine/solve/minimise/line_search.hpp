@@ -23,8 +23,8 @@ struct LineSearchResult {
   int evaluations = 0;
 };
 
-/// Strong Wolfe conditions by bracketing and cubic interpolation. Where energies differ by no more than their
-/// rounding, slopes decide instead (the approximate Wolfe conditions of Hager and Zhang).
+/// Finds a step that meets the strong Wolfe conditions, by bracketing and cubic interpolation. Where energies differ by
+/// no more than their rounding, slopes decide instead (the approximate Wolfe conditions of Hager and Zhang).
 /// Requires start.slope < 0 and first_step > 0.
 LineSearchResult line_search(const std::function<LinePoint(double)>& at, const LinePoint& start, double first_step,
                              const LineSearchOptions& options);

@@ -11,7 +11,7 @@
 
 namespace isojam {
 
-/// newton is the method; the others are there to be compared with. Near jamming they do not converge.
+/// Method of minimisation: newton. The others are there to be compared with; near jamming they do not converge.
 enum class Method { conjugate_gradient, fire, lbfgs, newton };
 template <>
 inline constexpr std::array enum_names<Method>{EnumName{Method::conjugate_gradient, "conjugate_gradient"},
@@ -20,11 +20,11 @@ inline constexpr std::array enum_names<Method>{EnumName{Method::conjugate_gradie
 
 struct MinimiseOptions {
   Method method = Method::newton;
-  /// Stop when forces balance to this fraction of the mean contact force.
+  /// Residual at which to stop: forces balance to this fraction of the mean contact force.
   double residual = 1e-6;
-  /// Stop when an iteration changes the energy by less than this fraction of it; 0 switches the rule off. The
-  /// paper uses 1e-12 and nothing else; it is not a sign of equilibrium near jamming. jam() takes such states all the
-  /// same.
+  /// Energy rule: stop when an iteration changes the energy by less than this fraction of it; 0 switches the rule off.
+  /// The paper uses 1e-12 and nothing else; it is not a sign of equilibrium near jamming. jam() takes such states all
+  /// the same.
   double energy_change = 0;
   /// Energy per particle (Y·V_p) below which a state that is still losing energy counts as unjammed. A state with
   /// balanced forces is never called unjammed, however low its energy.

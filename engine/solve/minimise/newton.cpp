@@ -27,19 +27,19 @@ constexpr double hopeless = 1e6;
 /// shift makes them right.
 constexpr int patience = 4;
 
-/// Pairs are pressed together by this fraction of the last step, within bounds in inradii.
-constexpr double press_per_step = 0.05, least_press = 2e-8, most_press = 2e-3;
+/// The probe distance, within which contacts are incipient, as a fraction of the last step, with bounds in inradii.
+constexpr double probe_per_step = 0.05, least_probe = 2e-8, most_probe = 2e-3;
 
 /// The shift μ, adapted to how well the model predicted the last step.
 class Shift {
  public:
-  void set_scale(double stiffness) {
-    scale_ = stiffness;
-    least_ = 16 * std::numeric_limits<double>::epsilon() * stiffness;
+  void set_scale(double largest_diagonal) {
+    scale_ = largest_diagonal;
+    least_ = 16 * std::numeric_limits<double>::epsilon() * largest_diagonal;
     // Beyond it a step is gradient descent by next to nothing, even where faces that close are about to become
     // as stiff as contacts can be (of order 1) while nothing in the Hessian says so.
-    most_ = 1e6 * std::max(stiffness, 1.0);
-    if (value_ == 0) value_ = 1e-4 * stiffness;
+    most_ = 1e6 * std::max(largest_diagonal, 1.0);
+    if (value_ == 0) value_ = 1e-4 * largest_diagonal;
     value_ = std::max(value_, least_);
   }
   double value() const { return value_; }
@@ -84,7 +84,7 @@ class Newton {
     while (true) {
       if (const auto reason = descent_.verdict()) return *reason;
       StepModel model = model_at(descent_.packing(), descent_.here());
-      shift_.set_scale(model.stiffness());
+      shift_.set_scale(model.largest_diagonal());
       int failures = 0;
       while (!advance(model)) {
         if (shift_.exhausted()) return StopReason::line_search_failed;
@@ -99,8 +99,9 @@ class Newton {
 
   StepModel model_at(const Packing& packing, const Evaluation& value) {
     const double inradius = packing.solid->inradius();
-    const double press = std::clamp(press_per_step * last_step_, least_press * inradius, most_press * inradius);
-    return StepModel(descent_.second_order(packing, press), value.gradient, descent_.longest_displacement());
+    const double probe_distance =
+        std::clamp(probe_per_step * last_step_, least_probe * inradius, most_probe * inradius);
+    return StepModel(descent_.second_order(packing, probe_distance), value.gradient, descent_.longest_displacement());
   }
 
   /// Whether a state at energy `value` is a step forward when `predicted` was promised. Where energies no longer

@@ -8,6 +8,37 @@
 #include "engine/solve/factor/low_rank_update.hpp"
 #include "engine/solve/minimise/descent.hpp"
 
+// Near jamming the series E + g·s + ½ s·H s holds for steps no longer than a flat contact is deep, 1e-10 and less. Two
+// things happen sooner: pairs close, and flat contacts tilt until their section line cuts the face. The model of a pair
+// has a spring for either. V of a corner that touches, its face about to come flush with the other's:
+//
+//    V |                                 *
+//      |                                * closed: tangent with the gap closed
+//      |                               *
+//      |                              *   . . . . now: present tangent
+//      |                          * *.
+//      |                  * * * *   .
+//      |          * * * *          .
+//      |  * * * *                 .
+//    0 +-------------------------.-------------------------> step, here an approach
+//      |                        .
+//
+// drawn with *: V = max(0, now, closed), from below, V of a flat contact being convex. Of a pair still apart, now = 0.
+//
+//   incipient contact    A pair that touches, or would with centres closer by the probe distance, a part of the last
+//                        step (incipient_contact.hpp). The model knows nothing of pairs farther apart.
+//   linearised overlap   V to first order in s, at_rest + slope·s. A pair has two: now and closed.
+//   tilt term            ½ τ·Tτ, τ the relative turn: the stiffness that a flat contact has once its section line cuts
+//                        the face. Until then V is linear in the turn, and H does not know of it.
+//   active set           Pairs that the step closes, closed > max(0, now): they have the spring ¼ closed², which adds
+//                        ½ ∇V ∇Vᵀ to H. And pairs that it tilts too far for their energy: they have a share w of T.
+//   shift                μ of Levenberg and Marquardt, the same on every coordinate. As it grows all contacts come to
+//                        have their tilt term, and pairs whose spring is softer than μ need not close in the model.
+//
+// The step is where the gradient of g·s + ½ s·(H + μ)s + Σ_closing ¼ closed² + Σ ½ w τ·Tτ vanishes, a linear system;
+// the active set depends on s and s on the active set, so they are found by turns, cut short after a few rounds. From
+// the decrease that is promised the springs take ¼ (closed² − now²); tilt terms and shift are caution and take nothing.
+//
 // The constants below were measured on packings of 100 octahedra and tetrahedra between φ − φ_J = .02 and .004,
 // starting from an affine strain step: evaluations to equilibrium change by less than a fifth over a factor of three in
 // each.
@@ -27,14 +58,15 @@ constexpr double tilted = 0.1;
 /// to be below the second.
 constexpr double tilt_onset = 0.5, tilt_release = 0.05;
 
-/// All contacts have the tilt term once the shift reaches this fraction of the stiffness, and less below it.
+/// All contacts have the tilt term once the shift reaches this fraction of the largest diagonal entry of H, and part of
+/// it below.
 constexpr double stiffened_at = 1e-6;
 
 /// Later rounds update the factors of the first by up to this many terms per particle instead of factorising anew: a
 /// factorisation costs as much as that many solves (17 at N = 100, 55 at N = 400).
 constexpr double updates_per_particle = 1.0 / 6;
 
-/// The pressed plane matters only where it is this many times as steep (squared) as the present one.
+/// The tangent with the gap closed matters only where it is this many times as steep (squared) as the present one.
 constexpr double steeper = 2;
 
 double tilt_energy(const IncipientContact& pair, const Eigen::VectorXd& step) {
@@ -44,8 +76,8 @@ double tilt_energy(const IncipientContact& pair, const Eigen::VectorXd& step) {
 
 double contact_energy(const IncipientContact& pair) { return pair.now.at_rest * pair.now.at_rest / 4; }
 
-double squared_norm(const LinearisedOverlap& plane) {
-  return plane.slope_a.squaredNorm() + plane.slope_b.squaredNorm();
+double squared_norm(const LinearisedOverlap& volume) {
+  return volume.slope_a.squaredNorm() + volume.slope_b.squaredNorm();
 }
 
 bool touching(const IncipientContact& pair) { return pair.now.at_rest > 0; }
@@ -76,19 +108,20 @@ std::vector<Eigen::Vector3d> roots(const Eigen::Matrix3d& stiffness) {
 
 StepModel::StepModel(SecondOrder second, Eigen::VectorXd gradient, double longest)
     : second_(std::move(second)), gradient_(std::move(gradient)), longest_(longest), states_(second_.pairs.size()) {
-  for (const Matrix6d& block : second_.hessian.diagonal) stiffness_ = std::max(stiffness_, block.diagonal().maxCoeff());
+  for (const Matrix6d& block : second_.hessian.diagonal)
+    largest_diagonal_ = std::max(largest_diagonal_, block.diagonal().maxCoeff());
 }
 
 void StepModel::forget_closing_pairs() {
   std::erase_if(second_.pairs, [](const IncipientContact& pair) { return !touching(pair); });
-  for (IncipientContact& pair : second_.pairs) pair.pressed = {};
+  for (IncipientContact& pair : second_.pairs) pair.closed = {};
   states_.assign(second_.pairs.size(), {});
 }
 
 void StepModel::recall(const ActivePairs& active, double shift) {
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const IncipientContact& pair = second_.pairs[k];
-    states_[k] = {closing(pair, shift) && contains(active.pressed, pair),
+    states_[k] = {may_close(pair, shift) && contains(active.closing, pair),
                   touching(pair) && contains(active.tilted, pair)};
   }
 }
@@ -97,17 +130,17 @@ ActivePairs StepModel::active_pairs(const Eigen::VectorXd& step) const {
   ActivePairs active;
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const IncipientContact& pair = second_.pairs[k];
-    if (states_[k].pressed) active.pressed.emplace_back(pair.a, pair.b);
+    if (states_[k].closing) active.closing.emplace_back(pair.a, pair.b);
     if (states_[k].tilted && tilt_energy(pair, step) > tilt_release * contact_energy(pair))
       active.tilted.emplace_back(pair.a, pair.b);
   }
   return active;
 }
 
-/// Whether the pressed plane can matter. Next to a shift that is stiffer than the pair it cannot.
-bool StepModel::closing(const IncipientContact& pair, double shift) const {
-  const double pressed = squared_norm(pair.pressed);
-  return pressed > 2 * shift && pressed >= steeper * squared_norm(pair.now);
+/// Whether the tangent with the gap closed can matter. Next to a shift that is stiffer than the pair it cannot.
+bool StepModel::may_close(const IncipientContact& pair, double shift) const {
+  const double closed = squared_norm(pair.closed);
+  return closed > 2 * shift && closed >= steeper * squared_norm(pair.now);
 }
 
 /// True if some pair changed its state.
@@ -116,9 +149,9 @@ bool StepModel::revise(const Eigen::VectorXd& step, double shift, bool may_relea
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const IncipientContact& pair = second_.pairs[k];
     State& state = states_[k];
-    if (closing(pair, shift)) {
-      const bool pressed = pair.pressed.at(step, pair.a, pair.b) > std::max(0.0, pair.now.at(step, pair.a, pair.b));
-      if (pressed != state.pressed && (pressed || may_release)) state.pressed = pressed, changed = true;
+    if (may_close(pair, shift)) {
+      const bool closes = pair.closed.at(step, pair.a, pair.b) > std::max(0.0, pair.now.at(step, pair.a, pair.b));
+      if (closes != state.closing && (closes || may_release)) state.closing = closes, changed = true;
     }
     if (!state.tilted && touching(pair) && tilt_energy(pair, step) > tilt_onset * contact_energy(pair))
       state.tilted = changed = true;
@@ -128,12 +161,12 @@ bool StepModel::revise(const Eigen::VectorXd& step, double shift, bool may_relea
 
 /// How much of its tilt term a pair has.
 double StepModel::tilt_weight(const IncipientContact& pair, const State& state, double shift) const {
-  if (!touching(pair) && !state.pressed) return 0;
-  const double everywhere = std::min(1.0, shift / (stiffened_at * stiffness_));
+  if (!touching(pair) && !state.closing) return 0;
+  const double everywhere = std::min(1.0, shift / (stiffened_at * largest_diagonal_));
   return std::max(everywhere, state.tilted ? tilted : 0.0);
 }
 
-/// H with the springs ½ ∇V ∇Vᵀ of the pressed pairs and the tilt terms.
+/// H with the springs ½ ∇V ∇Vᵀ of closing pairs and the tilt terms.
 BlockMatrix StepModel::assembled(double shift) const {
   const std::vector<BlockMatrix::Block>& present = second_.hessian.off_diagonal;
   BlockMatrix sum;
@@ -147,16 +180,16 @@ BlockMatrix StepModel::assembled(double shift) const {
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const IncipientContact& pair = second_.pairs[k];
     const State& state = states_[k];
-    if (!touching(pair) && !state.pressed) continue;
+    if (!touching(pair) && !state.closing) continue;
     copy_up_to(pair.a, pair.b);
     std::vector<BlockMatrix::Block>& blocks = sum.off_diagonal;
     if (blocks.empty() || blocks.back().row != pair.a || blocks.back().column != pair.b)
       blocks.push_back({pair.a, pair.b, Matrix6d::Zero()});
-    if (state.pressed) {
-      const LinearisedOverlap& plane = pair.pressed;
-      sum.diagonal[pair.a] += plane.slope_a * plane.slope_a.transpose() / 2;
-      sum.diagonal[pair.b] += plane.slope_b * plane.slope_b.transpose() / 2;
-      blocks.back().value += plane.slope_a * plane.slope_b.transpose() / 2;
+    if (state.closing) {
+      const LinearisedOverlap& closed = pair.closed;
+      sum.diagonal[pair.a] += closed.slope_a * closed.slope_a.transpose() / 2;
+      sum.diagonal[pair.b] += closed.slope_b * closed.slope_b.transpose() / 2;
+      blocks.back().value += closed.slope_a * closed.slope_b.transpose() / 2;
     }
     add_tilt(tilt_weight(pair, state, shift) * pair.tilt, sum, blocks.back());
   }
@@ -170,9 +203,9 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
   const auto most = static_cast<std::size_t>(updates_per_particle * second_.hessian.size());
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const IncipientContact& pair = second_.pairs[k];
-    if (before[k].pressed && !states_[k].pressed) return std::nullopt;
-    if (states_[k].pressed && !before[k].pressed)
-      terms.push_back(column(pair, pair.pressed.slope_a / std::sqrt(2.0), pair.pressed.slope_b / std::sqrt(2.0)));
+    if (before[k].closing && !states_[k].closing) return std::nullopt;
+    if (states_[k].closing && !before[k].closing)
+      terms.push_back(column(pair, pair.closed.slope_a / std::sqrt(2.0), pair.closed.slope_b / std::sqrt(2.0)));
     const double extra = tilt_weight(pair, states_[k], shift) - tilt_weight(pair, before[k], shift);
     if (extra > 0) {
       for (const Eigen::Vector3d& turn : roots(extra * pair.tilt))
@@ -192,14 +225,14 @@ Eigen::VectorXd StepModel::column(const IncipientContact& pair, const Vector6d& 
   return u;
 }
 
-/// At s = 0, with the pressed pairs' planes in force.
+/// Gradient of the model at s = 0, with the springs of closing pairs.
 Eigen::VectorXd StepModel::gradient() const {
   Eigen::VectorXd sum = gradient_;
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    if (!states_[k].pressed) continue;
+    if (!states_[k].closing) continue;
     const IncipientContact& pair = second_.pairs[k];
-    sum.segment<6>(6 * pair.a) += pair.pressed.at_rest / 2 * pair.pressed.slope_a;
-    sum.segment<6>(6 * pair.b) += pair.pressed.at_rest / 2 * pair.pressed.slope_b;
+    sum.segment<6>(6 * pair.a) += pair.closed.at_rest / 2 * pair.closed.slope_a;
+    sum.segment<6>(6 * pair.b) += pair.closed.at_rest / 2 * pair.closed.slope_b;
   }
   return sum;
 }
@@ -208,11 +241,11 @@ Eigen::VectorXd StepModel::gradient() const {
 double StepModel::decrease(const Eigen::VectorXd& step) const {
   double sum = -gradient_.dot(step) - step.dot(second_.hessian * step) / 2;
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    if (!states_[k].pressed) continue;
+    if (!states_[k].closing) continue;
     const IncipientContact& pair = second_.pairs[k];
-    const double pressed = std::max(0.0, pair.pressed.at(step, pair.a, pair.b));
+    const double closed = std::max(0.0, pair.closed.at(step, pair.a, pair.b));
     const double now = std::max(0.0, pair.now.at(step, pair.a, pair.b));
-    sum -= std::max(0.0, pressed * pressed - now * now) / 4;
+    sum -= std::max(0.0, closed * closed - now * now) / 4;
   }
   return sum;
 }

@@ -10,9 +10,9 @@
 
 namespace isojam {
 
-/// Pairs of particles that a step was expected to press or to tilt, sorted: the first guess for the next model.
+/// Pairs of particles that a step was expected to close or to tilt, sorted: the first guess for the next model.
 struct ActivePairs {
-  std::vector<std::pair<int, int>> pressed, tilted;
+  std::vector<std::pair<int, int>> closing, tilted;
 };
 
 /// The factor that models of one minimisation share, for its symbolic part, and how often it was put to use.
@@ -22,30 +22,28 @@ struct StepFactor {
   long updates = 0;  ///< solved by low-rank update instead
 };
 
-/// A step s of 6N entries, and the decrease in energy that the model promises for it.
+/// A step s of 6N entries, per particle (x, R·θ), and the decrease in energy (Y·V_p) that the model promises for it.
 struct ModelStep {
   Eigen::VectorXd displacement;
   double decrease = 0;
 };
 
-/// What is expected of the energy over a step s, beyond E + g·s + ½ s·H s: near jamming that series holds for steps no
-/// longer than a flat contact is deep, 1e-10 and less. Two things happen sooner, and the model knows of both.
-///   Pairs close. Where the plane of V in the pressed state predicts more overlap than the present one, V = max(0, both
-///   planes), and E of the pair is V²/4 of the pressed plane.
-///   Flat contacts tilt until their section line cuts the face. Where the step would tilt one so far, it is given a
-///   stiffness against tilt.
-/// Which pairs do either is found with the step, by turns: an active-set iteration, cut short after most_rounds.
+/// Model of the energy over a step s: E + g·s + ½ s·H s, and two things that happen before that series ends. Pairs
+/// close: V = max(0, now, closed), the tangents of an incipient contact. Flat contacts tilt until their section line
+/// cuts the face: they have a stiffness against tilt. Which pairs do either, the active set, is found with the step.
+/// The notions are explained, with a sketch, in step_model.cpp.
 class StepModel {
  public:
   /// Systems that one minimise() solves at most, each by a factorisation or an update of one: what it may cost.
   static constexpr int most_rounds = 4;
 
-  /// At the state with `gradient`; lengths of `longest` and more (largest displacement of a particle) are cut down.
+  /// Model at the state with `gradient`; steps in which a particle moves farther than `longest` (V_p^(1/3)) are cut
+  /// down.
   StepModel(SecondOrder second, Eigen::VectorXd gradient, double longest);
 
-  /// Largest diagonal entry of the Hessian: the stiffest coordinate.
-  double stiffness() const { return stiffness_; }
-  /// Leaves the present contacts only: plain E + g·s + ½ s·H s, and tilt.
+  /// Largest diagonal entry of the Hessian, the spring constant of the stiffest coordinate.
+  double largest_diagonal() const { return largest_diagonal_; }
+  /// Keeps the present contacts only: plain E + g·s + ½ s·H s, and tilt.
   void forget_closing_pairs();
   /// Minimises the model plus ½ shift·s². `active`: first guess, then what was found. nullopt if the shifted matrix is
   /// not positive definite.
@@ -53,12 +51,12 @@ class StepModel {
 
  private:
   struct State {
-    bool pressed = false, tilted = false;
+    bool closing = false, tilted = false;
   };
 
   void recall(const ActivePairs& active, double shift);
   ActivePairs active_pairs(const Eigen::VectorXd& step) const;
-  bool closing(const IncipientContact& pair, double shift) const;
+  bool may_close(const IncipientContact& pair, double shift) const;
   bool revise(const Eigen::VectorXd& step, double shift, bool may_release);
   double tilt_weight(const IncipientContact& pair, const State& state, double shift) const;
   BlockMatrix assembled(double shift) const;
@@ -69,7 +67,7 @@ class StepModel {
 
   SecondOrder second_;
   Eigen::VectorXd gradient_;
-  double longest_, stiffness_ = 0;
+  double longest_, largest_diagonal_ = 0;
   std::vector<State> states_;  ///< of second_.pairs
 };
 

@@ -11,11 +11,11 @@ namespace isojam {
 enum class StopReason {
   not_called,        ///< nothing was minimised
   residual_reached,  ///< forces balance to the residual asked for
-  energy_change,     ///< relative energy change below the tolerance asked for (the paper's rule); not an equilibrium by
-                     ///< itself
-  unjammed,          ///< energy and forces fell to the floor of the unjammed verdict
-  precision_floor,   ///< no lower residual can be resolved, not even in double-double
-  budget,            ///< evaluations spent
+  /// Relative energy change below the tolerance asked for, the paper's rule; not an equilibrium by itself.
+  energy_change,
+  unjammed,            ///< energy and forces fell to the floor of the unjammed verdict
+  precision_floor,     ///< no lower residual can be resolved, not even in double-double
+  budget,              ///< evaluations spent
   line_search_failed,  ///< no lower energy found along any direction tried
   not_finite,          ///< energy or gradient was not finite
   interrupted          ///< stop requested from outside
@@ -31,9 +31,9 @@ inline constexpr std::array enum_names<StopReason>{EnumName{StopReason::not_call
                                                    EnumName{StopReason::not_finite, "not_finite"},
                                                    EnumName{StopReason::interrupted, "interrupted"}};
 
-/// What a minimisation took beside its evaluations.
+/// Work of a minimisation beside its evaluations.
 struct MinimiseWork {
-  long double_double_evaluations = 0;  ///< those of the evaluations that were in double-double
+  long double_double_evaluations = 0;  ///< of the evaluations, those in double-double
   long hessians = 0;                   ///< second derivatives of the packing, touching pairs and near ones
   long factorisations = 0;             ///< of a shifted Hessian, failed ones too
   long factor_updates = 0;             ///< systems solved by updating a factor instead of factorising anew
@@ -56,7 +56,7 @@ struct MinimiseSummary {
   bool converged() const { return reason == StopReason::residual_reached; }
 };
 
-/// Forces balance to the residual asked for, or as well as double precision can tell.
+/// Whether forces balance to the residual asked for, or as well as double-double can tell.
 inline bool is_equilibrium(const MinimiseSummary& summary) {
   return summary.converged() || summary.reason == StopReason::precision_floor;
 }

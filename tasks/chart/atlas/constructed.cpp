@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/overlap/overlap.hpp"
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 
 namespace isojam {
 

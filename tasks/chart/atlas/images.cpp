@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "engine/geometry/overlap/overlap.hpp"
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 
 namespace isojam {
 

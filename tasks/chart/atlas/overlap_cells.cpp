@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/overlap.hpp"
 #include "engine/random/stream.hpp"
 #include "tasks/chart/atlas/atlas.hpp"

@@ -75,8 +75,8 @@ class Hessians {
     energy.evaluate(packing, Precision::double_double);
     const auto seconds = timed(measuring_, [&] { matrix = energy.hessian(packing, Precision::double_double); });
     const ModeSet right = dense_modes(matrix);
-    const double stiffness = right.eigenvalues.cwiseAbs().maxCoeff();
-    const double tolerance = rounding_bound(matrix, stiffness);
+    const double lambda_max = right.eigenvalues.cwiseAbs().maxCoeff();
+    const double tolerance = rounding_bound(matrix, lambda_max);
     add(analytic, seconds, right.relative_error, count_negative(right.eigenvalues, tolerance), 0);
     // A packing that is a saddle has negative modes in truth; those beyond are spurious.
     const int genuine = count_negative(right.eigenvalues, tolerance);

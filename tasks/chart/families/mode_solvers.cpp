@@ -51,13 +51,13 @@ Found by_inversion(const BlockMatrix& matrix, double shift, Index subspace) {
   }
 }
 
-/// D with the translations moved from 0 to `stiffness`, out of the way of the lowest modes: projected out alone, they
+/// D with the translations moved from 0 to `lambda_max`, out of the way of the lowest modes: projected out alone, they
 /// would be found again as soon as rounding brings them back.
 class Raised {
  public:
   using Scalar = double;
 
-  Raised(const BlockMatrix& matrix, double stiffness) : product_(matrix), stiffness_(stiffness) {}
+  Raised(const BlockMatrix& matrix, double lambda_max) : product_(matrix), lambda_max_(lambda_max) {}
 
   Index rows() const { return product_.rows(); }
   void set_shift(double) {}
@@ -68,16 +68,16 @@ class Raised {
     product_.perform_op(rest.data(), y);
     Eigen::Map<VectorXd> out(y, rows());
     remove_translations(out);
-    out += stiffness_ * (in - rest);
+    out += lambda_max_ * (in - rest);
   }
 
  private:
   Product product_;
-  double stiffness_;
+  double lambda_max_;
 };
 
-Found by_products(const BlockMatrix& matrix, double stiffness, Index subspace) {
-  Raised operation(matrix, stiffness);
+Found by_products(const BlockMatrix& matrix, double lambda_max, Index subspace) {
+  Raised operation(matrix, lambda_max);
   return solve(operation, {.wanted = LanczosWanted::least, .subspace = subspace});
 }
 
@@ -126,7 +126,7 @@ void compare(const Packing& packing, const Measuring& measuring, TaskPoints& poi
   const BlockMatrix matrix = double_double_hessian(packing);
   ModeSet dense;
   const auto dense_seconds = timed(measuring, [&] { dense = dense_modes(matrix); });
-  const double stiffness = dense.eigenvalues.cwiseAbs().maxCoeff();
+  const double lambda_max = dense.eigenvalues.cwiseAbs().maxCoeff();
   const auto measure = [&](const std::string& method, const std::string& setting, const auto& work) {
     if (measuring.over()) return;
     Found found;
@@ -141,9 +141,9 @@ void compare(const Packing& packing, const Measuring& measuring, TaskPoints& poi
     const Index dimension = std::min<Index>(subspace, all);
     for (const double shift : measuring.config.shifts)
       measure("shift-invert", fmt::format("shift {:g}, subspace {}", shift, dimension),
-              [&] { return by_inversion(matrix, -shift * stiffness, dimension); });
+              [&] { return by_inversion(matrix, -shift * lambda_max, dimension); });
     measure("Lanczos without inversion", fmt::format("subspace {}", dimension),
-            [&] { return by_products(matrix, stiffness, dimension); });
+            [&] { return by_products(matrix, lambda_max, dimension); });
   }
 }
 

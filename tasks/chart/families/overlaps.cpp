@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/chart/families/comparisons.hpp"
 #include "tasks/chart/pairs/reference_overlap.hpp"

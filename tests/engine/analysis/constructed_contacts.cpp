@@ -77,7 +77,7 @@ Contact contact(const Site& a, const Site& b, double spin, const Vector3d& tilt,
 }
 
 Contact overlapped(const ConvexSolid& solid, Contact contact) {
-  contact.overlap = overlap(solid, solid, contact.pose);
+  contact.overlap = relative_overlap(solid, solid, contact.pose);
   return contact;
 }
 

@@ -20,7 +20,7 @@ namespace {
 using namespace testing_pairs;
 using Eigen::Vector3d;
 
-/// A few of the last bits of a sum of two doubles of order 1.
+/// A few of the last bits of a double-double of order 1.
 constexpr double last_bits = 1e-31;
 constexpr int cases = 200;
 

@@ -2,7 +2,7 @@
 //   two_sum and two_product lose nothing; fast_two_sum neither, if its terms are in order;
 //   every operation returns high = fl(high + low) and keeps the relative error that its header states, sums of nearly
 //   opposite numbers included;
-//   quad roots are correct to their last digits, and narrowing to two doubles keeps 1e-32.
+//   quad roots are correct to their last digits, and narrowing to double-double keeps 1e-32.
 
 #include "engine/geometry/double_double.hpp"
 

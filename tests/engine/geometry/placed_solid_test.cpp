@@ -79,7 +79,7 @@ struct Table : Distances {
   Table(const PlacedSolid& body, const PlacedSolid& other, const Vector3d& to_other)
       : memory(static_cast<std::size_t>(size(body, other))) {
     of = memory.data();
-    measure(body, other, to_other, *this);
+    tabulate_distances(body, other, to_other, *this);
   }
   std::vector<double> memory;
 };
@@ -171,7 +171,7 @@ TEST(PlacedSolidTest, OverlapIsThatOfTheRelativePoseTurned) {
     SeparatingAxis axis;
     OverlapHessian hessian;
     const Overlap lab = overlap(placed.a, placed.b, placed.r, axis);
-    const Overlap both = overlap(placed.a, placed.b, placed.r, axis, hessian);
+    const Overlap both = overlap_with_hessian(placed.a, placed.b, placed.r, axis, hessian);
     const Overlap body = overlap(pair);
     EXPECT_EQ(lab.volume, both.volume);
     EXPECT_TRUE(lab.area == both.area && lab.moment == both.moment);

@@ -95,9 +95,9 @@ double strained_energy(const Packing& packing, const std::vector<Contact>& conta
   double energy = 0;
   for (const Contact& contact : contacts) {
     const Vector3d d = contact.displacement + strain * contact.displacement;
-    const Overlap o =
-        overlap(*packing.solid, *packing.solid,
-                relative_pose(packing.poses[contact.pair.a].orientation, packing.poses[contact.pair.b].orientation, d));
+    const Overlap o = relative_overlap(
+        *packing.solid, *packing.solid,
+        relative_pose(packing.poses[contact.pair.a].orientation, packing.poses[contact.pair.b].orientation, d));
     energy += o.volume * o.volume / 4;
   }
   return energy;

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "tests/engine/packing/packings.hpp"
 
 namespace isojam {

@@ -1,10 +1,12 @@
 // Facts proved here:
-//   without pressing, the pairs are those that touch; pressed ones come in addition, in order, and are those whose
-//   solids overlap once one is moved closer;
-//   both planes of a pair are tangents: of V in the present state and in the pressed one (central differences);
-//   flat faces a gap apart have a pressed plane that is −area·gap at rest and rises with the approach by area;
-//   of a flat contact V lies above both planes, for every small approach and tilt;
-//   two nearly parallel faces that touch at a corner are given the tilt stiffness of the whole face, once pressed as
+//   without a probe distance, the pairs are those that touch; with one, others come in addition, in order, and are
+//   those whose solids overlap once one is moved closer;
+//   both linearised overlaps of a pair are tangents of V: in the present state and with the gap closed (central
+//   differences);
+//   flat faces a gap apart have a tangent, with the gap closed, that is −area·gap at rest and rises with the approach
+//   by area;
+//   of a flat contact V lies above both tangents, for every small approach and tilt;
+//   two nearly parallel faces that touch at a corner are given the tilt stiffness of the whole face, once probed as
 //   far as the tilt is high; it is 0 about the common normal and positive about every axis in the face.
 
 #include "engine/packing/incipient_contact.hpp"
@@ -30,7 +32,7 @@ double volume_at(const ConvexSolid& solid, const Packing& packing, const Incipie
                  const Vector3d& shift) {
   const Pose &a = packing.poses[pair.a], &b = packing.poses[pair.b];
   const Vector3d r = packing.cell.nearest_image(b.position - a.position) + shift;
-  return overlap(solid, solid, relative_pose(a.orientation, b.orientation, r)).volume;
+  return relative_overlap(solid, solid, relative_pose(a.orientation, b.orientation, r)).volume;
 }
 
 /// Two unit cubes face to face along x, `gap` apart, in a cell that they do not feel.
@@ -50,51 +52,53 @@ VectorXd approach(double distance) {
 
 std::tuple<int, int> key(const IncipientContact& pair) { return {pair.a, pair.b}; }
 
-TEST(IncipientContactTest, PressingAddsPairs) {
+TEST(IncipientContactTest, ProbingAddsPairs) {
   for (const Packing& packing : samples(51, 100, .6)) {
     PackingEnergy energy;
     const long contacts = energy.evaluate(packing).contacts;
-    const double press = 0.02 * packing.solid->inradius();
+    const double probe_distance = 0.02 * packing.solid->inradius();
     const std::vector<IncipientContact> now = energy.second_order(packing, 0).pairs;
-    const std::vector<IncipientContact> pressed = energy.second_order(packing, press).pairs;
+    const std::vector<IncipientContact> probed = energy.second_order(packing, probe_distance).pairs;
     EXPECT_EQ(static_cast<long>(now.size()), contacts) << describe(packing);
-    EXPECT_GT(pressed.size(), now.size()) << describe(packing);
+    EXPECT_GT(probed.size(), now.size()) << describe(packing);
     EXPECT_TRUE(
-        std::is_sorted(pressed.begin(), pressed.end(), [](const auto& p, const auto& q) { return key(p) < key(q); }));
+        std::is_sorted(probed.begin(), probed.end(), [](const auto& p, const auto& q) { return key(p) < key(q); }));
     std::size_t matched = 0;
-    for (const IncipientContact& pair : pressed) {
+    for (const IncipientContact& pair : probed) {
       if (matched < now.size() && key(now[matched]) == key(pair) && pair.now.at_rest > 0) {
         ++matched;
         continue;
       }
       const Vector3d r = packing.cell.nearest_image(packing.poses[pair.b].position - packing.poses[pair.a].position);
       EXPECT_EQ(volume_at(*packing.solid, packing, pair, Vector3d::Zero()), 0) << pair.a << ' ' << pair.b;
-      EXPECT_GT(volume_at(*packing.solid, packing, pair, -press * r.normalized()), 0) << pair.a << ' ' << pair.b;
+      EXPECT_GT(volume_at(*packing.solid, packing, pair, -probe_distance * r.normalized()), 0)
+          << pair.a << ' ' << pair.b;
     }
     EXPECT_EQ(matched, now.size()) << describe(packing);
   }
 }
 
-/// Largest |V difference − plane| over the slope, of the present or the pressed plane, along a random direction.
-TEST(IncipientContactTest, PlanesAreTangents) {
+/// Largest |V difference − tangent| over the slope, of the present tangent or that with the gap closed, along a random
+/// direction.
+TEST(IncipientContactTest, BothAreTangents) {
   RandomStream random{52};
   for (const Packing& packing : samples(52, 100, .65)) {
-    const double press = 0.01 * packing.solid->inradius(), h = 1e-6;
+    const double probe_distance = 0.01 * packing.solid->inradius(), h = 1e-6;
     const VectorXd direction = random_step(random, packing.size());
     const Packing ahead = moved(packing, h * direction), behind = moved(packing, -h * direction);
     PackingEnergy energy;
     int checked = 0;
-    for (const IncipientContact& pair : energy.second_order(packing, press).pairs) {
+    for (const IncipientContact& pair : energy.second_order(packing, probe_distance).pairs) {
       const Vector3d r = packing.cell.nearest_image(packing.poses[pair.b].position - packing.poses[pair.a].position);
-      for (const bool pressed : {false, true}) {
-        const LinearisedOverlap& plane = pressed ? pair.pressed : pair.now;
-        if (!(plane.at_rest > 1e-5)) continue;  // deep enough for steps of h
-        const Vector3d shift = pressed ? Vector3d(-press * r.normalized()) : Vector3d::Zero();
+      for (const bool closed : {false, true}) {
+        const LinearisedOverlap& tangent = closed ? pair.closed : pair.now;
+        if (!(tangent.at_rest > 1e-5)) continue;  // deep enough for steps of h
+        const Vector3d shift = closed ? Vector3d(-probe_distance * r.normalized()) : Vector3d::Zero();
         const double difference =
             (volume_at(*packing.solid, ahead, pair, shift) - volume_at(*packing.solid, behind, pair, shift)) / (2 * h);
-        const double slope = plane.at(direction, pair.a, pair.b) - plane.at_rest;
-        const double scale = direction.norm() * (plane.slope_a.norm() + plane.slope_b.norm());
-        EXPECT_NEAR(slope, difference, 1e-6 * scale) << describe(packing) << (pressed ? " pressed" : " now");
+        const double slope = tangent.at(direction, pair.a, pair.b) - tangent.at_rest;
+        const double scale = direction.norm() * (tangent.slope_a.norm() + tangent.slope_b.norm());
+        EXPECT_NEAR(slope, difference, 1e-6 * scale) << describe(packing) << (closed ? " closed" : " now");
         ++checked;
       }
     }
@@ -111,13 +115,13 @@ TEST(IncipientContactTest, AGapIsANegativeVolume) {
     ASSERT_EQ(pairs.size(), 1u) << "gap " << gap;
     const double rounding = 64 * epsilon;
     EXPECT_EQ(pairs[0].now.at_rest, 0);
-    EXPECT_NEAR(pairs[0].pressed.at_rest, -gap, rounding);
-    EXPECT_NEAR(pairs[0].pressed.at(approach(gap), 0, 1), 0, rounding);
-    EXPECT_NEAR(pairs[0].pressed.at(approach(5 * gap), 0, 1), 4 * gap, rounding);
+    EXPECT_NEAR(pairs[0].closed.at_rest, -gap, rounding);
+    EXPECT_NEAR(pairs[0].closed.at(approach(gap), 0, 1), 0, rounding);
+    EXPECT_NEAR(pairs[0].closed.at(approach(5 * gap), 0, 1), 4 * gap, rounding);
   }
 }
 
-TEST(IncipientContactTest, VolumeLiesAboveThePlanesOfAFlatContact) {
+TEST(IncipientContactTest, VolumeLiesAboveTheTangentsOfAFlatContact) {
   RandomStream random{53};
   for (int k = 0; k < 200; ++k) {
     const double depth = 1e-6, size = std::pow(10, -8 + 3 * random.uniform());
@@ -127,10 +131,10 @@ TEST(IncipientContactTest, VolumeLiesAboveThePlanesOfAFlatContact) {
     VectorXd step = approach(size * random.normal());
     for (int axis = 1; axis < 3; ++axis) step[9 + axis] = size * random.normal();
     const double volume = volume_at(cube(), moved(packing, step), pairs[0], Vector3d::Zero());
-    // Planes are linear in the small lengths, motions of solids are not: they differ by products of two.
+    // Tangents are linear in the small lengths, motions of solids are not: they differ by products of two.
     const double slack = 10 * std::pow(depth + size + step.norm(), 2);
     EXPECT_GE(volume, pairs[0].now.at(step, 0, 1) - slack) << "size " << size;
-    EXPECT_GE(volume, pairs[0].pressed.at(step, 0, 1) - slack) << "size " << size;
+    EXPECT_GE(volume, pairs[0].closed.at(step, 0, 1) - slack) << "size " << size;
   }
 }
 
@@ -139,11 +143,11 @@ TEST(IncipientContactTest, ACornerOfAFaceStiffensLikeTheFace) {
   // The far edge of B's face is higher by `tilt` than its middle; the near one touches by a hundredth of that.
   const Packing packing = two_cubes(tilt / 2 * 0.99, Vector3d(0, 0, tilt));
   const IncipientContact touching = PackingEnergy().second_order(packing, 0).pairs.at(0);
-  const IncipientContact pressed = PackingEnergy().second_order(packing, 2 * tilt).pairs.at(0);
+  const IncipientContact probed = PackingEnergy().second_order(packing, 2 * tilt).pairs.at(0);
   const IncipientContact flat = PackingEnergy().second_order(two_cubes(-tilt), 0).pairs.at(0);
   ASSERT_GT(touching.now.at_rest, 0);
   EXPECT_LT(touching.tilt.trace(), 1e-3 * flat.tilt.trace());
-  EXPECT_NEAR(pressed.tilt.trace(), flat.tilt.trace(), 0.01 * flat.tilt.trace());
+  EXPECT_NEAR(probed.tilt.trace(), flat.tilt.trace(), 0.01 * flat.tilt.trace());
   const double rounding = 64 * epsilon * flat.tilt.trace();
   EXPECT_LE((flat.tilt * Vector3d::UnitX()).norm(), rounding);
   for (double angle = 0; angle < 3; angle += 0.3) {

@@ -71,7 +71,7 @@ void expect_same_bits(const SecondOrder& one, const SecondOrder& two) {
     EXPECT_EQ(one.pairs[k].b, two.pairs[k].b);
     EXPECT_EQ(one.pairs[k].tilt, two.pairs[k].tilt) << "pair " << k;
     expect_same_bits(one.pairs[k].now, two.pairs[k].now);
-    expect_same_bits(one.pairs[k].pressed, two.pairs[k].pressed);
+    expect_same_bits(one.pairs[k].closed, two.pairs[k].closed);
   }
 }
 

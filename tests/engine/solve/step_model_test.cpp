@@ -43,10 +43,10 @@ struct Case {
   SecondOrder second;
 };
 
-Case case_of(const Packing& packing, double press) {
+Case case_of(const Packing& packing, double probe_distance) {
   PackingEnergy energy;
   Evaluation value = energy.evaluate(packing);
-  SecondOrder second = energy.second_order(packing, press);
+  SecondOrder second = energy.second_order(packing, probe_distance);
   return {packing, std::move(value), std::move(second)};
 }
 
@@ -54,12 +54,12 @@ TEST(StepModel, IsNewtonsWithoutPairsToCome) {
   for (const SolidKind kind : all_solids) {
     const Case state = case_of(small_packing(kind, 0.8, 31), 0);
     StepModel model(state.second, state.value.gradient, unlimited);
-    double shift = 2 * model.stiffness();  // large: all tilt terms complete, no contact tilts by itself
+    double shift = 2 * model.largest_diagonal();  // large: all tilt terms complete, no contact tilts by itself
     StepFactor factor;
     ActivePairs active;
     std::optional<ModelStep> step;
     while (!(step = model.minimise(shift, factor, active))) shift *= 2;
-    EXPECT_TRUE(active.pressed.empty());
+    EXPECT_TRUE(active.closing.empty());
     const Eigen::MatrixXd hessian = dense(state.second.hessian);
     Eigen::MatrixXd matrix = hessian + shift * Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols());
     for (const IncipientContact& pair : state.second.pairs) {
@@ -89,12 +89,12 @@ TEST(StepModel, StopsWhereFacesMeet) {
   const Case state = case_of(row_of_cubes(depth, gap), 1e-5);
   ASSERT_EQ(state.value.contacts, 1);
   StepModel model(state.second, state.value.gradient, unlimited);
-  const double shift = 1e-3 * model.stiffness();
+  const double shift = 1e-3 * model.largest_diagonal();
   StepFactor factor;
   ActivePairs found, none, wrong{{{0, 1}, {1, 2}}, {{0, 1}}};
   const auto step = model.minimise(shift, factor, found);
   ASSERT_TRUE(step);
-  ASSERT_EQ(found.pressed, (std::vector<std::pair<int, int>>{{1, 2}}));
+  ASSERT_EQ(found.closing, (std::vector<std::pair<int, int>>{{1, 2}}));
   const auto expect_balanced = [&](const ModelStep& seen, bool meet) {
     VectorXd along = VectorXd::Zero(18);
     along(Eigen::seqN(0, 3, 6)) = balanced_row(depth, gap, shift, meet);
@@ -102,22 +102,22 @@ TEST(StepModel, StopsWhereFacesMeet) {
         << seen.displacement.transpose() << "\ninstead of " << along.transpose();
   };
   expect_balanced(*step, true);
-  const LinearisedOverlap& plane = state.second.pairs.at(1).pressed;
-  const double overlap = plane.at(step->displacement, 1, 2), taken_up = 2 * shift * step->displacement[12];
+  const LinearisedOverlap& closed = state.second.pairs.at(1).closed;
+  const double overlap = closed.at(step->displacement, 1, 2), taken_up = 2 * shift * step->displacement[12];
   EXPECT_GT(overlap, 0);
   EXPECT_NEAR(overlap, taken_up, 1e-6 * overlap) << "half of V is the push that the third cube takes up";
   for (ActivePairs guess : {found, wrong}) {
     const auto again = model.minimise(shift, factor, guess);
     ASSERT_TRUE(again);
     expect_balanced(*again, true);
-    EXPECT_EQ(guess.pressed, found.pressed);
+    EXPECT_EQ(guess.closing, found.closing);
   }
   model.forget_closing_pairs();
   const auto blind = model.minimise(shift, factor, none);
   ASSERT_TRUE(blind);
-  EXPECT_TRUE(none.pressed.empty());
+  EXPECT_TRUE(none.closing.empty());
   expect_balanced(*blind, false);
-  EXPECT_GT(plane.at(blind->displacement, 1, 2), 10 * gap) << "nothing in its way";
+  EXPECT_GT(closed.at(blind->displacement, 1, 2), 10 * gap) << "nothing in its way";
 }
 
 /// As a strain step leaves an equilibrium.
@@ -136,7 +136,7 @@ TEST(StepModel, StepsAreTheSameFromEitherGuess) {
       const Packing packing = relaxed_and_strained(kind, seed);
       const Case state = case_of(packing, 2e-3 * packing.solid->inradius());
       StepModel model(state.second, state.value.gradient, 0.05 * packing.solid->inradius());
-      double shift = 1e-9 * model.stiffness();  // so small that not every contact has its tilt term
+      double shift = 1e-9 * model.largest_diagonal();  // so small that not every contact has its tilt term
       StepFactor factor;
       ActivePairs from_none;
       auto step = model.minimise(shift, factor, from_none);
@@ -144,11 +144,11 @@ TEST(StepModel, StepsAreTheSameFromEitherGuess) {
       ActivePairs from_found = from_none;
       const auto again = model.minimise(shift, factor, from_found);
       ASSERT_TRUE(again);
-      if (from_found.pressed != from_none.pressed || from_found.tilted != from_none.tilted) continue;
+      if (from_found.closing != from_none.closing || from_found.tilted != from_none.tilted) continue;
       ++compared;
-      found_later += from_none.pressed.size() + from_none.tilted.size() > 0;
+      found_later += from_none.closing.size() + from_none.tilted.size() > 0;
       EXPECT_LE((again->displacement - step->displacement).norm(), 1e-9 * step->displacement.norm())
-          << platonic(kind).name() << ", seed " << seed << ": " << from_none.pressed.size() << " pressed, "
+          << platonic(kind).name() << ", seed " << seed << ": " << from_none.closing.size() << " closing, "
           << from_none.tilted.size() << " tilted";
     }
   }
@@ -166,7 +166,7 @@ TEST(StepModel, PromisesWhatTheEnergyDelivers) {
     if (!anticipate) model.forget_closing_pairs();
     StepFactor factor;
     ActivePairs active;
-    const auto step = model.minimise(0.01 * model.stiffness(), factor, active);
+    const auto step = model.minimise(0.01 * model.largest_diagonal(), factor, active);
     const double actual = state.value.energy - PackingEnergy().evaluate(moved(packing, step->displacement)).energy;
     return std::pair(step->decrease, actual);
   };
@@ -183,7 +183,7 @@ TEST(StepModel, KeepsToTheLongestStep) {
     StepModel model(state.second, state.value.gradient, longest);
     StepFactor factor;
     ActivePairs active;
-    for (double shift = 1e-6 * model.stiffness(); shift <= 1e3 * model.stiffness(); shift *= 10) {
+    for (double shift = 1e-6 * model.largest_diagonal(); shift <= 1e3 * model.largest_diagonal(); shift *= 10) {
       const auto step = model.minimise(shift, factor, active);
       if (!step) continue;
       EXPECT_LE(largest_displacement(step->displacement), longest * (1 + 1e-12)) << "shift " << shift;
@@ -194,12 +194,12 @@ TEST(StepModel, KeepsToTheLongestStep) {
 TEST(StepModel, RefusesAnIndefiniteMatrix) {
   Case state = case_of(small_packing(SolidKind::dodecahedron, 0.8, 34), 0);
   StepModel sound(state.second, state.value.gradient, unlimited);
-  for (Matrix6d& block : state.second.hessian.diagonal) block.diagonal().array() -= 2 * sound.stiffness();
+  for (Matrix6d& block : state.second.hessian.diagonal) block.diagonal().array() -= 2 * sound.largest_diagonal();
   StepModel model(state.second, state.value.gradient, unlimited);
   StepFactor factor;
   ActivePairs active;
   EXPECT_FALSE(model.minimise(0, factor, active));
-  EXPECT_TRUE(model.minimise(100 * sound.stiffness(), factor, active));
+  EXPECT_TRUE(model.minimise(100 * sound.largest_diagonal(), factor, active));
 }
 
 }  // namespace

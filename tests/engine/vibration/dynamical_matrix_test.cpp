@@ -59,10 +59,10 @@ TEST(DynamicalMatrix, TranslationsAreNullVectors) {
     const MatrixXd moves = translations(packing.size());
     EXPECT_LE((moves.transpose() * moves - MatrixXd::Identity(3, 3)).norm(), 64 * eps);
     const BlockMatrix blocks = PackingEnergy().hessian(packing);
-    const double stiffness = spectrum(dense_matrix(blocks)).cwiseAbs().maxCoeff();
+    const double lambda_max = spectrum(dense_matrix(blocks)).cwiseAbs().maxCoeff();
     for (int c = 0; c < 3; ++c)
-      EXPECT_LE((blocks * moves.col(c)).norm(), rounding_bound(blocks, stiffness)) << to_string(kind);
-    EXPECT_LE(rounding_bound(blocks, stiffness), 1e4 * eps * stiffness) << "it must still tell small from zero";
+      EXPECT_LE((blocks * moves.col(c)).norm(), rounding_bound(blocks, lambda_max)) << to_string(kind);
+    EXPECT_LE(rounding_bound(blocks, lambda_max), 1e4 * eps * lambda_max) << "it must still tell small from zero";
   }
   EXPECT_EQ(norm_bound(BlockMatrix{}), 0);
 }

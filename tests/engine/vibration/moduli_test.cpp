@@ -91,7 +91,7 @@ Strained strained(const Measured& measured, const Matrix3d& deformation) {
   for (const Contact& contact : measured.contacts) {
     const Pose &a = packing.poses[contact.pair.a], &b = packing.poses[contact.pair.b];
     const Eigen::Vector3d d = deformation * contact.displacement;
-    const Overlap o = overlap(*packing.solid, *packing.solid, relative_pose(a.orientation, b.orientation, d));
+    const Overlap o = relative_overlap(*packing.solid, *packing.solid, relative_pose(a.orientation, b.orientation, d));
     const Eigen::Vector3d push = a.orientation * (o.volume / 2 * o.area),
                           turn = a.orientation * (o.volume / 2 * o.moment);
     sum.energy += o.volume * o.volume / 4;

@@ -45,15 +45,15 @@ INSTANTIATE_TEST_SUITE_P(Systems, Modes,
 
 BlockMatrix hessian_of(const Packing& packing) { return PackingEnergy().hessian(packing, Precision::double_double); }
 
-void expect_eigenpairs(const BlockMatrix& matrix, const ModeSet& modes, double stiffness, double tolerance) {
+void expect_eigenpairs(const BlockMatrix& matrix, const ModeSet& modes, double lambda_max, double tolerance) {
   const MatrixXd unity = MatrixXd::Identity(modes.size(), modes.size());
   EXPECT_LE((modes.vectors.transpose() * modes.vectors - unity).cwiseAbs().maxCoeff(), 1e4 * eps);
   EXPECT_LE((translations(matrix.size()).transpose() * modes.vectors).cwiseAbs().maxCoeff(), 1e4 * eps);
   double worst = 0;
   for (Index k = 0; k < modes.size(); ++k) {
     const VectorXd u = modes.vectors.col(k);
-    worst = std::max(worst, (matrix * u - modes.eigenvalues[k] * u).norm() / stiffness);
-    EXPECT_NEAR(u.dot(matrix * u), modes.eigenvalues[k], tolerance * stiffness);
+    worst = std::max(worst, (matrix * u - modes.eigenvalues[k] * u).norm() / lambda_max);
+    EXPECT_NEAR(u.dot(matrix * u), modes.eigenvalues[k], tolerance * lambda_max);
     if (k > 0) {
       EXPECT_GE(modes.eigenvalues[k], modes.eigenvalues[k - 1]);
     }
@@ -83,9 +83,9 @@ TEST_P(Modes, AgreeWithTheDenseSolver) {
     EXPECT_LE(at_high, 1e-8);
     EXPECT_LE(at_low, ends.lowest.relative_error + all.relative_error);
     EXPECT_LE(at_high, ends.highest.relative_error + 1e3 * eps);
-    EXPECT_EQ(ends.stiffness, ends.highest.eigenvalues[49]);
-    expect_eigenpairs(matrix, ends.lowest, ends.stiffness, rounding_bound(matrix, ends.stiffness) / ends.stiffness);
-    expect_eigenpairs(matrix, ends.highest, ends.stiffness, 1e-8);
+    EXPECT_EQ(ends.lambda_max, ends.highest.eigenvalues[49]);
+    expect_eigenpairs(matrix, ends.lowest, ends.lambda_max, rounding_bound(matrix, ends.lambda_max) / ends.lambda_max);
+    expect_eigenpairs(matrix, ends.highest, ends.lambda_max, 1e-8);
   }
 }
 
@@ -118,14 +118,14 @@ TEST(ModesTest, FindsTheLowestOfAnUnstableMatrix) {
     ModeOptions options;
     options.lowest = options.highest = 20;
     const SpectrumEnds ends = spectrum_ends(matrix, options);
-    const double stiffness = all.eigenvalues.cwiseAbs().maxCoeff();
+    const double lambda_max = all.eigenvalues.cwiseAbs().maxCoeff();
     const double worst = (ends.lowest.eigenvalues - all.eigenvalues.head(20)).cwiseAbs().maxCoeff();
-    std::printf("%s: %ld negative modes, %s, lowest to %.1e of the stiffness\n", to_string(kind).data(),
-                (all.eigenvalues.array() < 0).count(), to_string(ends.lowest.ended).data(), worst / stiffness);
+    std::printf("%s: %ld negative modes, %s, lowest to %.1e of lambda_max\n", to_string(kind).data(),
+                (all.eigenvalues.array() < 0).count(), to_string(ends.lowest.ended).data(), worst / lambda_max);
     ASSERT_EQ(ends.lowest.size(), 20);
     EXPECT_EQ(ends.lowest.ended, ModeEnd::retried) << "the shift near 0 sees other modes first";
     EXPECT_EQ(ends.lowest.attempts, 2);
-    EXPECT_LE(worst, rounding_bound(matrix, stiffness));
+    EXPECT_LE(worst, rounding_bound(matrix, lambda_max));
   }
 }
 
@@ -133,8 +133,8 @@ TEST(ModesTest, DenseModesRebuildTheMatrix) {
   const BlockMatrix matrix = hessian_of(small_packing(SolidKind::tetrahedron, 0.6, 62));
   const ModeSet all = dense_modes(matrix);
   const MatrixXd rebuilt = all.vectors * all.eigenvalues.asDiagonal() * all.vectors.transpose();
-  const double stiffness = all.eigenvalues.cwiseAbs().maxCoeff();
-  EXPECT_LE((rebuilt - dense_matrix(matrix)).norm(), 1e3 * eps * stiffness);
+  const double lambda_max = all.eigenvalues.cwiseAbs().maxCoeff();
+  EXPECT_LE((rebuilt - dense_matrix(matrix)).norm(), 1e3 * eps * lambda_max);
   EXPECT_EQ(all.ended, ModeEnd::converged);
 }
 
@@ -166,7 +166,7 @@ TEST(ModesTest, FallsBackToTheDenseSolver) {
   const SpectrumEnds free = spectrum_ends(without_contacts);
   EXPECT_EQ(free.lowest.ended, ModeEnd::dense_fallback);
   EXPECT_EQ(free.lowest.eigenvalues, VectorXd::Zero(50));
-  EXPECT_EQ(free.stiffness, 0);
+  EXPECT_EQ(free.lambda_max, 0);
 }
 
 TEST(ModesTest, FailsOnWhatIsNotANumber) {

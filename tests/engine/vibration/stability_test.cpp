@@ -58,7 +58,7 @@ TEST(StabilityTest, JammedStatesAreStrictMinima) {
           stability.negative, ends.lowest.eigenvalues[0], stability.tolerance, torque);
       for (const NearRattler& found : stability.near_rattlers)
         std::printf(" %d (%s, %d contacts, %.1e)", found.particle, to_string(found.reason).data(), found.contacts,
-                    found.stiffness);
+                    found.least_eigenvalue);
       std::printf("\n");
       expect_counts(stability, matrix);
       EXPECT_EQ(stability.verdict, Verdict::stable);
@@ -99,7 +99,7 @@ TEST(StabilityTest, NamesWhatHasNoContacts) {
   EXPECT_EQ(stability.near_rattlers[0].particle, 48);
   EXPECT_EQ(stability.near_rattlers[0].contacts, 0);
   EXPECT_EQ(stability.near_rattlers[0].reason, NearRattler::Reason::few_contacts);
-  EXPECT_EQ(stability.near_rattlers[0].stiffness, 0);
+  EXPECT_EQ(stability.near_rattlers[0].least_eigenvalue, 0);
 }
 
 TEST(StabilityTest, NamesWhatItsContactsDoNotHold) {
@@ -117,7 +117,7 @@ TEST(StabilityTest, NamesWhatItsContactsDoNotHold) {
       const auto named = std::find_if(stability.near_rattlers.begin(), stability.near_rattlers.end(),
                                       [&](const NearRattler& found) { return found.particle == particle; });
       ASSERT_NE(named, stability.near_rattlers.end()) << "particle " << particle;
-      EXPECT_LT(named->stiffness, 0);
+      EXPECT_LT(named->least_eigenvalue, 0);
       if (named->contacts >= 4) {
         EXPECT_EQ(named->reason, NearRattler::Reason::vanishing_stiffness);
       }
@@ -140,7 +140,7 @@ TEST(StabilityTest, NamesWhatCarriesAModeThoughOthersWouldHoldIt) {
   ASSERT_EQ(stability.near_rattlers.size(), 1U);
   EXPECT_EQ(stability.near_rattlers[0].particle, 0);
   EXPECT_EQ(stability.near_rattlers[0].reason, NearRattler::Reason::vanishing_stiffness);
-  EXPECT_NEAR(stability.near_rattlers[0].stiffness, 1, 1e-14);
+  EXPECT_NEAR(stability.near_rattlers[0].least_eigenvalue, 1, 1e-14);
   EXPECT_TRUE(assess(matrix, {}).near_rattlers.empty()) << "without modes nobody can tell";
 }
 
@@ -156,7 +156,7 @@ TEST(StabilityTest, FewContacts) {
   EXPECT_EQ(stability.near_rattlers[1].particle, 3);
   EXPECT_EQ(stability.near_rattlers[2].particle, 4);
   EXPECT_EQ(stability.near_rattlers[2].contacts, 2);
-  EXPECT_NEAR(stability.near_rattlers[2].stiffness, 4, 1e-14);
+  EXPECT_NEAR(stability.near_rattlers[2].least_eigenvalue, 4, 1e-14);
 }
 
 TEST(StabilityTest, ToleranceIsRoundingAndTorque) {

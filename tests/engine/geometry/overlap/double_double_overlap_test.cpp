@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "tests/engine/geometry/overlap/pairs.hpp"
 
 namespace isojam {
@@ -236,7 +237,7 @@ TEST_P(DoubleDoubleOverlap, HessiansAreDifferencesInQuadruplePrecision) {
       const DoubleDoubleVector r = displacement_double_double(pair);
       SeparatingAxis unused;
       OverlapHessian hessian;
-      overlap(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r, unused, hessian);
+      overlap_with_hessian(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r, unused, hessian);
       const Matrix6d& cross = hessian.ab;
       const Matrix6d own = overlap_own_hessian(cross, in_double_double(pair).area, r.high);
       // Turns do not commute: the derivative of M by turns of its own body has an antisymmetric part, which is no

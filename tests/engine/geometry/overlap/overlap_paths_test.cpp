@@ -9,6 +9,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/overlap.hpp"
 #include "engine/geometry/overlap/separating_axis.hpp"
 #include "tests/engine/geometry/overlap/pairs.hpp"

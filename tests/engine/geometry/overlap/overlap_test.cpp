@@ -6,6 +6,7 @@
 //   the features reported are those of the contact built.
 
 #include "engine/geometry/overlap/overlap.hpp"
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -35,7 +35,7 @@ Pair random_contact(RandomStream& random, SolidKind a, SolidKind b, double least
   }
 }
 
-Overlap overlap(const Pair& pair) { return isojam::overlap(pair.solid_a(), pair.solid_b(), pair.relative()); }
+Overlap overlap(const Pair& pair) { return relative_overlap(pair.solid_a(), pair.solid_b(), pair.relative()); }
 
 Pair exchanged(const Pair& pair) { return {pair.kind_b, pair.kind_a, pair.b, pair.a}; }
 

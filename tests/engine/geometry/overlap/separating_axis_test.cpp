@@ -14,6 +14,7 @@
 #include <limits>
 #include <map>
 
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "tests/engine/geometry/overlap/pairs.hpp"
 
 namespace isojam {
@@ -136,7 +137,7 @@ TEST(SeparatingAxisTest, OverlapHandsBackASeparatingFace) {
   for_each_near_pair(6, [&](const Pair& pair) {
     const RelativePose pose = pair.relative();
     SeparatingAxis axis;
-    const Overlap result = overlap(pair.solid_a(), pair.solid_b(), pose, axis);
+    const Overlap result = relative_overlap(pair.solid_a(), pair.solid_b(), pose, axis);
     if (axis.kind == Kind::none) return;
     ++handed;
     EXPECT_FALSE(result.touching()) << describe(pair);

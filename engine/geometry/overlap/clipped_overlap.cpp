@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/geometry/overlap/overlap.hpp"
+#include "engine/geometry/overlap/clipped_overlap.hpp"
 
 // A is cut by the face planes of B one after another. In quadruple precision every pose that doubles can express is
 // resolved: a vertex is on a plane exactly, or off it by far more than the rounding of this arithmetic. What lies on a
