@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -47,7 +48,9 @@ void Console::detail(std::string_view message) {
 void Console::begin(int total, double work) {
   const std::lock_guard lock(mutex_);
   total_ = total;
+  done_ = failed_ = 0;
   work_total_ = work;
+  work_done_ = 0;
   begun_ = shown_ = Clock::now();
 }
 
@@ -73,7 +76,7 @@ void Console::tick(std::string_view what) {
     bar_shown_ = true;
     return;
   }
-  const int filled = bar_width * done_ / total_;
+  const int filled = bar_width * std::min(done_, total_) / total_;
   put(fmt::format("\r\033[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
                   std::string(static_cast<std::size_t>(bar_width - filled), '.'), status()));
   bar_shown_ = true;

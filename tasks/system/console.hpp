@@ -34,7 +34,7 @@ class Console {
   void info(std::string_view message);
   void detail(std::string_view message);  ///< shown with -v
 
-  /// `work` measures cost (any unit), for the time left.
+  /// A round of so many replicates, counted from none. `work` measures cost (any unit), for the time left.
   void begin(int total, double work);
   void finished(double work, bool failed);
   /// Redraws the bar on a terminal, prints a line every few seconds elsewhere; without begin() only what is under way.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "tasks/chart/families/atlas_runs.hpp"
+#include "tasks/chart/atlas/atlas_runs.hpp"
 #include "tasks/chart/results/conclusion.hpp"
 #include "tasks/chart/results/data.hpp"
 

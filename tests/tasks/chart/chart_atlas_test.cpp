@@ -4,7 +4,7 @@
 // - every cell is in exactly one run;
 // - the table names each run with its verdict, failures and refusals with reason and figure; data hold every cell.
 
-#include "tasks/chart/families/atlas_runs.hpp"
+#include "tasks/chart/atlas/atlas_runs.hpp"
 
 #include <gtest/gtest.h>
 

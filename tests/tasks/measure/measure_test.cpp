@@ -199,14 +199,10 @@ TEST(Measure, AnswersDegenerateStates) {
     const auto text = state.dump();
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
     EXPECT_EQ(text.find("inf,"), std::string::npos) << name;
+    if (name != cases.back().first) continue;
+    EXPECT_EQ(state.at("Z"), 26) << name;
+    EXPECT_GT(state.at("order").at("S").get<double>(), 0.999) << name;
   }
-  const auto crystal = test::record_on_disk([&] {
-    auto outcome = measured_outcome(result_of(crystal_of_cubes()));
-    outcome.failure = Failure{"jam", "made up"};
-    return outcome;
-  }());
-  EXPECT_EQ(crystal.at("states").at(0).at("Z"), 26);
-  EXPECT_GT(crystal.at("states").at(0).at("order").at("S").get<double>(), 0.999);
 }
 
 }  // namespace

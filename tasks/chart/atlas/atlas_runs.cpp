@@ -1,4 +1,4 @@
-#include "tasks/chart/families/atlas_runs.hpp"
+#include "tasks/chart/atlas/atlas_runs.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,0 +1,69 @@
+// Facts proved here, on a pseudo-terminal, as a person sees it:
+// - a bar of constant length counts the replicates of each round from none to its own total, however many rounds came
+//   before;
+// - time left is told while some work is done and some is not, and the bar is gone when the round ends.
+
+#include "tasks/system/console.hpp"
+
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <regex>
+#include <string>
+#include <thread>
+
+namespace isojam {
+namespace {
+
+/// What `work` writes to a terminal, and how its process ended (the status of waitpid).
+std::pair<std::string, int> on_a_terminal(void (*work)()) {
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    work();
+    _exit(0);
+  }
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(terminal);
+  return {text, status};
+}
+
+/// Rounds of 6, 2 and 3 replicates, each shown.
+void rounds() {
+  Console console({});
+  for (const int total : {6, 2, 3}) {
+    console.begin(total, total);
+    for (int k = 0; k < total; ++k) {
+      console.finished(1, false);
+      std::this_thread::sleep_for(std::chrono::milliseconds(110));
+      console.tick("a step");
+    }
+    console.end();
+  }
+}
+
+TEST(Console, CountsEveryRoundFromNoneOnATerminal) {
+  const auto [text, status] = on_a_terminal(rounds);
+  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status << " after: " << text;
+  std::vector<std::string> counts;
+  const std::regex bar(R"(\[([#.]*)\] (\d+ of \d+) replicates)");
+  for (std::sregex_iterator found(text.begin(), text.end(), bar), end; found != end; ++found) {
+    EXPECT_EQ((*found)[1].length(), 24) << found->str();
+    counts.push_back((*found)[2]);
+  }
+  const std::vector<std::string> expected{"1 of 6", "2 of 6", "3 of 6", "4 of 6", "5 of 6", "6 of 6",
+                                          "1 of 2", "2 of 2", "1 of 3", "2 of 3", "3 of 3"};
+  EXPECT_EQ(counts, expected) << text;
+  EXPECT_NE(text.find("1 of 2 replicates, about 0 s left"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with("\r\033[K")) << text;
+}
+
+}  // namespace
+}  // namespace isojam
