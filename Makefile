@@ -114,7 +114,8 @@ clean:
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.
 FILES   := $(shell find engine tasks tests -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
-LINT    ?= $(filter %.cpp,$(FILES))
+# Not ?=, for make has a LINT of its own; the command line wins over := as well.
+LINT    := $(filter %.cpp,$(FILES))
 STAMPS   = $(LINT:%=$(BUILD)-lint/stamps/%)
 CONFIGURE_LINT = $(subst -B $(BUILD),-B $(BUILD)-lint,$(CONFIGURE)) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON \
                  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
@@ -123,7 +124,7 @@ CONFIGURE_LINT = $(subst -B $(BUILD),-B $(BUILD)-lint,$(CONFIGURE)) -DISOJAM_TES
 # that every source includes what it needs.
 lint:
 	$(call install,$(BENCH_PACKAGES))
-	clang-format --dry-run -Werror $(FILES)
+	@clang-format --dry-run -Werror $(FILES)
 	$(CONFIGURE_LINT)
 	@$(MAKE) --no-print-directory -j $(JOBS) -O -k lint-sources
 
@@ -142,4 +143,4 @@ $(STAMPS): $(BUILD)-lint/stamps/%: % .clang-tidy tests/.clang-tidy
 
 format:
 	$(call install,clang-format)
-	clang-format -i $(FILES)
+	@clang-format -i $(FILES)

@@ -12,6 +12,7 @@
 #include "tasks/system/exit_codes.hpp"
 
 // CLI11 takes ten seconds to compile wherever it is included: it is seen by options.cpp and main.cpp alone.
+// NOLINTNEXTLINE(readability-identifier-naming): CLI11 is called so
 namespace CLI {
 class App;
 }  // namespace CLI
@@ -40,7 +41,7 @@ class Options {
   void flag(const std::string& name, bool& value, const std::string& description);
   void positive(const std::string& name, double& value, const std::string& description, const std::string& type);
   /// `read` takes the text in, or says what is wrong with it. `absent` is called where the option is not given.
-  void parsed(const std::string& name, std::function<std::optional<std::string>(const std::string&)> read,
+  void parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
               std::function<void()> absent, const std::string& description, const std::string& type);
   /// The name of an enumerator.
   template <NamedEnum Enum>

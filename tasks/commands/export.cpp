@@ -45,7 +45,7 @@ fs::path file_of(const Arguments& arguments, const char* folder, const std::stri
 
 /// Only names of records that are there ever become part of a path.
 std::vector<std::string> chosen_names(const Arguments& arguments) {
-  const auto names = names_in(fs::path(arguments.directory) / "records");
+  auto names = names_in(fs::path(arguments.directory) / "records");
   if (names.empty()) throw FileError(fmt::format("{}: holds no records", arguments.directory));
   if (arguments.replicate == every_replicate) return names;
   if (std::find(names.begin(), names.end(), arguments.replicate) != names.end()) return {arguments.replicate};

@@ -25,7 +25,7 @@ void Options::positive(const std::string& name, double& value, const std::string
   app_.add_option(name, value, description)->check(CLI::PositiveNumber.description(""))->type_name(type);
 }
 
-void Options::parsed(const std::string& name, std::function<std::optional<std::string>(const std::string&)> read,
+void Options::parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
                      std::function<void()> absent, const std::string& description, const std::string& type) {
   const auto* option = app_.add_option_function<std::string>(
                                name, [read](const std::string& text) { (void)read(text); }, description)

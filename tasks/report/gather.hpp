@@ -11,7 +11,7 @@ namespace isojam {
 ///   manifest    {"name", "seed"} as texts, null where unknown
 ///   builds      distinct provenance of the records
 ///   measures    what was measured, over all records
-///   columns     {"name", "group", "latex"} of the tables
+///   columns     {"name", "group", "unit", "latex"} of the quantities, in the order of the tables
 ///   rows        those of tables.json, each with "label", "paper" (φ_J of Table I or null), "scaling" (power laws of
 ///               ⟨ω⟩ over its replicates), "angles" (CDFs over its replicates, unflagged ones if there are any)
 ///   csv, latex  the same table as text

@@ -18,7 +18,7 @@ struct QuadOverlap {
 };
 
 /// The nearest doubles; its path is OverlapPath::clip unless the volume is 0.
-Overlap narrowed(const QuadOverlap& overlap);
+Overlap narrowed(const QuadOverlap& exact);
 
 /// The slow path of overlap() and its oracle: A cut by the face planes of B one after another in quadruple precision,
 /// V, S_A and M_A by the divergence theorem over what is left, in A's body frame.

@@ -1,6 +1,7 @@
 #include "engine/solve/factor/block_cholesky.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "engine/solve/factor/panels.hpp"
 
@@ -210,14 +211,14 @@ Eigen::VectorXd BlockCholesky::solve(const Eigen::Ref<const Eigen::VectorXd>& b)
     panels::subtract_product(factor_.data() + front.below, front.width(), front.panels, own, below.data());
     for (int r = 0; r < static_cast<int>(rows.size()); ++r) x.segment<6>(6 * rows[r]) += below.segment<6>(6 * r);
   }
-  for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
-    double* const own = x.data() + std::ptrdiff_t{6} * front->node.first;
-    const std::vector<int>& rows = front->node.rows;
-    below.head(panels::height * front->panels).setZero();
+  for (const Front& front : std::views::reverse(fronts_)) {
+    double* const own = x.data() + std::ptrdiff_t{6} * front.node.first;
+    const std::vector<int>& rows = front.node.rows;
+    below.head(panels::height * front.panels).setZero();
     for (int r = 0; r < static_cast<int>(rows.size()); ++r) below.segment<6>(6 * r) = x.segment<6>(6 * rows[r]);
-    panels::subtract_transposed(factor_.data() + front->below, front->width(), front->panels, below.data(), own);
-    panels::solve_backward(factor_.data() + front->factor, front->width(),
-                           reciprocals_.data() + std::ptrdiff_t{6} * front->node.first, own);
+    panels::subtract_transposed(factor_.data() + front.below, front.width(), front.panels, below.data(), own);
+    panels::solve_backward(factor_.data() + front.factor, front.width(),
+                           reciprocals_.data() + std::ptrdiff_t{6} * front.node.first, own);
   }
   Eigen::VectorXd result(b.size());
   for (int k = 0; k < size_; ++k) result.segment<6>(6 * node_of_[k]) = x.segment<6>(6 * k);

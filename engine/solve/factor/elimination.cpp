@@ -60,11 +60,14 @@ std::vector<Step> single_steps(const BlockMatrix& matrix, const std::vector<int>
 
 /// Time of eliminating `columns` particles that couple to `rows` later ones, in products of two 6×6 blocks.
 double cost(std::size_t columns, std::size_t rows) {
-  const auto c = static_cast<double>(columns), r = static_cast<double>(rows);
+  const auto r = static_cast<double>(rows);
   constexpr double hand_up = 1.5;  // a block handed up to the parent
   constexpr double overhead = 40;
   double products = 0;
-  for (double h = r; h < r + c; ++h) products += (h + 1) * (h + 2) / 2;
+  for (std::size_t k = 0; k < columns; ++k) {
+    const double h = r + static_cast<double>(k);
+    products += (h + 1) * (h + 2) / 2;
+  }
   return products + hand_up * r * (r + 1) / 2 + overhead;
 }
 

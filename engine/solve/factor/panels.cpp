@@ -64,6 +64,7 @@ inline void subtract_product(const double* a, const double* b, int depth, Tile& 
     Lanes column[vectors];
     load(a, column);
 #pragma GCC unroll 6
+    // NOLINTNEXTLINE(modernize-loop-convert): a loop that the pragma unrolls, as those around it
     for (int v = 0; v < vectors; ++v) keep(column[v]);
 #pragma GCC unroll 3
     for (int j = 0; j < step; ++j) {

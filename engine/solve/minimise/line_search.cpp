@@ -32,7 +32,9 @@ class Search {
         options_(options),
         noise_(std::max(options.noise, 4 * std::numeric_limits<double>::epsilon() * std::abs(start.value))) {}
 
+  static bool finite(const LinePoint& p) { return std::isfinite(p.value) && std::isfinite(p.slope); }
   bool decreases(const LinePoint& p) const {
+    if (!finite(p)) return false;
     if (p.value <= start_.value + options_.decrease * p.step * start_.slope) return true;
     return p.value <= start_.value + noise_ && p.slope <= (2 * options_.decrease - 1) * start_.slope;
   }
@@ -51,6 +53,12 @@ class Search {
   double noise_;
 };
 
+/// Where to look next: farther than `p` until the minimum is bracketed, then within the bracket.
+double next_step(const LinePoint& p, const LinePoint& low, const LinePoint& high, bool bracketed, double longest) {
+  if (!bracketed) return std::min({3 * p.step, longest});
+  return std::isfinite(high.value) ? cubic_minimum(low, high) : (low.step + high.step) / 2;
+}
+
 }  // namespace
 
 LineSearchResult line_search(const std::function<LinePoint(double)>& at, const LinePoint& start, double first_step,
@@ -66,8 +74,7 @@ LineSearchResult line_search(const std::function<LinePoint(double)>& at, const L
   while (result.evaluations < options.max_evaluations) {
     const LinePoint p = at(step);
     ++result.evaluations;
-    const bool finite = std::isfinite(p.value) && std::isfinite(p.slope);
-    if (finite && search.decreases(p)) {
+    if (search.decreases(p)) {
       if (search.better(p, result.point)) result.point = p;
       if (search.flat_enough(p)) {
         result.point = p;
@@ -75,10 +82,10 @@ LineSearchResult line_search(const std::function<LinePoint(double)>& at, const L
         return result;
       }
     }
-    if (!finite || !search.decreases(p) || search.higher(p, low)) {
+    if (!search.decreases(p) || search.higher(p, low)) {
       high = p;
       bracketed = true;
-      if (!finite) {
+      if (!Search::finite(p)) {
         step = low.step + (p.step - low.step) / 4;
         high.value = std::numeric_limits<double>::infinity();
         high.slope = 1;
@@ -96,13 +103,7 @@ LineSearchResult line_search(const std::function<LinePoint(double)>& at, const L
         return result;
       }
     }
-    if (!bracketed) {
-      step = std::min({3 * p.step, options.longest_step});
-    } else if (std::isfinite(high.value)) {
-      step = cubic_minimum(low, high);
-    } else {
-      step = (low.step + high.step) / 2;
-    }
+    step = next_step(p, low, high, bracketed, options.longest_step);
     if (step == low.step || (bracketed && step == high.step)) break;
   }
   result.found = result.point.step > 0;

@@ -67,7 +67,7 @@ QuadQuaternion operator*(const QuadQuaternion& p, const QuadQuaternion& q) {
 
 ConstructedPair constructed(const PairDesign& design) {
   const QuadQuaternion common = normalised(design.common);
-  ConstructedPair pair{design.a, design.b, {}, {}, {}, design.volume.has_value()};
+  ConstructedPair pair{{}, {}, {}, design.a, design.b, design.volume.has_value()};
   pair.at_a = pose_of({}, normalised(common * design.turn_a));
   pair.at_b = pose_of(turned(common, design.r), normalised(common * design.turn_b));
   const QuadPose pose = relative_pose(pair.at_a, pair.at_b, quad_position(pair.at_b));

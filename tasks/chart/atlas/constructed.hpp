@@ -20,9 +20,9 @@ QuadQuaternion operator*(const QuadQuaternion& p, const QuadQuaternion& q);
 
 /// Two solids placed in double-double, as the design of a contact asks to 1e-31, and what their overlap is.
 struct ConstructedPair {
-  SolidKind a, b;
   Pose at_a, at_b;
   VolumeAndArea reference;
+  SolidKind a, b;
   bool closed_form = false;  ///< of V; S is discontinuous in some of these designs
 };
 

@@ -127,7 +127,8 @@ void append_depths(std::vector<AtlasRow>& rows) {
   for (const auto& [name, shape] : shapes) {
     for (const double depth : depths)
       append_cell(
-          name, decade_name(depth), [&](int, RandomStream&) { return contact_design(shape, depth); }, rows);
+          name, decade_name(depth), [shape = shape, depth](int, RandomStream&) { return contact_design(shape, depth); },
+          rows);
   }
   for (const double depth : depths)
     append_cell(

@@ -180,7 +180,7 @@ std::optional<PairCase> coplanar_faces(RandomStream& random, SolidKind a, SolidK
   const double length = within.norm();
   // Faces that share a piece need a large overlap; in a small one they are coplanar but apart.
   const double target = random.uniform() < .5 ? between(random, .3, .97) : log_between(random, 1e-4, .9);
-  const auto pair = at_volume(a, b, {q, Vector3d::Zero(), within / length}, target);
+  auto pair = at_volume(a, b, {q, Vector3d::Zero(), within / length}, target);
   if (!pair || !exact) return pair;
   const double t = static_cast<float>(pair->displacement.norm() / length);
   return PairCase{a, b, q, t * within};

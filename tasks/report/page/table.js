@@ -60,7 +60,7 @@ function countColumn() {
 
 function estimateColumn(column) {
   return {
-    heading: symbolNodes(column.latex), estimate: true, name: column.name,
+    heading: symbolNodes(column.latex), estimate: true, name: column.name, unit: column.unit,
     value: (row) => row[column.name]?.mean ?? null,
     cell: (row) => estimateCell(row[column.name]),
   };
@@ -108,7 +108,8 @@ function sortableTable(rows, columns, caption) {
   const table = element('table', {attributes: {'aria-label': caption}}, element('thead', {}, head));
   const bodies = rows.map((row) => ({row, body: rowBody(row, columns)}));
   for (const column of columns) {
-    const sorter = element('button', {type: 'button', title: 'Sort by this column'}, ...column.heading);
+    const unit = column.unit && column.unit !== '1' ? `, in ${column.unit}` : '';
+    const sorter = element('button', {type: 'button', title: `Sort by this column${unit}`}, ...column.heading);
     const heading = element('th', {className: column.text ? 'text' : '', scope: 'col',
       attributes: {'aria-sort': 'none'}}, sorter);
     sorter.addEventListener('click', () => sortBy(table, bodies, column, heading));
