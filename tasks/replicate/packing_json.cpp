@@ -44,7 +44,7 @@ Eigen::Vector4d read_quaternion(const JsonPlace& place) {
 }
 
 JsonPlace list_of(const JsonPlace& place, const std::string& key, std::size_t size) {
-  const auto list = place.at(key);
+  auto list = place.at(key);
   const auto allowed = fmt::format("a list with an entry for each of {} particles", size);
   if (list.expect_list(allowed) != size) list.refuse("the list has another length", allowed);
   return list;

@@ -152,7 +152,7 @@ Json unwrapped_cluster(const Packing& packing, const Cluster& cluster) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < cluster.members.size(); ++k) {
     const auto& pose = packing.poses[static_cast<std::size_t>(cluster.members[k])];
-    positions.push_back(pose.position + side * cluster.images[k].cast<double>());
+    positions.emplace_back(pose.position + side * cluster.images[k].cast<double>());
     centre += positions.back() / cluster.size();
   }
   Json json;

@@ -149,7 +149,8 @@ TEST(DistancesTest, AChangedTableIsClassifiedAnew) {
   for_each_near_pair(4, [&](const Pair& pair) {
     const Placed placed(pair);
     Table table(placed.a, placed.b, placed.r);
-    const Distances before = table;
+    const Distances& summary = table;
+    const Distances before = summary;
     classify(pair.solid_a(), table);
     EXPECT_EQ(table.edges, before.edges) << "nothing was changed: " << describe(pair);
     EXPECT_EQ(table.nearest, before.nearest);

@@ -121,7 +121,8 @@ TEST(NeighboursTest, LatticePointsOnTheBordersOfCellsAreSeen) {
   for (int k = 0; k < m * m * m; ++k) {
     Pose pose;
     // Some a whole side away, and so that a few are negative zeros or just below a border.
-    pose.position = spacing * Vector3d(k % m - m * (k % 5 == 0), k / m % m, k / (m * m));
+    const int x = k % m - m * (k % 5 == 0), y = k / m % m, z = k / (m * m);
+    pose.position = spacing * Vector3d(x, y, z);
     lattice.poses.push_back(pose);
   }
   const std::size_t n = lattice.poses.size();
