@@ -38,7 +38,8 @@ TEST(PeriodicCellTest, NearestImageIsTheShortest) {
       EXPECT_LT(x, side / 2 + rounding) << d.transpose() << ", L " << side;
     }
     for (int image = 0; image < 27; ++image) {
-      const Vector3d away = side * (Vector3d(image % 3, image / 3 % 3, image / 9) - Vector3d::Ones());
+      const int x = image % 3 - 1, y = image / 3 % 3 - 1, z = image / 9 - 1;
+      const Vector3d away = side * Vector3d(x, y, z);
       EXPECT_LE(nearest.norm(), (nearest + away).norm() + rounding) << d.transpose() << ", L " << side;
       EXPECT_LE((cell.nearest_image(nearest + 2 * away) - nearest).norm(), rounding) << d.transpose() << ", L " << side;
     }

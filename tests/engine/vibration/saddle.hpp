@@ -16,7 +16,8 @@ inline Packing lattice(SolidKind kind, int side, double density, std::uint64_t s
   const double spacing = packing.cell.side() / side;
   for (int k = 0; k < n; ++k) {
     Pose pose;
-    pose.position = spacing * Eigen::Vector3d(k / (side * side), k / side % side, k % side);
+    const int x = k / (side * side), y = k / side % side, z = k % side;
+    pose.position = spacing * Eigen::Vector3d(x, y, z);
     pose.orientation = orientation;
     packing.poses.push_back(pose);
   }
