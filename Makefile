@@ -118,7 +118,7 @@ FILES   := $(shell find engine tasks tests -path tests/house/bad -prune -o \( -n
 LINT    := $(filter %.cpp,$(FILES))
 STAMPS   = $(LINT:%=$(BUILD)-lint/stamps/%)
 CONFIGURE_LINT = $(subst -B $(BUILD),-B $(BUILD)-lint,$(CONFIGURE)) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON \
-                 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+                 -DISOJAM_FUZZ=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 
 # In a directory of its own, where nothing is built: clang-tidy cannot read the headers that g++ precompiles, and so sees
 # that every source includes what it needs.
