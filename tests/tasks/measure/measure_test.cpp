@@ -176,8 +176,8 @@ Packing crystal_of_cubes() {
   Packing packing{&platonic(SolidKind::cube), PeriodicCell(cells * spacing), {}};
   for (int k = 0; k < cells * cells * cells; ++k) {
     packing.poses.emplace_back();
-    packing.poses.back().position =
-        spacing * Eigen::Vector3d(k % cells, k / cells % cells, k / (cells * cells)) + Eigen::Vector3d::Constant(0.3);
+    const int x = k % cells, y = k / cells % cells, z = k / (cells * cells);
+    packing.poses.back().position = spacing * Eigen::Vector3d(x, y, z) + Eigen::Vector3d::Constant(0.3);
   }
   return packing;
 }
