@@ -81,6 +81,7 @@ class Aggregation {
   };
   using PointKey = std::tuple<SolidKind, int, Json>;
   using ReplicateKey = std::pair<std::string, int>;  // manifest digest, replicate
+  // NOLINTNEXTLINE(bugprone-exception-escape): as above.
   struct Point {
     Json settings;
     std::string first;  // the record that gave them

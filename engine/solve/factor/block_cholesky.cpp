@@ -1,7 +1,6 @@
 #include "engine/solve/factor/block_cholesky.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 #include "engine/solve/factor/panels.hpp"
 
@@ -211,7 +210,9 @@ Eigen::VectorXd BlockCholesky::solve(const Eigen::Ref<const Eigen::VectorXd>& b)
     panels::subtract_product(factor_.data() + front.below, front.width(), front.panels, own, below.data());
     for (int r = 0; r < static_cast<int>(rows.size()); ++r) x.segment<6>(6 * rows[r]) += below.segment<6>(6 * r);
   }
-  for (const Front& front : std::views::reverse(fronts_)) {
+  // NOLINTNEXTLINE(modernize-loop-convert): clang 14 does not compile the views of g++ 12
+  for (auto at = fronts_.rbegin(); at != fronts_.rend(); ++at) {
+    const Front& front = *at;
     double* const own = x.data() + std::ptrdiff_t{6} * front.node.first;
     const std::vector<int>& rows = front.node.rows;
     below.head(panels::height * front.panels).setZero();
