@@ -6,7 +6,6 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -22,11 +21,11 @@ class InOrder {
 
   InOrder(std::size_t count, const Make& make)
       : make_(make), count_(count), slots_(4 * std::max(1U, std::thread::hardware_concurrency())) {
-    // The calling thread makes values too: a machine that has no further thread to give makes it slower, not
-    // impossible.
+    // The calling thread makes values too: a machine that has no further thread to give, or no memory for one, makes it
+    // slower, not impossible. Nothing may be thrown from here once a thread waits, for it would wait for good.
     try {
       for (std::size_t k = 1; k < slots_.size() / 4; ++k) threads_.emplace_back([this] { work(); });
-    } catch (const std::system_error&) {
+    } catch (const std::exception&) {
       return;
     }
   }
