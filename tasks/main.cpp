@@ -1,11 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "tasks/commands/command.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/system/file.hpp"
+#include "tasks/system/shortage.hpp"
+#include "tasks/system/standard_streams.hpp"
 #include "tasks/system/version.hpp"
 
 namespace isojam {
@@ -34,10 +41,14 @@ ExitCode parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "isojam: error: %s\n", error.what());
+    std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
     return ExitCode::usage;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::usage;
+    std::ostringstream out, err;
+    const bool asked = app.exit(error, out, err) == 0;
+    print(out.str());
+    std::fputs(printable(err.str()).c_str(), stderr);
+    return asked ? ExitCode::done : ExitCode::usage;
   }
 
   Console console(session.console);
@@ -48,20 +59,49 @@ ExitCode parse_and_run(int argc, char** argv) {
     return ExitCode::bad_input;
   } catch (const FileError& error) {
     console.error(error.what());
-    return ExitCode::usage;
+    return error.reason() == FileError::Reason::shortage ? ExitCode::some_failed : ExitCode::usage;
   }
+}
+
+/// What the machine lacks ends the program wherever it is missed, also where nothing may be thrown.
+[[noreturn]] void end_for_want(const char* what) {
+  std::fprintf(stderr, "isojam: error: %s; what was recorded is kept, and the same command continues\n", what);
+  std::_Exit(static_cast<int>(ExitCode::some_failed));
+}
+
+[[noreturn]] void terminated() {
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    end_for_want("the machine has no more memory to give");
+  } catch (const std::system_error& error) {
+    end_for_want(error.what());
+  } catch (...) {
+    std::fputs("isojam: error: an exception that nothing caught\n", stderr);
+  }
+  std::abort();
 }
 
 }  // namespace
 }  // namespace isojam
 
 int main(int argc, char** argv) {
+  isojam::open_standard_streams();
+  std::set_terminate(isojam::terminated);
   // A file that may not grow is a failed write like any other, not the end.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return static_cast<int>(isojam::parse_and_run(argc, argv));
+    const auto code = isojam::parse_and_run(argc, argv);
+    isojam::flush_output();
+    return static_cast<int>(code);
+  } catch (const std::bad_alloc&) {
+    isojam::end_for_want("the machine has no more memory to give");
+  } catch (const std::system_error& error) {
+    const bool thread = error.code() == std::errc::resource_unavailable_try_again;
+    isojam::end_for_want(thread ? "the machine has no more threads to give" : error.what());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "isojam: error: %s\n", error.what());
+    if (isojam::is_shortage(error)) isojam::end_for_want(error.what());
+    std::fprintf(stderr, "isojam: error: %s\n", isojam::printable(error.what()).c_str());
     return static_cast<int>(isojam::ExitCode::some_failed);
   }
 }

@@ -4,6 +4,7 @@
 #include <Spectra/SymEigsSolver.h>
 
 #include <stdexcept>
+#include <system_error>
 
 namespace isojam {
 namespace {
@@ -18,6 +19,8 @@ LanczosModes solved(Solver& solver, Spectra::SortRule rule, const LanczosRequest
       solver.init();
     }
     solver.compute(rule, request.restarts, request.tolerance, Spectra::SortRule::SmallestAlge);
+  } catch (const std::system_error&) {
+    throw;  // of the machine, not of the problem
   } catch (const std::runtime_error&) {
     modes.ended = LanczosEnd::small_problem_failed;
     return modes;

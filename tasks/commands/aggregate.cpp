@@ -2,8 +2,9 @@
 #include <vector>
 
 #include "tasks/commands/command.hpp"
-#include "tasks/commands/shared.hpp"
+#include "tasks/json/sealed.hpp"
 #include "tasks/system/atomic_file.hpp"
+#include "tasks/system/standard_streams.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"
 
@@ -26,7 +27,7 @@ struct Arguments {
 
 std::string formatted(const Table& table, TableFormat format, View view) {
   switch (format) {
-    case TableFormat::json: return pretty(to_json(table));
+    case TableFormat::json: return sealed(to_json(table));
     case TableFormat::csv: return to_csv(table, view);
     case TableFormat::latex: return to_latex(table, view);
     case TableFormat::text: break;
@@ -35,9 +36,9 @@ std::string formatted(const Table& table, TableFormat format, View view) {
 }
 
 /// Reads only, but for the output asked for.
-ExitCode aggregate_directories(const Arguments& arguments, Console&) {
-  const auto table = table_of(arguments.directories);
-  if (!arguments.output.empty()) write_atomically(arguments.output, pretty(to_json(table)));
+ExitCode aggregate_directories(const Arguments& arguments, Console& console) {
+  const auto table = table_of(arguments.directories, [&](const std::string& message) { console.warn(message); });
+  if (!arguments.output.empty()) write_output(arguments.output, sealed(to_json(table)));
   print(formatted(table, arguments.format, arguments.series ? View::series : View::nearest));
   return ExitCode::done;
 }

@@ -4,11 +4,11 @@
 #include "tasks/chart/results/data.hpp"
 #include "tasks/chart/run_chart.hpp"
 #include "tasks/commands/command.hpp"
-#include "tasks/commands/shared.hpp"
 #include "tasks/page/page.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/file.hpp"
 #include "tasks/system/interrupt.hpp"
+#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace {

@@ -9,6 +9,7 @@
 #include "tasks/run/graph.hpp"
 #include "tasks/store/survey.hpp"
 #include "tasks/system/console.hpp"
+#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace {
@@ -23,7 +24,7 @@ std::string point_name(const ReplicateSpec& spec) {
 
 ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory,
                  const RunArguments& arguments) {
-  const auto survey = survey_of(directory, plan);
+  const auto survey = survey_of(directory, plan, manifest.keep_path);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   double least = 0, most = 0, disk = 0, largest = 0;
   std::string text = fmt::format("{}: {} sweep points, seed {}, results in {}\n", manifest.name, plan.points(),

@@ -7,14 +7,13 @@
 #include <system_error>
 
 #include "tasks/commands/command.hpp"
-#include "tasks/commands/shared.hpp"
 #include "tasks/export/exported_files.hpp"
 #include "tasks/json/place.hpp"
-#include "tasks/json/sealed.hpp"
 #include "tasks/replicate/packing_json.hpp"
-#include "tasks/store/store.hpp"
+#include "tasks/store/recorded.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/file.hpp"
+#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace fs = std::filesystem;
@@ -69,20 +68,20 @@ std::optional<std::string> failure_text(const JsonPlace& record) {
   return fmt::format("failed in {}: {}", failure.at("where").text(), failure.at("why").text());
 }
 
-ExportFrame read_nearest(const Arguments& arguments, const std::string& name, const JsonPlace& record) {
-  const auto file = file_of(arguments, "packings", name).string();
-  const auto json = read_sealed(file);
-  return make_frame(read_packing(JsonPlace(json, file)), distance_of(record.at("nearest")));
+ExportFrame read_nearest(const Arguments& arguments, const RecordedReplicate& held, const JsonPlace& record) {
+  const auto json = read_companion_of(arguments.directory, held, "packings");
+  const JsonPlace packing(json, file_of(arguments, "packings", held.name).string());
+  return make_frame(read_packing(packing), distance_of(record.at("nearest")));
 }
 
-std::vector<ExportFrame> read_path(const Arguments& arguments, const std::string& name) {
-  const auto file = file_of(arguments, "paths", name);
+std::vector<ExportFrame> read_path(const Arguments& arguments, const RecordedReplicate& held) {
+  const auto file = file_of(arguments, "paths", held.name);
   std::error_code error;
   if (!fs::exists(file, error)) {
     throw FileError(fmt::format("{}: is not there: expansions are kept only if the manifest says \"keep_path\": true",
                                 file.string()));
   }
-  const auto json = read_sealed(file.string());
+  const auto json = read_companion_of(arguments.directory, held, "paths");
   const auto states = JsonPlace(json, file.string()).at("states");
   const auto count = states.expect_list("a list of states");
   if (count == 0) states.refuse("the expansion has no states");
@@ -98,16 +97,15 @@ std::vector<ExportFrame> read_path(const Arguments& arguments, const std::string
 
 /// A failed replicate that was not asked for by name gives a warning and no file.
 void export_replicate(const Arguments& arguments, const std::string& name, const fs::path& output, Console& console) {
-  const auto file = file_of(arguments, "records", name).string();
-  const auto json = read_sealed(file);
-  const JsonPlace record(json, file);
+  const auto held = read_record(arguments.directory, name);
+  const JsonPlace record(held.record, file_of(arguments, "records", name).string());
   if (const auto failure = failure_text(record)) {
     const auto message = fmt::format("{} {}; it has no packing", name, *failure);
     if (arguments.replicate != every_replicate) throw FileError(message);
     console.warn(message);
     return;
   }
-  const auto frames = arguments.path ? read_path(arguments, name) : std::vector{read_nearest(arguments, name, record)};
+  const auto frames = arguments.path ? read_path(arguments, held) : std::vector{read_nearest(arguments, held, record)};
   const auto undecided = std::count_if(frames.begin(), frames.end(), [](const ExportFrame& frame) {
     return frame.cluster.front() == ExportFrame::undecided_cluster;
   });
@@ -116,7 +114,7 @@ void export_replicate(const Arguments& arguments, const std::string& name, const
                              undecided, frames.size()));
   }
   for (const auto& exported : exported_files(frames, arguments.format, arguments.path, output)) {
-    write_atomically(exported.path, exported.bytes);
+    write_output(exported.path, exported.bytes);
     print(exported.path.string() + "\n");
   }
 }

@@ -1,10 +1,22 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "tasks/commands/command.hpp"
 
 namespace isojam {
+
+namespace {
+
+/// What is wrong with the text of a number that must be positive and finite; empty if nothing is.
+std::string not_positive(const std::string& text) {
+  double value = 0;
+  const bool good = CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);
+  return good ? "" : "not a positive number: " + text;
+}
+
+}  // namespace
 
 void Options::text(const std::string& name, std::string& value, const std::string& description, const std::string& type,
                    Need need) {
@@ -22,7 +34,7 @@ void Options::flag(const std::string& name, bool& value, const std::string& desc
 
 void Options::positive(const std::string& name, double& value, const std::string& description,
                        const std::string& type) {
-  app_.add_option(name, value, description)->check(CLI::PositiveNumber.description(""))->type_name(type);
+  app_.add_option(name, value, description)->check(not_positive)->type_name(type);
 }
 
 void Options::parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,

@@ -1,11 +1,13 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <map>
 
 #include "tasks/commands/command.hpp"
-#include "tasks/commands/shared.hpp"
 #include "tasks/report/gather.hpp"
 #include "tasks/report/page.hpp"
 #include "tasks/system/atomic_file.hpp"
+#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace {
@@ -16,20 +18,22 @@ struct Arguments {
 };
 
 /// Writes a results directory as one interactive HTML file; its path goes to stdout.
-ExitCode report(const Arguments& arguments, Console&) {
+ExitCode report(const Arguments& arguments, Console& console) {
   const std::filesystem::path directory = arguments.directory;
   const auto output = arguments.output.empty() ? directory / "report.html" : std::filesystem::path(arguments.output);
   const auto results = read_results(directory);
+  if (!results.manifest_problem.empty())
+    console.warn(fmt::format("{}; the report is made without it", results.manifest_problem));
   const ViewOptions options;
   std::map<std::size_t, Json> views;
   for (const auto& chosen : choose_views(results, options)) {
-    const auto packing = read_nearest_packing(directory, results.replicates[chosen.replicate].name);
+    const auto packing = read_nearest_packing(directory, results.replicates[chosen.replicate]);
     if (packing) views[chosen.replicate] = packing_view(*packing, chosen.with_modes ? options.modes : 0);
   }
   Json data = report_data(results, views);
   // A link that is there for a reader of the directory alone: the page may be sent elsewhere without it.
   data["chart"] = std::filesystem::exists(output.parent_path() / "chart.html");
-  write_atomically(output, report_page(data));
+  write_output(output, report_page(data));
   print(output.string() + "\n");
   return ExitCode::done;
 }

@@ -9,6 +9,7 @@
 #include "tasks/store/store.hpp"
 #include "tasks/system/file.hpp"
 #include "tasks/system/interrupt.hpp"
+#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace {
@@ -38,15 +39,9 @@ void compare(const std::optional<RecordSummary>& before, const RecordSummary& no
   }
 }
 
-/// Redoes a replicate from the start, replaces what was recorded and says whether the bits are the same. The record
-/// goes to stdout.
-ExitCode rerun(const Arguments& arguments, Console& console) {
+ExitCode redo(const Arguments& arguments, const Store& store, const ReplicateSpec& spec, Console& console) {
   const InterruptWatcher watcher;
-  const auto manifest = read_manifest((std::filesystem::path(arguments.directory) / "manifest.json").string());
-  const Store store(arguments.directory, manifest);
-  const auto spec = planned(Plan(manifest), arguments.replicate, store);
-  const auto warn = [&](const std::string& message) { console.warn(message); };
-  const auto before = store.recorded(spec, warn);
+  const auto before = store.recorded(spec);
 
   GraphOptions options{arguments.threads, 1, watcher.token(), [&](const ReplicateSpec& which, const Checkpoint& step) {
                          console.info(step_text(which, step.progress));
@@ -65,9 +60,27 @@ ExitCode rerun(const Arguments& arguments, Console& console) {
     console.warn("interrupted; the record is as it was");
     return ExitCode::interrupted;
   }
-  compare(before, *store.recorded(spec, warn), console);
-  print(read_text(store.record_path(spec).string()));
+  const auto now = store.recorded(spec);
+  if (!now)
+    throw FileError(store.record_path(spec).string() + ": has gone or changed since it was written",
+                    FileError::Reason::shortage);
+  compare(before, *now, console);
+  print(read_file(store.record_path(spec)));
   return failed ? ExitCode::some_failed : ExitCode::done;
+}
+
+/// Redoes a replicate from the start, replaces what was recorded and says whether the bits are the same. The record
+/// goes to stdout.
+ExitCode rerun(const Arguments& arguments, Console& console) {
+  const auto manifest = own_manifest(arguments.directory);
+  const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
+  const auto spec = planned(Plan(manifest), arguments.replicate, store);
+  try {
+    return redo(arguments, store, spec, console);
+  } catch (const FileError& error) {
+    console.error(error.what());
+    return ExitCode::some_failed;
+  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tasks/run/graph.hpp"
 #include "tasks/system/file.hpp"
 #include "tasks/system/interrupt.hpp"
+#include "tasks/system/standard_streams.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"
 
@@ -39,10 +40,10 @@ void report(const Outcome& outcome, Console& console) {
 }
 
 /// The engine's, but replicates go on where a checkpoint says they stood.
-Stages resuming_stages(const Store& store, const Store::Warn& warn) {
+Stages resuming_stages(const Store& store) {
   auto stages = engine_stages();
-  stages.begin = [&store, warn, begin = stages.begin](const ReplicateSpec& spec) {
-    auto checkpoint = store.checkpoint(spec, warn);
+  stages.begin = [&store, begin = stages.begin](const ReplicateSpec& spec) {
+    auto checkpoint = store.checkpoint(spec);
     return checkpoint ? std::move(*checkpoint) : begin(spec);
   };
   return stages;
@@ -74,8 +75,7 @@ Tally run_round(Campaign& campaign, const Store& store, const Stages& stages, Gr
 
 /// Rounds until nothing is left or a stop is requested.
 ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions& options, Console& console) {
-  const Store::Warn warn = [&](const std::string& message) { console.warn(message); };
-  const auto stages = resuming_stages(store, warn);
+  const auto stages = resuming_stages(store);
   int failed = 0;
   for (int round = 0; campaign.open_round(); ++round) {
     if (round > 0)
@@ -90,14 +90,22 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
   return failed + campaign.failed() > 0 ? ExitCode::some_failed : ExitCode::done;
 }
 
-ExitCode finish(const Store& store, const Shard& shard, ExitCode code, Console& console) {
+ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard, ExitCode code, Console& console) {
   const auto directory = store.directory().string();
   if (!shard.whole()) {
     console.info(fmt::format("shard {}/{} is done; when all are: isojam aggregate {} -o {}", shard.index + 1,
                              shard.count, directory, store.tables_path().string()));
     return code;
   }
-  const auto table = table_of({directory});
+  const Warn warn = [&](const std::string& message) { console.warn(message); };
+  const auto table = table_of({directory}, warn);
+  if (const auto missing = campaign.missing(); !missing.empty()) {
+    console.error(
+        fmt::format("{} of the records that the table needs have gone while it was made, {} the first; the "
+                    "same command makes them again",
+                    missing.size(), missing.front()));
+    return ExitCode::some_failed;
+  }
   store.write_tables(to_json(table));
   print(to_text(table));
   const bool failed = std::any_of(table.rows.begin(), table.rows.end(), [](const Row& row) { return row.failed > 0; });
@@ -111,11 +119,14 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   const auto manifest = read_manifest(arguments.manifest);
   const Plan plan(manifest);
   const auto directory = arguments.directory.empty() ? "results/" + manifest.name : arguments.directory;
-  if (arguments.dry_run) return dry_run(manifest, plan, directory, arguments);
+  const Warn warn = [&](const std::string& message) { console.warn(message); };
+  if (arguments.dry_run) {
+    check_directory(directory, manifest, warn);
+    return dry_run(manifest, plan, directory, arguments);
+  }
 
-  const Store store(directory, manifest);
-  Campaign campaign(plan, manifest.replicates, arguments.shard, store,
-                    [&](const std::string& message) { console.warn(message); });
+  const Store store(directory, manifest, warn);
+  Campaign campaign(plan, manifest.replicates, arguments.shard, store);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();
   GraphOptions options{threads, replicates_in_flight(threads, campaign.largest_memory(), memory), watcher.token(), {}};
@@ -127,7 +138,7 @@ ExitCode run(const RunArguments& arguments, Console& console) {
                            names_in(store.directory() / "records").size(), directory));
   try {
     const auto code = run_campaign(campaign, store, options, console);
-    return code == ExitCode::interrupted ? code : finish(store, arguments.shard, code, console);
+    return code == ExitCode::interrupted ? code : finish(campaign, store, arguments.shard, code, console);
   } catch (const FileError& error) {
     console.end();
     console.error(fmt::format("{}; what was recorded is kept, and the same command continues", error.what()));

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdio>
 
 namespace isojam {
-
-void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {
   const auto& step = progress.result.path.back();

@@ -7,9 +7,6 @@
 
 namespace isojam {
 
-/// Writes to stdout.
-void print(std::string_view text);
-
 /// One line about the last step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);
 

@@ -1,17 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cstddef>
 
 #include "tasks/commands/command.hpp"
-#include "tasks/commands/shared.hpp"
 #include "tasks/manifest/cost.hpp"
+#include "tasks/store/recorded.hpp"
 #include "tasks/store/survey.hpp"
+#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace {
 
-/// A step may take minutes; what has not moved for longer is probably not being worked on.
+/// A step may take minutes; what has not moved for longer on another machine is probably not being worked on.
 constexpr double patience_seconds = 600;
 
 struct Arguments {
@@ -22,6 +23,10 @@ struct Totals {
   int recorded = 0, failed = 0, flagged = 0;
   double cpu_left = 0;
 };
+
+bool is_moving(const UnderWay& replicate) {
+  return replicate.working.value_or(replicate.seconds_since_step < patience_seconds);
+}
 
 Totals totals_of(const Survey& survey, const Plan& plan) {
   Totals totals;
@@ -39,13 +44,11 @@ Totals totals_of(const Survey& survey, const Plan& plan) {
 }
 
 std::string time_left(const Survey& survey, const Totals& totals, bool has_goal) {
-  const auto moving = std::count_if(survey.under_way.begin(), survey.under_way.end(), [](const UnderWay& replicate) {
-    return replicate.seconds_since_step < patience_seconds;
-  });
+  const auto moving = std::count_if(survey.under_way.begin(), survey.under_way.end(), is_moving);
   const auto* at_most = has_goal ? "at most " : "";
   if (totals.cpu_left == 0) return "";
   if (moving == 0)
-    return fmt::format("nothing under way moves; {}about {} of CPU time left\n", at_most,
+    return fmt::format("nobody is working on it; {}about {} of CPU time left\n", at_most,
                        duration_text(totals.cpu_left));
   return fmt::format("{}about {} left at {} replicates at a time\n", at_most,
                      duration_text(totals.cpu_left / static_cast<double>(moving)), moving);
@@ -53,21 +56,23 @@ std::string time_left(const Survey& survey, const Totals& totals, bool has_goal)
 
 /// What a results directory holds and what is under way in it, whoever works on it. Reads only.
 ExitCode status(const Arguments& arguments, Console&) {
-  const auto manifest = read_manifest((std::filesystem::path(arguments.directory) / "manifest.json").string());
+  const auto manifest = own_manifest(arguments.directory);
   const Plan plan(manifest);
-  const auto survey = survey_of(arguments.directory, plan);
+  const auto survey = survey_of(arguments.directory, plan, manifest.keep_path);
   const auto totals = totals_of(survey, plan);
-  auto text = fmt::format("{}: {} of {}{} replicates recorded, {} failed, {} flagged, {} under way\n", manifest.name,
+  const auto moving = std::count_if(survey.under_way.begin(), survey.under_way.end(), is_moving);
+  const auto stopped = static_cast<std::ptrdiff_t>(survey.under_way.size()) - moving;
+  auto text = fmt::format("{}: {} of {}{} replicates recorded, {} failed, {} flagged, {} under way{}\n", manifest.name,
                           totals.recorded, manifest.replicates.goal ? "up to " : "", plan.size(), totals.failed,
-                          totals.flagged, survey.under_way.size());
+                          totals.flagged, moving, stopped > 0 ? fmt::format(", {} stopped half way", stopped) : "");
   if (survey.unplanned > 0) text += fmt::format("{} records beyond the plan\n", survey.unplanned);
   for (const auto& replicate : survey.under_way) {
-    text += fmt::format("  {}: {}, density {:.4f}, {} steps, {} of CPU, last step {} ago\n", replicate.name,
-                        replicate.stage, replicate.density, replicate.steps, duration_text(replicate.cpu_seconds),
-                        duration_text(replicate.seconds_since_step));
+    text += fmt::format("  {}: {}{}, density {:.4f}, {} steps, {} of CPU, last step {} ago\n", replicate.name,
+                        is_moving(replicate) ? "" : "stopped in ", replicate.stage, replicate.density, replicate.steps,
+                        duration_text(replicate.cpu_seconds), duration_text(replicate.seconds_since_step));
   }
   for (const auto& line : survey.damaged) text += fmt::format("  damaged: {}\n", line);
-  print(text + time_left(survey, totals, manifest.replicates.goal.has_value()));
+  print(printable(text + time_left(survey, totals, manifest.replicates.goal.has_value())));
   return ExitCode::done;
 }
 

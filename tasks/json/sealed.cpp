@@ -1,6 +1,9 @@
 #include "tasks/json/sealed.hpp"
 
+#include <fmt/format.h>
+
 #include <cassert>
+#include <utility>
 
 #include "tasks/json/hash.hpp"
 #include "tasks/json/input_error.hpp"
@@ -12,6 +15,7 @@ namespace {
 constexpr std::string_view key = "checksum", blank = "0000000000000000", before = "\"checksum\": \"";
 /// The checksum stands second; names of schemas are short.
 constexpr std::size_t farthest = 200;
+constexpr std::size_t deepest = 32;
 
 /// Where the digits stand; npos if there are none.
 std::size_t digits_in(std::string_view text) {
@@ -19,6 +23,66 @@ std::size_t digits_in(std::string_view text) {
   if (at == std::string_view::npos || text.size() < at + before.size() + blank.size()) return std::string_view::npos;
   return at + before.size();
 }
+
+/// What is built of a text takes the stack as deep as the text is nested when it is copied or written.
+void check_depth(std::string_view text, const std::string& file) {
+  std::size_t depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '[' || c == '{') {
+      if (++depth > deepest)
+        throw InputError({file, "", "nested too deep", fmt::format("at most {} levels", deepest), ""});
+    } else if (c == ']' || c == '}') {
+      depth -= depth > 0;
+    } else {
+      in_string = c == '"';
+    }
+  }
+}
+
+std::string read_result(const std::string& file) {
+  try {
+    return read_file(file);
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::no_file) throw;
+    throw InputError(
+        {file, "", "a pipe, a device or a directory stands where results do", "a file as isojam wrote it", ""});
+  }
+}
+
+/// Takes the texts at the beginning of an object and ends there.
+class HeadReader final : public nlohmann::json_sax<Json> {
+ public:
+  const std::map<std::string, std::string>& head() const { return head_; }
+
+  bool null() override { return false; }
+  bool boolean(bool) override { return false; }
+  bool number_integer(number_integer_t) override { return false; }
+  bool number_unsigned(number_unsigned_t) override { return false; }
+  bool number_float(number_float_t, const string_t&) override { return false; }
+  bool string(string_t& value) override {
+    head_[key_] = value;
+    return !key_.empty();
+  }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return key_.empty(); }
+  bool end_object() override { return false; }
+  bool start_array(std::size_t) override { return false; }
+  bool end_array() override { return false; }
+  bool key(string_t& name) override {
+    key_ = name;
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+
+ private:
+  std::string key_;
+  std::map<std::string, std::string> head_;
+};
 
 }  // namespace
 
@@ -49,6 +113,7 @@ void check_seal(std::string_view text, const std::string& file) {
 
 Json parse_sealed(std::string_view text, const std::string& file) {
   check_seal(text, file);
+  check_depth(text, file);
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
@@ -56,6 +121,14 @@ Json parse_sealed(std::string_view text, const std::string& file) {
   }
 }
 
-Json read_sealed(const std::string& file) { return parse_sealed(read_text(file), file); }
+Json read_sealed(const std::string& file) { return parse_sealed(read_result(file), file); }
+
+std::map<std::string, std::string> read_sealed_head(const std::string& file) {
+  const auto text = read_result(file);
+  check_seal(text, file);
+  HeadReader reader;
+  Json::sax_parse(text, &reader);
+  return reader.head();
+}
 
 }  // namespace isojam

@@ -8,8 +8,10 @@
 
 #include "engine/packing/periodic_cell.hpp"
 #include "tasks/json/hash.hpp"
+#include "tasks/json/input_error.hpp"
 #include "tasks/json/options.hpp"
 #include "tasks/json/parse.hpp"
+#include "tasks/json/sealed.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/system/file.hpp"
@@ -26,8 +28,8 @@ constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
 constexpr std::size_t longest_name = 64;
 
-constexpr std::array<std::string_view, 10> keys{"$schema",  "name",      "seed",    "sweep", "replicates",
-                                                "protocol", "minimiser", "measure", "modes", "keep_path"};
+constexpr std::array<std::string_view, 11> keys{"$schema",  "name",      "checksum", "seed",  "sweep",    "replicates",
+                                                "protocol", "minimiser", "measure",  "modes", "keep_path"};
 constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 
 /// Where a parameter belongs that stands at the wrong place.
@@ -67,6 +69,16 @@ std::vector<Measure> default_measures() {
   std::copy_if(all_measures.begin(), all_measures.end(), std::back_inserter(list),
                [](Measure measure) { return definition_of(measure).by_default; });
   return list;
+}
+
+/// The copy in a results directory is sealed; one that a person has changed is a manifest of theirs.
+void check_own_seal(std::string_view text, const std::string& file) {
+  try {
+    check_seal(text, file);
+  } catch (const InputError&) {
+    throw InputError({file, "/checksum", "the file has changed since isojam wrote it",
+                      "the file as it was written; in a manifest of your own, no checksum", ""});
+  }
 }
 
 template <class Read>
@@ -233,6 +245,7 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
 
   Manifest manifest;
   if (root.has("$schema")) root.at("$schema").text();
+  if (root.has("checksum")) check_own_seal(text, file);
   manifest.name = read_name(root.at("name"));
   manifest.seed = static_cast<std::uint64_t>(root.at("seed").integer({0, greatest_seed}));
   read_sweep(root.at("sweep"), manifest);

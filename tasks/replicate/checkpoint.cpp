@@ -112,6 +112,10 @@ JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
   return result;
 }
 
+Json to_json(const ProcessId& process) {
+  return {{"machine", process.machine}, {"process", process.process}, {"started", process.started}};
+}
+
 }  // namespace
 
 std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) {
@@ -122,6 +126,7 @@ std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint&
   json["schema"] = checkpoint_schema;
   json["provenance"] = provenance(spec);
   json["spec"] = to_json(spec);
+  json["writer"] = to_json(this_process());
   json["timing"] = to_json(checkpoint.spent);
   json["status"] = to_string(result.status);
   json["stage"] = to_string(progress.stage);
@@ -139,11 +144,18 @@ std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint&
   return json;
 }
 
+ProcessId read_writer(const JsonPlace& root) {
+  const auto writer = root.at("writer");
+  return {writer.at("machine").text(), writer.at("process").integer(count_range),
+          writer.at("started").integer(count_range)};
+}
+
 Checkpoint read_checkpoint(const JsonPlace& root, const ReplicateSpec& spec) {
   root.at("schema").choice(std::array{checkpoint_schema});
   if (root.at("provenance").value() != provenance(spec))
     root.at("provenance").refuse("the checkpoint is of another manifest or another build of isojam");
   if (root.at("spec").value() != to_json(spec)) root.at("spec").refuse("the checkpoint is of another replicate");
+  read_writer(root);
   const auto timing = root.at("timing");
   return {{read_own_packing(root.at("packing"), spec), root.at("stage").choice<JamStage>(),
            root.at("step_fraction").number({0, 1}), static_cast<int>(root.at("halvings").integer({0, 100})),

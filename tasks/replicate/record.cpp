@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tasks/json/hash.hpp"
+#include "tasks/replicate/companion.hpp"
 #include "tasks/replicate/packing_json.hpp"
 #include "tasks/system/version.hpp"
 
@@ -74,12 +75,8 @@ void put_jamming_point(Json& record, const JamResult& jam) {
   json["states"] = point.states;
 }
 
-/// Of a record that has neither checksum nor digest yet.
-std::string result_digest(const Json& record) {
-  auto result = record;
-  result.erase("timing");
-  result.erase("provenance");
-  return hex_hash(result.dump());
+Owner owner(const Outcome& outcome, const std::string& result_digest) {
+  return {replicate_name(outcome.spec), outcome.spec.manifest_digest, result_digest};
 }
 
 }  // namespace
@@ -118,6 +115,17 @@ Json to_json(const MinimiseWork& work) {
   return json;
 }
 
+std::string result_digest(const Json& record) {
+  // The text of the object that is left, without making a copy to leave something out of.
+  std::string text;
+  for (const auto& item : record.items()) {
+    const auto& key = item.key();
+    if (key == "checksum" || key == "timing" || key == "provenance" || key == "result_digest") continue;
+    text += (text.empty() ? '{' : ',') + Json(key).dump() + ':' + item.value().dump();
+  }
+  return hex_hash(text + '}');
+}
+
 Json make_record(const Outcome& outcome) {
   assert(!outcome.interrupted);
   const auto& jam = outcome.jam;
@@ -149,20 +157,16 @@ Json make_record(const Outcome& outcome) {
   return json;
 }
 
-Json make_packing(const Outcome& outcome) {
+Json make_packing(const Outcome& outcome, const std::string& result_digest) {
   assert(!outcome.failure && !outcome.interrupted);
-  Json json;
-  json["schema"] = packing_schema;
-  json["manifest_digest"] = outcome.spec.manifest_digest;
+  auto json = companion(packing_schema, owner(outcome, result_digest));
   json.update(to_json(outcome.jam.states[*nearest_state(outcome.jam)]));
   return json;
 }
 
-Json make_path(const Outcome& outcome) {
+Json make_path(const Outcome& outcome, const std::string& result_digest) {
   assert(!outcome.failure && !outcome.interrupted);
-  Json json;
-  json["schema"] = path_schema;
-  json["manifest_digest"] = outcome.spec.manifest_digest;
+  auto json = companion(path_schema, owner(outcome, result_digest));
   json["states"] = Json::array();
   for (const auto& packing : outcome.jam.states) {
     Json state;

@@ -8,17 +8,20 @@
 namespace isojam {
 
 inline constexpr std::string_view record_schema = "isojam.replicate.v3";
-inline constexpr std::string_view path_schema = "isojam.path.v1";
-inline constexpr std::string_view packing_schema = "isojam.packing.v2";
+inline constexpr std::string_view path_schema = "isojam.path.v2";
+inline constexpr std::string_view packing_schema = "isojam.packing.v3";
 
 /// The record of an outcome that was not interrupted. Only `timing` may differ between two runs of the same replicate
 /// by the same build.
 Json make_record(const Outcome& outcome);
 
-/// The state nearest jamming of an outcome without failure.
-Json make_packing(const Outcome& outcome);
+/// The hash of all of a record but timing, provenance and what vouches for it: equal for two runs of one replicate.
+std::string result_digest(const Json& record);
+
+/// The state nearest jamming of an outcome without failure, for the record that has this digest.
+Json make_packing(const Outcome& outcome, const std::string& result_digest);
 /// Every state of the expansion, in order, each with its Δφ.
-Json make_path(const Outcome& outcome);
+Json make_path(const Outcome& outcome, const std::string& result_digest);
 
 /// Parts of records and checkpoints alike.
 Json provenance(const ReplicateSpec& spec);

@@ -1,5 +1,7 @@
 #include "tasks/replicate/summary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -79,7 +81,10 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
   summary.parameters = spec.at("parameters").value();
   spec.at("parameters").expect_object("an object");
   summary.replicate = static_cast<int>(spec.at("replicate").integer({0, 1e9}));
-  summary.manifest_digest = root.at("provenance").at("manifest_digest").text();
+  const auto provenance = root.at("provenance");
+  summary.manifest_digest = provenance.at("manifest_digest").text();
+  summary.build = fmt::format("{} ({}, {})", provenance.at("version").text(), provenance.at("git").text(),
+                              provenance.at("compiler").text());
   for (const std::string key : {"protocol", "minimiser", "measure", "modes"})
     summary.settings[key] = spec.at(key).value();
   summary.failed = root.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 1;

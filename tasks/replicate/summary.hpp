@@ -29,6 +29,7 @@ struct RecordSummary {
   int replicate = 0;
   std::string manifest_digest;
   Json settings;              ///< protocol, minimiser and measure
+  std::string build;          ///< version, sources and compiler of the program that made it
   std::string result_digest;  ///< of all but timing and provenance: equal for two runs of the same replicate
   double cpu_seconds = 0;
   bool failed = false, flagged = false;

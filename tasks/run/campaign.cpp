@@ -9,8 +9,8 @@
 
 namespace isojam {
 
-Campaign::Campaign(const Plan& plan, const Replicates& rule, const Shard& shard, const Store& store, Store::Warn warn)
-    : plan_(plan), rule_(rule), shard_(shard), store_(store), warn_(std::move(warn)), points_(plan.points()) {}
+Campaign::Campaign(const Plan& plan, const Replicates& rule, const Shard& shard, const Store& store)
+    : plan_(plan), rule_(rule), shard_(shard), store_(store), points_(plan.points()) {}
 
 bool Campaign::takes(std::size_t point, int replicate) const {
   if (rule_.goal) return shard_.takes(point);
@@ -23,7 +23,7 @@ void Campaign::learn(std::size_t point) {
   const auto index = *quantity_index(rule_.goal->quantity);
   for (int replicate = state.done; replicate < state.wanted; ++replicate) {
     const auto spec = plan_.at(point, replicate);
-    const auto summary = store_.recorded(spec, warn_);
+    const auto summary = store_.recorded(spec);
     if (!summary) throw FileError(store_.record_path(spec).string() + ": is there no longer, or damaged");
     state.values.push_back(summary->values[index]);
   }
@@ -57,7 +57,7 @@ std::optional<ReplicateSpec> Campaign::next() {
     const int replicate = at_replicate_++;
     if (!takes(at_point_, replicate)) continue;
     auto spec = plan_.at(at_point_, replicate);
-    const auto summary = store_.recorded(spec, warn_);
+    const auto summary = store_.recorded(spec);
     if (!summary) return spec;
     failed_ += summary->failed;
   }
@@ -83,6 +83,19 @@ Campaign::Size Campaign::round_size() const {
     if (missing[point] > 0) size.work += missing[point] * estimated_cost(plan_.at(point, 0), false).cpu_seconds;
   }
   return size;
+}
+
+std::vector<std::string> Campaign::missing() const {
+  const auto there = names_in(store_.directory() / "records");
+  std::vector<std::string> names;
+  for (std::size_t point = 0; point < points_.size(); ++point) {
+    for (int replicate = 0; replicate < points_[point].wanted; ++replicate) {
+      if (!takes(point, replicate)) continue;
+      auto name = replicate_name(plan_.at(point, replicate));
+      if (!std::binary_search(there.begin(), there.end(), name)) names.push_back(std::move(name));
+    }
+  }
+  return names;
 }
 
 double Campaign::largest_memory() const {

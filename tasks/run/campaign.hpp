@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tasks/manifest/cost.hpp"
@@ -17,7 +18,7 @@ namespace isojam {
 /// at.
 class Campaign {
  public:
-  Campaign(const Plan& plan, const Replicates& rule, const Shard& shard, const Store& store, Store::Warn warn);
+  Campaign(const Plan& plan, const Replicates& rule, const Shard& shard, const Store& store);
 
   /// Opens the next round, once all that next() gave is recorded. False if there is none: all is done.
   bool open_round();
@@ -32,6 +33,8 @@ class Campaign {
   Size round_size() const;
   /// Largest memory that a replicate of the plan is expected to take.
   double largest_memory() const;
+  /// Of the replicates of all rounds so far, those that have no record any more.
+  std::vector<std::string> missing() const;
   /// Failures among the valid records that next() passed over.
   int failed() const { return failed_; }
 
@@ -48,7 +51,6 @@ class Campaign {
   Replicates rule_;
   Shard shard_;
   const Store& store_;
-  Store::Warn warn_;
   std::vector<Point> points_;
   std::size_t at_point_ = 0;
   int at_replicate_ = 0;

@@ -14,11 +14,13 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <thread>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "tasks/system/shortage.hpp"
 #include "tasks/system/thread_clock.hpp"
 
 namespace isojam {
@@ -59,22 +61,6 @@ Timing operator+(const Timing& a, const Timing& b) {
   return {a.wall_seconds + b.wall_seconds, a.cpu_seconds + b.cpu_seconds};
 }
 
-/// Runs a stage of a replicate: measures its time and turns what it throws into a failure.
-template <class T, class From, class Stage>
-Passed<T> guarded(const From& from, std::string_view where, const Stage& stage) {
-  Passed<T> passed{from.index, from.spec, {}, {}, {}};
-  const Stopwatch watch;
-  try {
-    passed.value = stage();
-  } catch (const std::exception& error) {
-    passed.failure = Failure{std::string(where), error.what()};
-  } catch (...) {
-    passed.failure = Failure{std::string(where), "an exception of unknown type"};
-  }
-  passed.timing = watch.elapsed();
-  return passed;
-}
-
 /// One run; the bodies of the nodes.
 class Run {
  public:
@@ -94,7 +80,7 @@ class Run {
     return {};
   }
 
-  Placed begin(const Input& input) const {
+  Placed begin(const Input& input) {
     return guarded<Checkpoint>(input, "begin", [&] { return stages_.begin(input.spec); });
   }
 
@@ -114,7 +100,7 @@ class Run {
     return jammed;
   }
 
-  Measured measure(Measure what, const Jammed& jammed) const {
+  Measured measure(Measure what, const Jammed& jammed) {
     if (!asked(what, jammed) || stop_.stop_requested()) return {jammed.index, {}, {}, {}, {}};
     return guarded<Measurement>(jammed, to_string(what),
                                 [&] { return stages_.measure(jammed.spec, what, *jammed.value); });
@@ -128,7 +114,8 @@ class Run {
     outcome.timing = jammed.timing;
     outcome.stage_seconds["jam"] = jammed.timing.cpu_seconds;
     if (jammed.value) outcome.jam = *jammed.value;
-    outcome.interrupted = outcome.jam.status == JamStatus::interrupted;
+    // Without result or failure it was the machine that could not go on.
+    outcome.interrupted = outcome.jam.status == JamStatus::interrupted || (!jammed.value && !jammed.failure);
     for (std::size_t k = 0; k < measured.size(); ++k) {
       const Measured& one = *measured[k];
       outcome.timing = outcome.timing + one.timing;
@@ -143,6 +130,7 @@ class Run {
     sheltered([&] { on_outcome_(outcome); });
   }
 
+  void end() { stop_.request_stop(); }
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
   }
@@ -153,15 +141,41 @@ class Run {
     return jammed.value && std::find(measures.begin(), measures.end(), what) != measures.end();
   }
 
-  /// What the caller's functions throw must not cross the graph: the first is kept, and ends the run.
+  /// Runs a stage of a replicate: measures its time and turns what it throws into a failure. What the machine lacks is
+  /// none of the replicate's: it ends the run, and leaves neither value nor failure.
+  template <class T, class From, class Stage>
+  Passed<T> guarded(const From& from, std::string_view where, const Stage& stage) {
+    Passed<T> passed{from.index, from.spec, {}, {}, {}};
+    const Stopwatch watch;
+    try {
+      passed.value = stage();
+    } catch (const std::exception& error) {
+      if (is_shortage(error)) {
+        keep(std::current_exception());
+      } else {
+        passed.failure = Failure{std::string(where), error.what()};
+      }
+    } catch (...) {
+      passed.failure = Failure{std::string(where), "an exception of unknown type"};
+    }
+    passed.timing = watch.elapsed();
+    return passed;
+  }
+
+  /// What the caller's functions throw must not cross the graph.
   void sheltered(const std::function<void()>& call) {
     try {
       call();
     } catch (...) {
-      const std::lock_guard lock(error_mutex_);
-      if (!error_) error_ = std::current_exception();
-      stop_.request_stop();
+      keep(std::current_exception());
     }
+  }
+
+  /// The first error is thrown from run_graph, and each ends the run.
+  void keep(const std::exception_ptr& error) {
+    const std::lock_guard lock(error_mutex_);
+    if (!error_) error_ = error;
+    stop_.request_stop();
   }
 
   const NextReplicate& next_;
@@ -206,6 +220,22 @@ struct Meeting<std::index_sequence<k...>> {
   void store(const Joined& joined) const { run.store(std::get<0>(joined), {&std::get<k + 1>(joined)...}); }
 };
 
+/// Ends what an exception has left: the nodes go before the graph does, and none of its tasks may still find them.
+/// The program ends where there is no memory even to wait.
+void drain(flow::graph& graph) {
+  constexpr int attempts = 100;
+  graph.cancel();
+  for (int k = 1;; ++k) {
+    try {
+      graph.wait_for_all();
+      return;
+    } catch (const std::exception&) {
+      if (k == attempts) std::terminate();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+}
+
 void build_and_wait(Run& run, int in_flight) {
   using AllMeet = Meeting<std::make_index_sequence<all_measures.size()>>;
   flow::graph graph;
@@ -225,8 +255,14 @@ void build_and_wait(Run& run, int in_flight) {
   all.follow(jam);
   flow::make_edge(all.join, store);
   flow::make_edge(store, limiter.decrementer());
-  input.activate();
-  graph.wait_for_all();
+  try {
+    input.activate();
+    graph.wait_for_all();
+  } catch (...) {
+    run.end();
+    drain(graph);
+    throw;
+  }
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ struct GraphOptions {
 using NextReplicate = std::function<std::optional<ReplicateSpec>()>;
 
 /// Runs every replicate through the stages and hands exactly one outcome of each to `on_outcome`, one at a time, in
-/// no particular order. An exception in a stage becomes the outcome's failure. After a stop request, replicates that
+/// no particular order. An exception in a stage becomes the outcome's failure, but one that says what the machine lacks
+/// (bad_alloc, system_error, FileError) stops the run and is thrown from here. After a stop request, replicates that
 /// have not started give no outcome and those under way give an interrupted one. An exception of `next`,
 /// `on_outcome` or `on_step` stops the run and is thrown from here.
 void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptions& options,

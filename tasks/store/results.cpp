@@ -2,14 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
-
 #include "tasks/json/input_error.hpp"
-#include "tasks/json/parse.hpp"
-#include "tasks/json/sealed.hpp"
 #include "tasks/replicate/packing_json.hpp"
-#include "tasks/replicate/summary.hpp"
-#include "tasks/store/store.hpp"
 #include "tasks/system/file.hpp"
 
 namespace isojam {
@@ -17,13 +11,11 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A report is made of records; a manifest that was edited or lost since only costs it the sweep's name.
-Json lenient_manifest(const fs::path& path) {
+void read_leniently(const fs::path& directory, Results& results) {
   try {
-    return read_json(path.string());
-  } catch (const InputError&) {
-    return nullptr;
-  } catch (const FileError&) {
-    return nullptr;
+    if (const auto manifest = stored_manifest(directory)) results.manifest = to_json(*manifest);
+  } catch (const InputError& error) {
+    results.manifest_problem = error.what();
   }
 }
 
@@ -31,24 +23,20 @@ Json lenient_manifest(const fs::path& path) {
 
 Results read_results(const fs::path& directory) {
   Results results;
-  const auto folder = directory / "records";
-  for (const auto& name : names_in(folder)) {
-    const auto path = folder / (name + ".json");
-    auto record = read_sealed(path.string());
-    auto summary = summarise_record(record, path.string());
-    results.replicates.push_back({name, std::move(record), std::move(summary)});
-  }
+  for (const auto& name : names_in(directory / "records")) results.replicates.push_back(read_record(directory, name));
   if (results.replicates.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
-  results.manifest = lenient_manifest(directory / "manifest.json");
+  read_leniently(directory, results);
   return results;
 }
 
-std::optional<Packing> read_nearest_packing(const fs::path& directory, const std::string& name) {
-  const auto path = directory / "packings" / (name + ".json");
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::nullopt;
-  const auto json = read_sealed(path.string());
-  return read_packing({json, path.string()});
+std::optional<Packing> read_nearest_packing(const fs::path& directory, const RecordedReplicate& replicate) {
+  try {
+    const auto json = read_companion_of(directory, replicate, "packings");
+    return read_packing({json, (directory / "packings" / (replicate.name + ".json")).string()});
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::missing) throw;
+    return std::nullopt;
+  }
 }
 
 }  // namespace isojam

@@ -7,29 +7,23 @@
 
 #include "engine/packing/packing.hpp"
 #include "tasks/json/json.hpp"
-#include "tasks/replicate/summary.hpp"
+#include "tasks/store/recorded.hpp"
 
 namespace isojam {
 
-/// A replicate as its directory holds it.
-// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
-struct RecordedReplicate {
-  std::string name;  ///< of its files, without extension
-  Json record;
-  RecordSummary summary;
-};
-
 /// What a report is made of.
-// NOLINTNEXTLINE(bugprone-exception-escape): as above.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct Results {
-  Json manifest;  ///< as it stands, unchecked; null if there is none that is JSON
+  Json manifest;                 ///< canonical; null if there is none, or one that is not valid
+  std::string manifest_problem;  ///< what is wrong with it; empty if nothing
   std::vector<RecordedReplicate> replicates;
 };
 
-/// Throws FileError if the directory holds no records, InputError for a damaged one.
+/// Throws FileError if the directory holds no records or something cannot be read now, InputError for a damaged record.
 Results read_results(const std::filesystem::path& directory);
 
-/// The state nearest jamming; nullopt if the directory does not hold it. Throws InputError if it is damaged.
-std::optional<Packing> read_nearest_packing(const std::filesystem::path& directory, const std::string& name);
+/// The state nearest jamming; nullopt if the directory does not hold it. Throws InputError if it is damaged or
+/// another record's.
+std::optional<Packing> read_nearest_packing(const std::filesystem::path& directory, const RecordedReplicate& replicate);
 
 }  // namespace isojam

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
 
 #include "tasks/json/input_error.hpp"
@@ -18,45 +19,51 @@ namespace isojam {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void refuse_other(const std::string& file, std::string pointer, const std::string& theirs,
+[[noreturn]] void refuse_other(const std::string& file, std::string pointer, const std::string& difference,
                                const std::string& ours) {
-  throw InputError({file, std::move(pointer), fmt::format("belongs to another manifest (digest {})", theirs),
+  throw InputError({file, std::move(pointer), fmt::format("belongs to another manifest ({})", difference),
                     fmt::format("results of this manifest (digest {}): choose another directory with -o", ours), ""});
 }
 
+std::string differences(const Manifest& theirs, const Manifest&) { return "digest " + digest(theirs); }
+
 /// The manifest that the directory belongs to already.
-std::optional<Manifest> manifest_in(const fs::path& path, const std::string& ours) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::nullopt;
-  const auto theirs = read_manifest(path.string());
-  if (digest(theirs) != ours) refuse_other(path.string(), "", digest(theirs), ours);
+std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& manifest) {
+  const auto path = directory / "manifest.json";
+  const auto theirs = stored_manifest(directory);
+  if (theirs && digest(*theirs) != digest(manifest))
+    refuse_other(path.string(), "", differences(*theirs, manifest), digest(manifest));
   return theirs;
 }
 
 /// Records that the plan does not know; all of them where no manifest says whose the directory is.
-void check_records(const fs::path& folder, const Manifest& manifest, bool all) {
-  const auto names = names_in(folder);
+void check_records(const fs::path& directory, const Manifest& manifest, bool all, const Warn& warn) {
+  const auto names = names_in(directory / "records");
   if (names.empty()) return;
   const Plan plan(manifest);
   const auto ours = digest(manifest);
   for (const auto& name : names) {
     const bool planned = plan.place_of(name).has_value();
     if (planned && !all) continue;
-    const auto path = (folder / (name + ".json")).string();
+    std::string theirs;
     try {
-      const auto theirs = summarise_record(read_sealed(path), path).manifest_digest;
-      if (theirs != ours) refuse_other(path, "/provenance/manifest_digest", theirs, ours);
+      theirs = read_record(directory, name).summary.manifest_digest;
     } catch (const InputError& damage) {
-      // One that is planned is redone when its turn comes.
-      if (!planned || !damage.details().pointer.starts_with("/checksum")) throw;
+      if (!planned) warn(fmt::format("{}; no replicate of this manifest, and left as it is", damage.what()));
+      continue;
     }
+    if (theirs != ours)
+      refuse_other((directory / "records" / (name + ".json")).string(), "/provenance/manifest_digest",
+                   "digest " + theirs, ours);
   }
 }
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw FileError(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+  if (!error) return;
+  errno = error.value();
+  throw FileError::of_errno(folder, "cannot be created");
 }
 
 /// Within a results directory.
@@ -85,61 +92,80 @@ Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
   return manifest;
 }
 
-void check_seal_of(const fs::path& path) { check_seal(read_text(path.string()), path.string()); }
+/// Makes the directory this manifest's, or finds that it has become another's.
+void claim(const fs::path& directory, const Manifest& manifest) {
+  const auto path = directory / "manifest.json";
+  auto before = manifest_in(directory, manifest);
+  if (!before && write_exclusively(path, sealed(to_json(manifest)))) return;
+  if (!before) before = manifest_in(directory, manifest);
+  const auto text = sealed(to_json(grown(manifest, before)));
+  if (text != read_file(path)) write_atomically(path, text);
+}
 
 }  // namespace
 
-Store::Store(fs::path directory, const Manifest& manifest)
-    : directory_(std::move(directory)), digest_(digest(manifest)), keep_path_(manifest.keep_path) {
-  const auto manifest_path = directory_ / "manifest.json";
-  const auto before = manifest_in(manifest_path, digest_);
-  check_records(directory_ / "records", manifest, !before);
+void check_directory(const fs::path& directory, const Manifest& manifest, const Warn& warn) {
+  const auto before = manifest_in(directory, manifest);
+  check_records(directory, manifest, !before, warn);
+}
 
+Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
+    : directory_(std::move(directory)),
+      digest_(digest(manifest)),
+      keep_path_(manifest.keep_path),
+      warn_(std::move(warn)) {
+  check_directory(directory_, manifest, warn_);
   make_folder(directory_);
+  claim(directory_, manifest);
+  // What was put there between the two is read back.
+  manifest_in(directory_, manifest);
+  remove_stale_temporaries(directory_);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
   if (keep_path_) make_own_folder(directory_ / "paths");
   remove_outlived_checkpoints(directory_);
   check_writable(directory_ / "records");
-  const auto text = pretty(to_json(grown(manifest, before)));
-  if (!before || text != pretty(to_json(*before))) write_atomically(manifest_path, text);
 }
 
 fs::path Store::file(const char* folder, const ReplicateSpec& spec) const {
   return directory_ / folder / (replicate_name(spec) + ".json");
 }
 
-std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec, const Warn& warn) const {
-  const auto path = record_path(spec);
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::nullopt;
-  std::optional<RecordSummary> summary;
+std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
+  const auto path = record_path(spec).string();
+  std::string theirs;
   try {
-    const auto record = read_sealed(path.string());
-    summary = summarise_record(record, path.string());
-    if (record.at("spec") != to_json(spec))
-      throw InputError({path.string(), "/spec", "is not the replicate that the name says", "", ""});
-    if (!summary->failed) check_seal_of(packing_path(spec));
-    if (!summary->failed && keep_path_) check_seal_of(path_path(spec));
-  } catch (const std::runtime_error& damage) {
-    warn(fmt::format("{}; the replicate is redone", damage.what()));
-    return std::nullopt;
+    auto held = read_record(directory_, replicate_name(spec));
+    theirs = held.summary.manifest_digest;
+    if (theirs == digest_) {
+      if (held.record.at("spec") != to_json(spec))
+        throw InputError({path, "/spec", "is not the replicate that its manifest plans", "", ""});
+      if (failed_for_want(held))
+        throw InputError({path, "/failure", "records what the machine lacked, not what came of the replicate", "", ""});
+      check_companions(directory_, held, keep_path_);
+      return std::move(held.summary);
+    }
+  } catch (const InputError& damage) {
+    warn_(fmt::format("{}; the replicate is redone", damage.what()));
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::missing) throw;
+    if (fs::exists(path)) warn_(fmt::format("{}; the replicate is redone", error.what()));
   }
-  if (summary->manifest_digest != digest_)
-    refuse_other(path.string(), "/provenance/manifest_digest", summary->manifest_digest, digest_);
-  return summary;
+  if (!theirs.empty() && theirs != digest_)
+    refuse_other(path, "/provenance/manifest_digest", "digest " + theirs, digest_);
+  return std::nullopt;
 }
 
-std::optional<Checkpoint> Store::checkpoint(const ReplicateSpec& spec, const Warn& warn) const {
-  const auto path = checkpoint_path(spec);
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::nullopt;
+std::optional<Checkpoint> Store::checkpoint(const ReplicateSpec& spec) const {
+  const auto path = checkpoint_path(spec).string();
   try {
-    const auto document = read_sealed(path.string());
-    return read_checkpoint({document, path.string()}, spec);
-  } catch (const std::runtime_error& damage) {
-    warn(fmt::format("{}; the replicate starts anew", damage.what()));
-    return std::nullopt;
+    const auto document = read_sealed(path);
+    return read_checkpoint({document, path}, spec);
+  } catch (const InputError& damage) {
+    warn_(fmt::format("{}; the replicate starts anew", damage.what()));
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::missing) throw;
   }
+  return std::nullopt;
 }
 
 void Store::write_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) const {
@@ -149,37 +175,33 @@ void Store::write_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkp
 }
 
 void Store::write(const Outcome& outcome) const {
-  if (!outcome.failure) write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome)));
-  if (!outcome.failure && keep_path_) write_atomically(path_path(outcome.spec), sealed(make_path(outcome)));
-  write_atomically(record_path(outcome.spec), sealed(make_record(outcome)));
+  const auto record = make_record(outcome);
+  const auto digest = record.at("result_digest").get<std::string>();
+  if (!outcome.failure) write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome, digest)));
+  if (!outcome.failure && keep_path_) write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
+  write_atomically(record_path(outcome.spec), sealed(record));
   // One that stays is of no consequence, for the record comes first, and goes with the next run.
   std::error_code ignored;
   fs::remove(checkpoint_path(outcome.spec), ignored);
 }
 
-void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), pretty(tables)); }
+void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), sealed(tables)); }
 
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const auto name = entry.path().filename().string();
-    if (name.front() != '.' && entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  }
-  if (error && error != std::errc::no_such_file_or_directory)
-    throw FileError(fmt::format("{}: cannot be listed: {}", folder.string(), error.message()));
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-void for_each_record(const fs::path& directory, const std::function<void(const RecordSummary&)>& use) {
+void for_each_record(const fs::path& directory, const Warn& warn,
+                     const std::function<void(const RecordSummary&)>& use) {
   const auto names = names_in(directory / "records");
   if (names.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
-  const auto summary_of = [&](std::size_t index) {
-    const auto path = (directory / "records" / (names[index] + ".json")).string();
-    return summarise_record(read_sealed(path), path);
-  };
-  in_order(names.size(), summary_of, use);
+  const auto manifest = stored_manifest(directory);
+  const auto own = manifest ? digest(*manifest) : "";
+  const auto record_of = [&](std::size_t index) { return read_record(directory, names[index]); };
+  in_order(names.size(), record_of, [&](const RecordedReplicate& held) {
+    if (manifest && held.summary.manifest_digest != own) {
+      warn(fmt::format("{}: of another manifest than the directory's, and left out",
+                       (directory / "records" / (held.name + ".json")).string()));
+    } else {
+      use(held.summary);
+    }
+  });
 }
 
 }  // namespace isojam

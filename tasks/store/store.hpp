@@ -10,28 +10,36 @@
 #include "tasks/manifest/plan.hpp"
 #include "tasks/replicate/replicate.hpp"
 #include "tasks/replicate/summary.hpp"
+#include "tasks/store/recorded.hpp"
 
 namespace isojam {
+
+/// Told of what is wrong with a file, and what becomes of it.
+using Warn = std::function<void(const std::string&)>;
+
+/// Throws InputError unless a directory may take the results of this manifest: if it holds the manifest of another
+/// sweep, with the keys that differ, or the record of one. Records that are damaged are reported and no obstacle: those
+/// of the plan are redone when their turn comes. FileError if something cannot be read now. Reads only.
+void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Warn& warn);
 
 /// A results directory: manifest.json, records/, packings/, paths/ and checkpoints/ with a file for each replicate,
 /// tables.json. Files appear whole or not at all and vouch for their bytes; records, packings and paths never change;
 /// a checkpoint is replaced after every strain step and goes when its replicate is recorded. There is no index and no
-/// lock: shards write side by side.
+/// lock: shards write side by side, and of several manifests that begin at once in a fresh directory one gets it.
 class Store {
  public:
-  using Warn = std::function<void(const std::string&)>;
-
-  /// Opens the directory for a manifest, creating what is missing. Checks first and writes afterwards: throws
-  /// InputError if the directory holds the manifest of another sweep, or a record that the plan does not know and
-  /// that is damaged or of another manifest; FileError if it cannot be written, or if one of its folders is a symbolic
-  /// link, through which results would end up elsewhere. What the plan knows is looked at when its turn comes.
-  Store(std::filesystem::path directory, const Manifest& manifest);
+  /// Opens the directory for a manifest, creating what is missing. Checks first and writes afterwards: throws as
+  /// check_directory does; FileError if it cannot be written, or if one of its folders is a symbolic link, through
+  /// which results would end up elsewhere.
+  Store(std::filesystem::path directory, const Manifest& manifest, Warn warn);
 
   /// What a valid record of this replicate says, if it is there with its packing, and its path if it is to be kept. A
-  /// damaged one is reported to `warn`. Throws InputError if the record belongs to another manifest.
-  std::optional<RecordSummary> recorded(const ReplicateSpec& spec, const Warn& warn) const;
-  /// Where the replicate stood. A damaged checkpoint, or one of another build, is reported and not used.
-  std::optional<Checkpoint> checkpoint(const ReplicateSpec& spec, const Warn& warn) const;
+  /// damaged one is reported. Throws InputError if the record belongs to another manifest; FileError if it cannot be
+  /// read now, which is not to be damaged.
+  std::optional<RecordSummary> recorded(const ReplicateSpec& spec) const;
+  /// Where the replicate stood. A damaged checkpoint, or one of another build, is reported and not used. Throws
+  /// FileError if it cannot be read now.
+  std::optional<Checkpoint> checkpoint(const ReplicateSpec& spec) const;
 
   void write_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) const;
   /// Packing and path first, so that a record vouches for them; the checkpoint goes last.
@@ -51,14 +59,13 @@ class Store {
   std::filesystem::path directory_;
   std::string digest_;
   bool keep_path_;
+  Warn warn_;
 };
 
-/// Names of what a folder holds, without extension, ordered; none if there is no such folder. What writers left
-/// behind is no result.
-std::vector<std::string> names_in(const std::filesystem::path& folder);
-
-/// Gives every record of a results directory to `use`, one at a time, in order of names. Throws InputError for a
-/// damaged record, FileError if the directory holds no records.
-void for_each_record(const std::filesystem::path& directory, const std::function<void(const RecordSummary&)>& use);
+/// Gives every record of a results directory to `use`, one at a time, in order of names; those of another manifest
+/// than the directory's are reported and left out. Throws InputError for a damaged record, FileError if the directory
+/// holds no records.
+void for_each_record(const std::filesystem::path& directory, const Warn& warn,
+                     const std::function<void(const RecordSummary&)>& use);
 
 }  // namespace isojam

@@ -5,11 +5,13 @@
 #include <set>
 #include <stdexcept>
 
+#include "tasks/json/input_error.hpp"
 #include "tasks/json/place.hpp"
 #include "tasks/json/sealed.hpp"
 #include "tasks/manifest/cost.hpp"
-#include "tasks/replicate/summary.hpp"
-#include "tasks/store/store.hpp"
+#include "tasks/replicate/checkpoint.hpp"
+#include "tasks/store/recorded.hpp"
+#include "tasks/system/file.hpp"
 
 namespace isojam {
 namespace {
@@ -32,20 +34,26 @@ UnderWay under_way(const fs::path& path) {
   replicate.density = root.at("packing").at("phi").number({0, 1e9});
   replicate.cpu_seconds = root.at("timing").at("cpu_seconds").number({0, 1e12});
   replicate.seconds_since_step = seconds_since(path);
+  replicate.working = is_alive(read_writer(root));
   return replicate;
 }
 
-void survey_records(const fs::path& directory, const Plan& plan, Survey& survey) {
+void survey_records(const fs::path& directory, const Plan& plan, bool with_paths, Survey& survey) {
   double measured = 0, estimated = 0;
   for (const auto& name : names_in(directory / "records")) {
-    const auto path = (directory / "records" / (name + ".json")).string();
     try {
-      const auto summary = summarise_record(read_sealed(path), path);
+      const auto held = read_record(directory, name);
+      const auto& summary = held.summary;
       const auto place = plan.place_of(name);
       if (!place) {
         ++survey.unplanned;
         continue;
       }
+      if (failed_for_want(held)) {
+        survey.damaged.push_back(name + ": records what the machine lacked, not what came of the replicate");
+        continue;
+      }
+      check_companions(directory, held, with_paths);
       auto& point = survey.points[place->point];
       ++point.recorded;
       point.failed += summary.failed;
@@ -53,8 +61,11 @@ void survey_records(const fs::path& directory, const Plan& plan, Survey& survey)
       measured += summary.cpu_seconds;
       estimated += estimated_cost(plan.at(place->point, place->replicate), false).cpu_seconds;
       ++survey.calibration_records;
-    } catch (const std::runtime_error& damage) {
+    } catch (const InputError& damage) {
       survey.damaged.emplace_back(damage.what());
+    } catch (const FileError& error) {
+      if (error.reason() != FileError::Reason::missing) throw;
+      survey.damaged.emplace_back(error.what());
     }
   }
   if (measured > 0 && estimated > 0) survey.calibration = measured / estimated;
@@ -68,18 +79,21 @@ void survey_checkpoints(const fs::path& directory, const Plan& plan, Survey& sur
     try {
       survey.under_way.push_back(under_way(directory / "checkpoints" / (name + ".json")));
       ++survey.points[place->point].under_way;
-    } catch (const std::runtime_error& damage) {
+    } catch (const InputError& damage) {
       survey.damaged.emplace_back(damage.what());
+    } catch (const FileError& error) {
+      // One that has gone since it was listed is of a replicate that has just been recorded.
+      if (error.reason() != FileError::Reason::missing) throw;
     }
   }
 }
 
 }  // namespace
 
-Survey survey_of(const fs::path& directory, const Plan& plan) {
+Survey survey_of(const fs::path& directory, const Plan& plan, bool with_paths) {
   Survey survey;
   survey.points.resize(plan.points());
-  survey_records(directory, plan, survey);
+  survey_records(directory, plan, with_paths, survey);
   survey_checkpoints(directory, plan, survey);
   return survey;
 }

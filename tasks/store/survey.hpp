@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct UnderWay {
   int steps = 0;
   double cpu_seconds = 0;  ///< spent on it so far
   double seconds_since_step = 0;
+  std::optional<bool> working;  ///< whether the process that wrote it still runs; nullopt on another machine
 };
 
 /// What a results directory holds, point by point.
@@ -32,7 +34,9 @@ struct Survey {
   int calibration_records = 0;
 };
 
-/// Surveys a directory, reading only; an empty survey if there is no such directory.
-Survey survey_of(const std::filesystem::path& directory, const Plan& plan);
+/// Surveys a directory, reading only; an empty survey if there is no such directory. What `run` would redo is damaged:
+/// also a record whose packing is missing or another's, and, `with_paths`, whose path is. Throws FileError for what
+/// cannot be read now.
+Survey survey_of(const std::filesystem::path& directory, const Plan& plan, bool with_paths);
 
 }  // namespace isojam

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,85 +14,134 @@
 #include "tasks/system/file.hpp"
 
 namespace isojam {
+namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, std::string_view what) {
-  throw FileError(fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(errno)));
-}
-
-class Descriptor {
- public:
-  Descriptor(const std::filesystem::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  bool valid() const { return fd_ >= 0; }
-  bool sync() const { return ::fsync(fd_) == 0; }
-  bool write(std::string_view content) const {
-    while (!content.empty()) {
-      const auto written = ::write(fd_, content.data(), content.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) return false;
-      content.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
-  }
-
- private:
-  int fd_;
-};
+constexpr std::string_view cannot_be_written = "cannot be written";
 
 /// Hidden, so that no reader takes it for a result; random, so that writers on different machines never meet.
-std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+fs::path temporary_beside(const fs::path& path) {
   std::random_device device;
   const auto tag = (static_cast<std::uint64_t>(device()) << 32) | device();
   return path.parent_path() / fmt::format(".{}.{:016x}.tmp", path.filename().string(), tag);
 }
 
-bool write_and_rename(const std::filesystem::path& temporary, const std::filesystem::path& path,
-                      std::string_view content, Durability durability) {
-  const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL);
-  return file.valid() && file.write(content) && (durability == Durability::lossless || file.sync()) &&
-         std::rename(temporary.c_str(), path.c_str()) == 0;
+/// A new file beside `path`, which goes with its object unless it has become `path`.
+class Temporary {
+ public:
+  explicit Temporary(const fs::path& path)
+      : path_(path), temporary_(temporary_beside(path)), file_(temporary_, O_WRONLY | O_CREAT | O_EXCL) {}
+  ~Temporary() {
+    if (file_.valid() && !renamed_) ::unlink(temporary_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  void write(std::string_view content, Durability durability) const {
+    if (!file_.valid() || !file_.write(content) || (durability == Durability::synced && ::fsync(file_.number()) != 0))
+      throw FileError::of_errno(path_, cannot_be_written);
+  }
+  /// An owner can be given away by the superuser alone; the mode is ours to set.
+  void take_after(const struct stat& status) const {
+    if (::fchown(file_.number(), status.st_uid, status.st_gid) != 0 && errno != EPERM)
+      throw FileError::of_errno(path_, cannot_be_written);
+    if (::fchmod(file_.number(), status.st_mode & 07777) != 0) throw FileError::of_errno(path_, cannot_be_written);
+  }
+  void rename() {
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw FileError::of_errno(path_, cannot_be_written);
+    renamed_ = true;
+  }
+  /// False if something stands there. File systems without links may know a rename that replaces nothing.
+  bool link() {
+    if (::link(temporary_.c_str(), path_.c_str()) == 0) return true;
+    if (errno == EEXIST) return false;
+    renamed_ = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0;
+    if (!renamed_ && errno != EEXIST) throw FileError::of_errno(path_, cannot_be_written);
+    return renamed_;
+  }
+
+ private:
+  fs::path path_, temporary_;
+  Descriptor file_;
+  bool renamed_ = false;
+};
+
+void sync_directory_of(const fs::path& path) {
+  const auto parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const Descriptor directory(parent, O_RDONLY | O_DIRECTORY);
+  if (!directory.valid() || ::fsync(directory.number()) != 0)
+    throw FileError::of_errno(parent, "cannot be synchronised");
+}
+
+/// Where a chain of symbolic links ends, whether or not anything stands there.
+fs::path followed(fs::path path) {
+  constexpr int longest_chain = 40;  // as the kernel has it
+  std::error_code error;
+  for (int k = 0; fs::is_symlink(fs::symlink_status(path, error)); ++k) {
+    if (k == longest_chain) {
+      errno = ELOOP;
+      throw FileError::of_errno(path, cannot_be_written);
+    }
+    path = path.parent_path() / fs::read_symlink(path, error);
+    if (error) throw FileError(fmt::format("{}: {}: {}", path.string(), cannot_be_written, error.message()));
+  }
+  return path;
 }
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& path, std::string_view content, Durability durability) {
-  const auto temporary = temporary_beside(path);
-  if (!write_and_rename(temporary, path, content, durability)) {
-    const int reason = errno;
-    ::unlink(temporary.c_str());
-    errno = reason;
-    fail(path, "cannot be written");
-  }
-  if (durability == Durability::lossless) return;
-  const auto parent = path.parent_path();
-  const Descriptor directory(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY);
-  if (!directory.valid() || !directory.sync()) fail(parent, "cannot be synchronised");
+void write_atomically(const fs::path& path, std::string_view content, Durability durability) {
+  Temporary file(path);
+  file.write(content, durability);
+  file.rename();
+  if (durability == Durability::synced) sync_directory_of(path);
 }
 
-void check_writable(const std::filesystem::path& directory) {
+bool write_exclusively(const fs::path& path, std::string_view content) {
+  {
+    Temporary file(path);
+    file.write(content, Durability::synced);
+    if (!file.link()) return false;
+  }
+  sync_directory_of(path);
+  return true;
+}
+
+void write_output(const fs::path& path, std::string_view content) {
+  const auto target = followed(path);
+  struct stat status {};
+  const bool there = ::stat(target.c_str(), &status) == 0;
+  if (there && !S_ISREG(status.st_mode)) {
+    const Descriptor special(target, O_WRONLY);
+    if (!special.valid() || !special.write(content)) throw FileError::of_errno(path, cannot_be_written);
+    return;
+  }
+  if (there && ::access(target.c_str(), W_OK) != 0) throw FileError::of_errno(path, cannot_be_written);
+  Temporary file(target);
+  file.write(content, Durability::synced);
+  if (there) file.take_after(status);
+  file.rename();
+  sync_directory_of(target);
+}
+
+void check_writable(const fs::path& directory) {
   const auto probe = temporary_beside(directory / "probe");
   const Descriptor file(probe, O_WRONLY | O_CREAT | O_EXCL);
-  if (!file.valid()) fail(directory, "cannot be written to");
+  if (!file.valid()) throw FileError::of_errno(directory, "cannot be written to");
   ::unlink(probe.c_str());
 }
 
-void remove_stale_temporaries(const std::filesystem::path& directory) {
+void remove_stale_temporaries(const fs::path& directory) {
   constexpr auto age = std::chrono::hours(1);
-  const auto now = std::filesystem::file_time_type::clock::now();
+  const auto now = fs::file_time_type::clock::now();
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
     const auto name = entry.path().filename().string();
     if (!name.starts_with('.') || !name.ends_with(".tmp")) continue;
     // Another process may be tidying up too: what has gone is as good as removed.
     std::error_code gone;
-    const auto written = std::filesystem::last_write_time(entry.path(), gone);
-    if (!gone && now - written > age) std::filesystem::remove(entry.path(), gone);
+    const auto written = fs::last_write_time(entry.path(), gone);
+    if (!gone && now - written > age) fs::remove(entry.path(), gone);
   }
 }
 

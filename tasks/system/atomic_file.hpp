@@ -17,6 +17,14 @@ enum class Durability : std::uint8_t {
 void write_atomically(const std::filesystem::path& path, std::string_view content,
                       Durability durability = Durability::synced);
 
+/// The same where nothing stands yet, of several writers for exactly one. False, and nothing is changed, if something
+/// stands there.
+bool write_exclusively(const std::filesystem::path& path, std::string_view content);
+
+/// Writes what a person asked for under a name of theirs: atomically, but where a symbolic link points, with the mode
+/// and owner of the file that stands there, and into a pipe or device instead of replacing it. Throws FileError.
+void write_output(const std::filesystem::path& path, std::string_view content);
+
 /// Throws FileError unless files can be written in the directory.
 void check_writable(const std::filesystem::path& directory);
 

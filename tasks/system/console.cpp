@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "tasks/system/standard_streams.hpp"
+
 namespace isojam {
 namespace {
 
@@ -22,6 +24,7 @@ bool wants_colour(Colour colour, bool terminal) {
   return terminal && !(no_colour && *no_colour);
 }
 
+/// What is said may hold names of files and texts of a manifest: only the console itself commands the terminal.
 void put(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
@@ -68,11 +71,12 @@ void Console::tick(std::string_view what) {
   if (now - shown_ < (terminal_ ? Clock::duration(bar_interval) : Clock::duration(line_interval))) return;
   shown_ = now;
   if (!terminal_) {
-    put(total_ ? fmt::format("isojam: {}; {}\n", status(), what) : fmt::format("isojam: {}\n", what));
+    put(total_ ? fmt::format("isojam: {}; {}\n", status(), printable(what))
+               : fmt::format("isojam: {}\n", printable(what)));
     return;
   }
   if (total_ == 0) {
-    put(fmt::format("\r\033[K{}", what));
+    put(fmt::format("\r\033[K{}", printable(what)));
     bar_shown_ = true;
     return;
   }
@@ -91,7 +95,7 @@ void Console::line(std::string_view label, std::string_view style, std::string_v
   const std::lock_guard lock(mutex_);
   clear_bar();
   const bool styled = colour_ && !style.empty();
-  put(fmt::format("isojam: {}{}{}{}\n", styled ? style : plain, label, styled ? "\033[0m" : "", message));
+  put(fmt::format("isojam: {}{}{}{}\n", styled ? style : plain, label, styled ? "\033[0m" : "", printable(message)));
 }
 
 void Console::clear_bar() {

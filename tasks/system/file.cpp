@@ -1,22 +1,101 @@
 #include "tasks/system/file.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <system_error>
-#include <utility>
 
 namespace isojam {
+namespace {
 
-std::string read_text(const std::string& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) throw FileError(file + ": is a directory, not a file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file + ": cannot be opened for reading");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream.bad()) throw FileError(file + ": cannot be read");
-  return std::move(text).str();
+constexpr std::size_t longest_stream = std::size_t{256} << 20;
+constexpr std::size_t block = std::size_t{1} << 16;
+constexpr std::string_view cannot_be_read = "cannot be read";
+
+FileError::Reason reason_of(int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR: return FileError::Reason::missing;
+    case ENOMEM:
+    case EMFILE:
+    case ENFILE:
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+    case EIO:
+    case EAGAIN: return FileError::Reason::shortage;
+    default: return FileError::Reason::refused;
+  }
+}
+
+/// Appends what is left; false with the reason in errno.
+bool read_rest(int fd, std::size_t most, std::string& text) {
+  for (;;) {
+    const auto size = text.size();
+    if (size > most) {
+      errno = EFBIG;
+      return false;
+    }
+    text.resize(size + block);
+    const auto got = ::read(fd, text.data() + size, block);
+    const int error = errno;
+    text.resize(size + (got > 0 ? static_cast<std::size_t>(got) : 0));
+    if (got == 0) return true;
+    if (got < 0 && error != EINTR) {
+      errno = error;
+      return false;
+    }
+  }
+}
+
+std::string read_opened(const Descriptor& file, const std::filesystem::path& path, bool any_kind) {
+  struct stat status {};
+  if (!file.valid() || ::fstat(file.number(), &status) != 0) throw FileError::of_errno(path, cannot_be_read);
+  if (S_ISDIR(status.st_mode) || (!any_kind && !S_ISREG(status.st_mode)))
+    throw FileError(fmt::format("{}: is {}, not a file", path.string(),
+                                S_ISDIR(status.st_mode) ? "a directory" : "a pipe or a device"),
+                    FileError::Reason::no_file);
+  std::string text;
+  const bool regular = S_ISREG(status.st_mode);
+  if (regular) text.reserve(static_cast<std::size_t>(status.st_size) + block);
+  if (!read_rest(file.number(), regular ? text.max_size() / 2 : longest_stream, text))
+    throw FileError::of_errno(path, cannot_be_read);
+  return text;
+}
+
+}  // namespace
+
+FileError FileError::of_errno(const std::filesystem::path& path, std::string_view what) {
+  const int error = errno;
+  return FileError(fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(error)),
+                   reason_of(error));
+}
+
+Descriptor::Descriptor(const std::filesystem::path& path, int flags)
+    : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+
+Descriptor::~Descriptor() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+bool Descriptor::write(std::string_view content) const {
+  while (!content.empty()) {
+    const auto written = ::write(fd_, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+std::string read_text(const std::filesystem::path& path) { return read_opened({path, O_RDONLY}, path, true); }
+
+std::string read_file(const std::filesystem::path& path) {
+  // Not blocking: a pipe is opened at once, whether or not anyone writes to it.
+  return read_opened({path, O_RDONLY | O_NONBLOCK}, path, false);
 }
 
 }  // namespace isojam

@@ -7,19 +7,32 @@
 #include "tasks/system/exit_codes.hpp"
 
 namespace isojam {
+namespace {
+
+/// By which the watcher's thread is woken to end: one that nobody sends to ask for anything.
+constexpr int wake = SIGURG;
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
 
 InterruptWatcher::InterruptWatcher() {
   sigemptyset(&signals_);
-  sigaddset(&signals_, SIGINT);
-  sigaddset(&signals_, SIGTERM);
+  // A blocked signal would be waited for although it is ignored.
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (!is_ignored(signal)) sigaddset(&signals_, signal);
+  }
+  sigaddset(&signals_, wake);
   pthread_sigmask(SIG_BLOCK, &signals_, &before_);
   thread_ = std::thread([this] { watch(); });
 }
 
 InterruptWatcher::~InterruptWatcher() {
   finished_ = true;
-  // Wakes sigwait in that thread and ends nothing: the signal is blocked.
-  pthread_kill(thread_.native_handle(), SIGTERM);  // NOLINT(bugprone-bad-signal-to-kill-thread)
+  pthread_kill(thread_.native_handle(), wake);
   thread_.join();
   // One that is still pending came too late to stop anything, and must not kill what has ended well.
   const timespec at_once{};
@@ -29,8 +42,9 @@ InterruptWatcher::~InterruptWatcher() {
 }
 
 void InterruptWatcher::watch() {
-  int signal = 0;
-  if (sigwait(&signals_, &signal) != 0 || finished_) return;
+  for (int signal = wake; signal == wake;) {
+    if (sigwait(&signals_, &signal) != 0 || finished_) return;
+  }
   source_.request_stop();
   // What is under way is asked first. A measurement of a large packing does not listen: it is left.
   const timespec patience{1, 500'000'000};

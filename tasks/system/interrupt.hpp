@@ -10,7 +10,7 @@ namespace isojam {
 /// Turns SIGINT and SIGTERM into a stop request while it lives. A second signal, or a second and a half without the
 /// process having ended, ends it at once with exit code 75; files are written atomically, so nothing is lost by it. To
 /// be made before any other thread, which inherits the blocked signals: a handler could not request a stop, since that
-/// is not safe within one.
+/// is not safe within one. A signal that is ignored already, as under nohup or in the background of a shell, stays so.
 class InterruptWatcher {
  public:
   InterruptWatcher();

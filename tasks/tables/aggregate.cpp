@@ -86,6 +86,7 @@ Aggregation::Kept Aggregation::kept(const RecordSummary& record) {
 
 void Aggregation::add(const RecordSummary& record) {
   auto& point = points_[{record.solid, record.particles, record.parameters}];
+  builds_.insert(record.build);
   if (point.replicates.empty()) {
     point.settings = record.settings;
     point.first = describe(record);
@@ -139,6 +140,7 @@ Row Aggregation::row(const PointKey& key, const Point& point, const std::optiona
 
 Table Aggregation::table(const std::optional<Replicates>& rule) const {
   Table table;
+  table.builds = builds_;
   for (const auto& [key, point] : points_) table.rows.push_back(row(key, point, rule));
   return table;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -54,6 +55,7 @@ struct Row {
 /// Rows in order of solid, particles, parameters.
 struct Table {
   std::vector<Row> rows;
+  std::set<std::string> builds;  ///< of the program, that made the records
 };
 
 /// Gathers records one by one and keeps of each only what the table needs: a few kilobytes. The order does not matter.
@@ -93,6 +95,7 @@ class Aggregation {
   static std::optional<GoalOutcome> goal_outcome(const Point& point, const std::optional<Replicates>& rule);
 
   std::map<PointKey, Point> points_;
+  std::set<std::string> builds_;
 };
 
 /// The table of several records at once.

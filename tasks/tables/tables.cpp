@@ -101,6 +101,7 @@ Json to_json(const Row& row) {
 Json to_json(const Table& table) {
   Json json;
   json["schema"] = table_schema;
+  json["builds"] = table.builds;
   json["rows"] = Json::array();
   for (const auto& row : table.rows) json["rows"].push_back(to_json(row));
   return json;

@@ -21,8 +21,8 @@ Manifest small_sweep() {
 
 void run_once(const Manifest& manifest, const fs::path& directory, int threads) {
   const Plan plan(manifest);
-  const Store store(directory, manifest);
-  Campaign campaign(plan, manifest.replicates, {}, store, [](const std::string&) {});
+  const Store store(directory, manifest, [](const std::string&) {});
+  Campaign campaign(plan, manifest.replicates, {}, store);
   campaign.open_round();
   const GraphOptions options{threads, 0, {}, [&](const ReplicateSpec& spec, const Checkpoint& checkpoint) {
                                store.write_checkpoint(spec, checkpoint);

@@ -138,7 +138,7 @@ class ExportCommandTest : public ::testing::Test {
     auto json = test::good_manifest();
     json["keep_path"] = true;
     const auto manifest = parse_manifest(json.dump(), "m.json");
-    const Store store(directory_ / "r", manifest);
+    const Store store(directory_ / "r", manifest, test::unheard);
     const Plan plan(manifest);
     for (std::size_t k = 0; k < plan.size(); ++k) {
       auto outcome = test::made_up_outcome(plan[k]);

@@ -280,7 +280,7 @@ class ReportCommandTest : public ::testing::Test {
     auto json = test::good_manifest();
     json["replicates"] = 2;
     const auto manifest = parse_manifest(json.dump(), "m");
-    const Store store(directory_ / "results", manifest);
+    const Store store(directory_ / "results", manifest, test::unheard);
     const Plan all(manifest);
     for (std::size_t k = 0; k < all.size(); ++k) store.write(test::made_up_outcome(all[k]));
   }

@@ -33,8 +33,6 @@ Manifest manifest_of(const Json& replicates) {
 
 Manifest with_goal() { return manifest_of({{"min", 4}, {"max", 30}, {"quantity", "phi_j"}, {"half_width", 0.006}}); }
 
-void ignore(const std::string&) {}
-
 /// Runs a campaign to its end, recording the outcomes of each round in reverse if asked; the names it gave.
 std::vector<std::string> finish(Campaign& campaign, const Store& store, bool reversed, int at_most = 1 << 30) {
   std::vector<std::string> given;
@@ -54,8 +52,8 @@ std::vector<std::string> finish(Campaign& campaign, const Store& store, bool rev
 std::vector<std::string> run_all(const std::filesystem::path& directory, const Manifest& manifest,
                                  const Shard& shard = {}, bool reversed = false, int at_most = 1 << 30) {
   const Plan plan(manifest);
-  const Store store(directory, manifest);
-  Campaign campaign(plan, manifest.replicates, shard, store, ignore);
+  const Store store(directory, manifest, test::unheard);
+  Campaign campaign(plan, manifest.replicates, shard, store);
   return finish(campaign, store, reversed, at_most);
 }
 
@@ -63,7 +61,7 @@ TEST(Campaign, GivesWhatIsMissingOnce) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_of(5);
   const Plan plan(manifest);
-  const Store store(directory.path(), manifest);
+  const Store store(directory.path(), manifest, test::unheard);
   store.write(test::made_up_outcome(plan[3]));
   auto failed = test::made_up_outcome(plan[7]);
   failed.failure = Failure{"jam", "made up"};
@@ -71,7 +69,7 @@ TEST(Campaign, GivesWhatIsMissingOnce) {
   store.write(test::made_up_outcome(plan[9]));
   test::write_text(store.record_path(plan[9]), "{");
 
-  Campaign campaign(plan, manifest.replicates, {}, store, ignore);
+  Campaign campaign(plan, manifest.replicates, {}, store);
   ASSERT_TRUE(campaign.open_round());
   EXPECT_EQ(campaign.round_size().replicates, 15U);
   EXPECT_EQ(campaign.round_size().recorded, 3U) << "a damaged record is found when its turn comes";
@@ -79,7 +77,7 @@ TEST(Campaign, GivesWhatIsMissingOnce) {
   for (const std::size_t k : {0, 1, 2, 4, 5, 6, 8, 10, 11, 12, 13, 14})
     work += estimated_cost(plan[k], false).cpu_seconds;
   EXPECT_NEAR(campaign.round_size().work, work, 1e-12 * work);
-  Campaign again(plan, manifest.replicates, {}, store, ignore);
+  Campaign again(plan, manifest.replicates, {}, store);
   const auto given = finish(again, store, false);
   EXPECT_EQ(std::set(given.begin(), given.end()).size(), given.size());
   EXPECT_EQ(given.size(), 13U);
@@ -129,7 +127,7 @@ TEST(Campaign, TheTableSaysHowManyWereNeeded) {
   const auto manifest = with_goal();
   run_all(directory.path(), manifest);
   Aggregation aggregation;
-  for_each_record(directory.path(), [&](const RecordSummary& record) { aggregation.add(record); });
+  for_each_record(directory.path(), test::unheard, [&](const RecordSummary& record) { aggregation.add(record); });
   const auto table = aggregation.table(manifest.replicates);
   ASSERT_EQ(table.rows.size(), 3U);
   for (const auto& row : table.rows) {
@@ -167,8 +165,8 @@ TEST(Campaign, AHundredThousandReplicatesStartAtOnce) {
   const auto manifest = manifest_of(33334);
   const Plan plan(manifest);
   EXPECT_GT(plan.size(), 100000U);
-  const Store store(directory.path(), manifest);
-  Campaign campaign(plan, manifest.replicates, {}, store, ignore);
+  const Store store(directory.path(), manifest, test::unheard);
+  Campaign campaign(plan, manifest.replicates, {}, store);
   ASSERT_TRUE(campaign.open_round());
   EXPECT_EQ(campaign.round_size().replicates, plan.size());
   EXPECT_EQ(replicate_name(*campaign.next()), "dodecahedron-N64-r0000");

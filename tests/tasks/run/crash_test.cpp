@@ -189,7 +189,7 @@ void stop_at_checkpoints(const fs::path& results, std::size_t count, int process
     if (names_in(results / "checkpoints").size() >= count) break;
     std::this_thread::sleep_for(500us);
   }
-  kill(process, signal);
+  if (process > 0) kill(process, signal);
 }
 
 TEST_F(Crash, ARunGoesOnFromItsCheckpoints) {
@@ -343,7 +343,18 @@ TEST_F(Crash, StatusSaysWhatIsUnderWay) {
       EXPECT_NE(under_way.out.find(name + ": "), std::string::npos) << under_way.out;
     }
   }
-  EXPECT_NE(under_way.out.find(" left"), std::string::npos) << under_way.out;
+  // Its process was killed: nobody is working on it, however fresh its last step is.
+  EXPECT_NE(under_way.out.find(", 0 under way, "), std::string::npos) << under_way.out;
+  EXPECT_NE(under_way.out.find(" stopped half way"), std::string::npos) << under_way.out;
+  EXPECT_NE(under_way.out.find("nobody is working on it; about "), std::string::npos) << under_way.out;
+  EXPECT_EQ(isojam({"run", "m.json", "-o", "results"}, here_.path(),
+                   [&](int) {
+                     stop_at_checkpoints(here_ / "results", 1, 0, 0);
+                     const auto moving = isojam({"status", "results"}, here_.path());
+                     EXPECT_EQ(moving.out.find("damaged"), std::string::npos) << moving.out;
+                   })
+                .exit_code,
+            0);
   const auto done = isojam({"status", (*shared_ / "results").string()}, here_.path());
   EXPECT_EQ(done.out.rfind("tiny: 6 of 6 replicates recorded, 0 failed, ", 0), 0U) << done.out;
   EXPECT_EQ(isojam({"status", "absent"}, here_.path()).exit_code, 2);

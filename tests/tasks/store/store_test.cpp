@@ -1,5 +1,4 @@
 // Facts proved here:
-// - a file is replaced whole or not at all, and a failed write leaves nothing behind;
 // - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
 // - a record without its packing is not held; a packing keeps every bit of its state, low parts included;
 // - a directory of another manifest is refused and left as it was, in whichever file the other manifest shows;
@@ -15,7 +14,6 @@
 #include <fstream>
 
 #include "tasks/json/input_error.hpp"
-#include "tasks/system/atomic_file.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -24,6 +22,8 @@ namespace {
 
 using test::files_below;
 using test::TemporaryDirectory;
+using test::unheard;
+using test::Warnings;
 
 Manifest manifest_with(int seed = 7, int replicates = 2) {
   auto json = test::good_manifest();
@@ -32,41 +32,17 @@ Manifest manifest_with(int seed = 7, int replicates = 2) {
   return parse_manifest(json.dump(), "m.json");
 }
 
-struct Warnings {
-  std::vector<std::string> said;
-  Store::Warn warn() {
-    return [this](const std::string& message) { said.push_back(message); };
-  }
-};
-
 int count_records(const std::filesystem::path& directory) {
   int count = 0;
-  for_each_record(directory, [&](const RecordSummary&) { ++count; });
+  for_each_record(directory, unheard, [&](const RecordSummary&) { ++count; });
   return count;
-}
-
-TEST(AtomicFile, ReplacesTheWholeContent) {
-  const TemporaryDirectory directory;
-  const auto path = directory / "f.json";
-  for (const auto& content : {std::string("first"), std::string(100000, 'x'), std::string()}) {
-    write_atomically(path, content);
-    EXPECT_EQ(files_below(directory.path()), (std::map<std::string, std::string>{{"f.json", content}}));
-  }
-}
-
-TEST(AtomicFile, AFailedWriteLeavesNothing) {
-  const TemporaryDirectory directory;
-  EXPECT_THROW(write_atomically(directory / "absent" / "f.json", "x"), FileError);
-  std::filesystem::create_directories(directory / "taken" / "inside");
-  EXPECT_THROW(write_atomically(directory / "taken", "x"), FileError);
-  EXPECT_TRUE(files_below(directory.path()).empty());
 }
 
 TEST(Store, PackingsKeepEveryBit) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const auto spec = test::make_plan(manifest)[0];
-  const Store store(directory / "results", manifest);
+  const Store store(directory / "results", manifest, unheard);
   auto outcome = test::made_up_outcome(spec);
   auto& state = outcome.jam.states[*nearest_state(outcome.jam)];
   state = moved(state, Eigen::VectorXd::LinSpaced(6 * state.size(), 1e-20, 2e-20));
@@ -95,15 +71,15 @@ TEST(Store, HoldsWhatWasWritten) {
   const auto manifest = manifest_with();
   const auto plan = test::make_plan(manifest);
   Warnings warnings;
-  const Store store(directory / "results", manifest);
-  EXPECT_FALSE(store.recorded(plan[0], warnings.warn()));
+  const Store store(directory / "results", manifest, warnings.warn());
+  EXPECT_FALSE(store.recorded(plan[0]));
   store.write(test::made_up_outcome(plan[0]));
-  EXPECT_TRUE(store.recorded(plan[0], warnings.warn()));
-  EXPECT_FALSE(store.recorded(plan[1], warnings.warn()));
+  EXPECT_TRUE(store.recorded(plan[0]));
+  EXPECT_FALSE(store.recorded(plan[1]));
   auto failed = test::made_up_outcome(plan[1]);
   failed.failure = Failure{"jam", "made up"};
   store.write(failed);
-  EXPECT_TRUE(store.recorded(plan[1], warnings.warn()));
+  EXPECT_TRUE(store.recorded(plan[1]));
   EXPECT_TRUE(warnings.said.empty()) << warnings.said.front();
   EXPECT_EQ(count_records(directory / "results"), 2);
 }
@@ -112,33 +88,33 @@ TEST(Store, ADamagedRecordIsReportedAndNotHeld) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const auto plan = test::make_plan(manifest);
-  const Store store(directory.path(), manifest);
+  Warnings warnings;
+  const Store store(directory.path(), manifest, warnings.warn());
   store.write(test::made_up_outcome(plan[0]));
   const auto path = store.record_path(plan[0]);
   const auto whole = read_text(path.string());
   for (std::size_t size = 0; size + 2 < whole.size(); size += whole.size() / 37) {
     test::write_text(path, whole.substr(0, size));
-    Warnings warnings;
-    EXPECT_FALSE(store.recorded(plan[0], warnings.warn())) << size;
+    warnings.said.clear();
+    EXPECT_FALSE(store.recorded(plan[0])) << size;
     ASSERT_EQ(warnings.said.size(), 1U) << size;
     EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
-    EXPECT_NO_THROW(Store(directory.path(), manifest)) << "the run replaces it";
+    EXPECT_NO_THROW(Store(directory.path(), manifest, unheard)) << "the run replaces it";
   }
   test::write_text(path, whole);
-  Warnings warnings;
-  EXPECT_TRUE(store.recorded(plan[0], warnings.warn()));
+  EXPECT_TRUE(store.recorded(plan[0]));
 }
 
 TEST(Store, ARecordUnderAnotherNameIsNotHeld) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const auto plan = test::make_plan(manifest);
-  const Store store(directory.path(), manifest);
+  Warnings warnings;
+  const Store store(directory.path(), manifest, warnings.warn());
   store.write(test::made_up_outcome(plan[0]));
   std::filesystem::copy_file(store.record_path(plan[0]), store.record_path(plan[1]));
   std::filesystem::copy_file(store.packing_path(plan[0]), store.packing_path(plan[1]));
-  Warnings warnings;
-  EXPECT_FALSE(store.recorded(plan[1], warnings.warn()));
+  EXPECT_FALSE(store.recorded(plan[1]));
   EXPECT_EQ(warnings.said.size(), 1U);
 }
 
@@ -146,21 +122,21 @@ TEST(Store, ARecordWithoutItsPackingIsNotHeld) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const auto spec = test::make_plan(manifest)[0];
-  const Store store(directory.path(), manifest);
+  Warnings warnings;
+  const Store store(directory.path(), manifest, warnings.warn());
   store.write(test::made_up_outcome(spec));
   std::filesystem::remove(store.packing_path(spec));
-  Warnings warnings;
-  EXPECT_FALSE(store.recorded(spec, warnings.warn()));
+  EXPECT_FALSE(store.recorded(spec));
   EXPECT_EQ(warnings.said.size(), 1U);
 }
 
 TEST(Store, RefusesADirectoryOfAnotherManifest) {
   const TemporaryDirectory directory;
-  const Store store(directory.path(), manifest_with(7));
+  const Store store(directory.path(), manifest_with(7), unheard);
   store.write(test::made_up_outcome(test::make_plan(manifest_with(7))[0]));
   const auto refusal_of = [&](const Manifest& manifest) -> std::string {
     try {
-      const Store other(directory.path(), manifest);
+      const Store other(directory.path(), manifest, unheard);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -176,18 +152,23 @@ TEST(Store, RefusesADirectoryOfAnotherManifest) {
   }
 }
 
-TEST(Store, RefusesADamagedRecordThatNoPlanReplaces) {
+TEST(Store, ADamagedRecordBeyondThePlanIsToldAndNoObstacle) {
   const TemporaryDirectory directory;
-  const Store store(directory.path(), manifest_with());
-  test::write_text(directory / "records/cube-N64-r0000.json", "{");
-  EXPECT_THROW(Store(directory.path(), manifest_with()), InputError);
+  { const Store store(directory.path(), manifest_with(), unheard); }
+  const auto path = directory / "records/cube-N64-r0000.json";
+  test::write_text(path, "{");
+  Warnings warnings;
+  EXPECT_NO_THROW(Store(directory.path(), manifest_with(), warnings.warn()));
+  ASSERT_EQ(warnings.said.size(), 1U);
+  EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
+  EXPECT_EQ(read_text(path), "{");
 }
 
 TEST(Store, ThePlanOnlyGrows) {
   const TemporaryDirectory directory;
   const auto planned = [&] { return read_manifest((directory / "manifest.json").string()).replicates.max; };
   for (const auto& [asked, expected] : {std::pair{2, 2}, {5, 5}, {3, 5}}) {
-    const Store store(directory.path(), manifest_with(7, asked));
+    const Store store(directory.path(), manifest_with(7, asked), unheard);
     EXPECT_EQ(planned(), expected);
   }
 }
@@ -195,10 +176,10 @@ TEST(Store, ThePlanOnlyGrows) {
 TEST(Store, TemporariesAreNotResults) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
-  const Store store(directory.path(), manifest);
+  const Store store(directory.path(), manifest, unheard);
   store.write(test::made_up_outcome(test::make_plan(manifest)[0]));
   test::write_text(directory / "records/.dodecahedron-N64-r0001.json.0123456789abcdef.tmp", "{\"half");
-  EXPECT_NO_THROW(Store(directory.path(), manifest));
+  EXPECT_NO_THROW(Store(directory.path(), manifest, unheard));
   EXPECT_EQ(count_records(directory.path()), 1);
 }
 
@@ -206,14 +187,15 @@ TEST(Store, RecordsComeInOrderUpToTheFirstDamagedOne) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with(7, 60);
   const auto plan = test::make_plan(manifest);
-  const Store store(directory.path(), manifest);
+  const Store store(directory.path(), manifest, unheard);
   for (const auto& spec : plan) store.write(test::made_up_outcome(spec));
   test::write_text(store.record_path(plan[40]), "{");
   test::write_text(store.record_path(plan[50]), "[");
   for (int trial = 0; trial < 5; ++trial) {
     std::vector<int> seen;
     try {
-      for_each_record(directory.path(), [&](const RecordSummary& record) { seen.push_back(record.replicate); });
+      for_each_record(directory.path(), unheard,
+                      [&](const RecordSummary& record) { seen.push_back(record.replicate); });
       FAIL() << "damage went unnoticed";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("-r0040.json"), std::string::npos) << error.what();

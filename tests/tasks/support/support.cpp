@@ -2,12 +2,14 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <fstream>
 
+#include "tasks/json/hash.hpp"
 #include "tasks/json/parse.hpp"
 #include "tasks/json/sealed.hpp"
 #include "tasks/replicate/record.hpp"
@@ -28,12 +30,12 @@ TemporaryDirectory::~TemporaryDirectory() {
   EXPECT_FALSE(error) << error.message();
 }
 
-Finished isojam(const std::vector<std::string>& arguments, const fs::path& directory,
-                const std::function<void(int)>& meanwhile) {
+namespace {
+
+Finished finished(std::vector<std::string> words, const fs::path& directory,
+                  const std::function<void(int)>& meanwhile) {
   const TemporaryDirectory capture;
   const auto out = capture / "out", err = capture / "err";
-  std::vector<std::string> words{ISOJAM_EXECUTABLE};
-  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (auto& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -43,6 +45,7 @@ Finished isojam(const std::vector<std::string>& arguments, const fs::path& direc
     const int out_fd = ::open(out.c_str(), O_WRONLY | O_CREAT, 0600);
     const int err_fd = ::open(err.c_str(), O_WRONLY | O_CREAT, 0600);
     if (dup2(out_fd, 1) < 0 || dup2(err_fd, 2) < 0 || chdir(directory.c_str()) != 0) _exit(126);
+    ::close(out_fd), ::close(err_fd);
     execv(argv[0], argv.data());
     _exit(127);
   }
@@ -52,10 +55,47 @@ Finished isojam(const std::vector<std::string>& arguments, const fs::path& direc
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out.string()), read_text(err.string())};
 }
 
+}  // namespace
+
+Finished isojam(const std::vector<std::string>& arguments, const fs::path& directory,
+                const std::function<void(int)>& meanwhile) {
+  std::vector<std::string> words{ISOJAM_EXECUTABLE};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return finished(std::move(words), directory, meanwhile);
+}
+
+Finished shell(const std::string& line, const fs::path& directory) {
+  return finished({"/bin/sh", "-c", fmt::format("ISOJAM={}; {}", ISOJAM_EXECUTABLE, line)}, directory, {});
+}
+
 void write_text(const fs::path& path, const std::string& text) {
   std::ofstream stream(path, std::ios::binary);
   stream << text;
   if (!stream.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+std::pair<std::string, int> on_a_terminal(const std::function<void()>& work) {
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    work();
+    _exit(0);
+  }
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(terminal);
+  return {text, status};
+}
+
+std::string sealed_again(std::string text) {
+  const std::string before = "\"checksum\": \"", blank(16, '0');
+  const auto at = text.find(before) + before.size();
+  text.replace(at, blank.size(), blank);
+  return text.replace(at, blank.size(), hex_hash(text));
 }
 
 std::map<std::string, std::string> files_below(const fs::path& directory) {

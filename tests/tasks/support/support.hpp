@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tasks/measure/parts.hpp"
@@ -36,7 +37,25 @@ struct Finished {
 Finished isojam(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
                 const std::function<void(int)>& meanwhile = {});
 
+/// The same for a line of a shell, in which $ISOJAM is the executable.
+Finished shell(const std::string& line, const std::filesystem::path& directory);
+
+/// What `work` writes to a terminal, in a process of its own, and how that ended (the status of waitpid).
+std::pair<std::string, int> on_a_terminal(const std::function<void()>& work);
+
+/// Warnings that a test keeps, or does without.
+struct Warnings {
+  std::vector<std::string> said;
+  std::function<void(const std::string&)> warn() {
+    return [this](const std::string& message) { said.push_back(message); };
+  }
+};
+inline void unheard(const std::string&) {}
+
 void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// The text with the checksum that it should have.
+std::string sealed_again(std::string text);
 
 /// Content of every file below, by relative path.
 std::map<std::string, std::string> files_below(const std::filesystem::path& directory);

@@ -6,34 +6,16 @@
 #include "tasks/system/console.hpp"
 
 #include <gtest/gtest.h>
-#include <pty.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <regex>
 #include <string>
 #include <thread>
 
+#include "tests/tasks/support/support.hpp"
+
 namespace isojam {
 namespace {
-
-/// What `work` writes to a terminal, and how its process ended (the status of waitpid).
-std::pair<std::string, int> on_a_terminal(void (*work)()) {
-  int terminal = -1;
-  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
-  if (child == 0) {
-    work();
-    _exit(0);
-  }
-  std::string text;
-  char buffer[4096];
-  for (ssize_t n = 0; (n = read(terminal, buffer, sizeof buffer)) > 0;)
-    text.append(buffer, static_cast<std::size_t>(n));
-  int status = 0;
-  waitpid(child, &status, 0);
-  close(terminal);
-  return {text, status};
-}
 
 /// Rounds of 6, 2 and 3 replicates, each shown.
 void rounds() {
@@ -50,7 +32,7 @@ void rounds() {
 }
 
 TEST(Console, CountsEveryRoundFromNoneOnATerminal) {
-  const auto [text, status] = on_a_terminal(rounds);
+  const auto [text, status] = test::on_a_terminal(rounds);
   ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status << " after: " << text;
   std::vector<std::string> counts;
   const std::regex bar(R"(\[([#.]*)\] (\d+ of \d+) replicates)");

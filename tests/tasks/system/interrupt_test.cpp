@@ -1,6 +1,6 @@
 // Facts proved here, in processes made for the purpose: a process that listens to the stop request ends as it likes;
 // one that does not listen is ended with exit code 75 within two seconds of the first signal, and at once by a second;
-// without a signal nothing happens.
+// without a signal, or with one that was ignored before, nothing happens.
 
 #include "tasks/system/interrupt.hpp"
 
@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <functional>
 #include <thread>
 
@@ -74,6 +75,18 @@ TEST(Interrupt, ASecondSignalEndsAtOnce) {
   const auto ended = end_of(deaf, 2);
   EXPECT_EQ(ended.exit_code, 75);
   EXPECT_LT(ended.seconds_after_signal, 1);
+}
+
+TEST(Interrupt, ASignalThatIsIgnoredStaysSo) {
+  const auto ignored = std::signal(SIGTERM, SIG_IGN);
+  const auto ended = end_of(
+      [](const std::stop_token& stop) {
+        std::this_thread::sleep_for(300ms);
+        return stop.stop_requested() ? 1 : 6;
+      },
+      2);
+  std::signal(SIGTERM, ignored);
+  EXPECT_EQ(ended.exit_code, 6);
 }
 
 TEST(Interrupt, WithoutASignalNothingHappens) {

@@ -1,0 +1,25 @@
+#include "tasks/system/shortage.hpp"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <system_error>
+
+#include "tasks/system/file.hpp"
+
+namespace isojam {
+
+bool is_shortage(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::system_error*>(&error) ||
+         dynamic_cast<const FileError*>(&error) || is_shortage_text(error.what());
+}
+
+bool is_shortage_text(std::string_view what) {
+  // oneTBB throws a runtime_error of such a text for a thread that cannot be made.
+  static constexpr std::array<std::string_view, 5> beginnings{"std::bad_alloc", "pthread_", "Cannot allocate memory",
+                                                              "Resource temporarily unavailable",
+                                                              "Too many open files"};
+  return std::any_of(beginnings.begin(), beginnings.end(), [&](std::string_view b) { return what.starts_with(b); });
+}
+
+}  // namespace isojam

@@ -1,0 +1,56 @@
+#include "tasks/system/standard_streams.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio_ext.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <iostream>
+
+#include "tasks/system/file.hpp"
+
+namespace isojam {
+namespace {
+
+/// What could not be written is given up, and said once.
+[[noreturn]] void fail() {
+  const int error = errno;
+  __fpurge(stdout);
+  std::clearerr(stdout);
+  errno = error;
+  throw FileError(FileError::of_errno("standard output", "cannot be written").what(), FileError::Reason::shortage);
+}
+
+}  // namespace
+
+void open_standard_streams() {
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {
+    if (::fcntl(fd, F_GETFD) >= 0 || errno != EBADF) continue;
+    // The lowest number that is free, which is this one. Standard output is opened for reading: writing to it fails.
+    const int opened = ::open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+    if (opened >= 0 && opened != fd) ::close(opened);
+  }
+}
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) fail();
+}
+
+void flush_output() {
+  errno = EIO;  // of a failure that was earlier
+  if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail();
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    const bool control = (code < 0x20 && c != '\n' && c != '\t') || code == 0x7f;
+    shown += control ? fmt::format("\\x{:02x}", code) : std::string(1, c);
+  }
+  return shown;
+}
+
+}  // namespace isojam

@@ -1,0 +1,77 @@
+// Facts proved here, of every command:
+// - what cannot be written to standard output, because it is full or closed, is said and ends with exit 1;
+// - with standard error closed, nothing meant for people gets into a result;
+// - a word for a number that is none is refused.
+
+#include <gtest/gtest.h>
+
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::shell;
+
+class Streams : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto manifest = test::tiny_manifest();
+    manifest["measure"] = {"contacts"};
+    manifest["sweep"]["particles"] = {24};
+    manifest["keep_path"] = true;
+    test::write_text(here_ / "m.json", manifest.dump());
+  }
+  test::TemporaryDirectory here_;
+};
+
+TEST_F(Streams, WhatIsLostIsSaid) {
+  ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
+  for (const std::string command :
+       {"run m.json -o r", "run m.json -o r --dry-run", "validate m.json", "status r", "aggregate r",
+        "aggregate r --format json", "rerun r dodecahedron-N24-r0000", "report r",
+        "export r all --format xyz -o exported", "--help", "run --help", "--version"}) {
+    for (const std::string stream : {">/dev/full", ">&-"}) {
+      const auto ended = shell("$ISOJAM " + command + ' ' + stream, here_.path());
+      EXPECT_EQ(ended.exit_code, 1) << command << ' ' << stream << ": " << ended.err;
+      const std::string message = "standard output: cannot be written: ";
+      const auto said = ended.err.find(message);
+      EXPECT_NE(said, std::string::npos) << command << ' ' << stream << ": " << ended.err;
+      EXPECT_EQ(ended.err.find(message, said + 1), std::string::npos) << "twice: " << ended.err;
+    }
+  }
+}
+
+TEST_F(Streams, MessagesStayOutOfResults) {
+  ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
+  for (const std::string closed : {"2>&-", "<&- 2>&-", "<&- >&- 2>&-"}) {
+    fs::remove_all(here_ / "closed");
+    // With -v there is more to say.
+    const auto ended = shell("$ISOJAM run -v m.json -o closed " + closed, here_.path());
+    EXPECT_EQ(ended.exit_code, closed.find(" >") == std::string::npos ? 0 : 1) << closed;
+    EXPECT_EQ(test::results_below(here_ / "closed"), test::results_below(here_ / "r")) << closed;
+  }
+}
+
+TEST_F(Streams, ANumberThatIsNoneIsRefused) {
+  for (const std::string word : {"nan", "inf", "-1", "0", "1e400", "x"}) {
+    const auto ended = shell("$ISOJAM run m.json -o r --memory=" + word, here_.path());
+    EXPECT_EQ(ended.exit_code, 2) << word << ": " << ended.err;
+    EXPECT_FALSE(fs::exists(here_ / "r")) << word;
+  }
+}
+
+TEST_F(Streams, AnOutputIsWrittenWhereItPoints) {
+  ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
+  const auto ended = shell(
+      "mkfifo pipe; (cat pipe >copy) & $ISOJAM aggregate r -o pipe && wait && "
+      "$ISOJAM aggregate r -o /dev/null && ln -s target link && : >target && chmod 600 target && "
+      "$ISOJAM aggregate r -o link && cmp copy target && cmp copy r/tables.json && test -h link && test -p pipe && "
+      "test -c /dev/null && stat -c %a target",
+      here_.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(ended.out.ends_with("600\n")) << ended.out;
+}
+
+}  // namespace
+}  // namespace isojam

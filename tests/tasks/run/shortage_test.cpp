@@ -1,0 +1,166 @@
+// Facts proved here, through the executable, a library preloaded that lets system calls fail:
+// - whatever the machine refuses, whichever time it is asked (memory, threads, descriptors, reading, writing), a run
+//   ends with exit 1 and a message and no outcome is recorded of it; a complete directory is left as it was, byte by
+//   byte, and what was begun comes to the same bytes when the machine gives again;
+// - the same with little memory from the start.
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+
+#include "tasks/json/sealed.hpp"
+#include "tasks/store/recorded.hpp"
+#include "tests/tasks/support/support.hpp"
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool with_sanitizer = true;
+#else
+constexpr bool with_sanitizer = false;
+#endif
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::isojam;
+
+/// While it lives, processes that are started lose this call: see failing_calls.cpp.
+class Failing {
+ public:
+  explicit Failing(const std::string& order) {
+    setenv("ISOJAM_FAIL", order.c_str(), 1);
+    setenv("LD_PRELOAD", ISOJAM_FAILING_CALLS, 1);
+  }
+  ~Failing() {
+    unsetenv("LD_PRELOAD");
+    unsetenv("ISOJAM_FAIL");
+  }
+  Failing(const Failing&) = delete;
+  Failing& operator=(const Failing&) = delete;
+};
+
+class Shortage : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<test::TemporaryDirectory>();
+    auto manifest = test::tiny_manifest();
+    manifest["measure"] = {"contacts"};
+    test::write_text(*shared_ / "m.json", manifest.dump());
+    finished_ = isojam({"run", "m.json", "-o", "results"}, shared_->path());
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  void SetUp() override {
+    if (with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
+    ASSERT_EQ(finished_.exit_code, 0) << finished_.err;
+    fs::copy_file(*shared_ / "m.json", here_ / "m.json");
+  }
+  test::Finished run(const std::function<void(int)>& meanwhile = {}) const {
+    return isojam({"run", "m.json", "-o", "results"}, here_.path(), meanwhile);
+  }
+  void begin_with_reference() const {
+    fs::remove_all(here_ / "results");
+    fs::copy(*shared_ / "results", here_ / "results", fs::copy_options::recursive);
+  }
+  long count_of(const std::string& call) const {
+    const Failing count(call + " count");
+    const auto said = run().err;
+    const std::string before = call + " calls: ";
+    return std::atol(said.substr(said.find(before) + before.size()).c_str());
+  }
+  /// About so many of the calls, the first and the last among them.
+  template <class Work>
+  static int some_of(long first, long last, long trials, const Work& work) {
+    int tried = 0;
+    const auto step = std::max(1L, (last - first) / trials);
+    for (long k = first; k <= last; k += step, ++tried) work(k);
+    return tried;
+  }
+  static void expect_ended_well(const test::Finished& ended, const std::string& order) {
+    EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1) << order << ": " << ended.exit_code << ' ' << ended.err;
+    if (ended.exit_code == 1) {
+      EXPECT_NE(ended.err.find("error: "), std::string::npos) << order << ": " << ended.err;
+    }
+  }
+
+  // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): GoogleTest's way to share a costly set-up.
+  static inline std::unique_ptr<test::TemporaryDirectory> shared_;
+  static inline test::Finished finished_;
+  // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+  test::TemporaryDirectory here_;
+};
+
+struct Refusal {
+  std::string call;
+  int error;
+};
+const std::vector<Refusal>& refusals() {
+  static const std::vector<Refusal> all{{"malloc", ENOMEM}, {"open", EMFILE},   {"read", EIO},   {"write", ENOSPC},
+                                        {"fsync", EIO},     {"rename", ENOSPC}, {"link", EPERM}, {"thread", EAGAIN}};
+  return all;
+}
+
+TEST_F(Shortage, ACompleteDirectoryIsLeftAsItWas) {
+  begin_with_reference();
+  const auto before = test::files_below(here_ / "results");
+  for (const auto& [call, error] : refusals()) {
+    int ended_early = 0;
+    const auto calls = count_of(call);
+    const auto tried = some_of(1, calls, calls > 100 ? 25 : 10, [&, &call = call, &error = error](long k) {
+      const auto order = call + ' ' + std::to_string(k) + ' ' + std::to_string(error);
+      const Failing failing(order);
+      const auto ended = run();
+      expect_ended_well(ended, order);
+      ended_early += ended.exit_code != 0;
+      EXPECT_EQ(test::files_below(here_ / "results"), before) << order;
+    });
+    std::printf("%s: %d of %ld calls failed, %d runs ended by it\n", call.c_str(), tried, calls, ended_early);
+  }
+}
+
+TEST_F(Shortage, NoOutcomeIsRecordedOfIt) {
+  const auto reference = test::results_below(*shared_ / "results");
+  for (const auto& [call, error] : refusals()) {
+    fs::remove_all(here_ / "results");
+    const auto calls = count_of(call);
+    // The first few hundred are made before the program is there to say a word.
+    some_of(call == "malloc" ? 1000 : 1, calls, call == "malloc" ? 4 : 1, [&, &call = call, &error = error](long k) {
+      fs::remove_all(here_ / "results");
+      const auto order = call + ' ' + std::to_string(k) + "+ " + std::to_string(error);
+      {
+        const Failing failing(order);
+        expect_ended_well(run(), order);
+      }
+      for (const auto& name : names_in(here_ / "results" / "records")) {
+        const auto record = read_sealed((here_ / "results/records" / (name + ".json")).string());
+        EXPECT_EQ(record.at("status"), "done") << order << ": " << record.dump(2).substr(0, 1000);
+      }
+      EXPECT_EQ(run().exit_code, 0);
+      EXPECT_EQ(test::results_below(here_ / "results"), reference) << order;
+    });
+  }
+}
+
+TEST_F(Shortage, WithLittleMemoryFromTheStart) {
+  begin_with_reference();
+  const auto before = test::files_below(here_ / "results");
+  int short_of = 0;
+  for (const rlim_t megabytes : {20, 22, 24, 26, 28, 30, 34, 40}) {
+    const auto ended = run([=](int process) {
+      const rlimit limit{megabytes << 20, megabytes << 20};
+      prlimit(process, RLIMIT_AS, &limit, nullptr);
+    });
+    // Below what the libraries take the loader ends it.
+    EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1 || ended.exit_code == 127)
+        << megabytes << " MiB: " << ended.exit_code << ' ' << ended.err;
+    short_of += ended.exit_code == 1;
+    EXPECT_EQ(test::files_below(here_ / "results"), before) << megabytes << " MiB";
+  }
+  EXPECT_GT(short_of, 0) << "every run had enough";
+}
+
+}  // namespace
+}  // namespace isojam
