@@ -107,20 +107,21 @@ class StrainStep {
     if (!must_end(step) && consolidated(step)) progress_.stage = JamStage::expansion;
   }
 
-  double expansion_step(double distance) const {
-    // Nearer than asked for costs more than it tells.
-    const double last = distance - 0.95 * options_.final_distance;
-    return std::min({options_.longest_step, progress_.step_fraction * distance, last});
+  /// Estimated φ − φ_J of the last equilibrium.
+  double distance() const {
+    return distance_to_jamming(result_.path[static_cast<std::size_t>(result_.state_steps.back())]);
   }
+
+  /// What bounds an expansion step beside the fraction: nearer than asked for costs more than it tells.
+  double step_bound() const { return std::min(options_.longest_step, distance() - 0.95 * options_.final_distance); }
+
+  double expansion_step() const { return std::min(progress_.step_fraction * distance(), step_bound()); }
 
   /// Strains down towards φ_J from the last equilibrium; the first step only minimises.
   void expand() {
     Packing next = progress_.packing;
     const bool first = result_.states.empty();
-    if (!first) {
-      const double distance = distance_to_jamming(result_.path[static_cast<std::size_t>(result_.state_steps.back())]);
-      next = strained_to(next, next.density() - expansion_step(distance));
-    }
+    if (!first) next = strained_to(next, next.density() - expansion_step());
     const JamStep& step = relax(next);
     if (must_end(step)) return;
     if (!is_state(step.summary)) return failed(first);
@@ -136,10 +137,11 @@ class StrainStep {
     return is_equilibrium(summary) || summary.reason == StopReason::energy_change;
   }
 
-  /// An expansion step led to no state.
+  /// An expansion step led to no state. The next is half as long, whichever bound made this one: half the fraction
+  /// alone can leave the step as it was, and then it fails again with the same bits.
   void failed(bool first) {
     if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
-    progress_.step_fraction /= 2;
+    progress_.step_fraction = std::min(progress_.step_fraction, step_bound() / distance()) / 2;
   }
 
   void end_expansion(JamStatus status) { result_.status = result_.states.size() >= 2 ? status : JamStatus::not_jammed; }

@@ -29,8 +29,9 @@ struct JamOptions {
   /// Density that is not exceeded; the cell must be legal up to here. Crystals can pass .9 before they reach the target
   /// energy.
   double max_density = 0.93;
-  /// An expansion step is this fraction of the distance φ − φ_J as the last state shows it, halved where a step failed
-  /// and grown back where one succeeded, but no longer than longest_step, nor far beyond final_distance.
+  /// An expansion step is this fraction of the distance φ − φ_J as the last state shows it, but no longer than
+  /// longest_step, nor far beyond final_distance. A step that failed is tried again at half its length, whichever of
+  /// these it was; the fraction that this makes grows back where a step succeeds.
   double step_fraction = 0.35;
   double longest_step = 0.05;
   double final_distance = 0.004;  ///< expansion ends when φ − φ_J falls below this
