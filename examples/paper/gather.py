@@ -139,12 +139,6 @@ def rounded(value):
     return value
 
 
-def without_unflagged(value):
-    if isinstance(value, dict):
-        return {key: item for key, item in value.items() if key != "unflagged"}
-    return [without_unflagged(item) for item in value]
-
-
 def without_bootstrap(value):
     if isinstance(value, dict):
         return {key: without_bootstrap(item) for key, item in value.items() if key not in ("bootstrap95", "ci95")}
@@ -174,9 +168,11 @@ def rows_of(isojam, directories):
         copies = copy_of_those_that_count(Path(here), directories)
         if not copies:
             return []
-        command = [isojam, "aggregate", *copies, "--format", "json", "--quiet"]
+        command = [isojam, "aggregate", *copies, "--exclude", "none", "--format", "json", "--quiet"]
         rows = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["rows"]
-    return [{**without_unflagged(row), "series": without_bootstrap(without_unflagged(row["series"]))} for row in rows]
+    # Nothing is excluded from what is left.
+    rows = [{key: value for key, value in row.items() if key != "excluded"} for row in rows]
+    return [{**row, "series": without_bootstrap(row["series"])} for row in rows]
 
 
 def write(path, value):

@@ -1,7 +1,12 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tasks/commands/command.hpp"
+#include "tasks/json/place.hpp"
 #include "tasks/json/sealed.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/standard_streams.hpp"
@@ -23,6 +28,7 @@ struct Arguments {
   std::string output;  ///< tables.json to write; empty: none
   TableFormat format = TableFormat::text;
   bool series = false;  ///< quantities against Δφ instead of those nearest jamming; JSON has both
+  std::optional<std::vector<Flag>> exclude;  ///< nullopt: as the manifests say
 };
 
 std::string formatted(const Table& table, TableFormat format, View view) {
@@ -35,9 +41,31 @@ std::string formatted(const Table& table, TableFormat format, View view) {
   return to_text(table, view);
 }
 
+/// Takes in "none" or names of flags between commas, or says what is wrong.
+std::optional<std::string> read_exclude(const std::string& text, std::optional<std::vector<Flag>>& exclude) {
+  std::vector<Flag> flags;
+  for (std::size_t from = 0; text != "none" && from <= text.size();) {
+    const auto to = std::min(text.find(',', from), text.size());
+    const auto name = text.substr(from, to - from);
+    const auto flag = from_string<Flag>(name);
+    if (!flag) {
+      const auto nearest = nearest_name(name, all_names<Flag>);
+      return fmt::format("no flag is called \"{}\"; {}", name,
+                         nearest.empty() ? "allowed: none, or " + quoted_list(all_names<Flag>)
+                                         : fmt::format("did you mean \"{}\"?", nearest));
+    }
+    if (std::find(flags.begin(), flags.end(), *flag) == flags.end()) flags.push_back(*flag);
+    from = to + 1;
+  }
+  std::sort(flags.begin(), flags.end());
+  exclude = std::move(flags);
+  return std::nullopt;
+}
+
 /// Reads only, but for the output asked for.
 ExitCode aggregate_directories(const Arguments& arguments, Console& console) {
-  const auto table = table_of(arguments.directories, [&](const std::string& message) { console.warn(message); });
+  const Warn warn = [&](const std::string& message) { console.warn(message); };
+  const auto table = table_of(arguments.directories, warn, arguments.exclude);
   if (!arguments.output.empty()) write_output(arguments.output, sealed(to_json(table)));
   print(formatted(table, arguments.format, arguments.series ? View::series : View::nearest));
   return ExitCode::done;
@@ -52,6 +80,10 @@ void add_aggregate(CLI::App& app, Session& session) {
   options.texts("directories", arguments->directories, "Results directories", "DIR");
   options.text("-o,--output", arguments->output, "Write the table as JSON to this file as well", "FILE");
   options.choice("--format", arguments->format, "Format on stdout");
+  options.parsed(
+      "--exclude", [arguments](const std::string& text) { return read_exclude(text, arguments->exclude); }, [] {},
+      "Leave replicates with these flags, between commas, out of the means, or none (default: as the manifest says)",
+      "FLAGS");
   options.flag("--series", arguments->series, "Quantities against the distance above jamming (JSON has both)");
 }
 

@@ -28,8 +28,8 @@ constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
 constexpr std::size_t longest_name = 64;
 
-constexpr std::array<std::string_view, 11> keys{"$schema",  "name",      "checksum", "seed",  "sweep",    "replicates",
-                                                "protocol", "minimiser", "measure",  "modes", "keep_path"};
+constexpr std::array<std::string_view, 12> keys{"$schema",  "name",      "checksum", "seed",  "sweep",     "replicates",
+                                                "protocol", "minimiser", "measure",  "modes", "keep_path", "exclude"};
 constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 
 /// Where a parameter belongs that stands at the wrong place.
@@ -164,6 +164,13 @@ void read_group(const JsonPlace& root, Group group, Manifest& manifest) {
   }
 }
 
+std::vector<Flag> read_exclude(const JsonPlace& place) {
+  auto flags = read_list(place, fmt::format("a list, each entry {}", quoted_list(all_names<Flag>)),
+                         [](const JsonPlace& entry) { return entry.choice<Flag>(); });
+  std::sort(flags.begin(), flags.end());
+  return flags;
+}
+
 /// Pointer of a particle number in the user's own order.
 JsonPlace place_of_particles(const JsonPlace& root, int particles) {
   const auto list = root.at("sweep").at("particles");
@@ -261,6 +268,7 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
   manifest.replicates = read_replicates(root.at("replicates"), manifest.measures);
   if (root.has("keep_path")) manifest.keep_path = root.at("keep_path").boolean();
   if (root.has("modes")) manifest.measuring.modes = static_cast<int>(root.at("modes").integer(mode_range));
+  if (root.has("exclude")) manifest.exclude = read_exclude(root.at("exclude"));
   check_together(root, manifest);
   return manifest;
 }
@@ -284,6 +292,7 @@ Json to_json(const Manifest& manifest) {
   json["measure"] = values_of(manifest.measures);
   json["modes"] = manifest.measuring.modes;
   json["keep_path"] = manifest.keep_path;
+  json["exclude"] = option_json(manifest.exclude);
   return json;
 }
 
@@ -291,6 +300,7 @@ std::string digest(const Manifest& manifest) {
   auto json = to_json(manifest);
   json.erase("replicates");
   json.erase("keep_path");
+  json.erase("exclude");
   return hex_hash(json.dump());
 }
 

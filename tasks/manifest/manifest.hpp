@@ -9,6 +9,7 @@
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/solve/jam.hpp"
 #include "tasks/json/json.hpp"
+#include "tasks/measure/flag.hpp"
 #include "tasks/measure/measure.hpp"
 
 namespace isojam {
@@ -47,6 +48,7 @@ struct Manifest {
   std::vector<Measure> measures;
   MeasureOptions measuring;
   bool keep_path = false;  ///< keep the packings of every state of an expansion, not only the one nearest jamming
+  std::vector<Flag> exclude = usually_excluded();  ///< replicates so flagged count in no mean and towards no goal
 };
 
 /// One combination of the swept parameters: the whole options, and what distinguishes them from other combinations.
@@ -67,7 +69,7 @@ Manifest read_manifest(const std::string& file);
 Json to_json(const Manifest& manifest);
 
 /// Identity of everything that a replicate's result depends on; the number of replicates is left out, so that it
-/// may be raised later, and what is kept beside the record.
+/// may be raised later, and what is kept beside the record or excluded from means.
 std::string digest(const Manifest& manifest);
 
 }  // namespace isojam

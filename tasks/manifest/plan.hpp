@@ -38,6 +38,7 @@ class Plan {
   std::size_t points() const { return points_; }
   int replicates() const { return manifest_.replicates.max; }  ///< of a point, at most
   std::size_t size() const { return points_ * static_cast<std::size_t>(replicates()); }
+  const std::vector<Flag>& exclude() const { return manifest_.exclude; }
 
   ReplicateSpec at(std::size_t point, int replicate) const;
   ReplicateSpec operator[](std::size_t index) const;

@@ -148,19 +148,19 @@ const styled = (style, type, from) => (style ? {name: `${style}_${type}_${from}`
 
 const inPanel = (fieldX, fieldY) => ({x: {scale: 'x', field: fieldX}, y: {scale: 'y', field: fieldY}});
 
-function points(from, x, y, {colour, shape = 'circle', size = 30, hollow = false, tooltip, opacity = 1, style}) {
+function points(from, x, y, {colour, shape = 'circle', size = 30, hollow = 'false', tooltip, opacity = 1, style}) {
   return {
     type: 'symbol', from: {data: from}, ...styled(style, 'symbol', from),
     encode: {enter: {
       ...inPanel(x, y), size: {value: size}, shape: typeof shape === 'string' ? {value: shape} : shape,
-      fill: hollow ? {value: 'transparent'} : colour, stroke: colour, strokeWidth: {value: 1.3},
+      fill: [{test: hollow, value: 'transparent'}, colour], stroke: colour, strokeWidth: {value: 1.3},
       opacity: {value: opacity}, ...(tooltip ? {tooltip: tooltipOf(tooltip)} : {}),
     }},
   };
 }
 
-/// A line for each value of `by`, in the order of the rows.
-function lines(from, x, y, {by, colour, width = 1.3, dash = [], opacity = 1, style, step = false}) {
+/// A line for each value of `by`, in the order of the rows, broken where the test `defined` fails.
+function lines(from, x, y, {by, colour, width = 1.3, dash = [], opacity = 1, style, step = false, defined = 'true'}) {
   return {
     type: 'group', from: {facet: {name: `${from}_${by}`, data: from, groupby: by}},
     encode: {enter: {width: {signal: 'width'}, height: {signal: 'height'}}},
@@ -169,6 +169,7 @@ function lines(from, x, y, {by, colour, width = 1.3, dash = [], opacity = 1, sty
       encode: {enter: {
         ...inPanel(x, y), stroke: colour, strokeWidth: {value: width}, strokeDash: {value: dash},
         opacity: {value: opacity}, interpolate: {value: step ? 'step-after' : 'linear'},
+        defined: {signal: defined},
       }},
     }],
   };

@@ -69,7 +69,20 @@ void read_states(const JsonPlace& states, RecordSummary& summary) {
             [](const StateValues& a, const StateValues& b) { return a.delta_phi < b.delta_phi; });
 }
 
+void read_flags(const JsonPlace& flags, RecordSummary& summary) {
+  summary.flagged = flags.expect_list("a list of flags") > 0;
+  for (const auto& name : flags.value()) {
+    const auto flag = name.is_string() ? from_string<Flag>(name.get_ref<const std::string&>()) : std::nullopt;
+    if (flag) summary.flags.push_back(*flag);
+  }
+}
+
 }  // namespace
+
+bool has_any(const RecordSummary& summary, const std::vector<Flag>& flags) {
+  return std::find_first_of(summary.flags.begin(), summary.flags.end(), flags.begin(), flags.end()) !=
+         summary.flags.end();
+}
 
 RecordSummary summarise_record(const Json& record, const std::string& file) {
   const JsonPlace root(record, file);
@@ -94,7 +107,7 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
   } else {
     read_values(root, summary);
     read_states(root.at("states"), summary);
-    summary.flagged = root.at("flags").expect_list("a list of flags") > 0;
+    read_flags(root.at("flags"), summary);
   }
   summary.result_digest = root.at("result_digest").text();
   summary.cpu_seconds = root.at("timing").at("cpu_seconds").number({0, 1e12});

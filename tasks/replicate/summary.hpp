@@ -6,6 +6,7 @@
 
 #include "engine/geometry/convex_solid.hpp"
 #include "tasks/json/json.hpp"
+#include "tasks/measure/flag.hpp"
 #include "tasks/measure/quantity.hpp"
 
 namespace isojam {
@@ -33,10 +34,14 @@ struct RecordSummary {
   std::string result_digest;  ///< of all but timing and provenance: equal for two runs of the same replicate
   double cpu_seconds = 0;
   bool failed = false, flagged = false;
+  std::vector<Flag> flags;          ///< of those that it is flagged with, the ones that this version knows
   Values values = no_values();      ///< of the replicate, and of its state nearest jamming
   std::vector<StateValues> states;  ///< above jamming, in order of Δφ
   std::optional<double> residual;   ///< worst of the states behind φ_J
 };
+
+/// Whether the replicate has one of these flags.
+bool has_any(const RecordSummary& summary, const std::vector<Flag>& flags);
 
 /// Throws InputError if the record is not one of ours or lacks what a table needs.
 RecordSummary summarise_record(const Json& record, const std::string& file);

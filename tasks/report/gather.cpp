@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "engine/analysis/power_law.hpp"
 #include "engine/solve/straight_line.hpp"
+#include "tasks/json/options.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/measure/parts.hpp"
 #include "tasks/measure/quantity.hpp"
@@ -121,7 +123,18 @@ Json stop_counts(const Json& record) {
   return list;
 }
 
-Json replicate_entry(const RecordedReplicate& replicate, int row) {
+/// The flags that the manifest excludes, as far as it can be understood.
+std::vector<Flag> exclude_of(const Json& manifest) {
+  if (!value_at(manifest, "/exclude").is_array()) return usually_excluded();
+  std::vector<Flag> flags;
+  for (const auto& name : list_at(manifest, "/exclude")) {
+    const auto flag = name.is_string() ? from_string<Flag>(name.get<std::string>()) : std::nullopt;
+    if (flag) flags.push_back(*flag);
+  }
+  return flags;
+}
+
+Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vector<Flag>& exclude) {
   const auto& record = replicate.record;
   Json json;
   json["name"] = replicate.name;
@@ -131,6 +144,7 @@ Json replicate_entry(const RecordedReplicate& replicate, int row) {
   json["flags"] = Json::array();
   for (const auto& flag : list_at(record, "/flags"))
     json["flags"].push_back(flag.is_string() ? flag : Json(flag.dump()));
+  json["excluded"] = has_any(replicate.summary, exclude);
   json["failure"] = nullptr;
   if (replicate.summary.failed)
     json["failure"] = {{"where", text_at(record, "/failure/where")}, {"why", text_at(record, "/failure/why")}};
@@ -151,14 +165,13 @@ Json replicate_entry(const RecordedReplicate& replicate, int row) {
   return json;
 }
 
-/// Unflagged replicates, or all without failure if there is none.
-Members trusted(const Members& members) {
-  Members done, unflagged;
-  for (const auto* member : members) {
-    if (!member->summary.failed) done.push_back(member);
-    if (!member->summary.failed && !member->summary.flagged) unflagged.push_back(member);
-  }
-  return unflagged.empty() ? done : unflagged;
+/// Replicates that neither failed nor are excluded.
+Members counting(const Members& members, const std::vector<Flag>& exclude) {
+  Members list;
+  std::copy_if(members.begin(), members.end(), std::back_inserter(list), [&](const RecordedReplicate* member) {
+    return !member->summary.failed && !has_any(member->summary, exclude);
+  });
+  return list;
 }
 
 /// The angles are only in one of the states, that nearest jamming.
@@ -213,13 +226,12 @@ Json pooled_scaling(const Members& members, const std::string& key) {
   return json;
 }
 
-Json row_entry(const Row& row, const Members& members) {
+Json row_entry(const Row& row, const Members& chosen) {
   Json json = to_json(row);
   json["label"] = label_of(row);
   const auto paper = paper_density(row.solid, row.particles);
   json["paper"] = nullptr;
   if (paper) json["paper"] = {{"phi_j", paper->phi_j}, {"half_width", paper->half_width}};
-  const auto chosen = trusted(members);
   json["scaling"] = {{"omega_l", pooled_scaling(chosen, "omega_l")}, {"omega_h", pooled_scaling(chosen, "omega_h")}};
   json["angles"] = pooled_angles(chosen);
   return json;
@@ -274,10 +286,12 @@ Json report_data(const Results& results, const std::map<std::size_t, Json>& view
     summaries.push_back(replicate.summary);
     points[point_of(replicate.summary)].push_back(&replicate);
   }
-  const auto table = aggregate(summaries);
+  const auto exclude = exclude_of(results.manifest);
+  const auto table = aggregate(summaries, std::nullopt, exclude);
 
   Json data;
   data["manifest"] = {{"name", text_at(results.manifest, "/name")}, {"seed", text_at(results.manifest, "/seed")}};
+  data["exclude"] = option_json(exclude);
   data["builds"] = provenance_list(results);
   data["measures"] = measure_list(results);
   data["columns"] = column_list();
@@ -286,13 +300,13 @@ Json report_data(const Results& results, const std::map<std::size_t, Json>& view
   for (const auto& row : table.rows) {
     const auto point = point_of(row);
     place.emplace(point, static_cast<int>(place.size()));
-    data["rows"].push_back(row_entry(row, points.at(point)));
+    data["rows"].push_back(row_entry(row, counting(points.at(point), exclude)));
   }
   data["csv"] = to_csv(table);
   data["latex"] = to_latex(table);
   data["replicates"] = data["views"] = Json::array();
   for (const auto& replicate : results.replicates)
-    data["replicates"].push_back(replicate_entry(replicate, place.at(point_of(replicate.summary))));
+    data["replicates"].push_back(replicate_entry(replicate, place.at(point_of(replicate.summary)), exclude));
   data["solids"] = solid_list(results);
   for (const auto& [replicate, view] : views) {
     data["views"].push_back(view);

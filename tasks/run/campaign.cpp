@@ -25,7 +25,7 @@ void Campaign::learn(std::size_t point) {
     const auto spec = plan_.at(point, replicate);
     const auto summary = store_.recorded(spec);
     if (!summary) throw FileError(store_.record_path(spec).string() + ": is there no longer, or damaged");
-    state.values.push_back(summary->values[index]);
+    state.values.push_back(has_any(*summary, plan_.exclude()) ? std::nullopt : summary->values[index]);
   }
 }
 

@@ -43,34 +43,34 @@ std::string difference(const Json& a, const Json& b) {
 /// The values of a sweep point's replicates, quantity by quantity.
 class Samples {
  public:
-  void add(std::size_t quantity, double value, bool flagged) {
+  void add(std::size_t quantity, double value, bool excluded) {
     all_[quantity].push_back(value);
-    if (!flagged) unflagged_[quantity].push_back(value);
+    if (!excluded) kept_[quantity].push_back(value);
   }
   bool empty() const {
     return std::all_of(all_.begin(), all_.end(), [](const auto& values) { return values.empty(); });
   }
-  /// With the flagged replicates, and without.
+  /// Without the excluded replicates, and of all.
   std::pair<Estimates, Estimates> estimates(const std::string& point) const {
     std::pair<Estimates, Estimates> result{no_estimates(), no_estimates()};
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const auto seed = hash_of(point + std::string(all_quantities()[i].name));
-      result.first[i] = estimate(all_[i], seed);
-      result.second[i] = estimate(unflagged_[i], seed);
+      result.first[i] = estimate(kept_[i], seed);
+      result.second[i] = estimate(all_[i], seed);
     }
     return result;
   }
 
  private:
-  std::vector<std::vector<double>> all_{all_quantities().size()}, unflagged_{all_quantities().size()};
+  std::vector<std::vector<double>> all_{all_quantities().size()}, kept_{all_quantities().size()};
 };
 
 constexpr std::size_t places = 1 + series_distances.size();
 
 }  // namespace
 
-Aggregation::Kept Aggregation::kept(const RecordSummary& record) {
-  Kept kept{record.result_digest, record.failed, record.flagged, record.residual, {}};
+Aggregation::Kept Aggregation::kept(const RecordSummary& record) const {
+  Kept kept{record.result_digest, record.failed, record.flagged, has_any(record, exclude_), record.residual, {}};
   const auto keep = [&](const Values& values, std::size_t place) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (values[i])
@@ -109,7 +109,8 @@ std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const s
     if (key.first != point.replicates.begin()->first.first || key.second != static_cast<int>(values.size())) break;
     const auto cell = std::find_if(replicate.cells.begin(), replicate.cells.end(),
                                    [&](const Cell& c) { return c.place == 0 && c.quantity == quantity; });
-    values.push_back(cell == replicate.cells.end() ? std::nullopt : std::optional(cell->value));
+    const bool counts = cell != replicate.cells.end() && !replicate.excluded;
+    values.push_back(counts ? std::optional(cell->value) : std::nullopt);
   }
   const auto advance = advance_of(*rule, values);
   return GoalOutcome{*rule->goal, advance.finished ? std::optional(advance.wanted) : std::nullopt, advance.met,
@@ -124,29 +125,30 @@ Row Aggregation::row(const PointKey& key, const Point& point, const std::optiona
   for (const auto& [name, replicate] : point.replicates) {
     row.failed += replicate.failed;
     row.flagged += replicate.flagged;
+    row.excluded += replicate.excluded;
     if (replicate.residual) row.residual = std::max(row.residual.value_or(0), *replicate.residual);
-    for (const auto& cell : replicate.cells) samples[cell.place].add(cell.quantity, cell.value, replicate.flagged);
+    for (const auto& cell : replicate.cells) samples[cell.place].add(cell.quantity, cell.value, replicate.excluded);
   }
   const auto text = point_text(row.solid, row.particles, row.parameters);
-  std::tie(row.estimates, row.unflagged) = samples[0].estimates(text);
+  std::tie(row.estimates, row.all) = samples[0].estimates(text);
   for (std::size_t k = 0; k < series_distances.size(); ++k) {
     if (samples[k + 1].empty()) continue;
     row.series.push_back({series_distances[k]});
-    std::tie(row.series.back().estimates, row.series.back().unflagged) = samples[k + 1].estimates(text);
+    std::tie(row.series.back().estimates, row.series.back().all) = samples[k + 1].estimates(text);
   }
   row.goal = goal_outcome(point, rule);
   return row;
 }
 
 Table Aggregation::table(const std::optional<Replicates>& rule) const {
-  Table table;
-  table.builds = builds_;
+  Table table{{}, exclude_, builds_};
   for (const auto& [key, point] : points_) table.rows.push_back(row(key, point, rule));
   return table;
 }
 
-Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule) {
-  Aggregation aggregation;
+Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule,
+                std::vector<Flag> exclude) {
+  Aggregation aggregation(std::move(exclude));
   for (const auto& record : records) aggregation.add(record);
   return aggregation.table(rule);
 }

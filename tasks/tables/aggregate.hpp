@@ -25,7 +25,7 @@ inline Estimates no_estimates() { return Estimates(all_quantities().size()); }
 /// Estimates at one distance above jamming; those of replicates are empty.
 struct SeriesPoint {
   double delta_phi = 0;
-  Estimates estimates = no_estimates(), unflagged = no_estimates();
+  Estimates estimates = no_estimates(), all = no_estimates();  ///< as those of the row
 };
 
 /// How far a sweep point came towards a goal.
@@ -44,9 +44,10 @@ struct Row {
   Json parameters;     ///< the other swept values
   int replicates = 0;  ///< recorded, the failed ones included
   int failed = 0;
-  int flagged = 0;                       ///< did not fail, count in the estimates, but their records hold a reservation
-  Estimates estimates = no_estimates();  ///< over replicates that did not fail and have the value
-  Estimates unflagged = no_estimates();  ///< the same without the flagged replicates
+  int flagged = 0;                       ///< did not fail, but their records hold a reservation
+  int excluded = 0;                      ///< of these, those with a flag that the table excludes
+  Estimates estimates = no_estimates();  ///< over replicates that neither failed nor are excluded and have the value
+  Estimates all = no_estimates();        ///< the same with the excluded replicates
   std::vector<SeriesPoint> series;       ///< at those of series_distances that a replicate's states enclose
   std::optional<double> residual;        ///< worst of the states behind φ_J; nullopt if all failed
   std::optional<GoalOutcome> goal;
@@ -55,12 +56,16 @@ struct Row {
 /// Rows in order of solid, particles, parameters.
 struct Table {
   std::vector<Row> rows;
+  std::vector<Flag> exclude;
   std::set<std::string> builds;  ///< of the program, that made the records
 };
 
 /// Gathers records one by one and keeps of each only what the table needs: a few kilobytes. The order does not matter.
 class Aggregation {
  public:
+  /// Replicates with one of these flags count in no estimate but those of all, and towards no goal.
+  explicit Aggregation(std::vector<Flag> exclude = usually_excluded()) : exclude_(std::move(exclude)) {}
+
   /// A record that is given twice counts once. Throws InputError if records of one point were made with different
   /// settings, or if two records of the same replicate disagree.
   void add(const RecordSummary& record);
@@ -77,7 +82,7 @@ class Aggregation {
   };
   struct Kept {
     std::string result_digest;
-    bool failed = false, flagged = false;
+    bool failed = false, flagged = false, excluded = false;
     std::optional<double> residual;
     std::vector<Cell> cells;
   };
@@ -90,15 +95,17 @@ class Aggregation {
     std::map<ReplicateKey, Kept> replicates;
   };
 
-  static Kept kept(const RecordSummary& record);
+  Kept kept(const RecordSummary& record) const;
   static Row row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule);
   static std::optional<GoalOutcome> goal_outcome(const Point& point, const std::optional<Replicates>& rule);
 
+  std::vector<Flag> exclude_;
   std::map<PointKey, Point> points_;
   std::set<std::string> builds_;
 };
 
 /// The table of several records at once.
-Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule = std::nullopt);
+Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule = std::nullopt,
+                std::vector<Flag> exclude = usually_excluded());
 
 }  // namespace isojam

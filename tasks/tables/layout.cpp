@@ -6,31 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
 #include "tasks/measure/quantity.hpp"
+#include "tasks/tables/lines.hpp"
 #include "tasks/tables/tables.hpp"
 
 namespace isojam {
 namespace {
-
-using Cells = std::vector<std::string>;
-
-/// Names of all swept parameters, in order.
-std::vector<std::string> parameter_names(const Table& table) {
-  std::set<std::string> names;
-  for (const auto& row : table.rows) {
-    for (const auto& item : row.parameters.items()) names.insert(item.key());
-  }
-  return {names.begin(), names.end()};
-}
-
-std::string parameter_text(const Row& row, const std::string& name) {
-  if (!row.parameters.contains(name)) return "";
-  const auto& value = row.parameters.at(name);
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
 
 constexpr int digits_without_interval = 4;
 
@@ -68,32 +51,6 @@ std::string estimate_text(const Estimate& estimate, std::string_view plus_minus,
 }
 
 std::string residual_text(const Row& row) { return row.residual ? fmt::format("{:.1e}", *row.residual) : "-"; }
-
-/// A line of the table before it is divided into groups: a row, one of its series points, or either without the
-/// flagged replicates.
-struct Line {
-  const Row* row = nullptr;
-  std::optional<double> delta_phi;
-  const Estimates* estimates = nullptr;
-  bool unflagged = false;
-
-  int kept() const { return row->replicates - row->failed - (unflagged ? row->flagged : 0); }
-};
-
-std::vector<Line> lines_of(const Table& table, View view) {
-  std::vector<Line> lines;
-  const auto add = [&](const Row& row, std::optional<double> delta_phi, const auto& place) {
-    lines.push_back({&row, delta_phi, &place.estimates, false});
-    if (row.flagged > 0) lines.push_back({&row, delta_phi, &place.unflagged, true});
-  };
-  for (const auto& row : table.rows) {
-    if (view == View::nearest) add(row, std::nullopt, row);
-    if (view == View::series) {
-      for (const auto& point : row.series) add(row, point.delta_phi, point);
-    }
-  }
-  return lines;
-}
 
 /// The quantities of a group, by their places in all_quantities().
 struct Group {
@@ -137,7 +94,7 @@ Cells head_of(const Group& group, const std::vector<std::string>& parameters, Vi
   Cells head{"solid", symbol("N", "N", format)};
   for (const auto& name : parameters) head.push_back(spelt(name, format));
   if (view == View::series) head.push_back(symbol("delta_phi", "\\Delta\\phi", format));
-  if (counts_replicates(group, view)) head.insert(head.end(), {"replicates", "failed", "flagged"});
+  if (counts_replicates(group, view)) head.insert(head.end(), {"replicates", "failed", "flagged", "excluded"});
   for (const auto i : group.quantities)
     head.push_back(symbol(all_quantities()[i].name, all_quantities()[i].latex, format));
   if (counts_replicates(group, view)) head.emplace_back("residual");
@@ -149,18 +106,17 @@ Cells cells_of(const Line& line, const Group& group, const std::vector<std::stri
   const Row& row = *line.row;
   const std::string indent = format == Format::text ? "  " : "\\quad ";
   // What a second line has in common with the first is not said again.
-  const auto once = [&](const std::string& text) { return line.unflagged ? "" : text; };
-  Cells cells{line.unflagged ? indent + "unflagged" : std::string(to_string(row.solid)),
-              once(std::to_string(row.particles))};
+  const auto once = [&](const std::string& text) { return line.of_all ? "" : text; };
+  Cells cells{line.of_all ? indent + "all" : std::string(to_string(row.solid)), once(std::to_string(row.particles))};
   for (const auto& name : parameters) cells.push_back(once(spelt(parameter_text(row, name), format)));
   if (view == View::series) cells.push_back(once(fmt::format("{:g}", *line.delta_phi)));
   if (counts_replicates(group, view)) {
-    cells.push_back(std::to_string(line.unflagged ? line.kept() : row.replicates));
-    cells.push_back(once(std::to_string(row.failed)));
-    cells.push_back(once(std::to_string(row.flagged)));
+    for (const int count : {row.replicates, row.failed, row.flagged, row.excluded})
+      cells.push_back(once(std::to_string(count)));
   }
   const std::string_view plus_minus = format == Format::text ? " ± " : " $\\pm$ ";
-  for (const auto i : group.quantities) cells.push_back(estimate_text((*line.estimates)[i], plus_minus, line.kept()));
+  for (const auto i : group.quantities)
+    cells.push_back(estimate_text((*line.estimates)[i], plus_minus, line.counted()));
   if (counts_replicates(group, view)) cells.push_back(once(residual_text(row)));
   return cells;
 }
@@ -202,19 +158,25 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
   return lines;
 }
 
-/// The tables of all groups: head first, then lines.
-std::vector<std::pair<std::string_view, std::vector<Cells>>> laid_out(const Table& table, View view, Format format) {
+struct LaidOut {
+  std::string_view title;
+  bool of_replicates;        ///< rather than of the solids
+  std::vector<Cells> lines;  ///< head first
+};
+
+/// The tables of all groups.
+std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
   const auto parameters = parameter_names(table);
   const auto lines = lines_of(table, view);
-  std::vector<std::pair<std::string_view, std::vector<Cells>>> tables;
+  std::vector<LaidOut> tables;
   for (const Group& group : groups_in(lines, view)) {
     std::vector<Cells> cells{head_of(group, parameters, view, format)};
     for (const Line& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
-    tables.emplace_back(group.name, std::move(cells));
+    tables.push_back({group.name, true, std::move(cells)});
     const auto goals = goal_lines(table, parameters, format);
-    if (group.name == main_group && view == View::nearest && goals.size() > 1) tables.emplace_back("goal", goals);
+    if (group.name == main_group && view == View::nearest && goals.size() > 1) tables.push_back({"goal", true, goals});
     if (group.name == contact_group && view == View::nearest)
-      tables.emplace_back("critical angles, degrees", critical_angle_lines(table, format));
+      tables.push_back({"critical angles, degrees", false, critical_angle_lines(table, format)});
   }
   return tables;
 }
@@ -241,74 +203,31 @@ std::string aligned(const std::vector<Cells>& lines) {
   return text;
 }
 
-std::string joined(const Cells& cells, std::string_view separator) {
-  std::string text;
-  for (const auto& cell : cells) {
-    if (!text.empty()) text += separator;
-    text += cell;
-  }
-  return text;
-}
-
-void append_csv(const Estimate& estimate, Cells& cells) {
-  const auto number = [&](const std::optional<double>& x) { cells.push_back(x ? Json(*x).dump() : ""); };
-  const auto interval = [&](const std::optional<Interval>& x) {
-    number(x ? std::optional(x->low) : std::nullopt);
-    number(x ? std::optional(x->high) : std::nullopt);
-  };
-  number(estimate.mean);
-  interval(estimate.ci95);
-  number(estimate.sd);
-  cells.push_back(std::to_string(estimate.n));
-  interval(estimate.bootstrap95);
-}
-
 }  // namespace
 
 std::string to_text(const Table& table, View view) {
+  const auto excluded = exclusion_text(table);
   std::string text;
-  for (const auto& [group, lines] : laid_out(table, view, Format::text)) {
-    if (!text.empty()) text += fmt::format("\n{}\n", group);
+  for (const auto& [title, of_replicates, lines] : laid_out(table, view, Format::text)) {
+    Cells told;
+    if (!text.empty()) told.emplace_back(title);
+    if (of_replicates && !excluded.empty()) told.push_back(excluded);
+    if (!text.empty()) text += '\n';
+    if (!told.empty()) text += joined(told, ", ") + '\n';
     text += aligned(lines);
   }
   return text;
 }
 
 std::string to_latex(const Table& table, View view) {
+  const auto excluded = exclusion_text(table);
   std::string text;
-  for (const auto& [group, lines] : laid_out(table, view, Format::latex)) {
-    text += fmt::format("% {}\n\\begin{{tabular}}{{l{}}}\n\\hline\n{} \\\\\n\\hline\n", group,
+  for (const auto& [title, of_replicates, lines] : laid_out(table, view, Format::latex)) {
+    const auto told = of_replicates && !excluded.empty() ? ", " + excluded : "";
+    text += fmt::format("% {}{}\n\\begin{{tabular}}{{l{}}}\n\\hline\n{} \\\\\n\\hline\n", title, told,
                         std::string(lines.front().size() - 1, 'r'), joined(lines.front(), " & "));
     for (std::size_t k = 1; k < lines.size(); ++k) text += joined(lines[k], " & ") + " \\\\\n";
     text += "\\hline\n\\end{tabular}\n";
-  }
-  return text;
-}
-
-std::string to_csv(const Table& table, View view) {
-  const auto parameters = parameter_names(table);
-  Cells head{"solid", "particles"};
-  head.insert(head.end(), parameters.begin(), parameters.end());
-  head.insert(head.end(), {"replicates", "failed", "flagged"});
-  if (view == View::series) head.emplace_back("delta_phi");
-  for (const auto& quantity : all_quantities()) {
-    for (const auto part : {"mean", "low", "high", "sd", "n", "bootstrap_low", "bootstrap_high"}) {
-      head.push_back(fmt::format("{}_{}", quantity.name, part));
-    }
-  }
-  head.emplace_back("residual");
-  auto text = joined(head, ",") + '\n';
-  for (const Line& line : lines_of(table, view)) {
-    if (line.unflagged) continue;
-    const Row& row = *line.row;
-    Cells cells{std::string(to_string(row.solid)), std::to_string(row.particles)};
-    for (const auto& name : parameters) cells.push_back(parameter_text(row, name));
-    cells.insert(cells.end(),
-                 {std::to_string(row.replicates), std::to_string(row.failed), std::to_string(row.flagged)});
-    if (view == View::series) cells.push_back(Json(*line.delta_phi).dump());
-    for (const auto& estimate : *line.estimates) append_csv(estimate, cells);
-    cells.push_back(row.residual ? Json(*row.residual).dump() : "");
-    text += joined(cells, ",") + '\n';
   }
   return text;
 }

@@ -20,10 +20,10 @@ struct Advance {
 int next_batch_end(int replicates, int max);
 
 /// Sequential rule: after min replicates, and after every batch, stop if the 95 % interval (Student t) of the mean over
-/// replicates 0 … n − 1 is no wider than the goal asks. `values[r]` is that of replicate r, nullopt where it failed or
-/// has none; what stands beyond the first replicate that is not recorded must not be given. Decided in the order of
-/// replicates, so the outcome does not depend on which was finished first. Batches, not single replicates, since an
-/// interval looked at after each is met by chance too often.
+/// replicates 0 … n − 1 is no wider than the goal asks. `values[r]` is that of replicate r, nullopt where it failed, is
+/// excluded or has none; what stands beyond the first replicate that is not recorded must not be given. Decided in the
+/// order of replicates, so the outcome does not depend on which was finished first. Batches, not single replicates,
+/// since an interval looked at after each is met by chance too often.
 Advance advance_of(const Replicates& replicates, std::span<const std::optional<double>> values);
 
 }  // namespace isojam

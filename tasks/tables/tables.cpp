@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
+#include "tasks/json/options.hpp"
 #include "tasks/measure/quantity.hpp"
 
 namespace isojam {
@@ -44,13 +45,13 @@ void put_state_estimates(Json& json, const Estimates& estimates) {
   }
 }
 
-Json to_json(const SeriesPoint& point, bool with_unflagged) {
+Json to_json(const SeriesPoint& point, bool with_all) {
   Json json;
   json["delta_phi"] = point.delta_phi;
   put_state_estimates(json, point.estimates);
-  if (with_unflagged) {
-    json["unflagged"] = Json::object();
-    put_state_estimates(json["unflagged"], point.unflagged);
+  if (with_all) {
+    json["all"] = Json::object();
+    put_state_estimates(json["all"], point.all);
   }
   return json;
 }
@@ -88,13 +89,14 @@ Json to_json(const Row& row) {
   entry["replicates"] = row.replicates;
   entry["failed"] = row.failed;
   entry["flagged"] = row.flagged;
+  entry["excluded"] = row.excluded;
   if (row.goal) entry["goal"] = to_json(*row.goal);
   put_estimates(entry, row.estimates);
-  if (row.flagged > 0) put_estimates(entry["unflagged"], row.unflagged);
+  if (row.excluded > 0) put_estimates(entry["all"], row.all);
   entry["critical_angles"] = critical_angle_record(row.solid);
   entry["residual"] = row.residual ? Json(*row.residual) : Json(nullptr);
   entry["series"] = Json::array();
-  for (const auto& point : row.series) entry["series"].push_back(to_json(point, row.flagged > 0));
+  for (const auto& point : row.series) entry["series"].push_back(to_json(point, row.excluded > 0));
   return entry;
 }
 
@@ -102,6 +104,7 @@ Json to_json(const Table& table) {
   Json json;
   json["schema"] = table_schema;
   json["builds"] = table.builds;
+  json["exclude"] = option_json(table.exclude);
   json["rows"] = Json::array();
   for (const auto& row : table.rows) json["rows"].push_back(to_json(row));
   return json;

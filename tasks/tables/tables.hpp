@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-inline constexpr std::string_view table_schema = "isojam.tables.v1";
+inline constexpr std::string_view table_schema = "isojam.tables.v2";
 
 /// tables.json, and one of its rows.
 Json to_json(const Table& table);
@@ -17,11 +17,11 @@ Json to_json(const Row& row);
 enum class View : std::uint8_t { nearest, series };
 
 /// The tables as text for people: one for each group of columns that has values, aligned; mean ± half width of the 95 %
-/// interval, (n) where fewer replicates have the value than did not fail.
+/// interval, (n) where fewer replicates have the value than count. Above each stands what is excluded.
 std::string to_text(const Table& table, View view = View::nearest);
 
-/// One line per row or point of a series; for each quantity mean, ci95 low and high, sd, n, bootstrap95 low and high.
-/// Empty: no value.
+/// One line per row or point of a series, and one of all replicates where some are excluded: `over` says "kept" or
+/// "all". For each quantity mean, ci95 low and high, sd, n, bootstrap95 low and high. Empty: no value.
 std::string to_csv(const Table& table, View view = View::nearest);
 
 /// A tabular environment for each group of columns that has values.

@@ -2,6 +2,7 @@
 - no page has a console error, asks the network for anything, or opens an alert;
 - every chart has marks, in every panel, and none of them lies at NaN; tooltips appear;
 - charts are saved as SVG, PNG, specification (with the data) and data;
+- a mean of one replicate is drawn open and joined to no other;
 - the table sorts by every column, both ways, by click and by keyboard; copies are what `isojam aggregate` prints;
 - the 3D view draws, turns by mouse and by keys, zooms, colours, shows the largest cluster alone, animates a mode, and
   turns 400 particles at 10 frames/s and more without a graphics card; without WebGL a sentence stands in its place;
@@ -120,13 +121,40 @@ class Report(unittest.TestCase):
             return [...document.querySelectorAll('#chart-density g.mark-symbol')].map((g) => g.children.length)""")
         self.assertEqual(shown[:2], [4, 2], "replicates, means")
 
-    def test_tooltips_name_the_replicate(self):
-        self.open(self.page)
-        mark = self.find("#chart-density g.mark-symbol path")
+    def tooltip_of(self, mark):
         self.browser.run("arguments[0].scrollIntoView({block: 'center'})", mark)
         ActionChains(self.browser.driver).move_to_element(mark).perform()
         self.browser.wait("!document.getElementById('tooltip').hidden", "the tooltip")
-        self.assertIn("dodecahedron-N24-r000", self.find("#tooltip").text)
+        return self.find("#tooltip").text
+
+    def test_tooltips_name_the_replicate(self):
+        self.open(self.page)
+        self.assertIn("dodecahedron-N24-r000", self.tooltip_of(self.find("#chart-density g.mark-symbol path")))
+
+    def test_a_mean_of_one_replicate_is_open_and_on_no_line(self):
+        nearer = {**report_pages.manifest()["protocol"], "final_distance": 0.008, "fit_window": 0.03}
+        study = self.pages.run("nearer", measure=["contacts"], protocol=nearer)
+        flags = {"dodecahedron-N28-r0000": ["crystalline"]}
+        self.open(self.pages.report(self.pages.flagged("one-left", study, flags)))
+        mean = self.browser.driver.find_elements(By.CSS_SELECTOR, "#chart-density g.mark-symbol")[1]
+        self.assertRegex(self.tooltip_of(mean.find_elements(By.CSS_SELECTOR, "path")[1]), r"n\W*1$")
+        # Of each panel: its marks of means, open ones and those of one replicate, and whether lines join any.
+        panels = self.browser.run("""
+            const panels = [...document.querySelectorAll('#chart-topology g.role-scope > g')]
+              .filter((panel) => panel.querySelector(':scope > g .role-axis'));
+            return panels.map((panel) => {
+              const marks = [...[...panel.querySelectorAll('g.mark-symbol')].at(-1).children];
+              const lines = [...panel.querySelectorAll('g.mark-line path')].map((path) => path.getAttribute('d') ?? '');
+              return {open: marks.map((mark) => mark.getAttribute('fill') === 'transparent'),
+                      one: marks.map((mark) => mark.__data__.datum.n === 1),
+                      joined: lines.some((line) => line.includes('L'))};
+            })""")
+        self.assertGreater(min(len(panel["open"]) for panel in panels), 5)
+        self.assertEqual([panel["open"] for panel in panels], [panel["one"] for panel in panels])
+        self.assertEqual([all(panel["one"]) for panel in panels], [False, True])
+        self.assertEqual([panel["joined"] for panel in panels], [True, False])
+        self.assertIn("2, 1 flagged, 1 excluded", self.find("#table").text)
+        self.assertIn("without replicates flagged crystalline, not_balanced", self.find("#table").text)
 
     def test_charts_are_saved_in_every_form(self):
         self.open(self.page)

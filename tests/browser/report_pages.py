@@ -90,6 +90,13 @@ class Pages:
                 (directory / "packings" / path.name).unlink()
         return directory
 
+    def flagged(self, name, source, flags):
+        """With these flags, by name of the replicate; the others without any."""
+        directory = self.copied(name, source)
+        for path in sorted((directory / "records").iterdir()):
+            change_record(path, lambda record, stem=path.stem: record.update(flags=flags.get(stem, [])))
+        return directory
+
     def single(self, name, source):
         directory = self.copied(name, source)
         for folder in ("records", "packings"):

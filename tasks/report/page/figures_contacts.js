@@ -40,7 +40,7 @@ function anglePanel(data, row, index, place, {x, y, kind, datasets}) {
       ...(region && kind === 'face_face' ? [regionMark(`regions_${index}`)] : []),
       lines(`random_${index}`, 'theta', 'c', {by: 'which', colour: random, width: 1.3, dash: [5, 3]}),
       lines(`cdf_${index}`, 'theta', 'c', {by: 'series', colour, width: 1.8, step: true}),
-      points(`critical_${index}`, 'theta', 'c', {colour: {value: ink}, size: 45, hollow: true, style: 'ink',
+      points(`critical_${index}`, 'theta', 'c', {colour: {value: ink}, size: 45, hollow: 'true', style: 'ink',
         shape: {scale: 'topology', field: 'topology'},
         tooltip: {'critical angle of': 'topology', 'degrees': 'theta', 'c': 'c'}}),
     ]});
@@ -63,8 +63,8 @@ function angleFigure(data, kind, {title, id, symbol}) {
   const topologies = Object.keys(shapes).slice(0, kind === 'face_face' ? 3 : 2);
   return {
     id, title, datasets,
-    note: `Cumulative distribution of ${symbol} over all contacts nearest jamming of a sweep point’s unflagged ` +
-      'replicates, beside ideal random contacts; symbols mark the critical angles that the topologies allow. ' +
+    note: `Cumulative distribution of ${symbol} over all contacts nearest jamming of a sweep point’s ` +
+      `${countedText(data)}, beside ideal random contacts; symbols mark the critical angles that the topologies allow. ` +
       (kind === 'face_face' ? 'Shaded: region 1, below the cut-off of face-face contacts (median of the ' +
         'replicates). Figure 2(b) of the paper.' : 'Figure 2(a) of the paper.'),
     spec: (width) => panelSpec({
@@ -102,7 +102,7 @@ function topologyData(data) {
   data.rows.forEach(({series}, row) => {
     for (const point of series) {
       for (const [key, {label}] of Object.entries(contactSeries)) {
-        const estimate = trusted(point, key);
+        const estimate = point[key];
         if (!estimate || estimate.mean === null) continue;
         const [low, high] = estimate.ci95 ?? [estimate.mean, estimate.mean];
         means.push({row, series: label, delta_phi: point.delta_phi, value: estimate.mean, low, high, n: estimate.n});
@@ -126,9 +126,9 @@ function topologyPanel(row, index, place, {x, y}) {
       isostaticLine(),
       points(`states_${index}`, 'delta_phi', 'value', {colour, size: 9, opacity: 0.3,
         tooltip: {replicate: 'name', '': 'series', 'Δφ': 'delta_phi', value: 'value'}}),
-      lines(`means_${index}`, 'delta_phi', 'value', {by: 'series', colour, width: 1.2}),
+      lines(`means_${index}`, 'delta_phi', 'value', {by: 'series', colour, width: 1.2, defined: 'datum.n > 1'}),
       errorBars(`means_${index}`, 'delta_phi', 'low', 'high', {colour}),
-      points(`means_${index}`, 'delta_phi', 'value', {colour, shape, size: 36,
+      points(`means_${index}`, 'delta_phi', 'value', {colour, shape, size: 36, hollow: ofOne,
         tooltip: {'': 'series', 'Δφ': 'delta_phi', mean: 'value', from: 'low', to: 'high', n: 'n'}}),
     ]});
 }
@@ -150,8 +150,9 @@ function topologyFigure(data) {
   const labels = series.map(({label}) => label);
   return {
     id, title, datasets,
-    note: 'Every state (dots), and means over unflagged replicates with 95 % intervals, interpolated at common ' +
-      'distances above jamming. Dotted line: C = 12, the isostatic number of constraints. Figure 3 of the paper.',
+    note: `Every state (dots), and means over ${countedText(data)} with 95 % intervals, interpolated at common ` +
+      'distances above jamming; open, and joined by no line, if of one replicate alone. Dotted line: C = 12, the ' +
+      'isostatic number of constraints. Figure 3 of the paper.',
     spec: (width) => panelSpec({
       description: 'Contacts, face-face contacts and constraints per particle against distance above jamming.',
       width, count: present.length, datasets, height: 240,

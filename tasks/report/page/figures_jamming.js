@@ -10,25 +10,25 @@ function panelsFor(data, rows) {
   };
 }
 
-const kindOf = (replicate) => (replicate.flags.length > 0 ? 'flagged' : 'unflagged');
+/// "without replicates flagged crystalline, not_balanced", if any are left out.
+const exclusionText = ({exclude}) => (exclude.length > 0 ? `without replicates flagged ${exclude.join(', ')}` : '');
 
-/// The estimate without flagged replicates, where there are any others: a crystal is no jammed packing.
-function trusted(estimates, name) {
-  const unflagged = estimates.unflagged?.[name];
-  return unflagged?.n > 0 ? unflagged : estimates[name];
-}
+/// What a mean is over, for the captions of charts.
+const countedText = ({exclude}) => (exclude.length > 0 ? `replicates not flagged ${exclude.join(' or ')}` : 'replicates');
+
+/// A mean of one replicate is drawn open: it has no interval.
+const ofOne = 'datum.n === 1';
 
 function densityData(data) {
   const replicates = data.replicates.filter((replicate) => replicate.phi_j !== null).map((replicate) => ({
     label: data.rows[replicate.row].label, solid: data.rows[replicate.row].solid, name: replicate.name,
-    kind: kindOf(replicate), flags: replicate.flags.join(', '), phi_j: replicate.phi_j,
+    kind: replicate.excluded ? 'excluded' : 'counted', flags: replicate.flags.join(', '), phi_j: replicate.phi_j,
     fit_half_width: replicate.fit_half_width,
   }));
   const means = [], paper = [];
   for (const row of data.rows) {
-    const {mean, ci95, n} = trusted(row, 'phi_j');
-    if (mean === null) continue;
-    means.push({label: row.label, solid: row.solid, phi_j: mean, low: ci95 ? ci95[0] : mean,
+    const {mean, ci95, n} = row.phi_j;
+    if (mean !== null) means.push({label: row.label, solid: row.solid, phi_j: mean, low: ci95 ? ci95[0] : mean,
       high: ci95 ? ci95[1] : mean, n});
     if (!row.paper) continue;
     const {phi_j: value, half_width: half} = row.paper;
@@ -58,12 +58,13 @@ function densityMarks() {
   return [
     laneMark('symbol', 'replicates', -0.4, {
       x: x('phi_j'), size: {value: 40}, shape: {scale: 'shape', field: 'solid'}, stroke: solidColour,
-      fill: [{test: "datum.kind === 'flagged'", value: 'transparent'}, solidColour], fillOpacity: {value: 0.55},
+      fill: [{test: "datum.kind === 'excluded'", value: 'transparent'}, solidColour], fillOpacity: {value: 0.55},
       tooltip: tooltipOf({replicate: 'name', 'φ_J': 'phi_j', '± (fit)': 'fit_half_width', flags: 'flags'}),
     }),
     laneMark('rule', 'means', 0.08, {x: x('low'), x2: x('high'), stroke: {value: ink}, strokeWidth: {value: 2}}, 'ink'),
     laneMark('symbol', 'means', 0.08, {
-      x: x('phi_j'), size: {value: 70}, shape: {value: 'stroke'}, angle: {value: 90}, stroke: {value: ink},
+      x: x('phi_j'), size: {value: 70}, shape: [{test: ofOne, value: 'circle'}, {value: 'stroke'}],
+      angle: {value: 90}, fill: {value: 'transparent'}, stroke: {value: ink},
       strokeWidth: {value: 2.5}, tooltip: tooltipOf({'': 'label', mean: 'phi_j', from: 'low', to: 'high', n: 'n'}),
     }, 'ink'),
     laneMark('rule', 'paper', 0.5, {x: x('low'), x2: x('high'), stroke: {value: '#777777'}, strokeWidth: {value: 2}}),
@@ -103,14 +104,15 @@ function densityFigure(data) {
   const all = [...datasets.replicates, ...datasets.means.flatMap(({low, high}) => [{phi_j: low}, {phi_j: high}]),
     ...datasets.paper.flatMap(({low, high}) => [{phi_j: low}, {phi_j: high}])];
   const domain = domainOf(all.map((row) => row.phi_j), {margin: 0.04});
-  const note = 'Every replicate (hollow: flagged) in the colour and shape of its solid; below it the mean of ' +
-    'the unflagged ones with its 95 % interval, and in grey the value of the paper’s Table I for that N, where it has one.';
+  const note = 'Every replicate (hollow: excluded from the mean) in the colour and shape of its solid; below it the mean ' +
+    `of ${countedText(data)} with its 95 % interval, open if of one alone; and in grey the value of the paper’s Table I ` +
+    'for that N, where it has one.';
   if (!domain) return {id: 'density', title: 'Jamming density', absent: 'No replicate reached a jamming density.'};
   return {
     id: 'density', title: 'Jamming density', note, datasets,
     spec: (width) => bandSpec({
       description: 'Jamming density of every replicate, means with 95 % intervals, and the values of the paper.',
-      width, labels: data.rows.filter((row) => row.phi_j.mean !== null).map((row) => row.label), datasets,
+      width, labels: data.rows.filter((row) => (row.all ?? row).phi_j.mean !== null).map((row) => row.label), datasets,
       x: {domain, title: 'jamming density'}, marks: densityMarks(), bandHeight: width < 560 ? 66 : 52,
       scales: [solidScale, shapeScale],
     }),

@@ -118,7 +118,7 @@ function scalingFigure(data) {
   return {
     id, title, datasets,
     note: 'Mean frequency of the lowest and of the highest modes against the distance above jamming, every state of ' +
-      'every replicate. Lines: power laws through the states of unflagged replicates with Δφ ≤ 0.02. Figure 1(b) of ' +
+      `every replicate. Lines: power laws through the states of ${countedText(data)} with Δφ ≤ 0.02. Figure 1(b) of ` +
       'the paper.',
     spec: (width) => panelSpec({
       description: 'Mean frequencies of the softest and stiffest modes, both axes logarithmic.', width,

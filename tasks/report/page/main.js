@@ -10,9 +10,10 @@ function drawHeader(data) {
   document.getElementById('name').textContent = name;
   const failed = data.replicates.filter((replicate) => replicate.status === 'failed').length;
   const flagged = data.replicates.filter((replicate) => replicate.flags.length > 0).length;
+  const excluded = data.replicates.filter((replicate) => replicate.excluded).length;
   document.getElementById('summary').textContent =
     `${counted(data.rows.length, 'sweep point')}, ${counted(data.replicates.length, 'replicate')}: ` +
-    `${data.replicates.length - failed} done, ${failed} failed, ${flagged} flagged.`;
+    `${data.replicates.length - failed} done, ${failed} failed, ${flagged} flagged, ${excluded} of these excluded from means.`;
   if (data.chart) {
     document.getElementById('summary').append(' ', element('a', {href: 'chart.html'}, 'Accuracy against speed'));
   }

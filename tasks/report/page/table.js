@@ -49,7 +49,7 @@ function leadingColumns(rows) {
 }
 
 function countColumn() {
-  const reservations = (row) => ['failed', 'flagged'].filter((name) => row[name] > 0)
+  const reservations = (row) => ['failed', 'flagged', 'excluded'].filter((name) => row[name] > 0)
     .map((name) => `, ${row[name]} ${name}`).join('');
   return {
     heading: ['replicates'], value: (row) => row.replicates,
@@ -75,15 +75,15 @@ function paperColumn() {
   };
 }
 
-/// A sweep point, and beneath it the same without its flagged replicates.
+/// A sweep point, and beneath it the same of all replicates if some are excluded.
 function rowBody(row, columns) {
   const body = element('tbody', {}, element('tr', {}, ...columns.map((column) => column.cell(row))));
-  if (row.unflagged) {
+  if (row.all) {
     const cells = columns.map((column, index) => {
-      if (index === 0) return element('th', {className: 'text', scope: 'row'}, 'without flagged');
-      return column.estimate ? estimateCell(row.unflagged[column.name]) : element('td');
+      if (index === 0) return element('th', {className: 'text', scope: 'row'}, 'all');
+      return column.estimate ? estimateCell(row.all[column.name]) : element('td');
     });
-    body.append(element('tr', {className: 'without'}, ...cells));
+    body.append(element('tr', {className: 'all'}, ...cells));
   }
   return body;
 }
@@ -121,8 +121,15 @@ function sortableTable(rows, columns, caption) {
 
 /// Columns of a group that some row has a value for.
 function columnsOf(data, group) {
-  const shown = (column) => data.rows.some((row) => row[column.name]?.n > 0);
+  const shown = (column) => data.rows.some((row) => (row.all ?? row)[column.name]?.n > 0);
   return data.columns.filter((column) => column.group === group && shown(column));
+}
+
+/// What the tables' first lines leave out.
+function exclusionNote(data) {
+  const text = exclusionText(data);
+  if (text === '') return null;
+  return element('p', {className: 'note excluded'}, `Means are ${text}; where there are such, a second line is of all.`);
 }
 
 function drawMainTable(data, place) {
@@ -130,7 +137,7 @@ function drawMainTable(data, place) {
   const paper = data.rows.some((row) => row.paper) ? [paperColumn()] : [];
   const [density] = data.columns;
   const contacts = columnsOf(data, density.group).filter((column) => column !== density);
-  place.append(sortableTable(data.rows, [...leading, estimateColumn(density), ...paper,
+  place.append(exclusionNote(data) ?? '', sortableTable(data.rows, [...leading, estimateColumn(density), ...paper,
     ...contacts.map(estimateColumn), countColumn()], 'Jamming density, contacts, constraints'));
   place.append(element('div', {className: 'controls'}, button('Copy as CSV', () => copy(data.csv)),
     button('Copy as LaTeX', () => copy(data.latex))));
@@ -145,7 +152,7 @@ function drawFurtherTables(data, section) {
     const columns = columnsOf(data, group);
     if (columns.length === 0) continue;
     section.append(element('details', {}, element('summary', {}, group),
-      sortableTable(data.rows, [...leadingColumns(data.rows), ...columns.map(estimateColumn)], group)));
+      exclusionNote(data), sortableTable(data.rows, [...leadingColumns(data.rows), ...columns.map(estimateColumn)], group)));
     section.hidden = false;
   }
 }

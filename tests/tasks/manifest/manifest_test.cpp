@@ -3,7 +3,8 @@
 // - what is left out takes the defaults of the engine's structs;
 // - every parameter can be set and swept at the ends of its range, and not beyond them;
 // - the canonical form is a fixed point of parsing, and the order of lists and keys does not matter to it;
-// - the digest moves with every parameter and does not move with `replicates`.
+// - the digest moves with every parameter and does not move with `replicates` and `exclude`;
+// - the flags excluded are those given, in one order, or the usual ones.
 
 #include "tasks/manifest/manifest.hpp"
 
@@ -151,6 +152,7 @@ TEST(Manifest, DigestMovesWithEveryParameterButReplicates) {
   const auto base = digest(parse(good_manifest()));
   auto more = good_manifest();
   more["replicates"] = 1000;
+  more["exclude"] = {"not_stable"};
   EXPECT_EQ(digest(parse(more)), base);
 
   std::vector<std::pair<std::string, Json>> changes{{"/seed", 8},
@@ -167,6 +169,16 @@ TEST(Manifest, DigestMovesWithEveryParameterButReplicates) {
     changed[Json::json_pointer(pointer)] = value;
     EXPECT_NE(digest(parse(changed)), base) << pointer;
   }
+}
+
+TEST(Manifest, ExcludesWhatItSaysOrTheUsual) {
+  EXPECT_EQ(parse(good_manifest()).exclude, (std::vector{Flag::crystalline, Flag::not_balanced}));
+  auto manifest = good_manifest();
+  manifest["exclude"] = Json::array();
+  EXPECT_TRUE(parse(manifest).exclude.empty());
+  manifest["exclude"] = {"not_stable", "goal_not_reached", "crystalline"};
+  EXPECT_EQ(parse(manifest).exclude, (std::vector{Flag::crystalline, Flag::goal_not_reached, Flag::not_stable}));
+  EXPECT_EQ(parse(to_json(parse(manifest))).exclude, parse(manifest).exclude);
 }
 
 TEST(Manifest, TooFewParticlesNamesTheLeastNumberThatWouldDo) {

@@ -114,6 +114,7 @@ Json rich_manifest() {
   manifest["protocol"].erase("target_energy");
   manifest["replicates"] = {{"min", 4}, {"max", 40}, {"quantity", "Z"}, {"half_width", 0.1}};
   manifest["keep_path"] = true;
+  manifest["exclude"] = {"crystalline", "not_stable"};
   return manifest;
 }
 

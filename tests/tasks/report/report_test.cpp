@@ -8,7 +8,8 @@
 // - thinned CDFs are exact wherever they have a point, and end at 1;
 // - views: an unflagged replicate of every sweep point, further ones within the budget, never a failed one;
 // - a view's contacts, cell and modes are those of the packing; clusters hang together through the boundary;
-// - sweeps in which replicates failed, or all did, have a report.
+// - sweeps in which replicates failed, or all did, have a report;
+// - its means leave out what the manifest excludes, as far as that can be understood.
 
 #include <gtest/gtest.h>
 
@@ -144,6 +145,28 @@ TEST(ReportData, FailedReplicatesAreCountedAndHaveTheirReasons) {
   EXPECT_TRUE(data["replicates"][0]["line"].is_null());
   EXPECT_TRUE(choose_views(all).empty());
   EXPECT_EQ(Json::parse(embedded_text(report_page(data))), data);
+}
+
+TEST(ReportData, WhatTheManifestExcludesIsInNoMeanAndNoPool) {
+  auto results = results_of(plan(3), [](Outcome& o) {
+    if (o.spec.replicate == 1) o.measured.at(Measure::contacts).flags = {"crystalline"};
+    if (o.spec.replicate == 2) flag(o);
+  });
+  const auto expect = [&](const Json& exclude, const std::vector<bool>& excluded) {
+    const auto data = report_data(results, {});
+    EXPECT_EQ(data.value("exclude", Json()), exclude);
+    const auto n = 3 - std::count(excluded.begin(), excluded.end(), true);
+    EXPECT_EQ(data["rows"][0]["phi_j"]["n"], n);
+    EXPECT_EQ(data["rows"][0].contains("all"), n < 3);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(data["replicates"][k].value("excluded", Json()), excluded[k]) << k;
+  };
+  expect({"crystalline", "not_balanced"}, {false, true, false});
+  results.manifest["exclude"] = {"goal_not_reached"};
+  expect(Json{"goal_not_reached"}, {false, false, true});
+  results.manifest["exclude"] = {"goal_not_reached", "crystalline", 7, "unheard of"};
+  expect({"goal_not_reached", "crystalline"}, {false, true, true});
+  results.manifest["exclude"] = Json::array();
+  expect(Json::array(), {false, false, false});
 }
 
 TEST(ReportCurves, ThinnedCdfsAreExactWhereTheyHaveAPoint) {

@@ -3,6 +3,7 @@
 // - with a goal it gives batches, and ends each point where the rule ends it on all its values; which outcome of a
 // round
 //   is recorded first, an interruption, and sharding change nothing; the table says how many were needed;
+// - replicates that the manifest excludes are no value towards a goal, to the campaign as to the table;
 // - shards never give the same replicate and together give all.
 
 #include "tasks/run/campaign.hpp"
@@ -14,6 +15,7 @@
 #include <set>
 
 #include "tasks/tables/aggregate.hpp"
+#include "tasks/tables/table_of.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -142,6 +144,38 @@ TEST(Campaign, TheTableSaysHowManyWereNeeded) {
   for (const auto& row : aggregation.table(tighter).rows) {
     EXPECT_FALSE(row.goal->needed) << "the tighter rule asks for more";
     EXPECT_FALSE(row.goal->met);
+  }
+}
+
+/// Every third replicate is a crystal, of another density.
+Outcome partly_crystalline(const ReplicateSpec& spec) {
+  auto outcome = test::made_up_outcome(spec);
+  if (spec.replicate % 3 == 1) {
+    outcome.measured.at(Measure::contacts).flags = {"crystalline"};
+    outcome.jam.phi_j->density += 0.05;
+  }
+  return outcome;
+}
+
+TEST(Campaign, TheGoalLooksAtReplicatesThatAreNotExcluded) {
+  auto manifest = with_goal();
+  manifest.replicates.max = 60;
+  for (const bool excluding : {true, false}) {
+    if (!excluding) manifest.exclude.clear();
+    const TemporaryDirectory directory;
+    const Plan plan(manifest);
+    const Store store(directory.path(), manifest);
+    Campaign campaign(plan, manifest.replicates, {}, store, ignore);
+    while (campaign.open_round()) {
+      while (const auto spec = campaign.next()) store.write(partly_crystalline(*spec));
+    }
+    for (const auto& row : table_of({directory.path().string()}).rows) {
+      ASSERT_TRUE(row.goal);
+      EXPECT_EQ(row.goal->met, excluding) << row.particles << ": " << row.goal->half_width.value_or(-1);
+      EXPECT_EQ(row.goal->needed, row.replicates) << "the campaign ends where the table says";
+      EXPECT_EQ(row.replicates == 60, !excluding) << row.replicates;
+      EXPECT_EQ(*row.goal->half_width, *row.estimates[phi_j_column].half_width);
+    }
   }
 }
 

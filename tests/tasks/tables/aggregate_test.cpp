@@ -1,6 +1,8 @@
 // Facts proved here:
 // - the table does not depend on the order of the records, nor on a record being given twice;
-// - failed replicates are counted and in no mean; flagged ones are counted and in the means they have a value for;
+// - failed replicates are counted and in no mean; flagged ones are counted, and in the means they have a value for
+// unless
+//   their flag is excluded: these are in the means of all;
 // - against Δφ, quantities are interpolated in ln Δφ between the states of a replicate and not beyond them;
 // - the residual of a row is the worst of its replicates;
 // - records of other settings, and two results of one replicate, are refused;
@@ -91,22 +93,22 @@ TEST(Aggregate, CountsFailedAndFlagged) {
     }
     records.push_back(summary_of(outcome));
   }
-  const auto row = aggregate(records).rows.at(0);
+  const auto row = aggregate(records, {}, {Flag::goal_not_reached}).rows.at(0);
   EXPECT_EQ(row.replicates, 5);
   EXPECT_EQ(row.failed, 1);
   EXPECT_EQ(row.flagged, 2);
+  EXPECT_EQ(row.excluded, 1);
   std::map<std::string_view, int> n;
   for (std::size_t i = 0; i < all_quantities().size(); ++i) {
-    if (all_quantities()[i].group == main_group) n[all_quantities()[i].name] = row.estimates[i].n;
+    if (all_quantities()[i].group == main_group) n[all_quantities()[i].name] = row.all[i].n;
   }
   const std::map<std::string_view, int> expected{{"phi_j", 4}, {"Z", 4},   {"Z_ff", 4},
                                                  {"Z_ef", 3},  {"Z_l", 3}, {"C", 3}};
   EXPECT_EQ(n, expected);
-  EXPECT_NEAR(*row.estimates[0].mean, expected_sum / 4, 1e-15);
-  EXPECT_EQ(row.unflagged[0].n, 2);
-  const double kept =
-      test::made_up_outcome(specs[0]).jam.phi_j->density + test::made_up_outcome(specs[4]).jam.phi_j->density;
-  EXPECT_NEAR(*row.unflagged[0].mean, kept / 2, 1e-15);
+  EXPECT_NEAR(*row.all[0].mean, expected_sum / 4, 1e-15);
+  EXPECT_EQ(row.estimates[0].n, 3);
+  const double kept = expected_sum - test::made_up_outcome(specs[2]).jam.phi_j->density;
+  EXPECT_NEAR(*row.estimates[0].mean, kept / 3, 1e-15);
   EXPECT_EQ(row.residual, worst);
 }
 

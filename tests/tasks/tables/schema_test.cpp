@@ -2,7 +2,7 @@
 // - defaults, ranges, choices and places of the manifest's schema are those of the program;
 // - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
 // - of the bad corpus the schema refuses all that it can express;
-// - the schema of tables knows every quantity;
+// - the schema of tables knows every quantity, and those that name flags know every flag;
 // - records and tables conform, failed and flagged ones too; a damaged one does not.
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "tasks/json/input_error.hpp"
+#include "tasks/json/options.hpp"
 #include "tasks/json/parse.hpp"
 #include "tasks/json/sealed.hpp"
 #include "tasks/manifest/fields.hpp"
@@ -74,6 +75,15 @@ TEST(ManifestSchema, SaysWhatTheProgramSays) {
   EXPECT_EQ(properties.at("measure").at("default"), measures);
   for (const auto measure : all_measures) all.push_back(to_string(measure));
   EXPECT_EQ(properties.at("measure").at("items").at("enum"), all);
+  EXPECT_EQ(properties.at("exclude").at("default"), option_json(usually_excluded()));
+}
+
+TEST(Schemas, NameEveryFlag) {
+  const Json flags = all_names<Flag>;
+  const std::vector<std::pair<std::string, std::string>> places{
+      {"manifest", "exclude"}, {"tables", "exclude"}, {"replicate", "flags"}};
+  for (const auto& [name, key] : places)
+    EXPECT_EQ(test::schema(name).at("properties").at(key).at("items").at("enum"), flags) << name;
 }
 
 TEST(ManifestSchema, AcceptsWhatTheProgramAccepts) {
@@ -83,6 +93,7 @@ TEST(ManifestSchema, AcceptsWhatTheProgramAccepts) {
   auto sequential = test::good_manifest();
   sequential["replicates"] = {{"min", 4}, {"max", 40}, {"quantity", "phi_j"}, {"half_width", 0.003}};
   sequential["keep_path"] = true;
+  sequential["exclude"] = {"not_stable"};
   for (const auto& manifest : {test::good_manifest(), test::tiny_manifest(), swept, sequential}) {
     EXPECT_EQ(violations("manifest", manifest), "") << manifest;
     const auto canonical = to_json(parse_manifest(manifest.dump(), "manifest"));
@@ -181,9 +192,9 @@ TEST(TableSchema, NamesEveryQuantity) {
   for (const auto& quantity : all_quantities()) {
     const std::string name(quantity.name);
     EXPECT_TRUE(row.at("properties").contains(name)) << name;
-    EXPECT_TRUE(row.at("properties").at("unflagged").at("properties").contains(name)) << name;
+    EXPECT_TRUE(row.at("properties").at("all").at("properties").contains(name)) << name;
     EXPECT_EQ(series.contains(name), quantity.of == Quantity::Of::state) << name;
-    EXPECT_EQ(series.at("unflagged").at("properties").contains(name), quantity.of == Quantity::Of::state) << name;
+    EXPECT_EQ(series.at("all").at("properties").contains(name), quantity.of == Quantity::Of::state) << name;
   }
 }
 

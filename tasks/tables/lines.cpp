@@ -1,0 +1,51 @@
+#include "tasks/tables/lines.hpp"
+
+#include <set>
+
+namespace isojam {
+
+std::string joined(const Cells& cells, std::string_view separator) {
+  std::string text;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) text += separator;
+    text += cells[i];
+  }
+  return text;
+}
+
+std::vector<std::string> parameter_names(const Table& table) {
+  std::set<std::string> names;
+  for (const auto& row : table.rows) {
+    for (const auto& item : row.parameters.items()) names.insert(item.key());
+  }
+  return {names.begin(), names.end()};
+}
+
+std::string parameter_text(const Row& row, const std::string& name) {
+  if (!row.parameters.contains(name)) return "";
+  const auto& value = row.parameters.at(name);
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string exclusion_text(const Table& table) {
+  Cells names;
+  for (const auto flag : table.exclude) names.emplace_back(to_string(flag));
+  return names.empty() ? "" : "without replicates flagged " + joined(names, ", ");
+}
+
+std::vector<Line> lines_of(const Table& table, View view) {
+  std::vector<Line> lines;
+  const auto add = [&](const Row& row, std::optional<double> delta_phi, const auto& place) {
+    lines.push_back({&row, delta_phi, &place.estimates, false});
+    if (row.excluded > 0) lines.push_back({&row, delta_phi, &place.all, true});
+  };
+  for (const auto& row : table.rows) {
+    if (view == View::nearest) add(row, std::nullopt, row);
+    if (view == View::series) {
+      for (const auto& point : row.series) add(row, point.delta_phi, point);
+    }
+  }
+  return lines;
+}
+
+}  // namespace isojam

@@ -1,0 +1,166 @@
+// Facts proved here, through the executable, with made-up outcomes:
+// - replicates with a flag that the manifest excludes count in no mean of the first line; those of all stand beneath it
+//   in every format; what is excluded is told in each but CSV, whose rows are marked;
+// - which flags are excluded is no part of a replicate: it may be changed later in the same directory, which then takes
+//   it over, and `aggregate --exclude` overrides it;
+// - directories that disagree are refused by name;
+// - the goal of a table looks at the replicates that count.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "tasks/json/parse.hpp"
+#include "tasks/manifest/plan.hpp"
+#include "tasks/store/store.hpp"
+#include "tasks/system/file.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/schema.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+class ExcludeTest : public ::testing::Test {
+ protected:
+  /// Replicate 1 is a crystal, 2 ended short of its goal, 3 failed.
+  static Outcome outcome_of(const ReplicateSpec& spec) {
+    auto outcome = test::made_up_outcome(spec);
+    if (spec.replicate == 1) {
+      outcome.measured.at(Measure::contacts).flags = {"crystalline"};
+      outcome.jam.phi_j->density += 0.05;
+      for (auto& step : outcome.jam.path) step.density += 0.05;
+    }
+    if (spec.replicate == 2) outcome.jam.status = JamStatus::goal_not_reached;
+    if (spec.replicate == 3) outcome.failure = Failure{"jam", "made up"};
+    return outcome;
+  }
+
+  void write(const std::string& name, const std::function<void(Json&)>& change = {}) {
+    auto json = test::good_manifest();
+    json["replicates"] = 6;
+    if (change) change(json);
+    const auto manifest = parse_manifest(json.dump(), "m.json");
+    const Store store(directory_ / name, manifest);
+    for (const auto& spec : test::make_plan(manifest)) {
+      phi_j_.push_back(outcome_of(spec).jam.phi_j->density);
+      store.write(outcome_of(spec));
+    }
+  }
+
+  std::string aggregate(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "aggregate");
+    const auto run = test::isojam(arguments, directory_.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.out;
+  }
+
+  Json table(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--format", "json"});
+    return parse_json(aggregate(arguments), "table");
+  }
+
+  double mean_of(const std::vector<std::size_t>& replicates) const {
+    double sum = 0;
+    for (const auto r : replicates) sum += phi_j_.at(r);
+    return sum / static_cast<double>(replicates.size());
+  }
+
+  test::TemporaryDirectory directory_;
+  std::vector<double> phi_j_;
+};
+
+TEST_F(ExcludeTest, MeansAreWithoutTheExcludedAndThoseOfAllStandBeside) {
+  write("r");
+  const auto json = table({"r"});
+  EXPECT_EQ(test::violations("tables", json), "") << json.dump(1);
+  EXPECT_EQ(json.value("exclude", Json()), (Json{"crystalline", "not_balanced"}));
+  const auto& row = json.at("rows").at(0);
+  EXPECT_EQ(row.value("excluded", -1), 1);
+  EXPECT_EQ(row.at("flagged"), 2);
+  EXPECT_NEAR(row.at("phi_j").at("mean").get<double>(), mean_of({0, 2, 4, 5}), 1e-14);
+  ASSERT_TRUE(row.contains("all")) << row.dump(1);
+  EXPECT_NEAR(row.at("all").at("phi_j").at("mean").get<double>(), mean_of({0, 1, 2, 4, 5}), 1e-14);
+  for (const auto& point : row.at("series")) {
+    EXPECT_EQ(point.at("Z").at("n"), 4) << point;
+    EXPECT_EQ(point.at("all").at("Z").at("n"), 5) << point;
+  }
+}
+
+TEST_F(ExcludeTest, TheManifestChoosesAndTheCommandOverrides) {
+  write("r", [](Json& manifest) { manifest["exclude"] = Json{"goal_not_reached"}; });
+  const auto chosen = table({"r"});
+  EXPECT_EQ(chosen.at("exclude"), Json{"goal_not_reached"});
+  EXPECT_NEAR(chosen.at("rows").at(0).at("phi_j").at("mean").get<double>(), mean_of({0, 1, 4, 5}), 1e-14);
+  const auto both = table({"r", "--exclude", "goal_not_reached,crystalline"});
+  EXPECT_EQ(both.at("rows").at(0).at("excluded"), 2);
+  EXPECT_EQ(both.at("rows").at(0).at("phi_j").at("n"), 3);
+  const auto none = table({"r", "--exclude", "none"});
+  EXPECT_EQ(none.at("exclude"), Json::array());
+  EXPECT_EQ(none.at("rows").at(0).at("phi_j").at("n"), 5);
+  EXPECT_FALSE(none.at("rows").at(0).contains("all"));
+  const auto wrong = test::isojam({"aggregate", "r", "--exclude", "cristalline"}, directory_.path());
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("did you mean \"crystalline\"?"), std::string::npos) << wrong.err;
+}
+
+TEST_F(ExcludeTest, TheDirectoryTakesOverAnotherChoice) {
+  write("r");
+  const auto records = test::files_below(directory_ / "r" / "records");
+  write("r", [](Json& manifest) { manifest["exclude"] = Json::array(); });
+  EXPECT_EQ(test::files_below(directory_ / "r" / "records"), records);
+  EXPECT_EQ(table({"r"}).at("rows").at(0).at("phi_j").at("n"), 5);
+}
+
+TEST_F(ExcludeTest, DirectoriesThatDisagreeAreRefusedByName) {
+  write("default");
+  write("same", [](Json& manifest) { manifest["seed"] = 8; });
+  write("other", [](Json& manifest) {
+    manifest["seed"] = 9;
+    manifest["exclude"] = {"not_stable"};
+  });
+  EXPECT_EQ(table({"default", "same"}).at("rows").at(0).at("excluded"), 2);
+  const auto refused = test::isojam({"aggregate", "default", "same", "other"}, directory_.path());
+  EXPECT_EQ(refused.exit_code, 65) << refused.err;
+  for (const auto* part : {"other/manifest.json: /exclude", "default", "not_stable", "--exclude"})
+    EXPECT_NE(refused.err.find(part), std::string::npos) << part << ": " << refused.err;
+  EXPECT_EQ(table({"default", "other", "--exclude", "none"}).at("rows").at(0).at("phi_j").at("n"), 10);
+  // Without a manifest it is the default.
+  std::filesystem::remove(directory_ / "same" / "manifest.json");
+  EXPECT_EQ(table({"default", "same"}).at("rows").at(0).at("excluded"), 2);
+  EXPECT_EQ(test::isojam({"aggregate", "same", "other"}, directory_.path()).exit_code, 65);
+}
+
+TEST_F(ExcludeTest, EveryFormatHasBothAndSaysWhatIsExcluded) {
+  write("r");
+  const std::string told = "without replicates flagged crystalline, not_balanced";
+  const auto text = aggregate({"r"});
+  EXPECT_EQ(text.rfind(told + "\n", 0), 0U) << text;
+  EXPECT_NE(text.find("\n  all "), std::string::npos) << text;
+  const auto latex = aggregate({"r", "--format", "latex"});
+  EXPECT_NE(latex.find("% jamming, " + told + "\n"), std::string::npos) << latex;
+  EXPECT_NE(latex.find("\\quad all "), std::string::npos) << latex;
+  for (const std::string option : {"--format=csv", "--series"}) {
+    const auto csv = aggregate({"r", "--format", "csv", option == "--series" ? option : "--color=never"});
+    EXPECT_NE(csv.find(",over,"), std::string::npos) << csv.substr(0, 200);
+    EXPECT_GT(std::count(csv.begin(), csv.end(), '\n'), 2) << csv;
+    EXPECT_NE(csv.find(",kept,"), std::string::npos);
+    EXPECT_NE(csv.find(",all,"), std::string::npos);
+  }
+  EXPECT_EQ(aggregate({"r", "--exclude", "none"}).rfind("solid ", 0), 0U);
+}
+
+TEST_F(ExcludeTest, TheGoalOfATableLooksAtWhatCounts) {
+  // The crystal is .05 above the others: the interval of all is wider.
+  write("r", [](Json& manifest) {
+    manifest["replicates"] = {{"min", 6}, {"max", 6}, {"quantity", "phi_j"}, {"half_width", 0.03}};
+  });
+  const auto row = table({"r"}).at("rows").at(0);
+  EXPECT_TRUE(row.at("goal").at("met").get<bool>()) << row.at("goal");
+  EXPECT_NEAR(row.at("goal").at("reached").get<double>(), row.at("phi_j").at("half_width").get<double>(), 1e-15);
+  EXPECT_FALSE(table({"r", "--exclude", "none"}).at("rows").at(0).at("goal").at("met").get<bool>());
+}
+
+}  // namespace
+}  // namespace isojam
