@@ -154,7 +154,7 @@ def copy_of_those_that_count(results, directories):
         shutil.copy(directory / "manifest.json", copy)
         for path in sorted((directory / "records").glob("*.json")):
             with open(path, encoding="utf-8") as file:
-                left_out = LEFT_OUT & set(json.load(file).get("flags", []))
+                left_out = LEFT_OUT & set(json.load(file).get("flags") or [])
             if not left_out:
                 shutil.copy(path, copy / "records")
         if any((copy / "records").iterdir()):

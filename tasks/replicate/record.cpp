@@ -1,15 +1,19 @@
 #include "tasks/replicate/record.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "tasks/json/hash.hpp"
+#include "tasks/measure/quantity.hpp"
 #include "tasks/replicate/companion.hpp"
 #include "tasks/replicate/packing_json.hpp"
 #include "tasks/system/version.hpp"
 
 namespace isojam {
 namespace {
+
+constexpr std::string_view no_result = "the replicate failed";
 
 void put_distance(Json& json, double density, const JamResult& jam) {
   if (jam.phi_j) {
@@ -79,6 +83,17 @@ Owner owner(const Outcome& outcome, const std::string& result_digest) {
   return {replicate_name(outcome.spec), outcome.spec.manifest_digest, result_digest};
 }
 
+/// What a record holds unless its replicate failed, but for the flags: null, with the reason.
+void put_nothing(Json& record, const std::vector<Measure>& measures) {
+  std::vector<std::string> keys{"phi_j", "nearest"};
+  for (const auto& quantity : all_quantities()) {
+    if (quantity.of != Quantity::Of::replicate || !quantity.measure) continue;
+    if (std::find(measures.begin(), measures.end(), *quantity.measure) == measures.end()) continue;
+    keys.emplace_back(quantity.pointer.substr(1, quantity.pointer.find('/', 1) - 1));
+  }
+  for (const auto& key : keys) put_absent(record, key, no_result);
+}
+
 }  // namespace
 
 Json provenance(const ReplicateSpec& spec) {
@@ -136,6 +151,7 @@ Json make_record(const Outcome& outcome) {
   json["status"] = outcome.failure ? "failed" : "done";
   if (outcome.failure) {
     json["failure"] = {{"where", outcome.failure->where}, {"why", outcome.failure->why}};
+    put_absent(json, "flags", no_result);
   } else {
     json["flags"] = flags_of(outcome);
   }
@@ -144,7 +160,9 @@ Json make_record(const Outcome& outcome) {
   json["evaluations"] = jam.evaluations;
   json["pairs"] = to_json(jam.counts);
   json["work"] = to_json(jam.work);
-  if (!outcome.failure) {
+  if (outcome.failure) {
+    put_nothing(json, outcome.spec.measures);
+  } else {
     put_jamming_point(json, jam);
     json["nearest"] = state_record(outcome, *nearest_state(jam));
     for (const auto& [what, measurement] : outcome.measured) json.update(measurement.replicate);

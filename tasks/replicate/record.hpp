@@ -11,8 +11,8 @@ inline constexpr std::string_view record_schema = "isojam.replicate.v3";
 inline constexpr std::string_view path_schema = "isojam.path.v2";
 inline constexpr std::string_view packing_schema = "isojam.packing.v3";
 
-/// The record of an outcome that was not interrupted. Only `timing` may differ between two runs of the same replicate
-/// by the same build.
+/// The record of an outcome that was not interrupted; what a failed one lacks is null with a reason. Only `timing` may
+/// differ between two runs of the same replicate by the same build.
 Json make_record(const Outcome& outcome);
 
 /// The hash of all of a record but timing, provenance and what vouches for it: equal for two runs of one replicate.

@@ -3,7 +3,8 @@
 // - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
 // - of the bad corpus the schema refuses all that it can express;
 // - the schema of tables knows every quantity, and those that name flags know every flag;
-// - records and tables conform, failed and flagged ones too; a damaged one does not.
+// - records and tables conform, failed and flagged ones too; a damaged one does not;
+// - failed records have the keys of others, null with a reason; earlier ones without them conform and are read.
 
 #include <gtest/gtest.h>
 
@@ -183,6 +184,49 @@ TEST(RecordSchema, RefusesDamagedRecords) {
   auto both = record;
   both["failure"] = {{"where", "jam"}, {"why", "because"}};
   EXPECT_NE(violations("replicate", both), "");
+}
+
+/// Of a replicate whose vibrations and moduli were measured too.
+Outcome with_scaling() {
+  auto manifest = test::good_manifest();
+  manifest["measure"] = {"contacts", "order", "clusters", "modes", "moduli"};
+  auto outcome = test::made_up_outcome(Plan(parse_manifest(manifest.dump(), "good")).at(0, 0));
+  for (const auto& [what, key] : {std::pair{Measure::modes, "mode_scaling"}, {Measure::moduli, "moduli_scaling"}}) {
+    outcome.measured[what].states.assign(outcome.jam.states.size(), Json::object());
+    outcome.measured[what].replicate[key] = Json::object();
+  }
+  return outcome;
+}
+
+TEST(RecordSchema, FailedRecordsHaveTheKeysOfOthers) {
+  auto outcome = with_scaling();
+  const auto done = make_record(outcome);
+  outcome.failure = Failure{"modes", "made up"};
+  outcome.measured.clear();
+  const auto failed = test::record_on_disk(outcome);
+  EXPECT_EQ(violations("replicate", failed), "");
+  auto earlier = failed;
+  std::vector<std::string> absent;
+  for (const auto& item : done.items()) {
+    ASSERT_TRUE(failed.contains(item.key())) << item.key();
+    if (!failed.at(item.key()).is_null()) continue;
+    absent.push_back(item.key());
+    EXPECT_EQ(failed.at(item.key() + "_reason"), "the replicate failed");
+    earlier.erase(item.key());
+    earlier.erase(item.key() + "_reason");
+  }
+  EXPECT_EQ(absent, (std::vector<std::string>{"flags", "phi_j", "nearest", "mode_scaling", "moduli_scaling"}));
+  EXPECT_EQ(violations("replicate", earlier), "");
+  for (const auto& record : {failed, earlier}) {
+    const auto summary = summarise_record(record, "made up");
+    EXPECT_TRUE(summary.failed);
+    EXPECT_FALSE(summary.flagged);
+  }
+  for (const auto& [key, value] : {std::pair{"flags", Json::array()}, {"phi_j", done.at("phi_j")}}) {
+    auto both = failed;
+    both[key] = value;
+    EXPECT_NE(violations("replicate", both), "") << key;
+  }
 }
 
 TEST(TableSchema, NamesEveryQuantity) {
