@@ -15,11 +15,11 @@
 
 namespace isojam {
 
-enum class TableFormat { text, json, csv, latex };
+enum class TableFormat { text, json, csv, csv_long, latex };
 template <>
 inline constexpr std::array enum_names<TableFormat>{
     EnumName{TableFormat::text, "text"}, EnumName{TableFormat::json, "json"}, EnumName{TableFormat::csv, "csv"},
-    EnumName{TableFormat::latex, "latex"}};
+    EnumName{TableFormat::csv_long, "csv-long"}, EnumName{TableFormat::latex, "latex"}};
 
 namespace {
 
@@ -35,6 +35,7 @@ std::string formatted(const Table& table, TableFormat format, View view) {
   switch (format) {
     case TableFormat::json: return sealed(to_json(table));
     case TableFormat::csv: return to_csv(table, view);
+    case TableFormat::csv_long: return to_long_csv(table, view);
     case TableFormat::latex: return to_latex(table, view);
     case TableFormat::text: break;
   }

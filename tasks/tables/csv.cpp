@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "tasks/measure/quantity.hpp"
 #include "tasks/tables/lines.hpp"
 #include "tasks/tables/tables.hpp"
@@ -29,35 +32,66 @@ Cells begin_of(const Line& line, const std::vector<std::string>& parameters) {
   return cells;
 }
 
-void append(const Estimate& estimate, Cells& cells) {
-  const auto interval = [&](const std::optional<Interval>& x) {
-    cells.push_back(number(x ? std::optional(x->low) : std::nullopt));
-    cells.push_back(number(x ? std::optional(x->high) : std::nullopt));
-  };
-  cells.push_back(number(estimate.mean));
-  interval(estimate.ci95);
-  cells.push_back(number(estimate.sd));
-  cells.push_back(std::to_string(estimate.n));
-  interval(estimate.bootstrap95);
+/// Of an estimate, in the order of cells_of.
+constexpr std::array parts{"mean", "low", "high", "sd", "n", "bootstrap_low", "bootstrap_high"};
+
+Cells cells_of(const Estimate& estimate) {
+  const auto low = [](const auto& x) { return number(x ? std::optional(x->low) : std::nullopt); };
+  const auto high = [](const auto& x) { return number(x ? std::optional(x->high) : std::nullopt); };
+  return {number(estimate.mean),      low(estimate.ci95),        high(estimate.ci95),       number(estimate.sd),
+          std::to_string(estimate.n), low(estimate.bootstrap95), high(estimate.bootstrap95)};
 }
+
+void append(Cells& cells, const Cells& more) { cells.insert(cells.end(), more.begin(), more.end()); }
+
+/// Those that some line has a value of, by their places in all_quantities().
+std::vector<std::size_t> quantities_in(const std::vector<Line>& lines) {
+  std::vector<std::size_t> list;
+  for (std::size_t i = 0; i < all_quantities().size(); ++i) {
+    if (std::any_of(lines.begin(), lines.end(), [&](const Line& line) { return (*line.estimates)[i].n > 0; }))
+      list.push_back(i);
+  }
+  return list;
+}
+
+std::string line_of(const Cells& cells) { return joined(cells, ",") + '\n'; }
 
 }  // namespace
 
 std::string to_csv(const Table& table, View view) {
   const auto parameters = parameter_names(table);
+  const auto lines = lines_of(table, view);
+  const auto quantities = quantities_in(lines);
   auto head = head_of(parameters, view);
-  for (const auto& quantity : all_quantities()) {
-    for (const auto part : {"mean", "low", "high", "sd", "n", "bootstrap_low", "bootstrap_high"}) {
-      head.push_back(fmt::format("{}_{}", quantity.name, part));
-    }
+  for (const auto i : quantities) {
+    for (const auto part : parts) head.push_back(fmt::format("{}_{}", all_quantities()[i].name, part));
   }
   head.emplace_back("residual");
-  auto text = joined(head, ",") + '\n';
-  for (const Line& line : lines_of(table, view)) {
+  auto text = line_of(head);
+  for (const Line& line : lines) {
     auto cells = begin_of(line, parameters);
-    for (const auto& estimate : *line.estimates) append(estimate, cells);
+    for (const auto i : quantities) append(cells, cells_of((*line.estimates)[i]));
     cells.push_back(number(line.row->residual));
-    text += joined(cells, ",") + '\n';
+    text += line_of(cells);
+  }
+  return text;
+}
+
+std::string to_long_csv(const Table& table, View view) {
+  const auto parameters = parameter_names(table);
+  const auto lines = lines_of(table, view);
+  auto head = head_of(parameters, view);
+  head.emplace_back("quantity");
+  append(head, {parts.begin(), parts.end()});
+  auto text = line_of(head);
+  const auto quantities = quantities_in(lines);
+  for (const Line& line : lines) {
+    for (const auto i : quantities) {
+      auto cells = begin_of(line, parameters);
+      cells.emplace_back(all_quantities()[i].name);
+      append(cells, cells_of((*line.estimates)[i]));
+      text += line_of(cells);
+    }
   }
   return text;
 }

@@ -21,8 +21,11 @@ enum class View : std::uint8_t { nearest, series };
 std::string to_text(const Table& table, View view = View::nearest);
 
 /// One line per row or point of a series, and one of all replicates where some are excluded: `over` says "kept" or
-/// "all". For each quantity mean, ci95 low and high, sd, n, bootstrap95 low and high. Empty: no value.
+/// "all". For each quantity that some line has: mean, ci95 low and high, sd, n, bootstrap95 low and high. Empty: no
+/// value.
 std::string to_csv(const Table& table, View view = View::nearest);
+/// The same with a line for each of these quantities, named in a column of its own.
+std::string to_long_csv(const Table& table, View view = View::nearest);
 
 /// A tabular environment for each group of columns that has values.
 std::string to_latex(const Table& table, View view = View::nearest);

@@ -35,6 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     to_json(table).dump();
     to_text(table);
     to_csv(table, View::series);
+    to_long_csv(table);
   });
   return 0;
 }

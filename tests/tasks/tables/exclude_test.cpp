@@ -4,6 +4,7 @@
 // - which flags are excluded is no part of a replicate: it may be changed later in the same directory, which then takes
 //   it over, and `aggregate --exclude` overrides it;
 // - directories that disagree are refused by name;
+// - CSV has no column without a value; the long one has a row for each quantity, point and set of replicates;
 // - the goal of a table looks at the replicates that count.
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 
 #include "tasks/json/parse.hpp"
 #include "tasks/manifest/plan.hpp"
+#include "tasks/measure/quantity.hpp"
 #include "tasks/store/store.hpp"
 #include "tasks/system/file.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
@@ -149,6 +151,72 @@ TEST_F(ExcludeTest, EveryFormatHasBothAndSaysWhatIsExcluded) {
     EXPECT_NE(csv.find(",all,"), std::string::npos);
   }
   EXPECT_EQ(aggregate({"r", "--exclude", "none"}).rfind("solid ", 0), 0U);
+}
+
+/// Lines of a CSV whose fields hold no commas.
+std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> lines(1, {""});
+  for (const char c : csv) {
+    if (c == '\n') lines.push_back({""});
+    if (c == ',') lines.back().emplace_back();
+    if (c != '\n' && c != ',') lines.back().back() += c;
+  }
+  lines.pop_back();
+  return lines;
+}
+
+TEST_F(ExcludeTest, TheWideCsvHasNoEmptyColumnsAndTheLongOneARowForEachQuantity) {
+  write("r");
+  const auto wide = cells_of(aggregate({"r", "--format", "csv"}));
+  ASSERT_EQ(wide.size(), 3U);
+  const auto has = [&](const std::string& name) {
+    return std::find(wide[0].begin(), wide[0].end(), name) != wide[0].end();
+  };
+  EXPECT_TRUE(has("Z_mean"));
+  EXPECT_FALSE(has("omega_l_mean")) << "not measured";
+  for (std::size_t c = 0; c < wide[0].size(); ++c) EXPECT_NE(wide[1][c] + wide[2][c], "") << wide[0][c];
+  for (const std::string view : {"nearest", "series"}) {
+    std::vector<std::string> arguments{"r", "--format", "csv-long"};
+    if (view == "series") arguments.emplace_back("--series");
+    const auto json = table({"r"}).at("rows").at(0);
+    const auto text = aggregate(arguments);
+    const auto rows = cells_of(text);
+    const auto column = [&](const std::string& name) {
+      const auto place = std::find(rows[0].begin(), rows[0].end(), name);
+      EXPECT_NE(place, rows[0].end()) << name << " in " << text.substr(0, 200);
+      return static_cast<std::size_t>(place - rows[0].begin());
+    };
+    std::size_t expected = 0;
+    for (const auto& quantity : all_quantities()) {
+      const auto& places = view == "nearest" ? Json::array({json}) : json.at("series");
+      for (const auto& place : places) {
+        const auto name = std::string(quantity.name);
+        if (place.contains(name) && place.at(name).at("n") > 0) expected += 2;
+      }
+    }
+    EXPECT_EQ(rows.size(), 1 + expected) << text;
+    int checked = 0;
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+      const auto& row = rows[r];
+      ASSERT_EQ(row.size(), rows[0].size());
+      if (row[column("quantity")] != "Z") continue;
+      auto place = json;
+      if (view == "series") {
+        for (const auto& point : json.at("series")) {
+          if (point.at("delta_phi").dump() == row[column("delta_phi")]) place = point;
+        }
+      }
+      const auto& z = row[column("over")] == "all" ? place.at("all").at("Z") : place.at("Z");
+      EXPECT_EQ(row[column("n")], z.at("n").dump());
+      EXPECT_EQ(row[column("mean")], z.at("mean").dump());
+      EXPECT_EQ(row[column("low")], z.at("ci95").at(0).dump());
+      EXPECT_EQ(row[column("high")], z.at("ci95").at(1).dump());
+      EXPECT_EQ(row[column("sd")], z.at("sd").dump());
+      EXPECT_EQ(row[column("bootstrap_high")], z.at("bootstrap95").at(1).dump());
+      ++checked;
+    }
+    EXPECT_EQ(checked, 2 * static_cast<int>(view == "nearest" ? 1 : json.at("series").size()));
+  }
 }
 
 TEST_F(ExcludeTest, TheGoalOfATableLooksAtWhatCounts) {
