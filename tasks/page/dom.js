@@ -60,7 +60,7 @@ function button(label, action) {
 function csvField(value) {
   if (value === null || value === undefined) return '';
   const text = String(value);
-  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
 /// Rows of all data sets below each other, their names in the first column.

@@ -54,7 +54,18 @@ std::vector<std::size_t> quantities_in(const std::vector<Line>& lines) {
   return list;
 }
 
-std::string line_of(const Cells& cells) { return joined(cells, ",") + '\n'; }
+/// RFC 4180: quoted where it holds what divides fields and lines.
+std::string field_of(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string line_of(Cells cells) {
+  for (auto& cell : cells) cell = field_of(cell);
+  return joined(cells, ",") + '\n';
+}
 
 }  // namespace
 

@@ -74,13 +74,30 @@ std::vector<Group> groups_in(const std::vector<Line>& lines, View view) {
 
 enum class Format : std::uint8_t { text, latex };
 
-std::string escaped_latex(std::string text) {
-  for (auto at = text.find('_'); at != std::string::npos; at = text.find('_', at + 2)) text.insert(at, 1, '\\');
-  return text;
+std::string_view in_latex(const char& c) {
+  switch (c) {
+    case '#': return "\\#";
+    case '$': return "\\$";
+    case '%': return "\\%";
+    case '&': return "\\&";
+    case '_': return "\\_";
+    case '{': return "\\{";
+    case '}': return "\\}";
+    case '~': return "\\textasciitilde{}";
+    case '^': return "\\textasciicircum{}";
+    case '\\': return "\\textbackslash{}";
+    default: return {&c, 1};
+  }
 }
 
+/// A text as it can stand in a cell: of one line, and nothing that the terminal or LaTeX obeys.
 std::string spelt(const std::string& text, Format format) {
-  return format == Format::text ? text : escaped_latex(text);
+  std::string cell;
+  for (const char& c : text) {
+    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+    cell += control ? "?" : format == Format::latex ? in_latex(c) : std::string_view(&c, 1);
+  }
+  return cell;
 }
 
 std::string symbol(std::string_view text, std::string_view latex, Format format) {

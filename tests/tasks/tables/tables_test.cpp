@@ -3,7 +3,8 @@
 //   have a value; without an interval it shows none;
 // - groups of columns beyond the first have tables of their own where they were measured, small numbers with a common
 //   power of ten;
-// - CSV and LaTeX have as many cells in every row as in their head, and CSV's numbers are those of tables.json.
+// - CSV and LaTeX have as many cells in every row as in their head, and CSV's numbers are those of tables.json;
+// - what is special in CSV, LaTeX or on a terminal is written so that it is not, whatever the texts of a record are.
 
 #include "tasks/tables/tables.hpp"
 
@@ -105,6 +106,39 @@ TEST(Tables, LatexRowsHaveTheSameNumberOfCells) {
   EXPECT_EQ(rows, 4U);
   EXPECT_NE(text.find("target\\_energy"), std::string::npos);
   EXPECT_NE(text.find("{l" + std::string(cells - 1, 'r') + "}"), std::string::npos) << text;
+}
+
+/// A swept parameter as only a record that was made by hand can name it.
+Table hostile_table() {
+  auto hostile = table();
+  for (auto& row : hostile.rows)
+    row.parameters = Json{{"a \"b\", c", "one, \"two\"\nthree"}, {"#$%&_{}~^\\", "50 % & ~\x1B[2J"}};
+  return hostile;
+}
+
+TEST(Tables, CsvFieldsAreQuotedWhereTheyMustBe) {
+  for (const auto& text : {to_csv(hostile_table()), to_long_csv(hostile_table())}) {
+    EXPECT_NE(text.find(",\"a \"\"b\"\", c\","), std::string::npos) << text.substr(0, 300);
+    EXPECT_NE(text.find(",\"one, \"\"two\"\"\nthree\","), std::string::npos) << text.substr(0, 1000);
+    EXPECT_NE(text.find(",#$%&_{}~^\\,"), std::string::npos) << text.substr(0, 300);
+    EXPECT_NE(text.find("\noctahedron,64,"), std::string::npos) << "nothing else is quoted";
+  }
+}
+
+TEST(Tables, LatexEscapesEverySpecialCharacter) {
+  const auto text = to_latex(hostile_table());
+  EXPECT_NE(text.find("& \\#\\$\\%\\&\\_\\{\\}\\textasciitilde{}\\textasciicircum{}\\textbackslash{} &"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("& 50 \\% \\& \\textasciitilde{}?[2J &"), std::string::npos) << text;
+  EXPECT_NE(text.find("& one, \"two\"?three &"), std::string::npos) << text;
+}
+
+TEST(Tables, TextHoldsNoControlCharacters) {
+  const auto text = to_text(hostile_table());
+  EXPECT_NE(text.find(" one, \"two\"?three "), std::string::npos) << text;
+  EXPECT_EQ(text.find('\x1B'), std::string::npos) << text;
+  EXPECT_EQ(split(text, "\n").size(), split(to_text(table()), "\n").size()) << text;
 }
 
 TEST(Tables, OtherGroupsFollowWhereTheyWereMeasured) {
