@@ -55,7 +55,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   try {
     return session.work(console);
   } catch (const InputError& error) {
-    console.error(error.what());
+    for (const auto& each : error.all()) console.error(one_line(each));
     return ExitCode::bad_input;
   } catch (const FileError& error) {
     console.error(error.what());

@@ -7,6 +7,14 @@
 namespace isojam {
 namespace {
 
+std::string lines(const std::vector<InputError::Details>& all) {
+  std::string text;
+  for (const auto& details : all) text += (text.empty() ? "" : "\n") + one_line(details);
+  return text;
+}
+
+}  // namespace
+
 std::string one_line(const InputError::Details& details) {
   std::string text = details.file + ": ";
   if (!details.pointer.empty()) text += details.pointer + ": ";
@@ -16,8 +24,7 @@ std::string one_line(const InputError::Details& details) {
   return text;
 }
 
-}  // namespace
-
-InputError::InputError(Details details) : std::runtime_error(one_line(details)), details_(std::move(details)) {}
+InputError::InputError(Details details) : std::runtime_error(one_line(details)), all_{std::move(details)} {}
+InputError::InputError(std::vector<Details> all) : std::runtime_error(lines(all)), all_(std::move(all)) {}
 
 }  // namespace isojam

@@ -2,10 +2,12 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace isojam {
 
-/// Input that is refused. what() is one line: file, JSON pointer, problem, what is allowed, "did you mean".
+/// Input that is refused. what() has a line for each error: file, JSON pointer, problem, what is allowed, "did you
+/// mean".
 class InputError : public std::runtime_error {
  public:
   struct Details {
@@ -17,10 +19,17 @@ class InputError : public std::runtime_error {
   };
 
   explicit InputError(Details details);
-  const Details& details() const { return details_; }
+  /// One or more errors, in the order in which they are told.
+  explicit InputError(std::vector<Details> all);
+
+  const Details& details() const { return all_.front(); }  ///< of the first
+  const std::vector<Details>& all() const { return all_; }
 
  private:
-  Details details_;
+  std::vector<Details> all_;
 };
+
+/// The line of an error.
+std::string one_line(const InputError::Details& details);
 
 }  // namespace isojam

@@ -11,7 +11,7 @@
 #include "tasks/json/place.hpp"
 
 // Options of manifests and configurations: how a value of each type is read, written and described. Readers throw
-// InputError.
+// InputError; where errors are gathered, a list lacks the entries that were refused.
 
 namespace isojam {
 
@@ -22,11 +22,13 @@ auto read_list(const JsonPlace& place, std::string_view allowed, Read read) {
   const auto size = place.expect_list(allowed);
   std::vector<decltype(read(place))> values;
   for (std::size_t k = 0; k < size; ++k) {
-    const auto entry = place.at(k);
-    auto value = read(entry);
-    if (std::find(values.begin(), values.end(), value) != values.end())
-      entry.refuse(fmt::format("{} is given twice", entry.value().dump()), "each value once");
-    values.push_back(std::move(value));
+    place.attempt([&] {
+      const auto entry = place.at(k);
+      auto value = read(entry);
+      if (std::find(values.begin(), values.end(), value) != values.end())
+        entry.refuse(fmt::format("{} is given twice", entry.value().dump()), "each value once");
+      values.push_back(std::move(value));
+    });
   }
   return values;
 }
@@ -73,7 +75,7 @@ template <class T>
 void read_option(const JsonPlace& place, const Range& range, std::vector<T>& list) {
   list = read_list(place, "a list of one or more values",
                    [&](const JsonPlace& entry) { return read_option<T>(entry, range); });
-  if (list.empty()) place.refuse("the list is empty", "one or more values");
+  if (place.value().empty()) place.refuse("the list is empty", "one or more values");
 }
 template <class T>
 void read_option(const JsonPlace& place, const Range& range, T& value) {

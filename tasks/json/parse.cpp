@@ -26,6 +26,11 @@ LineColumn locate(std::string_view text, std::size_t position) {
   return {line + 1, start == std::string_view::npos ? before.size() + 1 : before.size() - start};
 }
 
+/// True where a comment of another language begins.
+bool is_comment(std::string_view text) {
+  return text.starts_with("//") || text.starts_with("/*") || text.starts_with('#');
+}
+
 /// Reads the events of a document for what nlohmann's own builder lets pass, and knows where it is.
 class Checker final : public nlohmann::json_sax<Json> {
  public:
@@ -58,6 +63,9 @@ class Checker final : public nlohmann::json_sax<Json> {
       refuse(file, fmt::format("number {} is too large", token), "numbers that a double can hold");
     }
     const std::string_view what = error.what();
+    const bool in_string = what.find("invalid string") != std::string_view::npos;
+    if (!in_string && is_comment(text_.substr(std::min(position == 0 ? 0 : position - 1, text_.size()))))
+      refuse(file, "JSON has no comments", "");
     const auto detail = what.rfind(" - ");
     refuse(file, fmt::format("not valid JSON: {}", detail == std::string_view::npos ? what : what.substr(detail + 3)),
            "");

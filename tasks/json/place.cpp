@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <numeric>
 #include <utility>
-
-#include "tasks/json/input_error.hpp"
 
 namespace isojam {
 namespace {
@@ -41,7 +40,43 @@ std::string shown(const Json& value) {
   return text.size() <= longest_shown ? text : fmt::format("a {}", value.type_name());
 }
 
+using Order = std::map<std::string, std::size_t>;
+
+/// Numbers every place of a document in the order of its text.
+void number_places(const Json& value, const std::string& pointer, Order& order) {
+  order.emplace(pointer, order.size());
+  if (value.is_primitive()) return;
+  for (const auto& item : value.items()) number_places(item.value(), pointer + pointer_step(item.key()), order);
+}
+
+/// Errors beyond these are counted alone.
+constexpr std::size_t most_told = 100;
+
 }  // namespace
+
+void Problems::note(const InputError& error) {
+  for (const auto& details : error.all()) {
+    if (settled_.insert(details.pointer).second) found_.push_back(details);
+  }
+}
+
+void Problems::refuse_any(const Json& document) const {
+  if (found_.empty()) return;
+  Order order;
+  number_places(document, "", order);
+  const auto place = [&](const InputError::Details& details) {
+    const auto found = order.find(details.pointer);
+    return found != order.end() ? found->second : order.at(details.pointer.substr(0, details.pointer.rfind('/')));
+  };
+  auto all = found_;
+  std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  if (all.size() > most_told) {
+    const auto more = fmt::format("{} errors more", all.size() - most_told);
+    all.resize(most_told);
+    all.push_back({all.front().file, "", more, "", ""});
+  }
+  throw InputError(std::move(all));
+}
 
 std::string number_in(const Range& range) {
   return fmt::format("a number in {}{}, {}{}", range.low_excluded ? '(' : '[', range.low, range.high,
@@ -75,11 +110,11 @@ JsonPlace JsonPlace::at(const std::string& key) const {
   expect_object(fmt::format("an object with the key \"{}\"", key));
   const auto pointer = pointer_ + pointer_step(key);
   if (!value_.contains(key)) throw InputError({file_, pointer, "the required key is missing", "", ""});
-  return {value_.at(key), file_, pointer};
+  return {value_.at(key), file_, pointer, problems_};
 }
 
 JsonPlace JsonPlace::at(std::size_t index) const {
-  return {value_.at(index), file_, fmt::format("{}/{}", pointer_, index)};
+  return {value_.at(index), file_, fmt::format("{}/{}", pointer_, index), problems_};
 }
 
 void JsonPlace::refuse(std::string problem, std::string allowed, std::string suggestion) const {
@@ -106,7 +141,9 @@ void JsonPlace::expect_keys(std::span<const std::string_view> names, std::string
     if (std::find(names.begin(), names.end(), key) != names.end()) continue;
     auto suggestion = elsewhere ? elsewhere(key) : std::string();
     if (suggestion.empty()) suggestion = nearest_name(key, names);
-    at(item.key()).refuse("unknown key", quoted_list(names), suggestion);
+    attempt([&] { at(item.key()).refuse("unknown key", quoted_list(names), suggestion); });
+    // That a key is missing follows from another that stands in its place.
+    if (problems_ && !suggestion.empty() && !has(suggestion)) problems_->settle(pointer_ + pointer_step(suggestion));
   }
 }
 

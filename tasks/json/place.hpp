@@ -1,11 +1,14 @@
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/names/enum_names.hpp"
+#include "tasks/json/input_error.hpp"
 #include "tasks/json/json.hpp"
 
 namespace isojam {
@@ -30,12 +33,27 @@ std::string quoted_list(std::span<const std::string_view> names);
 /// The candidate nearest to `word` by edit distance, empty if none is near enough to have been meant.
 std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
 
+/// The errors of a document, gathered while it is read: the first of every place, from which others there follow.
+class Problems {
+ public:
+  void note(const InputError& error);
+  /// What is wrong at that place follows from an error that was noted at another.
+  void settle(std::string pointer) { settled_.insert(std::move(pointer)); }
+  /// Throws what was noted as one InputError, in the order of the document; what an object lacks comes with the object.
+  void refuse_any(const Json& document) const;
+
+ private:
+  std::vector<InputError::Details> found_;
+  std::set<std::string> settled_;
+};
+
 /// A value of a document with what an error about it must say. Refers to the document; must not outlive it.
 /// Every reader throws InputError.
 class JsonPlace {
  public:
-  JsonPlace(const Json& value, std::string file, std::string pointer = "")
-      : value_(value), file_(std::move(file)), pointer_(std::move(pointer)) {}
+  /// With `problems`, a list of errors is made of what would otherwise end with the first: see attempt().
+  JsonPlace(const Json& value, std::string file, std::string pointer = "", Problems* problems = nullptr)
+      : value_(value), file_(std::move(file)), pointer_(std::move(pointer)), problems_(problems) {}
 
   const Json& value() const { return value_; }
   const std::string& file() const { return file_; }
@@ -46,6 +64,28 @@ class JsonPlace {
   JsonPlace at(std::size_t index) const;
 
   [[noreturn]] void refuse(std::string problem, std::string allowed = "", std::string suggestion = "") const;
+
+  /// Does `work`; true unless it threw an InputError that was gathered. It passes where errors are not gathered.
+  template <class Work>
+  bool attempt(const Work& work) const {
+    try {
+      work();
+      return true;
+    } catch (const InputError& error) {
+      if (!problems_) throw;
+      problems_->note(error);
+      return false;
+    }
+  }
+  /// Attempts `work` on what stands at a key: a required one, and one that may be missing.
+  template <class Work>
+  void read(const std::string& key, const Work& work) const {
+    attempt([&] { work(at(key)); });
+  }
+  template <class Work>
+  void read_if_any(const std::string& key, const Work& work) const {
+    if (has(key)) read(key, work);
+  }
 
   void expect_object(std::string_view allowed) const;
   std::size_t expect_list(std::string_view allowed) const;  ///< its size
@@ -69,6 +109,7 @@ class JsonPlace {
 
   const Json& value_;
   std::string file_, pointer_;
+  Problems* problems_;
 };
 
 }  // namespace isojam

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 
 #include "engine/packing/periodic_cell.hpp"
@@ -60,7 +61,9 @@ void refuse_renamed(const JsonPlace& place) {
   if (!place.value().is_object()) return;
   for (const auto& item : place.value().items()) {
     const auto now = new_name(item.key());
-    if (!now.empty()) place.at(item.key()).refuse(fmt::format("the key has a new name, \"{}\"", now));
+    place.attempt([&] {
+      if (!now.empty()) place.at(item.key()).refuse(fmt::format("the key has a new name, \"{}\"", now));
+    });
   }
 }
 
@@ -84,7 +87,7 @@ void check_own_seal(std::string_view text, const std::string& file) {
 template <class Read>
 auto read_sweep_list(const JsonPlace& place, const std::string& allowed, Read read) {
   auto values = read_list(place, fmt::format("a list, each entry {}", allowed), read);
-  if (values.empty()) place.refuse("the list is empty", fmt::format("one or more of: {}", allowed));
+  if (place.value().empty()) place.refuse("the list is empty", fmt::format("one or more of: {}", allowed));
   std::sort(values.begin(), values.end());
   return values;
 }
@@ -95,37 +98,36 @@ void read_sweep(const JsonPlace& place, Manifest& manifest) {
   refuse_renamed(place);
   place.expect_keys(names);
 
-  manifest.solids = read_sweep_list(place.at("solid"), quoted_list(all_names<SolidKind>),
-                                    [](const JsonPlace& entry) { return entry.choice<SolidKind>(); });
-  manifest.particles = read_sweep_list(place.at("particles"), integer_in(particle_range), [](const JsonPlace& entry) {
-    return static_cast<int>(entry.integer(particle_range));
+  place.read("solid", [&](const JsonPlace& list) {
+    manifest.solids = read_sweep_list(list, quoted_list(all_names<SolidKind>),
+                                      [](const JsonPlace& entry) { return entry.choice<SolidKind>(); });
+  });
+  place.read("particles", [&](const JsonPlace& list) {
+    manifest.particles = read_sweep_list(list, integer_in(particle_range), [](const JsonPlace& entry) {
+      return static_cast<int>(entry.integer(particle_range));
+    });
   });
   for (const auto& field : all_fields()) {
     const std::string name(field.name);
-    if (!place.has(name)) continue;
-    auto values = read_sweep_list(place.at(name), allowed_values(field), [&](const JsonPlace& entry) {
-      JamOptions options;
-      read_field(entry, field, options);
-      return field_value(field, options);
+    place.read_if_any(name, [&](const JsonPlace& list) {
+      auto values = read_sweep_list(list, allowed_values(field), [&](const JsonPlace& entry) {
+        JamOptions options;
+        read_field(entry, field, options);
+        return field_value(field, options);
+      });
+      manifest.swept.push_back({name, std::move(values)});
     });
-    manifest.swept.push_back({name, std::move(values)});
   }
   std::sort(manifest.swept.begin(), manifest.swept.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
 }
 
-/// The name of a quantity that the manifest's measures give.
-std::string read_quantity(const JsonPlace& place, const std::vector<Measure>& measures) {
+std::string read_quantity(const JsonPlace& place) {
   std::vector<std::string_view> names;
   for (const auto& quantity : all_quantities()) names.push_back(quantity.name);
-  const auto& quantity = all_quantities()[place.choice(names)];
-  const auto needed = quantity.measure;
-  if (needed && std::find(measures.begin(), measures.end(), *needed) == measures.end())
-    place.refuse(fmt::format("{} is not measured", quantity.name),
-                 fmt::format("a quantity that is measured; this one is with \"{}\" in /measure", to_string(*needed)));
-  return std::string(quantity.name);
+  return std::string(names[place.choice(names)]);
 }
 
-Replicates read_replicates(const JsonPlace& place, const std::vector<Measure>& measures) {
+Replicates read_replicates(const JsonPlace& place) {
   Replicates replicates;
   if (!place.value().is_object()) {
     if (!place.value().is_number())
@@ -136,18 +138,16 @@ Replicates read_replicates(const JsonPlace& place, const std::vector<Measure>& m
     return replicates;
   }
   place.expect_keys(goal_keys);
-  replicates.min = static_cast<int>(place.at("min").integer(least_replicate_range));
-  replicates.max =
-      static_cast<int>(place.at("max").integer({static_cast<double>(replicates.min), replicate_range.high}));
-  replicates.goal =
-      Goal{read_quantity(place.at("quantity"), measures), place.at("half_width").number(half_width_range)};
+  auto range = least_replicate_range;
+  place.read("min", [&](const JsonPlace& min) { range.low = replicates.min = static_cast<int>(min.integer(range)); });
+  place.read("max", [&](const JsonPlace& max) { replicates.max = static_cast<int>(max.integer(range)); });
+  auto& goal = replicates.goal.emplace();
+  place.read("quantity", [&](const JsonPlace& name) { goal.quantity = read_quantity(name); });
+  place.read("half_width", [&](const JsonPlace& width) { goal.half_width = width.number(half_width_range); });
   return replicates;
 }
 
-void read_group(const JsonPlace& root, Group group, Manifest& manifest) {
-  const std::string group_name(to_string(group));
-  if (!root.has(group_name)) return;
-  const auto place = root.at(group_name);
+void read_group(const JsonPlace& root, const JsonPlace& place, Group group, Manifest& manifest) {
   std::vector<std::string_view> names;
   for (const auto& field : all_fields()) {
     if (field.group == group) names.push_back(field.name);
@@ -155,12 +155,13 @@ void read_group(const JsonPlace& root, Group group, Manifest& manifest) {
   refuse_renamed(place);
   place.expect_keys(names, home_of_field);
   for (const auto& field : all_fields()) {
+    if (field.group != group) continue;
     const std::string name(field.name);
-    if (field.group != group || !place.has(name)) continue;
-    if (root.at("sweep").has(name)) {
-      place.at(name).refuse("the parameter is swept as well", fmt::format("either here or at /sweep/{}", name));
-    }
-    read_field(place.at(name), field, manifest.protocol);
+    place.read_if_any(name, [&](const JsonPlace& value) {
+      if (root.has("sweep") && root.at("sweep").has(name))
+        value.refuse("the parameter is swept as well", fmt::format("either here or at /sweep/{}", name));
+      read_field(value, field, manifest.protocol);
+    });
   }
 }
 
@@ -184,32 +185,104 @@ JsonPlace place_of_field(const JsonPlace& root, const std::string& group, const 
   return root.has(group) && root.at(group).has(name) ? root.at(group).at(name) : root;
 }
 
-/// What holds between values that are each allowed.
-void check_together(const JsonPlace& root, const Manifest& manifest) {
+void check_count(const JsonPlace& root, const Manifest& manifest) {
   double count = static_cast<double>(manifest.solids.size() * manifest.particles.size()) * manifest.replicates.max;
   for (const auto& swept : manifest.swept) count *= static_cast<double>(swept.values.size());
   if (count > most_replicates_in_all) {
     root.at("sweep").refuse(fmt::format("the sweep makes {:.0f} replicates", count),
                             fmt::format("at most {:.0f}", most_replicates_in_all));
   }
-  for (const auto& set : option_sets(manifest)) {
+}
+
+void check_goal(const JsonPlace& root, const Manifest& manifest) {
+  if (!manifest.replicates.goal) return;
+  const auto& quantity = all_quantities()[*quantity_index(manifest.replicates.goal->quantity)];
+  const auto needed = quantity.measure;
+  const auto& measures = manifest.measures;
+  if (needed && std::find(measures.begin(), measures.end(), *needed) == measures.end()) {
+    root.at("replicates")
+        .at("quantity")
+        .refuse(fmt::format("{} is not measured", quantity.name),
+                fmt::format("a quantity that is measured; this one is with \"{}\" in /measure", to_string(*needed)));
+  }
+}
+
+void check_densities(const JsonPlace& root, const std::vector<OptionSet>& sets) {
+  for (const auto& set : sets) {
     const auto& options = set.options;
     if (options.initial_density >= options.max_density) {
       place_of_field(root, "protocol", "initial_density")
           .refuse(fmt::format("initial_density {} does not lie below max_density {}", options.initial_density,
                               options.max_density));
     }
-    for (const auto kind : manifest.solids) {
-      const int least = least_particles(platonic(kind), options.max_density);
-      if (manifest.particles.front() >= least) continue;
-      place_of_particles(root, manifest.particles.front())
-          .refuse(
-              fmt::format("{} particles are too few for the periodic cell: at max_density {} one {} would touch two "
-                          "images of another",
-                          manifest.particles.front(), options.max_density, to_string(kind)),
-              fmt::format("{} or more", least));
-    }
   }
+}
+
+/// The greatest density of four decimals at which the cell of so many particles is legal.
+double densest(const ConvexSolid& solid, int particles) {
+  auto steps = std::floor(particles / std::pow(least_side(solid), 3) * 1e4);
+  while (least_particles(solid, steps / 1e4) > particles) --steps;
+  return steps / 1e4;
+}
+
+/// Numbers of particles are held to the solid that needs most, at the greatest of all densities.
+void check_particles(const JsonPlace& root, const Manifest& manifest, const std::vector<OptionSet>& sets) {
+  double density = 0, start = 0;
+  for (const auto& set : sets) {
+    density = std::max(density, set.options.max_density);
+    start = std::max(start, set.options.initial_density);
+  }
+  const auto needs = [&](SolidKind kind) { return least_particles(platonic(kind), density); };
+  const auto kind = *std::max_element(manifest.solids.begin(), manifest.solids.end(),
+                                      [&](SolidKind a, SolidKind b) { return needs(a) < needs(b); });
+  for (const int particles : manifest.particles) {
+    if (particles >= needs(kind)) continue;
+    const double allowed = densest(platonic(kind), particles);
+    root.attempt([&] {
+      place_of_particles(root, particles)
+          .refuse(fmt::format("{} particles are too few for the periodic cell: at max_density {} one {} would touch "
+                              "two images of another",
+                              particles, density, to_string(kind)),
+                  fmt::format("{} or more{}", needs(kind),
+                              allowed > start ? fmt::format(", or a max_density of {} or less", allowed) : ""));
+    });
+  }
+}
+
+/// What holds between values that are each allowed.
+void check_together(const JsonPlace& root, const Manifest& manifest) {
+  root.attempt([&] { check_goal(root, manifest); });
+  // Combinations beyond count are not made.
+  if (!root.attempt([&] { check_count(root, manifest); })) return;
+  const auto sets = option_sets(manifest);
+  root.attempt([&] { check_densities(root, sets); });
+  check_particles(root, manifest, sets);
+}
+
+void read_values(const JsonPlace& root, Manifest& manifest) {
+  refuse_renamed(root);
+  root.expect_keys(keys, home_of_field);
+  root.read_if_any("$schema", [](const JsonPlace& place) { place.text(); });
+  root.read("name", [&](const JsonPlace& place) { manifest.name = read_name(place); });
+  root.read("seed", [&](const JsonPlace& place) {
+    manifest.seed = static_cast<std::uint64_t>(place.integer({0, greatest_seed}));
+  });
+  root.read("sweep", [&](const JsonPlace& place) { read_sweep(place, manifest); });
+  for (const auto group : {Group::protocol, Group::minimiser}) {
+    root.read_if_any(std::string(to_string(group)),
+                     [&](const JsonPlace& place) { read_group(root, place, group, manifest); });
+  }
+  manifest.measures = default_measures();
+  root.read_if_any("measure", [&](const JsonPlace& place) {
+    manifest.measures = read_list(place, fmt::format("a list, each entry {}", quoted_list(all_names<Measure>)),
+                                  [](const JsonPlace& entry) { return entry.choice<Measure>(); });
+    std::sort(manifest.measures.begin(), manifest.measures.end());
+  });
+  root.read("replicates", [&](const JsonPlace& place) { manifest.replicates = read_replicates(place); });
+  root.read_if_any("keep_path", [&](const JsonPlace& place) { manifest.keep_path = place.boolean(); });
+  root.read_if_any("exclude", [&](const JsonPlace& place) { manifest.exclude = read_exclude(place); });
+  root.read_if_any(
+      "modes", [&](const JsonPlace& place) { manifest.measuring.modes = static_cast<int>(place.integer(mode_range)); });
 }
 
 Json to_json(const Replicates& replicates) {
@@ -246,30 +319,14 @@ std::vector<OptionSet> option_sets(const Manifest& manifest) {
 
 Manifest parse_manifest(std::string_view text, const std::string& file) {
   const auto document = parse_json(text, file);
-  const JsonPlace root(document, file);
-  refuse_renamed(root);
-  root.expect_keys(keys, home_of_field);
-
+  Problems problems;
+  const JsonPlace root(document, file, "", &problems);
   Manifest manifest;
-  if (root.has("$schema")) root.at("$schema").text();
-  if (root.has("checksum")) check_own_seal(text, file);
-  manifest.name = read_name(root.at("name"));
-  manifest.seed = static_cast<std::uint64_t>(root.at("seed").integer({0, greatest_seed}));
-  read_sweep(root.at("sweep"), manifest);
-  read_group(root, Group::protocol, manifest);
-  read_group(root, Group::minimiser, manifest);
-  manifest.measures = default_measures();
-  if (root.has("measure")) {
-    manifest.measures =
-        read_list(root.at("measure"), fmt::format("a list, each entry {}", quoted_list(all_names<Measure>)),
-                  [](const JsonPlace& entry) { return entry.choice<Measure>(); });
-    std::sort(manifest.measures.begin(), manifest.measures.end());
-  }
-  manifest.replicates = read_replicates(root.at("replicates"), manifest.measures);
-  if (root.has("keep_path")) manifest.keep_path = root.at("keep_path").boolean();
-  if (root.has("modes")) manifest.measuring.modes = static_cast<int>(root.at("modes").integer(mode_range));
-  if (root.has("exclude")) manifest.exclude = read_exclude(root.at("exclude"));
+  if (document.is_object() && document.contains("checksum")) check_own_seal(text, file);
+  root.attempt([&] { read_values(root, manifest); });
+  problems.refuse_any(document);
   check_together(root, manifest);
+  problems.refuse_any(document);
   return manifest;
 }
 

@@ -60,7 +60,8 @@ struct OptionSet {
 /// All combinations; one with an empty object if nothing but solids and particles is swept.
 std::vector<OptionSet> option_sets(const Manifest& manifest);
 
-/// Reads a manifest strictly: throws InputError for anything not understood, and for particles too few for their cell.
+/// Reads a manifest strictly: throws InputError for anything not understood, all of it at once, and for particles too
+/// few for their cell.
 Manifest parse_manifest(std::string_view text, const std::string& file);
 /// Throws FileError if the file cannot be read.
 Manifest read_manifest(const std::string& file);

@@ -68,8 +68,20 @@ std::vector<std::string_view> keys_of(const Visit& visit) {
 void read_phi_j(const JsonPlace& place, PhiJConfig& config) {
   place.expect_keys(keys_of([&](const auto& visitor) { visit_phi_j(config, visitor); }));
   visit_phi_j(config, [&](const std::string& key, auto& value, const Range& range) {
-    if (place.has(key)) read_option(place.at(key), range, value);
+    place.read_if_any(key, [&](const JsonPlace& given) { read_option(given, range, value); });
   });
+}
+
+void read_keys(const JsonPlace& root, ChartConfig& config) {
+  auto keys = keys_of([&](const auto& visitor) { visit_chart(config, visitor); });
+  keys.insert(keys.begin(), "$schema");
+  keys.emplace_back("phi_j");
+  root.expect_keys(keys);
+  root.read_if_any("$schema", [](const JsonPlace& place) { place.text(); });
+  visit_chart(config, [&](const std::string& key, auto& value, const Range& range) {
+    root.read_if_any(key, [&](const JsonPlace& place) { read_option(place, range, value); });
+  });
+  root.read_if_any("phi_j", [&](const JsonPlace& place) { read_phi_j(place, config.phi_j); });
 }
 
 /// The cell must be legal up to the density that jamming may pass through.
@@ -77,9 +89,11 @@ void check_particles(const JsonPlace& root, const std::string& key, SolidKind so
   const int least = least_particles(platonic(solid), JamOptions().max_density);
   if (particles >= least) return;
   const JsonPlace place = root.has(key) ? root.at(key) : root;
-  place.refuse(
-      fmt::format("{} particles are too few: a {} would touch two images of another", particles, to_string(solid)),
-      fmt::format("{} or more", least));
+  root.attempt([&] {
+    place.refuse(
+        fmt::format("{} particles are too few: a {} would touch two images of another", particles, to_string(solid)),
+        fmt::format("{} or more", least));
+  });
 }
 
 }  // namespace
@@ -111,20 +125,15 @@ ChartConfig full_chart_config() {
 
 ChartConfig parse_chart_config(std::string_view text, const std::string& file) {
   const Json document = parse_json(text, file);
-  const JsonPlace root(document, file);
+  Problems problems;
+  const JsonPlace root(document, file, "", &problems);
   ChartConfig config;
-  auto keys = keys_of([&](const auto& visitor) { visit_chart(config, visitor); });
-  keys.insert(keys.begin(), "$schema");
-  keys.emplace_back("phi_j");
-  root.expect_keys(keys);
-  if (root.has("$schema")) root.at("$schema").text();
-  visit_chart(config, [&](const std::string& key, auto& value, const Range& range) {
-    if (root.has(key)) read_option(root.at(key), range, value);
-  });
-  if (root.has("phi_j")) read_phi_j(root.at("phi_j"), config.phi_j);
+  root.attempt([&] { read_keys(root, config); });
+  problems.refuse_any(document);
   for (const SolidKind solid : config.solids) check_particles(root, "particles", solid, config.particles);
   const int fewest = *std::min_element(config.phi_j.particles.begin(), config.phi_j.particles.end());
   check_particles(root, "phi_j", config.phi_j.solid, fewest);
+  problems.refuse_any(document);
   return config;
 }
 

@@ -87,6 +87,19 @@ TEST(ChartConfig, RefusesWhatItDoesNotUnderstand) {
   }
 }
 
+TEST(ChartConfig, TellsAllErrorsAtOnce) {
+  try {
+    parse_chart_config(R"({"distances": [0.04, 0, 1], "tolerance": 1, "phi_j": {"replicates": 1, "solid": 1}})",
+                       "bad.json");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    std::vector<std::string> pointers;
+    for (const auto& each : error.all()) pointers.push_back(each.pointer);
+    EXPECT_EQ(pointers, (std::vector<std::string>{"/distances/1", "/distances/2", "/tolerance", "/phi_j/replicates",
+                                                  "/phi_j/solid"}));
+  }
+}
+
 // ---- Fronts, spreads, conclusions -------------------------------------------------------------------------------
 
 ChartPoint made_up(const std::string& task, const std::string& method, double seconds, std::optional<double> error,

@@ -1,6 +1,7 @@
 // Facts proved here, through the executable:
 // - every manifest of the bad corpus ends `run` and `validate` with exit 65 and one line that names the file, and
 //   nothing is written;
+// - several errors are as many lines, each with the file;
 // - usage errors and paths that cannot be read or written end with exit 2 and one error, and nothing is written;
 // - help and version go to stdout with exit 0;
 // - colour appears where it is asked for and not elsewhere.
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
@@ -54,6 +56,19 @@ TEST(Program, ValidatesAGoodManifest) {
     EXPECT_EQ(validate.err, "");
   }
   EXPECT_EQ(files_below(directory.path()).size(), 1U);
+}
+
+TEST(Program, TellsAllErrorsOfAManifestALineEach) {
+  const TemporaryDirectory directory;
+  auto manifest = test::good_manifest();
+  manifest["seed"] = -1;
+  manifest["protocol"] = {{"approach", 0.3}, {"max_steps", 0}};
+  test::write_text(directory / "m.json", manifest.dump());
+  const auto validate = isojam({"validate", "m.json"}, directory.path());
+  EXPECT_EQ(validate.exit_code, 65);
+  EXPECT_EQ(lines_of(validate.err), 3) << validate.err;
+  std::istringstream lines(validate.err);
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.rfind("isojam: error: m.json: /", 0), 0U) << line;
 }
 
 TEST(Program, UsageErrorsEndWithTwo) {

@@ -1,0 +1,198 @@
+// Facts proved here:
+// - what is wrong with a manifest is told at once, a line for each error, in the order of the document, and nothing
+// that
+//   follows from another error;
+// - two errors in different places give the two lines that each gives alone;
+// - what holds between values is looked at where each is right;
+// - comments are called so, at their line and column, and are none within a string;
+// - the max_density that too few particles would allow is accepted, and the next greater is not.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "tasks/json/input_error.hpp"
+#include "tasks/manifest/manifest.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+
+namespace isojam {
+namespace {
+
+using Lines = std::vector<std::string>;
+using test::good_manifest;
+
+/// What is said of a text; nothing where it is accepted.
+Lines refusals(const std::string& text) {
+  try {
+    parse_manifest(text, "m.json");
+    return {};
+  } catch (const InputError& error) {
+    Lines lines;
+    std::istringstream all(error.what());
+    for (std::string line; std::getline(all, line);) lines.push_back(line);
+    return lines;
+  }
+}
+
+/// The same, of each line the pointer alone.
+Lines pointers(const std::string& text) {
+  auto lines = refusals(text);
+  for (auto& line : lines) {
+    line = line.substr(std::string("m.json: ").size());
+    line = line.substr(0, line.find(':'));
+  }
+  return lines;
+}
+
+TEST(Refusals, AllAtOnceInTheOrderOfTheDocument) {
+  const std::string text = R"({
+    "sweep": {"particles": [64, 0, "x", 64], "solid": ["octahedra", "cube"], "final_distance": [2]},
+    "seed": -1,
+    "protocol": {"target_enery": 1, "approach": 0.3, "step_fraction": 1, "final_distance": 0.01},
+    "measure": ["contact", "order"],
+    "replicates": {"min": 1, "max": 0, "quantity": "phi_i"},
+    "modes": 0,
+    "method": "newton"
+  })";
+  EXPECT_EQ(pointers(text),
+            (Lines{"/name", "/sweep/particles/1", "/sweep/particles/2", "/sweep/particles/3", "/sweep/solid/0",
+                   "/sweep/final_distance/0", "/seed", "/protocol/target_enery", "/protocol/approach",
+                   "/protocol/step_fraction", "/protocol/final_distance", "/measure/0", "/replicates/half_width",
+                   "/replicates/min", "/replicates/max", "/replicates/quantity", "/modes", "/method"}));
+  EXPECT_EQ(refusals(text).at(4),
+            "m.json: /sweep/solid/0: unknown value \"octahedra\"; allowed: \"tetrahedron\", \"cube\", \"octahedron\", "
+            "\"dodecahedron\", \"icosahedron\"; did you mean \"octahedron\"?");
+}
+
+TEST(Refusals, NothingThatFollowsFromAnotherError) {
+  const auto changed = [](const std::string& from, const std::string& to) {
+    auto text = good_manifest().dump();
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_EQ(pointers(changed("\"replicates\"", "\"replicate\"")), Lines{"/replicate"}) << "nor is it missing";
+  EXPECT_EQ(pointers(changed("\"solid\"", "\"solids\"")), Lines{"/sweep/solids"});
+  EXPECT_EQ(pointers(changed("[64]", "[\"64\"]")), Lines{"/sweep/particles/0"}) << "nor is the list empty";
+  EXPECT_EQ(pointers(changed("{\"solid\":[\"dodecahedron\"],\"particles\":[64]}", "7")), Lines{"/sweep"});
+  auto both = good_manifest();
+  both["sweep"]["approach"] = {0.3};
+  EXPECT_EQ(pointers(both.dump()), Lines{"/sweep/approach"}) << "renamed, and so not unknown";
+  auto goal = good_manifest();
+  goal["replicates"] = {{"min", 2}, {"max", 4}, {"quantity", "omega_l"}, {"half_width", 1}};
+  goal["measure"] = {"mode"};
+  EXPECT_EQ(pointers(goal.dump()), Lines{"/measure/0"}) << "whether it is measured is not known yet";
+  goal["measure"] = {"order"};
+  EXPECT_EQ(pointers(goal.dump()), Lines{"/replicates/quantity"});
+}
+
+std::string top_key(const test::BadManifest& bad) { return bad.pointer.substr(0, bad.pointer.find('/', 1)); }
+
+TEST(Refusals, TwoErrorsGiveTheLinesOfEach) {
+  std::vector<test::BadManifest> single;
+  for (const auto& bad : test::bad_manifests()) {
+    if (bad.schema_can_tell && !bad.pointer.empty()) single.push_back(bad);
+  }
+  int pairs = 0;
+  for (const auto& a : single) {
+    for (const auto& b : single) {
+      if (top_key(a) >= top_key(b)) continue;
+      auto expected = refusals(a.text);
+      const auto others = refusals(b.text);
+      // A required key is not missing where another stands in its place.
+      if (expected.front().find("did you mean \"" + b.pointer.substr(1) + '"') != std::string::npos) continue;
+      expected.insert(expected.end(), others.begin(), others.end());
+      const auto good = good_manifest();
+      auto both = good.patch(Json::diff(good, Json::parse(a.text)));
+      both = both.patch(Json::diff(good, Json::parse(b.text)));
+      auto said = refusals(both.dump());
+      // Swept by one and set by the other: an error of its own.
+      const bool third = std::any_of(said.begin(), said.end(), [](const std::string& line) {
+        return line.find("swept as well") != std::string::npos;
+      });
+      if (third) continue;
+      std::sort(expected.begin(), expected.end());
+      std::sort(said.begin(), said.end());
+      EXPECT_EQ(said, expected) << a.name << " and " << b.name << ": " << both.dump();
+      ++pairs;
+    }
+  }
+  std::printf("%d pairs of errors\n", pairs);
+  EXPECT_GT(pairs, 500);
+}
+
+TEST(Refusals, WhatHoldsBetweenValuesComesWhenEachIsRight) {
+  auto manifest = good_manifest();
+  manifest["sweep"]["particles"] = {64, 5, 3};
+  manifest["protocol"] = {{"initial_density", 0.95}, {"max_steps", 0}};
+  EXPECT_EQ(pointers(manifest.dump()), Lines{"/protocol/max_steps"});
+  manifest["protocol"].erase("max_steps");
+  EXPECT_EQ(pointers(manifest.dump()),
+            (Lines{"/sweep/particles/1", "/sweep/particles/2", "/protocol/initial_density"}));
+}
+
+TEST(Refusals, ManyErrorsAreCutShort) {
+  auto manifest = good_manifest();
+  for (int n = 0; n < 250; ++n) manifest["sweep"]["solid"].push_back(n);
+  const auto lines = refusals(manifest.dump());
+  ASSERT_EQ(lines.size(), 101U);
+  EXPECT_EQ(lines.back(), "m.json: 150 errors more");
+}
+
+TEST(Refusals, CommentsAreCalledSo) {
+  const auto good = good_manifest().dump();
+  for (const std::string comment : {"// sweep\n", "/* sweep */", "# sweep\n"}) {
+    EXPECT_EQ(refusals("{\n  " + comment + good.substr(1)), Lines{"m.json:2:3: JSON has no comments"});
+    EXPECT_EQ(refusals(good + "\n" + comment), Lines{"m.json:2:1: JSON has no comments"});
+  }
+  EXPECT_EQ(refusals("{\"seed\": 7, // why\n}").front().rfind("m.json:1:13: ", 0), 0U);
+  for (const std::string other : {"{\"seed\": /7}", "{\"seed\": \"\\#\"}", "{\"seed\": \"\n//\"}"})
+    EXPECT_NE(refusals(other).at(0).find("not valid JSON"), std::string::npos) << other;
+  auto manifest = good_manifest();
+  manifest["$schema"] = "https://example.org/#/* x */";
+  EXPECT_EQ(refusals(manifest.dump()), Lines{});
+}
+
+TEST(Refusals, TooFewParticlesNameTheDensityThatWouldDo) {
+  int tried = 0;
+  for (const auto kind : all_solids) {
+    auto manifest = good_manifest();
+    manifest["sweep"]["solid"] = {std::string(to_string(kind))};
+    for (int particles = 1;; ++particles) {
+      manifest["protocol"] = {{"initial_density", 0.001}};
+      manifest["sweep"]["particles"] = {particles};
+      const auto lines = refusals(manifest.dump());
+      if (lines.empty()) break;
+      const std::string says = "or more, or a max_density of ";
+      const auto found = lines.at(0).find(says);
+      ASSERT_NE(found, std::string::npos) << lines.at(0);
+      const double density = std::strtod(lines.at(0).c_str() + found + says.size(), nullptr);
+      manifest["protocol"]["max_density"] = density;
+      EXPECT_EQ(refusals(manifest.dump()), Lines{}) << to_string(kind) << " " << particles << " at " << density;
+      manifest["protocol"]["max_density"] = density + 1e-4;
+      EXPECT_NE(refusals(manifest.dump()), Lines{}) << to_string(kind) << " " << particles << " above " << density;
+      ++tried;
+    }
+  }
+  std::printf("%d numbers of particles\n", tried);
+  EXPECT_GT(tried, 100);
+  auto manifest = good_manifest();
+  manifest["sweep"]["particles"] = {1};
+  manifest["protocol"]["initial_density"] = 0.5;
+  EXPECT_EQ(refusals(manifest.dump()).at(0).find("max_density of"), std::string::npos) << "none above the initial one";
+}
+
+TEST(Refusals, TheSolidThatNeedsMostIsNamed) {
+  auto manifest = good_manifest();
+  manifest["sweep"]["solid"] = {"dodecahedron", "tetrahedron", "cube"};
+  manifest["sweep"]["max_density"] = {0.8, 1.2, 0.9};
+  manifest["sweep"]["particles"] = {5};
+  const auto line = refusals(manifest.dump()).at(0);
+  EXPECT_NE(line.find("at max_density 1.2 one tetrahedron"), std::string::npos) << line;
+  manifest["sweep"]["particles"] = {std::atoi(line.c_str() + line.find("allowed: ") + 9)};
+  EXPECT_EQ(refusals(manifest.dump()), Lines{}) << line;
+}
+
+}  // namespace
+}  // namespace isojam
