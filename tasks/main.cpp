@@ -6,10 +6,14 @@
 #include <new>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "tasks/commands/command.hpp"
 #include "tasks/json/input_error.hpp"
+#include "tasks/json/place.hpp"
 #include "tasks/system/file.hpp"
 #include "tasks/system/shortage.hpp"
 #include "tasks/system/standard_streams.hpp"
@@ -29,6 +33,37 @@ void add_console_options(Options options, ConsoleOptions& console) {
   options.choice("--color", console.colour, "Colour on stderr");
 }
 
+void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
+  for (const auto* option : app.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+    for (const auto& name : option->get_snames()) names.push_back("-" + name);
+  }
+}
+
+/// What is wrong with the first command or option that is none; empty if all are known.
+std::string unknown_word(const CLI::App& app) {
+  const auto given = app.get_subcommands();
+  for (const auto& word : app.remaining(true)) {
+    const bool option = word.size() > 1 && word[0] == '-';
+    std::vector<std::string> names;
+    if (option) {
+      add_option_names(app, names);
+      for (const auto* command : given) add_option_names(*command, names);
+    } else if (given.empty()) {
+      for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    } else {
+      continue;
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const auto unknown = word.substr(0, option ? word.find('=') : std::string::npos);
+    const auto suggestion = nearest_name(unknown, known);
+    return (option ? "unknown option \"" : "unknown command \"") + unknown + "\"; " +
+           (suggestion.empty() ? "allowed: " + quoted_list(known) : "did you mean \"" + suggestion + "\"?");
+  }
+  return "";
+}
+
 ExitCode parse_and_run(int argc, char** argv) {
   CLI::App app("isojam: jammed packings of soft frictionless Platonic solids, in batches", "isojam");
   Session session;
@@ -44,6 +79,10 @@ ExitCode parse_and_run(int argc, char** argv) {
     std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
     return ExitCode::usage;
   } catch (const CLI::ParseError& error) {
+    if (const auto unknown = error.get_exit_code() == 0 ? std::string() : unknown_word(app); !unknown.empty()) {
+      std::fprintf(stderr, "isojam: error: %s\n", printable(unknown).c_str());
+      return ExitCode::usage;
+    }
     std::ostringstream out, err;
     const bool asked = app.exit(error, out, err) == 0;
     print(out.str());

@@ -3,6 +3,7 @@
 //   nothing is written;
 // - several errors are as many lines, each with the file;
 // - usage errors and paths that cannot be read or written end with exit 2 and one error, and nothing is written;
+// - a command or an option that is none is told with the nearest that is one;
 // - help and version go to stdout with exit 0;
 // - colour appears where it is asked for and not elsewhere.
 
@@ -69,6 +70,29 @@ TEST(Program, TellsAllErrorsOfAManifestALineEach) {
   EXPECT_EQ(lines_of(validate.err), 3) << validate.err;
   std::istringstream lines(validate.err);
   for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.rfind("isojam: error: m.json: /", 0), 0U) << line;
+}
+
+TEST(Program, UnknownWordsAreToldWithTheNearest) {
+  const TemporaryDirectory directory;
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string says;
+  };
+  const std::vector<Case> cases{
+      {{"ruN", "m.json"}, "unknown command \"ruN\"; did you mean \"run\"?"},
+      {{"vaildate", "m.json"}, "unknown command \"vaildate\"; did you mean \"validate\"?"},
+      {{"zzzzzz"}, "unknown command \"zzzzzz\"; allowed: \"run\", \"validate\""},
+      {{"run", "m.json", "--thread=2"}, "unknown option \"--thread\"; did you mean \"--threads\"?"},
+      {{"run", "m.json", "--colour", "never"}, "unknown option \"--colour\"; did you mean \"--color\"?"},
+      {{"run", "--dryrun"}, "unknown option \"--dryrun\"; did you mean \"--dry-run\"?"},
+      {{"--helpp"}, "unknown option \"--helpp\"; did you mean \"--help\"?"},
+  };
+  for (const auto& wrong : cases) {
+    const auto run = isojam(wrong.arguments, directory.path());
+    EXPECT_EQ(run.exit_code, 2) << wrong.says;
+    EXPECT_EQ(run.err.rfind("isojam: error: " + wrong.says, 0), 0U) << run.err;
+    EXPECT_EQ(lines_of(run.err), 1) << run.err;
+  }
 }
 
 TEST(Program, UsageErrorsEndWithTwo) {
