@@ -353,12 +353,14 @@ Json to_json(const Manifest& manifest) {
   return json;
 }
 
-std::string digest(const Manifest& manifest) {
+Json identity(const Manifest& manifest) {
   auto json = to_json(manifest);
   json.erase("replicates");
   json.erase("keep_path");
   json.erase("exclude");
-  return hex_hash(json.dump());
+  return json;
 }
+
+std::string digest(const Manifest& manifest) { return hex_hash(identity(manifest).dump()); }
 
 }  // namespace isojam

@@ -69,8 +69,14 @@ Manifest read_manifest(const std::string& file);
 /// Canonical form: every value spelt out, lists in order. parse_manifest(to_json(m)) gives m.
 Json to_json(const Manifest& manifest);
 
-/// Identity of everything that a replicate's result depends on; the number of replicates is left out, so that it
-/// may be raised later, and what is kept beside the record or excluded from means.
+/// The canonical form of everything that a replicate's result depends on; the number of replicates is left out, so that
+/// it may be raised later, and what is kept beside the record or excluded from
+/// means.
+Json identity(const Manifest& manifest);
 std::string digest(const Manifest& manifest);
+
+/// By which keys two manifests of different digest differ, with both values: "/seed: 8 there, 7 here; ...", a handful
+/// and how many more. Empty if their digests are the same.
+std::string differences(const Manifest& theirs, const Manifest& ours);
 
 }  // namespace isojam

@@ -1,0 +1,53 @@
+// Facts proved here:
+// - manifests of different digest differ in keys that are named with both values, a handful of them;
+// - those of the same digest differ in none.
+
+#include <gtest/gtest.h>
+
+#include "tasks/manifest/manifest.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+
+namespace isojam {
+namespace {
+
+using test::good_manifest;
+
+Manifest parse(const Json& manifest) { return parse_manifest(manifest.dump(), "m.json"); }
+
+std::string differences_to_good(const std::string& pointer, const Json& value) {
+  auto other = good_manifest();
+  other[Json::json_pointer(pointer)] = value;
+  return differences(parse(other), parse(good_manifest()));
+}
+
+TEST(Differences, AreNamedWithBothValues) {
+  EXPECT_EQ(differences_to_good("/seed", 8), "/seed: 8 there, 7 here");
+  EXPECT_EQ(differences_to_good("/sweep/solid", {"cube"}), "/sweep/solid: [\"cube\"] there, [\"dodecahedron\"] here");
+  EXPECT_EQ(differences_to_good("/minimiser/residual", 1e-9), "/minimiser/residual: 1e-09 there, 1e-06 here");
+  EXPECT_EQ(differences_to_good("/sweep/fit_window", {0.01, 0.02}),
+            "/sweep/fit_window: [0.01,0.02] there, not given here; "
+            "/protocol/fit_window: not given there, 0.02 here");
+  const auto long_list = differences_to_good("/sweep/particles", {100, 101, 102, 103, 104, 105, 106, 107, 108, 109});
+  EXPECT_EQ(long_list, "/sweep/particles: [100,101,102,103,104,105,106,107,108,... there, [64] here");
+}
+
+TEST(Differences, AreAHandfulAndThoseOfTheDigest) {
+  auto other = good_manifest();
+  other["name"] = "other";
+  other["seed"] = 8;
+  other["modes"] = 3;
+  other["measure"] = Json::array();
+  other["protocol"] = {{"fit_window", 0.01}, {"max_steps", 7}, {"longest_step", 0.01}};
+  EXPECT_EQ(differences(parse(other), parse(good_manifest())),
+            "/name: \"other\" there, \"tiny\" here; /seed: 8 there, 7 here; "
+            "/protocol/longest_step: 0.01 there, 0.05 here; /protocol/fit_window: 0.01 there, 0.02 here; "
+            "/protocol/max_steps: 7 there, 400 here and 2 more");
+  auto same = good_manifest();
+  same["replicates"] = {{"min", 2}, {"max", 4}, {"quantity", "phi_j"}, {"half_width", 1}};
+  same["keep_path"] = true;
+  ASSERT_EQ(digest(parse(same)), digest(parse(good_manifest())));
+  EXPECT_EQ(differences(parse(same), parse(good_manifest())), "");
+}
+
+}  // namespace
+}  // namespace isojam
