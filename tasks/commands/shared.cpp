@@ -4,7 +4,13 @@
 
 #include <array>
 
+#include "tasks/manifest/warnings.hpp"
+
 namespace isojam {
+
+void warn_about(const Manifest& manifest, const std::string& file, Console& console) {
+  for (const auto& warning : warnings_of(manifest)) console.warn(fmt::format("{}: {}", file, warning));
+}
 
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {
   const auto& step = progress.result.path.back();

@@ -4,8 +4,12 @@
 #include <string_view>
 
 #include "tasks/replicate/replicate.hpp"
+#include "tasks/system/console.hpp"
 
 namespace isojam {
+
+/// Says which settings of a manifest cannot give a good result.
+void warn_about(const Manifest& manifest, const std::string& file, Console& console);
 
 /// One line about the last step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);

@@ -11,8 +11,9 @@ struct Arguments {
   std::string manifest;
 };
 
-ExitCode validate(const Arguments& arguments, Console&) {
+ExitCode validate(const Arguments& arguments, Console& console) {
   const auto manifest = read_manifest(arguments.manifest);
+  warn_about(manifest, arguments.manifest, console);
   const Plan plan(manifest);
   const auto each = manifest.replicates.goal ? fmt::format("{} to {}", manifest.replicates.min, manifest.replicates.max)
                                              : std::to_string(manifest.replicates.max);

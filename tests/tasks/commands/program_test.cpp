@@ -1,7 +1,7 @@
 // Facts proved here, through the executable:
 // - every manifest of the bad corpus ends `run` and `validate` with exit 65 and one line that names the file, and
 //   nothing is written;
-// - several errors are as many lines, each with the file;
+// - several errors are as many lines, each with the file; warnings come beside an OK;
 // - usage errors and paths that cannot be read or written end with exit 2 and one error, and nothing is written;
 // - a command or an option that is none is told with the nearest that is one;
 // - help and version go to stdout with exit 0;
@@ -70,6 +70,19 @@ TEST(Program, TellsAllErrorsOfAManifestALineEach) {
   EXPECT_EQ(lines_of(validate.err), 3) << validate.err;
   std::istringstream lines(validate.err);
   for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.rfind("isojam: error: m.json: /", 0), 0U) << line;
+}
+
+TEST(Program, WarnsOfSettingsThatGiveNoGoodResult) {
+  const TemporaryDirectory directory;
+  auto manifest = test::good_manifest();
+  manifest["protocol"] = {{"final_distance", 0.05}, {"max_density", 0.5}};
+  test::write_text(directory / "m.json", manifest.dump());
+  const auto validate = isojam({"validate", "m.json"}, directory.path());
+  EXPECT_EQ(validate.exit_code, 0) << validate.err;
+  EXPECT_EQ(validate.out.rfind("OK: tiny: ", 0), 0U) << validate.out;
+  EXPECT_EQ(lines_of(validate.err), 2) << validate.err;
+  for (const std::string key : {"final_distance", "max_density"})
+    EXPECT_NE(validate.err.find("isojam: warning: m.json: /protocol/" + key + ": "), std::string::npos) << validate.err;
 }
 
 TEST(Program, UnknownWordsAreToldWithTheNearest) {

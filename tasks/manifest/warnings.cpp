@@ -1,0 +1,159 @@
+#include "tasks/manifest/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "tasks/manifest/fields.hpp"
+
+namespace isojam {
+namespace {
+
+/// Of a solid's packings: about where they jam (Table I of the paper; cubes: examples/paper/cubes.json), and
+/// E/N ≈ stiffness Δφ⁶ for Δφ of .004 to .05, where it is greatest (N = 64 to 100).
+struct Known {
+  SolidKind kind;
+  double density, stiffness;
+};
+constexpr std::array known{
+    Known{SolidKind::tetrahedron, 0.63, 0.8}, Known{SolidKind::cube, 0.75, 10},
+    Known{SolidKind::octahedron, 0.68, 4},    Known{SolidKind::dodecahedron, 0.705, 25},
+    Known{SolidKind::icosahedron, 0.695, 30},
+};
+/// Three standard deviations of φ_J between packings of N = 100; of cubes, which scatter more, less than one.
+constexpr double scatter = 0.03;
+
+/// Methods other than Newton's spend this much at Δφ = .008 and are left with residuals of 3e-4 and more; at .03 most
+/// get to 1e-6.
+constexpr long spent_in_vain = 60000;
+constexpr double near_jamming = 0.01, residual_left = 3e-4;
+
+/// Tetrahedra that are relaxed less on the way up jam at lower densities: .628, .632, .641, .643 (± .006) after 50,
+/// 100, 500 and 2000 evaluations a strain step. The other solids do not.
+constexpr int relaxed_evaluations = 500;
+
+class Warnings {
+ public:
+  explicit Warnings(const Manifest& manifest) : manifest_(manifest) {}
+
+  /// The first of a key, and of each solid where it depends on it.
+  void add(std::string_view name, const std::string& solid, const std::string& text) {
+    if (!told_.emplace(name, solid).second) return;
+    const bool swept = std::any_of(manifest_.swept.begin(), manifest_.swept.end(),
+                                   [&](const SweptField& field) { return field.name == name; });
+    const auto group = swept ? std::string_view("sweep") : to_string(find_field(name)->group);
+    lines_.push_back(fmt::format("/{}/{}: {}", group, name, text));
+  }
+
+  std::vector<std::string> take() { return std::move(lines_); }
+
+ private:
+  const Manifest& manifest_;
+  std::set<std::pair<std::string, std::string>> told_;
+  std::vector<std::string> lines_;
+};
+
+/// Whether φ_J will have states to be fitted to.
+void look_at_window(const JamOptions& options, Warnings& warnings) {
+  // Expansion ends with a state within final_distance; the one before it may be one step farther.
+  const double last = options.final_distance;
+  const double before = std::min(last / (1 - options.step_fraction), last + options.longest_step);
+  if (last >= options.fit_window) {
+    warnings.add("final_distance", "",
+                 fmt::format("{} is not below fit_window {}: no state would lie in the window, and phi_j would be "
+                             "fitted to states outside it",
+                             last, options.fit_window));
+  } else if (before >= options.fit_window) {
+    warnings.add(
+        "fit_window", "",
+        fmt::format("{} may hold one state alone, and phi_j is fitted to two or more: with step_fraction {} the "
+                    "last two lie up to {:.3g} and {} above jamming",
+                    options.fit_window, options.step_fraction, before, last));
+  }
+}
+
+void look_at_minimiser(const JamOptions& options, Warnings& warnings) {
+  const auto& minimise = options.minimise;
+  if (minimise.method != Method::newton && minimise.energy_change == 0 && minimise.residual < residual_left &&
+      minimise.max_evaluations <= spent_in_vain && options.final_distance < near_jamming) {
+    warnings.add(
+        "method", "",
+        fmt::format("{} does not reach residual {} in {} evaluations as near jamming as final_distance {}; "
+                    "newton does",
+                    to_string(minimise.method), minimise.residual, minimise.max_evaluations, options.final_distance));
+  }
+  for (const auto& [name, energy] : {std::pair("consolidation_energy", options.consolidation_energy),
+                                     std::pair("unjammed_energy", minimise.unjammed_energy)}) {
+    if (energy < options.target_energy) continue;
+    warnings.add(name, "",
+                 fmt::format("{} is not below target_energy {}: a state at the target would count as unjammed", energy,
+                             options.target_energy));
+  }
+}
+
+/// Whether the density at which this solid jams, or has the target energy, is reached.
+void look_at_density(const JamOptions& options, const Known& solid, Warnings& warnings) {
+  const std::string name(to_string(solid.kind));
+  // The other reading of the target ends consolidation just above jamming.
+  const double distance =
+      options.target_before_relaxation ? 0 : std::pow(options.target_energy / solid.stiffness, 1.0 / 6);
+  const double needed = solid.density + distance;
+  const auto where = distance == 0 ? fmt::format("{} packings jam at about {:.3g}", name, solid.density)
+                                   : fmt::format(
+                                         "{} packings jam at about {:.3g} and have target_energy {} from about "
+                                         "{:.2f} on",
+                                         name, solid.density, options.target_energy, needed);
+  if (options.max_density < needed - scatter)
+    warnings.add("max_density", name, fmt::format("{} is too low: {}", options.max_density, where));
+  const double reached = options.initial_density + (options.max_steps - 1) * options.consolidation_step;
+  if (reached < needed - scatter) {
+    warnings.add("max_steps", name,
+                 fmt::format("{} strain steps of {} lead from density {} to {:.2f} at most: {}", options.max_steps,
+                             options.consolidation_step, options.initial_density, reached, where));
+  }
+  if (distance > 0 && distance <= options.final_distance) {
+    warnings.add(
+        "target_energy", name,
+        fmt::format("at {} {} packings are about {:.2g} above jamming: expansion to final_distance {} would end "
+                    "where it begins",
+                    options.target_energy, name, distance, options.final_distance));
+  }
+}
+
+void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warnings) {
+  const std::string name(to_string(solid.kind));
+  look_at_density(options, solid, warnings);
+  const double last = solid.stiffness * std::pow(options.final_distance, 6);
+  if (options.minimise.unjammed_energy >= last) {
+    warnings.add("unjammed_energy", name,
+                 fmt::format("{} is not below the E/N of {} packings at final_distance {}, about {:.1g}: they would "
+                             "count as unjammed",
+                             options.minimise.unjammed_energy, name, options.final_distance, last));
+  }
+  if (solid.kind == SolidKind::tetrahedron && options.consolidation_evaluations < relaxed_evaluations) {
+    warnings.add("consolidation_evaluations", name,
+                 fmt::format("{} are too few for tetrahedra, which then jam at lower densities: {} or more",
+                             options.consolidation_evaluations, relaxed_evaluations));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Manifest& manifest) {
+  Warnings warnings(manifest);
+  for (const auto& set : option_sets(manifest)) {
+    look_at_window(set.options, warnings);
+    look_at_minimiser(set.options, warnings);
+    for (const auto& solid : known) {
+      if (std::find(manifest.solids.begin(), manifest.solids.end(), solid.kind) != manifest.solids.end())
+        look_at_solid(set.options, solid, warnings);
+    }
+  }
+  return warnings.take();
+}
+
+}  // namespace isojam

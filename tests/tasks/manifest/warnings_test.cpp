@@ -1,0 +1,88 @@
+// Facts proved here:
+// - settings of which it is known that they give no good result are warned of, by the key to change;
+// - the defaults, and every example, are not.
+
+#include "tasks/manifest/warnings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tasks/json/parse.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// The pointers of the warnings about a manifest of all solids with these changes.
+Lines warned(const Json& changes) {
+  auto manifest = test::good_manifest();
+  manifest["sweep"]["solid"] = {"tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"};
+  manifest["sweep"]["particles"] = {150};
+  manifest.merge_patch(changes);
+  auto lines = warnings_of(parse_manifest(manifest.dump(), "m.json"));
+  for (auto& line : lines) {
+    std::printf("%s\n", line.c_str());
+    line = line.substr(0, line.find(':'));
+  }
+  return lines;
+}
+
+Lines of_protocol(const Json& values) { return warned({{"protocol", values}}); }
+Lines of_minimiser(const Json& values) { return warned({{"minimiser", values}}); }
+
+TEST(Warnings, DefaultsAndExamplesHaveNone) {
+  EXPECT_EQ(warned(Json::object()), Lines{});
+  int seen = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(ISOJAM_SOURCE_DIR "/examples")) {
+    if (entry.path().extension() != ".json" || entry.path().parent_path().filename() == "data") continue;
+    ++seen;
+    EXPECT_EQ(warnings_of(read_manifest(entry.path().string())), Lines{}) << entry.path();
+  }
+  EXPECT_GT(seen, 10);
+}
+
+TEST(Warnings, TheFitWindowMustHoldTwoStates) {
+  EXPECT_EQ(of_protocol({{"final_distance", 0.05}}), Lines{"/protocol/final_distance"});
+  EXPECT_EQ(of_protocol({{"final_distance", 0.02}}), Lines{"/protocol/final_distance"});
+  // The state before the last is up to .015 / (1 - .35) = .023 above jamming.
+  EXPECT_EQ(of_protocol({{"final_distance", 0.015}}), Lines{"/protocol/fit_window"});
+  EXPECT_EQ(of_protocol({{"final_distance", 0.012}}), Lines{});
+  EXPECT_EQ(of_protocol({{"final_distance", 0.015}, {"longest_step", 0.004}}), Lines{});
+  EXPECT_EQ(warned({{"sweep", {{"final_distance", {0.001, 0.03, 0.04}}}}}), Lines{"/sweep/final_distance"});
+}
+
+TEST(Warnings, DensitiesMustReachBeyondJamming) {
+  const Lines each(5, "/protocol/max_density");
+  EXPECT_EQ(of_protocol({{"max_density", 0.6}}), each);
+  EXPECT_EQ(of_protocol({{"max_density", 0.7}}), each) << "above jamming, but without the target energy";
+  EXPECT_EQ(of_protocol({{"max_density", 0.86}}), Lines{});
+  const Json gentle{{"max_density", 0.72}, {"target_before_relaxation", true}};
+  EXPECT_EQ(of_protocol(gentle), Lines{}) << "consolidation ends just above jamming";
+  EXPECT_EQ(of_protocol({{"max_density", 0.5}, {"target_before_relaxation", true}}), each);
+  EXPECT_EQ(of_protocol({{"max_steps", 30}}), Lines(5, "/protocol/max_steps"));
+  EXPECT_EQ(of_protocol({{"max_steps", 30}, {"consolidation_step", 0.04}}), Lines{});
+  EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}, {"max_density", {0.5, 0.6, 0.93}}}}}), Lines{"/sweep/max_density"});
+}
+
+TEST(Warnings, EnergiesMustLeaveRoomForAnExpansion) {
+  const Lines each(5, "/protocol/target_energy");
+  EXPECT_EQ(of_protocol({{"target_energy", 1e-16}, {"consolidation_energy", 0}}), each);
+  EXPECT_EQ(of_protocol({{"target_energy", 1e-9}}), Lines{});
+  EXPECT_EQ(of_protocol({{"consolidation_energy", 1e-4}}), Lines{"/protocol/consolidation_energy"});
+  EXPECT_EQ(of_minimiser({{"unjammed_energy", 1e-12}}), Lines(5, "/minimiser/unjammed_energy"));
+}
+
+TEST(Warnings, MinimisersMustGetThere) {
+  EXPECT_EQ(of_minimiser({{"method", "fire"}}), Lines{"/minimiser/method"});
+  EXPECT_EQ(of_minimiser({{"method", "fire"}, {"energy_change", 1e-12}}), Lines{}) << "the paper's rule";
+  EXPECT_EQ(of_minimiser({{"method", "fire"}, {"residual", 1e-3}}), Lines{});
+  EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}}), Lines{"/protocol/consolidation_evaluations"});
+  EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}}}, {"protocol", {{"consolidation_evaluations", 100}}}}), Lines{});
+}
+
+}  // namespace
+}  // namespace isojam
