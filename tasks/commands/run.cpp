@@ -119,6 +119,7 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   const auto manifest = read_manifest(arguments.manifest);
   const Plan plan(manifest);
   const auto directory = arguments.directory.empty() ? "results/" + manifest.name : arguments.directory;
+  warn_about(manifest, arguments.manifest, console);
   const Warn warn = [&](const std::string& message) { console.warn(message); };
   if (arguments.dry_run) {
     check_directory(directory, manifest, warn);

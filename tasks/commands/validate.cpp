@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "tasks/commands/command.hpp"
+#include "tasks/commands/shared.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/system/standard_streams.hpp"
 

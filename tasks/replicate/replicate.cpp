@@ -45,8 +45,23 @@ std::optional<Failure> failure_of(const JamResult& jam) {
                        jam.path.size(), last.density, to_string(last.stage), last.energy_per_particle,
                        last.summary.residual, to_string(last.summary.reason));
   }
+  if (jam.status == JamStatus::density_limit) why += "; the limit is /protocol/max_density in the manifest: raise it";
+  if (jam.status == JamStatus::step_limit) why += "; the limit is /protocol/max_steps in the manifest: raise it";
   return Failure{"jam", why};
 }
+
+namespace {
+
+/// Fewer than two states lie within the fit window, so that φ_J had to be fitted to others.
+bool outside_fit_window(const Outcome& outcome) {
+  const auto& jam = outcome.jam;
+  const auto& used = jam.phi_j->states;
+  const auto farthest = jam.state_steps[static_cast<std::size_t>(used.back())];
+  return used.size() == 2 &&
+         jam.path[static_cast<std::size_t>(farthest)].density - jam.phi_j->density >= outcome.spec.options.fit_window;
+}
+
+}  // namespace
 
 std::vector<std::string> flags_of(const Outcome& outcome) {
   assert(!outcome.failure);
@@ -57,6 +72,7 @@ std::vector<std::string> flags_of(const Outcome& outcome) {
   };
   if (std::any_of(outcome.jam.state_steps.begin(), outcome.jam.state_steps.end(), by_energy))
     flags.emplace_back("not_balanced");
+  if (outside_fit_window(outcome)) flags.emplace_back("outside_fit_window");
   for (const auto& [what, measurement] : outcome.measured)
     flags.insert(flags.end(), measurement.flags.begin(), measurement.flags.end());
   return flags;

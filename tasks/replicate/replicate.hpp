@@ -57,8 +57,9 @@ Stages engine_stages();
 std::optional<Failure> failure_of(const JamResult& jam);
 
 /// Reservations about an outcome without failure, in a fixed order: goal_not_reached (expansion did not come as near to
-/// jamming as asked), not_balanced (the rule on the energy let states pass whose forces do not balance), then those of
-/// the measurements.
+/// jamming as asked), not_balanced (the rule on the energy let states pass whose forces do not balance),
+/// outside_fit_window (fewer than two states lie in the window, so φ_J is of the two nearest), then those of the
+/// measurements.
 std::vector<std::string> flags_of(const Outcome& outcome);
 
 }  // namespace isojam

@@ -25,8 +25,6 @@ namespace {
                     fmt::format("results of this manifest (digest {}): choose another directory with -o", ours), ""});
 }
 
-std::string differences(const Manifest& theirs, const Manifest&) { return "digest " + digest(theirs); }
-
 /// The manifest that the directory belongs to already.
 std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& manifest) {
   const auto path = directory / "manifest.json";

@@ -158,6 +158,13 @@ TEST(RecordSchema, StatesThatTheEnergyLetPassAreFlagged) {
   EXPECT_EQ(violations("replicate", parse_json(sealed(make_record(outcome)), "record")), "");
 }
 
+TEST(RecordSchema, AFitToStatesOutsideItsWindowIsFlagged) {
+  auto outcome = test::made_up_outcome(Plan(parse_manifest(test::good_manifest().dump(), "manifest")).at(0, 0));
+  outcome.jam.phi_j->states = {3, 1};
+  EXPECT_EQ(flags_of(outcome), std::vector<std::string>{"outside_fit_window"});
+  EXPECT_EQ(violations("replicate", parse_json(sealed(make_record(outcome)), "record")), "");
+}
+
 TEST(RecordSchema, AcceptsRecords) {
   const auto records = made_up_records();
   EXPECT_EQ(records.at(1).at("flags"), Json{"classes_undecided"});
