@@ -210,7 +210,7 @@ TEST_F(Batch, MoreReplicatesLeaveTheOthersUntouched) {
   const auto after = files_below(here_ / "results");
   EXPECT_EQ(only(after, "records/").size(), 6U);
   for (const auto& [name, content] : only(before, "-r000")) EXPECT_EQ(after.at(name), content) << name;
-  EXPECT_EQ(parse_json(after.at("tables.json"), "tables").at("rows").at(0).at("phi_j").at("n"), 3);
+  EXPECT_EQ(parse_json(after.at("tables.json"), "tables").at("rows").at(0).at("replicates"), 3);
 }
 
 TEST_F(Batch, FailedReplicatesAreRecordedAndCounted) {

@@ -163,7 +163,7 @@ TEST(Campaign, TheGoalLooksAtReplicatesThatAreNotExcluded) {
   for (const bool excluding : {true, false}) {
     if (!excluding) manifest.exclude.clear();
     const TemporaryDirectory directory;
-    const Plan plan(manifest, test::unheard);
+    const Plan plan(manifest);
     const Store store(directory.path(), manifest, test::unheard);
     Campaign campaign(plan, manifest.replicates, {}, store);
     while (campaign.open_round()) {
@@ -182,7 +182,7 @@ TEST(Campaign, TheGoalLooksAtReplicatesThatAreNotExcluded) {
 TEST(Campaign, ShardsGiveAllAndNothingTwice) {
   for (const auto& manifest : {manifest_of(5), with_goal()}) {
     const TemporaryDirectory whole, parts;
-    const auto all = run_all(whole.path(), manifest, test::unheard);
+    const auto all = run_all(whole.path(), manifest);
     std::vector<std::string> given;
     for (const int index : {2, 0, 1}) {
       const auto part = run_all(parts.path(), manifest, {index, 3});

@@ -193,8 +193,8 @@ TEST(Rivals, OneOfThemGetsAFreshDirectory) {
       }
     }
     const bool first_lost = !refusals[0].empty();
-    EXPECT_NE(first_lost, !refusals[1].empty()) << refusals[0] << " | " << refusals[1];
-    EXPECT_NE(refusals[first_lost ? 0 : 1].find("/seed"), std::string::npos) << refusals[first_lost ? 0 : 1];
+    ASSERT_NE(first_lost, !refusals[1].empty()) << refusals[0] << " | " << refusals[1];
+    ASSERT_NE(refusals[first_lost ? 0 : 1].find("/seed"), std::string::npos) << refusals[first_lost ? 0 : 1];
     EXPECT_EQ(digest(own_manifest(directory / "r")), digest(manifest_with(first_lost ? 8 : 7)));
   }
 }

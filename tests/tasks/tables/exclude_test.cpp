@@ -44,7 +44,7 @@ class ExcludeTest : public ::testing::Test {
     json["replicates"] = 6;
     if (change) change(json);
     const auto manifest = parse_manifest(json.dump(), "m.json");
-    const Store store(directory_ / name, manifest);
+    const Store store(directory_ / name, manifest, test::unheard);
     for (const auto& spec : test::make_plan(manifest)) {
       phi_j_.push_back(outcome_of(spec).jam.phi_j->density);
       store.write(outcome_of(spec));
