@@ -12,10 +12,20 @@
 namespace isojam {
 namespace {
 
-/// What the names of a point's replicates have in common.
+/// Longer ones no one reads.
+constexpr std::size_t longest_prefix = 96;
+
+/// What the names of a point's replicates have in common. Values are numbers, truth values and names of enumerators,
+/// none of which holds what stands between them.
 std::string prefix(const ReplicateSpec& spec) {
-  const auto hash = spec.parameters.empty() ? std::string() : fmt::format("-{}", hex_hash(point_text(spec)));
-  return fmt::format("{}-N{}{}", to_string(spec.solid), spec.particles, hash);
+  const auto size = fmt::format("{}-N{}", to_string(spec.solid), spec.particles);
+  auto text = size;
+  for (const auto& item : spec.parameters.items()) {
+    const auto& value = item.value();
+    text += fmt::format("-{}{}{}", item.key(), value.is_number() ? "" : "_",
+                        value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return text.size() <= longest_prefix ? text : fmt::format("{}-{}", size, hex_hash(point_text(spec)));
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ class Plan {
   std::map<std::string, std::size_t, std::less<>> point_of_prefix_;  ///< by what its replicates' names have in common
 };
 
-/// A safe file name without extension: <solid>-N<particles>[-<hash of the point>]-r<replicate>.
+/// A safe file name without extension: <solid>-N<particles>[-<parameter><value>]…-r<replicate>, with a hash of the
+/// point in the place of its parameters where they would take too long.
 std::string replicate_name(const ReplicateSpec& spec);
 
 /// Stream of (manifest seed, sweep point, replicate, purpose): the same alone, in a sweep and with any number of

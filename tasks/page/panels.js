@@ -88,12 +88,23 @@ function panelAxes({x, y}, {showX, showY}) {
   return [axis('bottom', 'x', x, showX), axis('left', 'y', y, showY)];
 }
 
+/// A text as lines of at most `most` characters where its words, of which "N = 28" is one, allow that.
+function wrapped(text, most) {
+  const lines = [];
+  for (const word of text.replaceAll(' = ', '\u00a0=\u00a0').split(' ')) {
+    const last = lines.at(-1);
+    if (last !== undefined && last.length + 1 + word.length <= most) lines[lines.length - 1] = `${last} ${word}`;
+    else lines.push(word);
+  }
+  return lines.map((line) => line.replaceAll('\u00a0', ' '));
+}
+
 /// One panel: its own scales of the common domains, marks inside.
 function panel({title, width, height, x, y, data = [], marks, showX = true, showY = true}) {
   const scale = (name, range, {type = 'linear', domain}) => ({name, type, domain, range, zero: false, clamp: false});
   return {
     type: 'group',
-    title: {text: title, limit: width, frame: 'group'},
+    title: {text: wrapped(title, width / 6.9), limit: width, frame: 'group'},
     encode: {enter: {width: {value: width}, height: {value: height}}},
     signals: [{name: 'width', value: width}, {name: 'height', value: height}],
     scales: [scale('x', [0, width], x), scale('y', [height, 0], y)],

@@ -16,6 +16,7 @@
 #include "tasks/measure/quantity.hpp"
 #include "tasks/replicate/summary.hpp"
 #include "tasks/report/angle_curves.hpp"
+#include "tasks/tables/lines.hpp"
 #include "tasks/tables/tables.hpp"
 
 namespace isojam {
@@ -60,8 +61,7 @@ void add_distinct(Json& list, const Json& value) {
 std::string label_of(const Row& row) {
   auto label = fmt::format("{}, N = {}", to_string(row.solid), row.particles);
   for (const auto& item : row.parameters.items()) {
-    const auto& value = item.value();
-    label += fmt::format(", {} {}", item.key(), value.is_string() ? value.get<std::string>() : value.dump());
+    label += fmt::format(", {} {}", parameter_head(item.key()), parameter_text(row, item.key()));
   }
   return label;
 }
@@ -295,6 +295,8 @@ Json report_data(const Results& results, const std::map<std::size_t, Json>& view
   data["builds"] = provenance_list(results);
   data["measures"] = measure_list(results);
   data["columns"] = column_list();
+  data["parameters"] = Json::object();
+  for (const auto& name : parameter_names(table)) data["parameters"][name] = parameter_head(name);
   data["rows"] = Json::array();
   std::map<std::string, int> place;
   for (const auto& row : table.rows) {

@@ -13,6 +13,7 @@ namespace isojam {
 ///   builds      distinct provenance of the records
 ///   measures    what was measured, over all records
 ///   columns     {"name", "group", "unit", "latex"} of the quantities, in the order of the tables
+///   parameters  names of the swept ones, each with what its column is called
 ///   rows        those of tables.json, each with "label", "paper" (φ_J of Table I or null), "scaling" (power laws of
 ///               ⟨ω⟩ over its replicates) and "angles" (CDFs over its replicates), both without the excluded
 ///   csv, latex  the same table as text

@@ -15,13 +15,13 @@ std::string number(const std::optional<double>& x) { return x ? Json(*x).dump() 
 /// What a line begins with.
 Cells head_of(const std::vector<std::string>& parameters, View view) {
   Cells head{"solid", "particles"};
-  head.insert(head.end(), parameters.begin(), parameters.end());
+  for (const auto& name : parameters) head.push_back(parameter_head(name));
   head.insert(head.end(), {"replicates", "failed", "flagged", "excluded", "over"});
   if (view == View::series) head.emplace_back("delta_phi");
   return head;
 }
 
-Cells begin_of(const Line& line, const std::vector<std::string>& parameters) {
+Cells begin_of(const TableLine& line, const std::vector<std::string>& parameters) {
   const Row& row = *line.row;
   Cells cells{std::string(to_string(row.solid)), std::to_string(row.particles)};
   for (const auto& name : parameters) cells.push_back(parameter_text(row, name));
@@ -45,10 +45,10 @@ Cells cells_of(const Estimate& estimate) {
 void append(Cells& cells, const Cells& more) { cells.insert(cells.end(), more.begin(), more.end()); }
 
 /// Those that some line has a value of, by their places in all_quantities().
-std::vector<std::size_t> quantities_in(const std::vector<Line>& lines) {
+std::vector<std::size_t> quantities_in(const std::vector<TableLine>& lines) {
   std::vector<std::size_t> list;
   for (std::size_t i = 0; i < all_quantities().size(); ++i) {
-    if (std::any_of(lines.begin(), lines.end(), [&](const Line& line) { return (*line.estimates)[i].n > 0; }))
+    if (std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) { return (*line.estimates)[i].n > 0; }))
       list.push_back(i);
   }
   return list;
@@ -77,9 +77,9 @@ std::string to_csv(const Table& table, View view) {
   for (const auto i : quantities) {
     for (const auto part : parts) head.push_back(fmt::format("{}_{}", all_quantities()[i].name, part));
   }
-  head.emplace_back("residual");
+  head.emplace_back(residual_column);
   auto text = line_of(head);
-  for (const Line& line : lines) {
+  for (const TableLine& line : lines) {
     auto cells = begin_of(line, parameters);
     for (const auto i : quantities) append(cells, cells_of((*line.estimates)[i]));
     cells.push_back(number(line.row->residual));
@@ -96,7 +96,7 @@ std::string to_long_csv(const Table& table, View view) {
   append(head, {parts.begin(), parts.end()});
   auto text = line_of(head);
   const auto quantities = quantities_in(lines);
-  for (const Line& line : lines) {
+  for (const TableLine& line : lines) {
     for (const auto i : quantities) {
       auto cells = begin_of(line, parameters);
       cells.emplace_back(all_quantities()[i].name);

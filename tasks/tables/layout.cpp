@@ -58,13 +58,13 @@ struct Group {
   std::vector<std::size_t> quantities;
 };
 
-std::vector<Group> groups_in(const std::vector<Line>& lines, View view) {
+std::vector<Group> groups_in(const std::vector<TableLine>& lines, View view) {
   std::vector<Group> groups;
   const auto all = all_quantities();
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (view == View::series && all[i].of == Quantity::Of::replicate) continue;
     const bool any =
-        std::any_of(lines.begin(), lines.end(), [&](const Line& line) { return (*line.estimates)[i].n > 0; });
+        std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) { return (*line.estimates)[i].n > 0; });
     if (!any && all[i].group != main_group) continue;
     if (groups.empty() || groups.back().name != all[i].group) groups.push_back({all[i].group, {}});
     groups.back().quantities.push_back(i);
@@ -109,16 +109,16 @@ bool counts_replicates(const Group& group, View view) { return group.name == mai
 
 Cells head_of(const Group& group, const std::vector<std::string>& parameters, View view, Format format) {
   Cells head{"solid", symbol("N", "N", format)};
-  for (const auto& name : parameters) head.push_back(spelt(name, format));
+  for (const auto& name : parameters) head.push_back(spelt(parameter_head(name), format));
   if (view == View::series) head.push_back(symbol("delta_phi", "\\Delta\\phi", format));
   if (counts_replicates(group, view)) head.insert(head.end(), {"replicates", "failed", "flagged", "excluded"});
   for (const auto i : group.quantities)
     head.push_back(symbol(all_quantities()[i].name, all_quantities()[i].latex, format));
-  if (counts_replicates(group, view)) head.emplace_back("residual");
+  if (counts_replicates(group, view)) head.emplace_back(residual_column);
   return head;
 }
 
-Cells cells_of(const Line& line, const Group& group, const std::vector<std::string>& parameters, View view,
+Cells cells_of(const TableLine& line, const Group& group, const std::vector<std::string>& parameters, View view,
                Format format) {
   const Row& row = *line.row;
   const std::string indent = format == Format::text ? "  " : "\\quad ";
@@ -158,7 +158,7 @@ std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
 /// How far the rows came towards the goal; the head alone if they had none.
 std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{{"solid", symbol("N", "N", format)}};
-  for (const auto& name : parameters) lines[0].push_back(spelt(name, format));
+  for (const auto& name : parameters) lines[0].push_back(spelt(parameter_head(name), format));
   lines[0].insert(lines[0].end(), {"quantity", "half width", "aim", "replicates needed", "met"});
   for (const auto& row : table.rows) {
     if (!row.goal) continue;
@@ -188,7 +188,7 @@ std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
   std::vector<LaidOut> tables;
   for (const Group& group : groups_in(lines, view)) {
     std::vector<Cells> cells{head_of(group, parameters, view, format)};
-    for (const Line& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
+    for (const TableLine& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
     tables.push_back({group.name, true, std::move(cells)});
     const auto goals = goal_lines(table, parameters, format);
     if (group.name == main_group && view == View::nearest && goals.size() > 1) tables.push_back({"goal", true, goals});

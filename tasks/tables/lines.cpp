@@ -1,6 +1,10 @@
 #include "tasks/tables/lines.hpp"
 
+#include <fmt/format.h>
+
 #include <set>
+
+#include "tasks/manifest/fields.hpp"
 
 namespace isojam {
 
@@ -21,6 +25,11 @@ std::vector<std::string> parameter_names(const Table& table) {
   return {names.begin(), names.end()};
 }
 
+std::string parameter_head(const std::string& name) {
+  if (name != residual_column) return name;
+  return fmt::format("{}.{}", to_string(find_field(name)->group), name);
+}
+
 std::string parameter_text(const Row& row, const std::string& name) {
   if (!row.parameters.contains(name)) return "";
   const auto& value = row.parameters.at(name);
@@ -33,8 +42,8 @@ std::string exclusion_text(const Table& table) {
   return names.empty() ? "" : "without replicates flagged " + joined(names, ", ");
 }
 
-std::vector<Line> lines_of(const Table& table, View view) {
-  std::vector<Line> lines;
+std::vector<TableLine> lines_of(const Table& table, View view) {
+  std::vector<TableLine> lines;
   const auto add = [&](const Row& row, std::optional<double> delta_phi, const auto& place) {
     lines.push_back({&row, delta_phi, &place.estimates, false});
     if (row.excluded > 0) lines.push_back({&row, delta_phi, &place.all, true});

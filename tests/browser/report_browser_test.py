@@ -2,7 +2,7 @@
 - no page has a console error, asks the network for anything, or opens an alert;
 - every chart has marks, in every panel, and none of them lies at NaN; tooltips appear;
 - charts are saved as SVG, PNG, specification (with the data) and data;
-- a mean of one replicate is drawn open and joined to no other;
+- a mean of one replicate is drawn open and joined to no other; panels and bands say what varies, in full;
 - the table sorts by every column, both ways, by click and by keyboard; copies are what `isojam aggregate` prints;
 - the 3D view draws, turns by mouse and by keys, zooms, colours, shows the largest cluster alone, animates a mode, and
   turns 400 particles at 10 frames/s and more without a graphics card; without WebGL a sentence stands in its place;
@@ -210,6 +210,20 @@ class Report(unittest.TestCase):
                     numbers = [sign * number for number in shown if number is not None]
                     self.assertEqual(numbers, sorted(numbers), f"{name}, {direction}")
                     self.assertEqual(shown[len(numbers):].count(None), shown.count(None), f"{name}: dashes stand last")
+
+    def test_panels_and_bands_say_what_varies(self):
+        for width in (1200, 390):
+            self.browser.width(width)
+            self.addCleanup(self.browser.width, 1200)
+            self.open(self.pages.report(self.swept()))
+            for chart, marks in (("topology", "g.role-title text"), ("density", "g.role-axis-label text")):
+                texts = self.browser.run("""
+                    return [...document.querySelectorAll(`#chart-${arguments[0]} ${arguments[1]}`)].map((text) =>
+                      (text.children.length > 0 ? [...text.children] : [text]).map((line) => line.textContent).join(' '))
+                    """, chart, marks)
+                for label in ("N = 24, consolidation_step 0.05", "N = 28, consolidation_step 0.07"):
+                    shown = [text for text in texts if label in text]
+                    self.assertEqual(len(shown), 1, f"{chart} at {width}: {label} in {texts}")
 
     def swept(self):
         """Results of which both sizes and a parameter were swept; made once."""

@@ -78,11 +78,17 @@ function densityMarks() {
 /// Horizontal bands, one for each sweep point; labels stand above the bands where the page is narrow.
 function bandSpec({description, width, labels, datasets, x, marks, bandHeight, scales = [], legends = []}) {
   const narrow = width < 560;
-  const left = narrow ? 8 : 30 + 6.3 * Math.max(...labels.map((label) => label.length));
+  const texts = Object.fromEntries(labels.map((label) => [label, wrapped(label, narrow ? 52 : 34)]));
+  const longest = Math.max(...Object.values(texts).flat().map((line) => line.length));
+  const most = Math.max(...Object.values(texts).map((lines) => lines.length));
+  const left = narrow ? 8 : 30 + 6.3 * longest;
+  const height = narrow ? bandHeight + 28 * (most - 1) : Math.max(bandHeight, 14 * most + 8);
+  const linesOfLabel = `(${JSON.stringify(texts)})[datum.value]`;
+  const text = {signal: linesOfLabel};
   const axis = {scale: 'y', orient: 'left', grid: false, ticks: false, domain: false, labelLimit: 420};
   return {
     $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: configFor(width),
-    width: Math.max(160, width - left - 40), height: labels.length * bandHeight,
+    width: Math.max(160, width - left - 40), height: labels.length * height,
     data: Object.entries(datasets).map(([name, values]) => ({name, values})),
     scales: [
       {name: 'x', type: x.type ?? 'linear', domain: x.domain, range: 'width', zero: false},
@@ -92,7 +98,8 @@ function bandSpec({description, width, labels, datasets, x, marks, bandHeight, s
       {scale: 'x', orient: 'bottom', grid: true, title: x.title,
         ...(x.type === 'log' ? logAxis(x.domain) : {tickCount: narrow ? 4 : 8})},
       narrow ? {...axis, zindex: 1, labelAlign: 'left', labelPadding: -2, encode: {labels: {update: {
-        y: {scale: 'y', field: 'value', band: 0}, baseline: {value: 'top'}}}}} : axis,
+        text, y: {scale: 'y', field: 'value', band: 0}, baseline: {value: 'top'}}}}} :
+        {...axis, encode: {labels: {update: {text, dy: {signal: `-6.5 * (${linesOfLabel}.length - 1)`}}}}},
     ],
     legends: legends.map((legend) => horizontal(legend, width)),
     marks,

@@ -34,8 +34,7 @@ function estimateCell(estimate) {
 }
 
 /// A column: heading nodes, the value to sort by (number, text or null), the cell of a row.
-function leadingColumns(rows) {
-  const parameters = [...new Set(rows.flatMap((row) => Object.keys(row.parameters)))];
+function leadingColumns({parameters}) {
   const plain = (heading, value, text = false) => ({
     heading: [heading], text, value,
     cell: (row) => element(text ? 'th' : 'td', {className: text ? 'text' : '', ...(text ? {scope: 'row'} : {})},
@@ -44,7 +43,7 @@ function leadingColumns(rows) {
   return [
     plain('solid', (row) => row.solid, true),
     plain('N', (row) => row.particles),
-    ...parameters.map((name) => plain(name, (row) => row.parameters[name] ?? null)),
+    ...Object.entries(parameters).map(([name, heading]) => plain(heading, (row) => row.parameters[name] ?? null)),
   ];
 }
 
@@ -133,7 +132,7 @@ function exclusionNote(data) {
 }
 
 function drawMainTable(data, place) {
-  const leading = leadingColumns(data.rows);
+  const leading = leadingColumns(data);
   const paper = data.rows.some((row) => row.paper) ? [paperColumn()] : [];
   const [density] = data.columns;
   const contacts = columnsOf(data, density.group).filter((column) => column !== density);
@@ -152,7 +151,7 @@ function drawFurtherTables(data, section) {
     const columns = columnsOf(data, group);
     if (columns.length === 0) continue;
     section.append(element('details', {}, element('summary', {}, group),
-      exclusionNote(data), sortableTable(data.rows, [...leadingColumns(data.rows), ...columns.map(estimateColumn)], group)));
+      exclusionNote(data), sortableTable(data.rows, [...leadingColumns(data), ...columns.map(estimateColumn)], group)));
     section.hidden = false;
   }
 }

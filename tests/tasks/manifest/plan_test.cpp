@@ -1,5 +1,6 @@
 // Facts proved here:
-// - the plan is the product of the swept lists, in canonical order, each replicate once and under a name of its own;
+// - the plan is the product of the swept lists, in canonical order, each replicate once and under a name of its own,
+//   which says what varies, can be that of a file, and leads back to the replicate;
 // - a replicate's random numbers do not depend on what else is swept over, nor on its place in the sweep;
 // - they differ between replicates, points, seeds and purposes.
 
@@ -55,9 +56,37 @@ TEST(Plan, IsTheProductOfTheListsInOrder) {
 TEST(Plan, NamesSayWhatTheyAre) {
   const auto plan = plan_of(test::good_manifest());
   EXPECT_EQ(replicate_name(plan.at(1)), "dodecahedron-N64-r0001");
-  const auto swept = replicate_name(plan_of(large_sweep()).front());
-  EXPECT_EQ(swept.rfind("tetrahedron-N100-", 0), 0U) << swept;
-  EXPECT_EQ(swept.size(), std::string("tetrahedron-N100-0123456789abcdef-r0000").size()) << swept;
+  EXPECT_EQ(replicate_name(plan_of(large_sweep()).front()),
+            "tetrahedron-N100-method_conjugate_gradient-target_energy1e-06-r0000");
+  auto manifest = test::good_manifest();
+  manifest["sweep"]["final_distance"] = {0.01};
+  EXPECT_EQ(replicate_name(plan_of(manifest).at(1)), "dodecahedron-N64-final_distance0.01-r0001");
+}
+
+TEST(Plan, NamesAreSafeAndLeadBack) {
+  auto manifest = large_sweep();
+  manifest["sweep"]["residual"] = {1e-6, 1.2345678901234567e-9, 1};
+  manifest["sweep"]["target_before_relaxation"] = {false, true};
+  for (const bool longer : {false, true}) {
+    if (longer) manifest["sweep"]["consolidation_evaluations"] = {100, 123456789};
+    const Plan plan(parse_manifest(manifest.dump(), "m"));
+    std::set<std::string> names;
+    std::size_t hashed = 0;
+    for (std::size_t k = 0; k < plan.size(); ++k) {
+      const auto name = replicate_name(plan[k]);
+      names.insert(name);
+      EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyzN0123456789.-_"), std::string::npos) << name;
+      EXPECT_LE(name.size(), 102U) << name;
+      hashed += name.find("-method_") == std::string::npos;
+      const auto place = plan.place_of(name);
+      ASSERT_TRUE(place) << name;
+      EXPECT_EQ(place->point * 3 + static_cast<std::size_t>(place->replicate), k) << name;
+    }
+    EXPECT_EQ(names.size(), plan.size());
+    // What would be too long to read has a hash in the place of what varies.
+    EXPECT_GT(hashed, 0U);
+    EXPECT_EQ(hashed == plan.size(), longer);
+  }
 }
 
 TEST(Plan, AReplicateDrawsTheSameBitsInEverySweep) {

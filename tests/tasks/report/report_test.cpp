@@ -147,6 +147,16 @@ TEST(ReportData, FailedReplicatesAreCountedAndHaveTheirReasons) {
   EXPECT_EQ(Json::parse(embedded_text(report_page(data))), data);
 }
 
+TEST(ReportData, SaysWhichResidualWasSwept) {
+  auto manifest = test::good_manifest();
+  manifest["sweep"]["residual"] = {1e-5, 1e-6};
+  manifest["sweep"]["final_distance"] = {0.01};
+  const auto data = report_data(results_of(test::make_plan(parse_manifest(manifest.dump(), "m"))), {});
+  EXPECT_EQ(data["rows"][0]["label"], "dodecahedron, N = 64, final_distance 0.01, minimiser.residual 1e-06");
+  EXPECT_EQ(data.value("parameters", Json()),
+            (Json{{"final_distance", "final_distance"}, {"residual", "minimiser.residual"}}));
+}
+
 TEST(ReportData, WhatTheManifestExcludesIsInNoMeanAndNoPool) {
   auto results = results_of(plan(3), [](Outcome& o) {
     if (o.spec.replicate == 1) o.measured.at(Measure::contacts).flags = {"crystalline"};

@@ -4,6 +4,7 @@
 // - groups of columns beyond the first have tables of their own where they were measured, small numbers with a common
 //   power of ten;
 // - CSV and LaTeX have as many cells in every row as in their head, and CSV's numbers are those of tables.json;
+// - no two columns have one name, whatever was swept;
 // - what is special in CSV, LaTeX or on a terminal is written so that it is not, whatever the texts of a record are.
 
 #include "tasks/tables/tables.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 namespace isojam {
 namespace {
@@ -139,6 +141,21 @@ TEST(Tables, TextHoldsNoControlCharacters) {
   EXPECT_NE(text.find(" one, \"two\"?three "), std::string::npos) << text;
   EXPECT_EQ(text.find('\x1B'), std::string::npos) << text;
   EXPECT_EQ(split(text, "\n").size(), split(to_text(table()), "\n").size()) << text;
+}
+
+TEST(Tables, NoTwoColumnsHaveOneName) {
+  auto swept = table();
+  for (auto& row : swept.rows) row.parameters = Json{{"residual", 1e-6}, {"target_energy", 1e-5}};
+  for (const auto view : {View::nearest, View::series}) {
+    for (const auto& text : {to_csv(swept, view), to_long_csv(swept, view)}) {
+      const auto head = split(split(text, "\n")[0], ",");
+      EXPECT_EQ(std::set(head.begin(), head.end()).size(), head.size()) << text.substr(0, 200);
+      EXPECT_NE(std::find(head.begin(), head.end(), "minimiser.residual"), head.end()) << text.substr(0, 200);
+      EXPECT_NE(std::find(head.begin(), head.end(), "target_energy"), head.end()) << text.substr(0, 200);
+    }
+  }
+  EXPECT_EQ(to_text(swept).rfind("solid             N   minimiser.residual   target_energy", 0), 0U) << to_text(swept);
+  EXPECT_NE(to_latex(swept).find("& minimiser.residual & target\\_energy &"), std::string::npos) << to_latex(swept);
 }
 
 TEST(Tables, OtherGroupsFollowWhereTheyWereMeasured) {
