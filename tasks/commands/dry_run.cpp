@@ -20,6 +20,18 @@ std::string point_name(const ReplicateSpec& spec) {
   return name;
 }
 
+std::string about(double seconds) {
+  return seconds < 0.5 ? "less than 1 s" : fmt::format("about {}", duration_text(seconds));
+}
+
+/// From `least` to `most` seconds.
+std::string left_text(double least, double most) {
+  if (most == 0) return "nothing";
+  if (least == most) return about(most);
+  return least < 0.5 ? fmt::format("up to {}", duration_text(std::max(most, 1.0)))
+                     : fmt::format("{} to {}", about(least), duration_text(most));
+}
+
 }  // namespace
 
 ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory,
@@ -27,8 +39,8 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
   const auto survey = survey_of(directory, plan, manifest.keep_path);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   double least = 0, most = 0, disk = 0, largest = 0;
-  std::string text = fmt::format("{}: {} sweep points, seed {}, results in {}\n", manifest.name, plan.points(),
-                                 manifest.seed, directory);
+  std::string text = fmt::format("{}: {}, seed {}, results in {}\n", manifest.name,
+                                 counted(plan.points(), "sweep point"), manifest.seed, directory);
   for (std::size_t point = 0; point < plan.points(); ++point) {
     const auto spec = plan.at(point, 0);
     const auto cost = estimated_cost(spec, manifest.keep_path);
@@ -40,22 +52,22 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
     disk += at_most * cost.disk_bytes;
     largest = std::max(largest, cost.memory_bytes);
     const auto replicates = manifest.replicates.goal
-                                ? fmt::format("{} to {}", manifest.replicates.min, manifest.replicates.max)
-                                : std::to_string(manifest.replicates.max);
-    text += fmt::format("  {}: {} replicates, {} recorded, about {} of CPU each\n", point_name(spec), replicates,
-                        recorded, duration_text(each));
+                                ? fmt::format("{} to {} replicates", manifest.replicates.min, manifest.replicates.max)
+                                : counted(static_cast<std::size_t>(manifest.replicates.max), "replicate");
+    text += fmt::format("  {}: {}, {} recorded, {} of CPU each\n", point_name(spec), replicates, recorded, about(each));
   }
   if (manifest.replicates.goal)
     text += fmt::format("  until the 95 % interval of {} is narrower than ± {:g}\n", manifest.replicates.goal->quantity,
                         manifest.replicates.goal->half_width);
   const int shards = arguments.shard.count;
-  const auto time = [&](double cpu) { return duration_text(cpu / threads / shards); };
-  text += fmt::format("left to do: about {}{} on {} threads{}; at most {} on disk, about {} of memory per replicate\n",
-                      least < most ? time(least) + " to " : "", time(most), threads,
+  const double share = 1.0 / threads / shards;
+  text += fmt::format("left to do: {} on {}{}; at most {} on disk, about {} of memory per replicate\n",
+                      left_text(least * share, most * share), counted(static_cast<std::size_t>(threads), "thread"),
                       shards > 1 ? fmt::format(" for each of {} shards", shards) : "", bytes_text(disk),
                       bytes_text(largest));
   text += survey.calibration_records > 0
-              ? fmt::format("(times from {} records here)\n", survey.calibration_records)
+              ? fmt::format("(times from {} here)\n",
+                            counted(static_cast<std::size_t>(survey.calibration_records), "record"))
               : "(times from the machine isojam was measured on: right to a factor of two or so)\n";
   print(text);
   return ExitCode::done;

@@ -18,6 +18,10 @@ std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {
                      to_string(step.stage), step.density, step.energy_per_particle, step.summary.residual);
 }
 
+std::string counted(std::size_t number, std::string_view noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
 std::string bytes_text(double bytes) {
   static constexpr std::array units{"B", "kB", "MB", "GB", "TB"};
   std::size_t unit = 0;

@@ -14,6 +14,9 @@ void warn_about(const Manifest& manifest, const std::string& file, Console& cons
 /// One line about the last step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);
 
+/// "1 thread", "2 threads".
+std::string counted(std::size_t number, std::string_view noun);
+
 /// "3.2 GB", "45 kB".
 std::string bytes_text(double bytes);
 

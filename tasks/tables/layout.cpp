@@ -15,12 +15,9 @@
 namespace isojam {
 namespace {
 
-constexpr int digits_without_interval = 4;
-
-/// Decimals that leave the half width two significant digits.
-int decimals_for(const Estimate& estimate) {
-  if (!estimate.half_width || *estimate.half_width <= 0) return digits_without_interval;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(*estimate.half_width))), 0, 12);
+/// Of one value, or of values equal to rounding.
+bool without_spread(const Estimate& estimate) {
+  return estimate.half_width.value_or(0) <= 1e-14 * std::abs(*estimate.mean);
 }
 
 /// Of values that would be mostly zeros.
@@ -28,24 +25,34 @@ bool small(const Estimate& estimate) {
   return *estimate.mean != 0 && std::abs(*estimate.mean) < 1e-3 && estimate.half_width.value_or(0) < 1e-2;
 }
 
-/// With a common power of ten.
-std::string small_text(const Estimate& estimate, std::string_view plus_minus, int expected) {
-  const double largest = std::max(std::abs(*estimate.mean), estimate.half_width.value_or(0));
-  const int power = static_cast<int>(std::floor(std::log10(largest)));
-  const double unit = std::pow(10.0, power);
-  auto text = fmt::format("({:.2f}", *estimate.mean / unit);
-  if (estimate.half_width) text += fmt::format("{}{:.2f}", plus_minus, *estimate.half_width / unit);
-  text += fmt::format(")e{:+03d}", power);
-  if (estimate.n < expected) text += fmt::format(" ({})", estimate.n);
+/// A whole number as such: it is a count.
+std::string text_without_spread(const Estimate& estimate, std::string_view plus_minus) {
+  const double mean = *estimate.mean;
+  if (mean == std::round(mean)) return fmt::format("{:.0f}", mean);
+  auto text = small(estimate) ? fmt::format("{:.2e}", mean) : fmt::format("{:.4f}", mean);
+  if (estimate.half_width) text += fmt::format("{}0", plus_minus);
   return text;
+}
+
+/// With a common power of ten.
+std::string small_text(const Estimate& estimate, std::string_view plus_minus) {
+  const double power = std::floor(std::log10(std::max(std::abs(*estimate.mean), *estimate.half_width)));
+  const double unit = std::pow(10.0, power);
+  return fmt::format("({:.2f}{}{:.2f})e{:+03.0f}", *estimate.mean / unit, plus_minus, *estimate.half_width / unit,
+                     power);
+}
+
+/// With decimals that leave the half width two significant digits.
+std::string text_with_spread(const Estimate& estimate, std::string_view plus_minus) {
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(*estimate.half_width))), 0, 12);
+  return fmt::format("{:.{}f}{}{:.{}f}", *estimate.mean, decimals, plus_minus, *estimate.half_width, decimals);
 }
 
 std::string estimate_text(const Estimate& estimate, std::string_view plus_minus, int expected) {
   if (!estimate.mean) return "-";
-  if (small(estimate)) return small_text(estimate, plus_minus, expected);
-  const int decimals = decimals_for(estimate);
-  auto text = fmt::format("{:.{}f}", *estimate.mean, decimals);
-  if (estimate.half_width) text += fmt::format("{}{:.{}f}", plus_minus, *estimate.half_width, decimals);
+  auto text = without_spread(estimate) ? text_without_spread(estimate, plus_minus)
+              : small(estimate)        ? small_text(estimate, plus_minus)
+                                       : text_with_spread(estimate, plus_minus);
   if (estimate.n < expected) text += fmt::format(" ({})", estimate.n);
   return text;
 }

@@ -22,6 +22,8 @@ function decimalsFor(estimate) {
 function estimateCell(estimate) {
   if (!estimate || estimate.mean === null) return element('td', {title: estimate?.reason ?? 'not measured'}, '–');
   const {mean, half_width: half, n} = estimate;
+  // A count without spread.
+  if (!half && Number.isInteger(mean)) return element('td', {title: `n = ${n}`}, formatted(mean, 6));
   if (half === 0 || (mean !== 0 && Math.abs(mean) < 1e-3)) {
     return element('td', {title: `n = ${n}`}, formatted(mean, 3), half === null ? null :
       element('span', {className: 'half-width'}, ` ± ${formatted(half, 2)}`));

@@ -4,6 +4,7 @@
 // - several errors are as many lines, each with the file; warnings come beside an OK;
 // - usage errors and paths that cannot be read or written end with exit 2 and one error, and nothing is written;
 // - a command or an option that is none is told with the nearest that is one;
+// - a dry run counts one of a thing as one, and no time as about 0 s;
 // - help and version go to stdout with exit 0;
 // - colour appears where it is asked for and not elsewhere.
 
@@ -105,6 +106,26 @@ TEST(Program, UnknownWordsAreToldWithTheNearest) {
     EXPECT_EQ(run.exit_code, 2) << wrong.says;
     EXPECT_EQ(run.err.rfind("isojam: error: " + wrong.says, 0), 0U) << run.err;
     EXPECT_EQ(lines_of(run.err), 1) << run.err;
+  }
+}
+
+TEST(Program, ADryRunTellsNumbersAsPeopleDo) {
+  const TemporaryDirectory directory;
+  auto manifest = test::good_manifest();
+  for (const int number : {1, 3}) {
+    manifest["replicates"] = number;
+    manifest["sweep"]["particles"] = number == 1 ? Json{24} : Json{24, 400};
+    test::write_text(directory / "m.json", manifest.dump());
+    const auto run = isojam({"run", "m.json", "--dry-run", "-j", std::to_string(number)}, directory.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto expected =
+        number == 1 ? std::vector<std::string>{"tiny: 1 sweep point,",
+                                               "N=24: 1 replicate, 0 recorded, less than 1 s of CPU each\n",
+                                               "left to do: less than 1 s on 1 thread;"}
+                    : std::vector<std::string>{"tiny: 2 sweep points,", "N=400: 3 replicates, 0 recorded, about ",
+                                               "left to do: about ", " on 3 threads;"};
+    for (const auto& part : expected) EXPECT_NE(run.out.find(part), std::string::npos) << part << ": " << run.out;
+    EXPECT_EQ(run.out.find("about 0 s"), std::string::npos) << run.out;
   }
 }
 

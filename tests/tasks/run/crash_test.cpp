@@ -387,6 +387,7 @@ TEST_F(Crash, ADryRunWritesNothing) {
   const auto before = test::files_below(here_.path());
   const auto done = isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path());
   EXPECT_NE(done.out.find("times from 6 records here"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("left to do: nothing"), std::string::npos) << done.out;
   EXPECT_EQ(test::files_below(here_.path()), before);
 }
 

@@ -1,6 +1,7 @@
 // Facts proved here:
 // - the text table is aligned, carries two significant digits of each half width, and says where fewer replicates
 //   have a value; without an interval it shows none;
+// - what is whole and without spread is printed as a whole number;
 // - groups of columns beyond the first have tables of their own where they were measured, small numbers with a common
 //   power of ten;
 // - CSV and LaTeX have as many cells in every row as in their head, and CSV's numbers are those of tables.json;
@@ -170,6 +171,27 @@ TEST(Tables, OtherGroupsFollowWhereTheyWereMeasured) {
   EXPECT_EQ(text.find("clusters"), std::string::npos) << text;
   EXPECT_TRUE(to_json(measured).at("rows").at(1).contains("Q6"));
   EXPECT_FALSE(to_json(measured).at("rows").at(0).contains("Q6"));
+}
+
+TEST(Tables, ExactCountsAreWholeNumbersAndOneSmallNumberHasNoBrackets) {
+  const auto text_of = [](const std::vector<double>& values) {
+    auto measured = table();
+    measured.rows = {row(SolidKind::cube, 8, {})};
+    measured.rows[0].replicates = static_cast<int>(values.size());
+    measured.rows[0].estimates[0] = estimate(values, 1);
+    // The only cell with a value ends where its head does.
+    const auto lines = split(to_text(measured), "\n");
+    const auto wide = lines[1].size() - characters(lines[1]);
+    return split(lines[1].substr(0, lines[0].find("phi_j") + 5 + wide), "   ").back();
+  };
+  const std::vector<std::pair<std::vector<double>, std::string>> cases{
+      {{3, 3, 3}, "3"},           {{3}, "3"},         {{0, 0}, "0"},           {{-2, -2}, "-2"},
+      {{0.5, 0.5}, "0.5000 ± 0"}, {{2.25}, "2.2500"}, {{7.93e-5}, "7.93e-05"}, {{7.93e-5, 7.93e-5}, "7.93e-05 ± 0"},
+      {{-4e-7}, "-4.00e-07"}};
+  for (const auto& [values, expected] : cases) {
+    const auto text = text_of(values);
+    EXPECT_EQ(text.substr(std::min(text.size(), text.find_first_not_of(' '))), expected);
+  }
 }
 
 TEST(Tables, JsonSaysWhyThereIsNoInterval) {
