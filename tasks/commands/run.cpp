@@ -79,7 +79,8 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
   int failed = 0;
   for (int round = 0; campaign.open_round(); ++round) {
     if (round > 0)
-      console.info(fmt::format("not known well enough yet: {} more replicates", campaign.round_size().replicates));
+      console.info(
+          fmt::format("not known well enough yet: {}", counted(campaign.round_size().replicates, "more replicate")));
     const auto tally = run_round(campaign, store, stages, options, console);
     failed += tally.failed;
     if (options.stop.stop_requested()) {
@@ -131,8 +132,8 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();
   GraphOptions options{threads, replicates_in_flight(threads, campaign.largest_memory(), memory), watcher.token(), {}};
-  console.info(fmt::format("{}: {}{} replicates{}, {} recorded already, results in {}", manifest.name,
-                           manifest.replicates.goal ? "up to " : "", plan.size(),
+  console.info(fmt::format("{}: {}{}{}, {} recorded already, results in {}", manifest.name,
+                           manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"),
                            arguments.shard.whole() ? ""
                                                    : fmt::format(" in shards, of which this is {}/{}",
                                                                  arguments.shard.index + 1, arguments.shard.count),

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "tasks/commands/command.hpp"
+#include "tasks/commands/shared.hpp"
 #include "tasks/manifest/cost.hpp"
 #include "tasks/store/recorded.hpp"
 #include "tasks/store/survey.hpp"
@@ -50,8 +51,9 @@ std::string time_left(const Survey& survey, const Totals& totals, bool has_goal)
   if (moving == 0)
     return fmt::format("nobody is working on it; {}about {} of CPU time left\n", at_most,
                        duration_text(totals.cpu_left));
-  return fmt::format("{}about {} left at {} replicates at a time\n", at_most,
-                     duration_text(totals.cpu_left / static_cast<double>(moving)), moving);
+  return fmt::format("{}about {} left at {} at a time\n", at_most,
+                     duration_text(totals.cpu_left / static_cast<double>(moving)),
+                     counted(static_cast<std::size_t>(moving), "replicate"));
 }
 
 /// What a results directory holds and what is under way in it, whoever works on it. Reads only.
@@ -62,10 +64,12 @@ ExitCode status(const Arguments& arguments, Console&) {
   const auto totals = totals_of(survey, plan);
   const auto moving = std::count_if(survey.under_way.begin(), survey.under_way.end(), is_moving);
   const auto stopped = static_cast<std::ptrdiff_t>(survey.under_way.size()) - moving;
-  auto text = fmt::format("{}: {} of {}{} replicates recorded, {} failed, {} flagged, {} under way{}\n", manifest.name,
-                          totals.recorded, manifest.replicates.goal ? "up to " : "", plan.size(), totals.failed,
-                          totals.flagged, moving, stopped > 0 ? fmt::format(", {} stopped half way", stopped) : "");
-  if (survey.unplanned > 0) text += fmt::format("{} records beyond the plan\n", survey.unplanned);
+  auto text =
+      fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged, {} under way{}\n", manifest.name, totals.recorded,
+                  manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"), totals.failed,
+                  totals.flagged, moving, stopped > 0 ? fmt::format(", {} stopped half way", stopped) : "");
+  if (survey.unplanned > 0)
+    text += fmt::format("{} beyond the plan\n", counted(static_cast<std::size_t>(survey.unplanned), "record"));
   for (const auto& replicate : survey.under_way) {
     text += fmt::format("  {}: {}{}, density {:.4f}, {} steps, {} of CPU, last step {} ago\n", replicate.name,
                         is_moving(replicate) ? "" : "stopped in ", replicate.stage, replicate.density, replicate.steps,

@@ -18,8 +18,8 @@ ExitCode validate(const Arguments& arguments, Console& console) {
   const Plan plan(manifest);
   const auto each = manifest.replicates.goal ? fmt::format("{} to {}", manifest.replicates.min, manifest.replicates.max)
                                              : std::to_string(manifest.replicates.max);
-  print(fmt::format("OK: {}: {}{} replicates ({} sweep points × {})\n", manifest.name,
-                    manifest.replicates.goal ? "up to " : "", plan.size(), plan.points(), each));
+  print(fmt::format("OK: {}: {}{} ({} × {})\n", manifest.name, manifest.replicates.goal ? "up to " : "",
+                    counted(plan.size(), "replicate"), counted(plan.points(), "sweep point"), each));
   return ExitCode::done;
 }
 

@@ -104,7 +104,7 @@ void Console::clear_bar() {
 }
 
 std::string Console::status() const {
-  auto text = fmt::format("{} of {} replicates", done_, total_);
+  auto text = fmt::format("{} of {} replicate{}", done_, total_, total_ == 1 ? "" : "s");
   if (failed_) text += fmt::format(", {} failed", failed_);
   if (work_done_ > 0 && work_done_ < work_total_) {
     const double elapsed = std::chrono::duration<double>(Clock::now() - begun_).count();

@@ -350,14 +350,47 @@ TEST_F(Crash, StatusSaysWhatIsUnderWay) {
   EXPECT_EQ(isojam({"run", "m.json", "-o", "results"}, here_.path(),
                    [&](int) {
                      stop_at_checkpoints(here_ / "results", 1, 0, 0);
-                     const auto moving = isojam({"status", "results"}, here_.path());
-                     EXPECT_EQ(moving.out.find("damaged"), std::string::npos) << moving.out;
+                     for (int k = 0; k < 40; ++k) {
+                       const auto moving = isojam({"status", "results"}, here_.path());
+                       EXPECT_EQ(moving.exit_code, 0) << moving.err;
+                       EXPECT_EQ(moving.out.find("damaged"), std::string::npos) << moving.out;
+                     }
                    })
                 .exit_code,
             0);
   const auto done = isojam({"status", (*shared_ / "results").string()}, here_.path());
   EXPECT_EQ(done.out.rfind("tiny: 6 of 6 replicates recorded, 0 failed, ", 0), 0U) << done.out;
   EXPECT_EQ(isojam({"status", "absent"}, here_.path()).exit_code, 2);
+}
+
+TEST_F(Crash, ARecordThatGoesMeanwhileIsMissed) {
+  const auto incomplete = run([&](int) {
+    for (int i = 0; i < 20000 && names_in(here_ / "results" / "records").empty(); ++i)
+      std::this_thread::sleep_for(500us);
+    const auto name = names_in(here_ / "results" / "records").at(0);
+    fs::remove(here_ / "results" / "records" / (name + ".json"));
+  });
+  EXPECT_EQ(incomplete.exit_code, 1) << incomplete.err;
+  EXPECT_NE(incomplete.err.find("have gone"), std::string::npos) << incomplete.err;
+  EXPECT_EQ(incomplete.out, "") << "no table of what is left";
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Crash, RerunOfARecordThatCannotBeReadSaysSo) {
+  copy_reference();
+  const std::string name = "dodecahedron-N28-r0001";
+  const auto record = here_ / "results" / "records" / (name + ".json");
+  test::write_text(record, "{}");
+  const auto ended = isojam({"rerun", "results", name}, here_.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.err.find("there was no valid record of it"), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.err.find("differs"), std::string::npos) << ended.err;
+  EXPECT_EQ(results(), reference());
+  // Nothing can be put where a folder stands, and nothing read.
+  fs::remove(record);
+  fs::create_directories(record / "inside");
+  EXPECT_EQ(isojam({"rerun", "results", name}, here_.path()).exit_code, 1);
 }
 
 TEST_F(Crash, RerunFindsTheSameBits) {

@@ -144,6 +144,35 @@ TEST_F(Shortage, NoOutcomeIsRecordedOfIt) {
   }
 }
 
+TEST_F(Shortage, ARerunThatCannotBeWrittenLeavesTheRecord) {
+  begin_with_reference();
+  const auto before = test::files_below(here_ / "results");
+  const auto name = names_in(here_ / "results" / "records").front();
+  for (const std::string order : {"write 1+ 28", "open 10+ 24", "rename 1+ 5", "thread 1+ 11", "malloc 30000+ 12"}) {
+    const Failing failing(order);
+    const auto ended = isojam({"rerun", "results", name}, here_.path());
+    EXPECT_EQ(ended.exit_code, 1) << order << ": " << ended.err;
+    EXPECT_NE(ended.err.find("error: "), std::string::npos) << order << ": " << ended.err;
+    EXPECT_EQ(test::files_below(here_ / "results"), before) << order;
+  }
+}
+
+TEST_F(Shortage, AManifestThatCannotBeReadIsNotABadOne) {
+  for (const std::string command : {"run", "validate"}) {
+    const Failing failing("read 1+ 5");
+    const auto ended = isojam({command, "m.json"}, here_.path());
+    EXPECT_EQ(ended.exit_code, 1) << ended.err;
+    EXPECT_NE(ended.err.find("m.json: cannot be read: Input/output error"), std::string::npos) << ended.err;
+  }
+}
+
+TEST_F(Shortage, AThreadThatCannotBeMadeIsSaid) {
+  const Failing failing("thread 1+ 11");
+  const auto ended = run();
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("no more threads to give"), std::string::npos) << ended.err;
+}
+
 TEST_F(Shortage, WithLittleMemoryFromTheStart) {
   begin_with_reference();
   const auto before = test::files_below(here_ / "results");

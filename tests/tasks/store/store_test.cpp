@@ -179,6 +179,13 @@ TEST(Store, TemporariesAreNotResults) {
   const Store store(directory.path(), manifest, unheard);
   store.write(test::made_up_outcome(test::make_plan(manifest)[0]));
   test::write_text(directory / "records/.dodecahedron-N64-r0001.json.0123456789abcdef.tmp", "{\"half");
+  for (const std::string folder : {".", "records", "packings", "checkpoints"}) {
+    const auto stale = directory / folder / ".tables.json.0123456789abcdef.tmp";
+    test::write_text(stale, "{\"half");
+    std::filesystem::last_write_time(stale, std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+    const Store again(directory.path(), manifest, unheard);
+    EXPECT_FALSE(std::filesystem::exists(stale)) << folder;
+  }
   EXPECT_NO_THROW(Store(directory.path(), manifest, unheard));
   EXPECT_EQ(count_records(directory.path()), 1);
 }

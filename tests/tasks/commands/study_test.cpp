@@ -1,0 +1,118 @@
+// A new user's study from beginning to end, as a person at a terminal goes about it:
+// - replicates until φ_J is known well enough, on a terminal, whose bar never counts beyond its round;
+// - the same with twice as many at most: what is recorded stays as it is, byte by byte;
+// - a parameter changed: refused, by run and by its dry run, with the key that differs, and nothing is touched;
+// - a run interrupted half way: it says so, status says that nobody works on it, and the same command comes to the
+//   bytes of a run that nobody interrupted;
+// - table, report and export of it all.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <regex>
+#include <thread>
+
+#include "tasks/json/parse.hpp"
+#include "tasks/store/recorded.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::isojam;
+
+Json study(int most) {
+  auto manifest = test::tiny_manifest();
+  manifest["name"] = "study";
+  manifest["seed"] = 8;
+  manifest["sweep"]["particles"] = {24};
+  manifest["measure"] = {"contacts"};
+  // Narrower than so few replicates can make it: every round is needed.
+  manifest["replicates"] = {{"min", 4}, {"max", most}, {"quantity", "phi_j"}, {"half_width", 1e-4}};
+  return manifest;
+}
+
+/// What one types into a terminal that stands in `directory`, and sees.
+std::pair<std::string, int> typed(const std::vector<std::string>& arguments, const fs::path& directory) {
+  return test::on_a_terminal([&] {
+    std::vector<std::string> words{ISOJAM_EXECUTABLE};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (auto& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    if (chdir(directory.c_str()) == 0) execv(argv[0], argv.data());
+    _exit(127);
+  });
+}
+
+/// Every "k of n replicates" of a bar of constant length, and k never above n.
+void expect_bars(const std::string& text, int least) {
+  const std::regex bar(R"(\[([#.]*)\] (\d+) of (\d+) replicates?)");
+  int bars = 0;
+  for (std::sregex_iterator found(text.begin(), text.end(), bar), end; found != end; ++found, ++bars) {
+    EXPECT_EQ((*found)[1].length(), 24) << found->str();
+    EXPECT_LE(std::stoi((*found)[2]), std::stoi((*found)[3])) << found->str();
+  }
+  EXPECT_GE(bars, least) << text;
+}
+
+TEST(Study, OfANewUser) {
+  const test::TemporaryDirectory here;
+  const auto results = here / "results/study";
+  const auto write = [&](const Json& manifest) { test::write_text(here / "m.json", manifest.dump(2)); };
+  const auto records = [&] { return names_in(results / "records").size(); };
+
+  write(study(8));
+  const auto [first, first_status] = typed({"run", "m.json"}, here.path());
+  ASSERT_TRUE(WIFEXITED(first_status) && WEXITSTATUS(first_status) == 0) << first;
+  EXPECT_NE(first.find("not known well enough yet: 2 more replicates"), std::string::npos) << first;
+  EXPECT_NE(first.find("phi_j"), std::string::npos) << first;
+  expect_bars(first, 2);
+  EXPECT_EQ(records(), 8U);
+
+  const auto eight = test::files_below(results / "records");
+  write(study(16));
+  const auto [second, second_status] = typed({"run", "m.json"}, here.path());
+  ASSERT_TRUE(WIFEXITED(second_status) && WEXITSTATUS(second_status) == 0) << second;
+  EXPECT_EQ(records(), 16U);
+  const auto sixteen = test::files_below(results / "records");
+  for (const auto& [name, content] : eight) EXPECT_EQ(sixteen.at(name), content) << name;
+
+  const auto before = test::files_below(results);
+  auto changed = study(16);
+  changed["protocol"]["step_fraction"] = 0.3;
+  write(changed);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"run", "m.json"}, {"run", "m.json", "--dry-run"}}) {
+    const auto refused = isojam(command, here.path());
+    EXPECT_EQ(refused.exit_code, 65) << refused.err;
+    EXPECT_NE(refused.err.find("/protocol/step_fraction: 0.4 there, 0.3 here"), std::string::npos) << refused.err;
+    EXPECT_EQ(test::files_below(results), before);
+  }
+
+  write(study(16));
+  const auto stopped = isojam({"run", "m.json", "-o", "again"}, here.path(), [&](int process) {
+    for (int k = 0; k < 20000 && names_in(here / "again/records").size() < 5; ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    kill(process, SIGINT);
+  });
+  EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
+  EXPECT_NE(stopped.err.find("the same command continues"), std::string::npos) << stopped.err;
+  const auto status = isojam({"status", "again"}, here.path());
+  EXPECT_NE(status.out.find(" 0 under way"), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find("nobody is working on it"), std::string::npos) << status.out;
+  EXPECT_EQ(isojam({"run", "m.json", "-o", "again"}, here.path()).exit_code, 0);
+  EXPECT_EQ(test::results_below(here / "again"), test::results_below(results));
+
+  EXPECT_EQ(isojam({"aggregate", "results/study"}, here.path()).out, isojam({"aggregate", "again"}, here.path()).out);
+  EXPECT_EQ(isojam({"report", "results/study"}, here.path()).exit_code, 0);
+  const auto exported = isojam({"export", "again", "all", "--format", "xyz", "-o", "xyz"}, here.path());
+  EXPECT_EQ(exported.exit_code, 0) << exported.err;
+  EXPECT_EQ(test::files_below(here / "xyz").size(), 32U) << exported.out;
+}
+
+}  // namespace
+}  // namespace isojam
