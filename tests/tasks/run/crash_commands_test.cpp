@@ -1,0 +1,116 @@
+// Facts proved here, of directories that a run has left or is still working on:
+// - status says what is there, what is under way and whether anybody works on it, and calls nothing damaged meanwhile;
+// - a record that goes while others are made is missed, and no table is made of what is left;
+// - rerun redoes one and finds the same bits, or says that there was nothing to compare with;
+// - a dry run writes nothing.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tasks/json/sealed.hpp"
+#include "tests/tasks/run/crash.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using test::Crash;
+using test::isojam;
+using test::stop_at_checkpoints;
+
+TEST_F(Crash, StatusSaysWhatIsUnderWay) {
+  run([&](int process) { stop_at_checkpoints(here_ / "results", 2, process, SIGKILL); });
+  const auto under_way = isojam({"status", "results"}, here_.path());
+  EXPECT_EQ(under_way.exit_code, 0) << under_way.err;
+  EXPECT_NE(under_way.out.find("of 6 replicates recorded"), std::string::npos) << under_way.out;
+  for (const auto& name : names_in(here_ / "results" / "checkpoints")) {
+    if (!fs::exists(here_ / "results" / "records" / (name + ".json"))) {
+      EXPECT_NE(under_way.out.find(name + ": "), std::string::npos) << under_way.out;
+    }
+  }
+  // Its process was killed: nobody is working on it, however fresh its last step is.
+  EXPECT_NE(under_way.out.find(", 0 under way, "), std::string::npos) << under_way.out;
+  EXPECT_NE(under_way.out.find(" stopped half way"), std::string::npos) << under_way.out;
+  EXPECT_NE(under_way.out.find("nobody is working on it; about "), std::string::npos) << under_way.out;
+  EXPECT_EQ(isojam({"run", "m.json", "-o", "results"}, here_.path(),
+                   [&](int) {
+                     stop_at_checkpoints(here_ / "results", 1, 0, 0);
+                     for (int k = 0; k < 40; ++k) {
+                       const auto moving = isojam({"status", "results"}, here_.path());
+                       EXPECT_EQ(moving.exit_code, 0) << moving.err;
+                       EXPECT_EQ(moving.out.find("damaged"), std::string::npos) << moving.out;
+                     }
+                   })
+                .exit_code,
+            0);
+  const auto done = isojam({"status", (*shared_ / "results").string()}, here_.path());
+  EXPECT_EQ(done.out.rfind("tiny: 6 of 6 replicates recorded, 0 failed, ", 0), 0U) << done.out;
+  EXPECT_EQ(isojam({"status", "absent"}, here_.path()).exit_code, 2);
+}
+
+TEST_F(Crash, ARecordThatGoesMeanwhileIsMissed) {
+  const auto incomplete = run([&](int) {
+    for (int i = 0; i < 20000 && names_in(here_ / "results" / "records").empty(); ++i)
+      std::this_thread::sleep_for(500us);
+    const auto name = names_in(here_ / "results" / "records").at(0);
+    fs::remove(here_ / "results" / "records" / (name + ".json"));
+  });
+  EXPECT_EQ(incomplete.exit_code, 1) << incomplete.err;
+  EXPECT_NE(incomplete.err.find("have gone"), std::string::npos) << incomplete.err;
+  EXPECT_EQ(incomplete.out, "") << "no table of what is left";
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_EQ(results(), reference());
+}
+
+TEST_F(Crash, RerunOfARecordThatCannotBeReadSaysSo) {
+  copy_reference();
+  const std::string name = "dodecahedron-N28-r0001";
+  const auto record = here_ / "results" / "records" / (name + ".json");
+  test::write_text(record, "{}");
+  const auto ended = isojam({"rerun", "results", name}, here_.path());
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.err.find("there was no valid record of it"), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.err.find("differs"), std::string::npos) << ended.err;
+  EXPECT_EQ(results(), reference());
+  // Nothing can be put where a folder stands, and nothing read.
+  fs::remove(record);
+  fs::create_directories(record / "inside");
+  EXPECT_EQ(isojam({"rerun", "results", name}, here_.path()).exit_code, 1);
+}
+
+TEST_F(Crash, RerunFindsTheSameBits) {
+  copy_reference();
+  const std::string name = "dodecahedron-N28-r0001";
+  const auto same = isojam({"rerun", "results", name}, here_.path());
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_NE(same.err.find("the same bits"), std::string::npos) << same.err;
+  EXPECT_NE(same.err.find("expansion at density"), std::string::npos) << same.err;
+  EXPECT_EQ(parse_sealed(same.out, "stdout").at("status"), "done");
+  EXPECT_EQ(results(), reference());
+  for (const std::string wrong : {"dodecahedron-N28-r001", "../m", "dodecahedron-N28-r0002", ""}) {
+    const auto refused = isojam({"rerun", "results", wrong}, here_.path());
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_EQ(refused.out, "");
+  }
+  EXPECT_NE(isojam({"rerun", "results", "dodecahedron-N28-r001"}, here_.path()).err.find("did you mean"),
+            std::string::npos);
+}
+
+TEST_F(Crash, ADryRunWritesNothing) {
+  const auto fresh = isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path());
+  EXPECT_EQ(fresh.exit_code, 0) << fresh.err;
+  EXPECT_NE(fresh.out.find("dodecahedron N=28: 2 replicates, 0 recorded"), std::string::npos) << fresh.out;
+  EXPECT_FALSE(fs::exists(here_ / "results"));
+  copy_reference();
+  const auto before = test::files_below(here_.path());
+  const auto done = isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path());
+  EXPECT_NE(done.out.find("times from 6 records here"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("left to do: nothing"), std::string::npos) << done.out;
+  EXPECT_EQ(test::files_below(here_.path()), before);
+}
+
+}  // namespace
+}  // namespace isojam
