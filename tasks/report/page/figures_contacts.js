@@ -64,7 +64,8 @@ function angleFigure(data, kind, {title, id, symbol}) {
   return {
     id, title, datasets,
     note: `Cumulative distribution of ${symbol} over all contacts nearest jamming of a sweep point’s ` +
-      `${countedText(data)}, beside ideal random contacts; symbols mark the critical angles that the topologies allow. ` +
+      `${countedText(data)}, beside ideal random contacts; symbols mark the critical angles that the topologies ` +
+      'allow. ' +
       (kind === 'face_face' ? 'Shaded: region 1, below the cut-off of face-face contacts (median of the ' +
         'replicates). Figure 2(b) of the paper.' : 'Figure 2(a) of the paper.'),
     spec: (width) => panelSpec({

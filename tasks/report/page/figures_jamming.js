@@ -14,7 +14,7 @@ function panelsFor(data, rows) {
 const exclusionText = ({exclude}) => (exclude.length > 0 ? `without replicates flagged ${exclude.join(', ')}` : '');
 
 /// What a mean is over, for the captions of charts.
-const countedText = ({exclude}) => (exclude.length > 0 ? `replicates not flagged ${exclude.join(' or ')}` : 'replicates');
+const countedText = ({exclude}) => `replicates${exclude.length > 0 ? ` not flagged ${exclude.join(' or ')}` : ''}`;
 
 /// A mean of one replicate is drawn open: it has no interval.
 const ofOne = 'datum.n === 1';
@@ -111,9 +111,9 @@ function densityFigure(data) {
   const all = [...datasets.replicates, ...datasets.means.flatMap(({low, high}) => [{phi_j: low}, {phi_j: high}]),
     ...datasets.paper.flatMap(({low, high}) => [{phi_j: low}, {phi_j: high}])];
   const domain = domainOf(all.map((row) => row.phi_j), {margin: 0.04});
-  const note = 'Every replicate (hollow: excluded from the mean) in the colour and shape of its solid; below it the mean ' +
-    `of ${countedText(data)} with its 95 % interval, open if of one alone; and in grey the value of the paper’s Table I ` +
-    'for that N, where it has one.';
+  const note = 'Every replicate (hollow: excluded from the mean) in the colour and shape of its solid; below it the ' +
+    `mean of ${countedText(data)} with its 95 % interval, open if of one alone; and in grey the value of the paper’s ` +
+    'Table I for that N, where it has one.';
   if (!domain) return {id: 'density', title: 'Jamming density', absent: 'No replicate reached a jamming density.'};
   return {
     id: 'density', title: 'Jamming density', note, datasets,

@@ -13,7 +13,7 @@ function drawHeader(data) {
   const excluded = data.replicates.filter((replicate) => replicate.excluded).length;
   document.getElementById('summary').textContent =
     `${counted(data.rows.length, 'sweep point')}, ${counted(data.replicates.length, 'replicate')}: ` +
-    `${data.replicates.length - failed} done, ${failed} failed, ${flagged} flagged, ${excluded} of these excluded from means.`;
+    `${data.replicates.length - failed} done, ${failed} failed, ${flagged} flagged, ${excluded} of them excluded.`;
   if (data.chart) {
     document.getElementById('summary').append(' ', element('a', {href: 'chart.html'}, 'Accuracy against speed'));
   }

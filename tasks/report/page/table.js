@@ -50,8 +50,10 @@ function leadingColumns({parameters}) {
 }
 
 function countColumn() {
-  const reservations = (row) => ['failed', 'flagged', 'excluded'].filter((name) => row[name] > 0)
-    .map((name) => `, ${row[name]} ${name}`).join('');
+  // Where all that are flagged are excluded, the latter says it.
+  const told = (row) => ['failed', ...(row.flagged > row.excluded ? ['flagged'] : []), 'excluded'];
+  const reservations = (row) => told(row).filter((name) => row[name] > 0).map((name) => `, ${row[name]} ${name}`)
+    .join('');
   return {
     heading: ['replicates'], value: (row) => row.replicates,
     cell: (row) => element('td', {}, String(row.replicates),
@@ -130,7 +132,7 @@ function columnsOf(data, group) {
 function exclusionNote(data) {
   const text = exclusionText(data);
   if (text === '') return null;
-  return element('p', {className: 'note excluded'}, `Means are ${text}; where there are such, a second line is of all.`);
+  return element('p', {className: 'note'}, `Means are ${text}; a second line, where there is one, is of all.`);
 }
 
 function drawMainTable(data, place) {
