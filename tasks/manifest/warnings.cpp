@@ -76,8 +76,15 @@ void look_at_window(const JamOptions& options, Warnings& warnings) {
   }
 }
 
-void look_at_minimiser(const JamOptions& options, Warnings& warnings) {
+void look_at_minimiser(const JamOptions& options, const std::vector<Flag>& exclude, Warnings& warnings) {
   const auto& minimise = options.minimise;
+  if (minimise.energy_change > 0 && std::find(exclude.begin(), exclude.end(), Flag::not_balanced) != exclude.end()) {
+    warnings.add(
+        "energy_change", "",
+        fmt::format("{} lets states pass that are not balanced, and /exclude leaves such replicates out of every "
+                    "mean: few or none may be left",
+                    minimise.energy_change));
+  }
   if (minimise.method != Method::newton && minimise.energy_change == 0 && minimise.residual < residual_left &&
       minimise.max_evaluations <= spent_in_vain && options.final_distance < near_jamming) {
     warnings.add(
@@ -147,7 +154,7 @@ std::vector<std::string> warnings_of(const Manifest& manifest) {
   Warnings warnings(manifest);
   for (const auto& set : option_sets(manifest)) {
     look_at_window(set.options, warnings);
-    look_at_minimiser(set.options, warnings);
+    look_at_minimiser(set.options, manifest.exclude, warnings);
     for (const auto& solid : known) {
       if (std::find(manifest.solids.begin(), manifest.solids.end(), solid.kind) != manifest.solids.end())
         look_at_solid(set.options, solid, warnings);

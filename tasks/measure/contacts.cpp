@@ -3,6 +3,7 @@
 #include "engine/analysis/alignment/random_alignment.hpp"
 #include "engine/analysis/order.hpp"
 #include "engine/packing/energy.hpp"
+#include "tasks/measure/flag.hpp"
 #include "tasks/measure/parts.hpp"
 
 namespace isojam {
@@ -77,11 +78,11 @@ Json contact_record(const ContactAnalysis& analysis) {
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
   std::vector<std::string> flags;
   if (undecided(nearest)) {
-    flags.emplace_back("classes_undecided");
+    flags.emplace_back(to_string(Flag::classes_undecided));
   } else if (nearest.face_face.verdict == FitVerdict::bimodal || nearest.edge_face.verdict == FitVerdict::bimodal) {
-    flags.emplace_back("classes_doubtful");
+    flags.emplace_back(to_string(Flag::classes_doubtful));
   }
-  if (nearest.Q6 > crystalline_q6) flags.emplace_back("crystalline");
+  if (nearest.Q6 > crystalline_q6) flags.emplace_back(to_string(Flag::crystalline));
   return flags;
 }
 

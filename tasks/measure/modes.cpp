@@ -4,6 +4,7 @@
 #include "engine/packing/energy.hpp"
 #include "engine/vibration/mode_statistics.hpp"
 #include "engine/vibration/stability.hpp"
+#include "tasks/measure/flag.hpp"
 #include "tasks/measure/parts.hpp"
 
 namespace isojam {
@@ -138,7 +139,7 @@ Measurement measure_modes(const JamResult& jam, const MeasureOptions& options) {
     lowest.push_back(vibrations.omega_l);
     highest.push_back(vibrations.omega_h);
     if (vibrations.stability.verdict != Verdict::stable && measurement.flags.empty())
-      measurement.flags.emplace_back("not_stable");
+      measurement.flags.emplace_back(to_string(Flag::not_stable));
     measurement.states.push_back(std::move(state));
   }
   put_scaling(measurement.replicate, x_omega_l, jam, lowest);

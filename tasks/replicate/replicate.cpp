@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "engine/vibration/settle.hpp"
+#include "tasks/measure/flag.hpp"
 
 namespace isojam {
 namespace {
@@ -66,13 +67,13 @@ bool outside_fit_window(const Outcome& outcome) {
 std::vector<std::string> flags_of(const Outcome& outcome) {
   assert(!outcome.failure);
   std::vector<std::string> flags;
-  if (outcome.jam.status == JamStatus::goal_not_reached) flags.emplace_back("goal_not_reached");
+  if (outcome.jam.status == JamStatus::goal_not_reached) flags.emplace_back(to_string(Flag::goal_not_reached));
   const auto by_energy = [&](int step) {
     return outcome.jam.path[static_cast<std::size_t>(step)].summary.reason == StopReason::energy_change;
   };
   if (std::any_of(outcome.jam.state_steps.begin(), outcome.jam.state_steps.end(), by_energy))
-    flags.emplace_back("not_balanced");
-  if (outside_fit_window(outcome)) flags.emplace_back("outside_fit_window");
+    flags.emplace_back(to_string(Flag::not_balanced));
+  if (outside_fit_window(outcome)) flags.emplace_back(to_string(Flag::outside_fit_window));
   for (const auto& [what, measurement] : outcome.measured)
     flags.insert(flags.end(), measurement.flags.begin(), measurement.flags.end());
   return flags;
