@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <map>
 
@@ -21,9 +19,7 @@ struct Arguments {
 ExitCode report(const Arguments& arguments, Console& console) {
   const std::filesystem::path directory = arguments.directory;
   const auto output = arguments.output.empty() ? directory / "report.html" : std::filesystem::path(arguments.output);
-  const auto results = read_results(directory);
-  if (!results.manifest_problem.empty())
-    console.warn(fmt::format("{}; the report is made without it", results.manifest_problem));
+  const auto results = read_results(directory, [&](const std::string& message) { console.warn(message); });
   const ViewOptions options;
   std::map<std::size_t, Json> views;
   for (const auto& chosen : choose_views(results, options)) {

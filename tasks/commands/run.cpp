@@ -93,20 +93,25 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
 
 ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard, ExitCode code, Console& console) {
   const auto directory = store.directory().string();
+  const auto all_there = [&] {
+    const auto missing = campaign.missing();
+    if (!missing.empty())
+      console.error(
+          fmt::format("{} made or found by this run {} gone since, {} the first; the same command makes them "
+                      "again",
+                      counted(missing.size(), "record"), missing.size() == 1 ? "has" : "have", missing.front()));
+    return missing.empty();
+  };
   if (!shard.whole()) {
+    if (!all_there()) return ExitCode::some_failed;
     console.info(fmt::format("shard {}/{} is done; when all are: isojam aggregate {} -o {}", shard.index + 1,
                              shard.count, directory, store.tables_path().string()));
     return code;
   }
   const Warn warn = [&](const std::string& message) { console.warn(message); };
   const auto table = table_of({directory}, warn);
-  if (const auto missing = campaign.missing(); !missing.empty()) {
-    console.error(
-        fmt::format("{} of the records that the table needs have gone while it was made, {} the first; the "
-                    "same command makes them again",
-                    missing.size(), missing.front()));
-    return ExitCode::some_failed;
-  }
+  // Once the table is made: what was gone before that is not in it.
+  if (!all_there()) return ExitCode::some_failed;
   store.write_tables(to_json(table));
   print(to_text(table));
   const bool failed = std::any_of(table.rows.begin(), table.rows.end(), [](const Row& row) { return row.failed > 0; });

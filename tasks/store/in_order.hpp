@@ -107,7 +107,7 @@ class InOrder {
 template <class Make, class Use>
 void in_order(std::size_t count, const Make& make, const Use& use) {
   InOrder<Make> values(count, make);
-  while (const auto value = values.next()) use(*value);
+  while (auto value = values.next()) use(*std::move(value));
 }
 
 }  // namespace isojam

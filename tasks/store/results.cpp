@@ -1,31 +1,17 @@
 #include "tasks/store/results.hpp"
 
-#include <fmt/format.h>
+#include <utility>
 
-#include "tasks/json/input_error.hpp"
 #include "tasks/replicate/packing_json.hpp"
 #include "tasks/system/file.hpp"
 
 namespace isojam {
 namespace fs = std::filesystem;
-namespace {
 
-/// A report is made of records; a manifest that was edited or lost since only costs it the sweep's name.
-void read_leniently(const fs::path& directory, Results& results) {
-  try {
-    if (const auto manifest = stored_manifest(directory)) results.manifest = to_json(*manifest);
-  } catch (const InputError& error) {
-    results.manifest_problem = error.what();
-  }
-}
-
-}  // namespace
-
-Results read_results(const fs::path& directory) {
+Results read_results(const fs::path& directory, const Warn& warn) {
   Results results;
-  for (const auto& name : names_in(directory / "records")) results.replicates.push_back(read_record(directory, name));
-  if (results.replicates.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
-  read_leniently(directory, results);
+  if (const auto manifest = stored_manifest(directory)) results.manifest = to_json(*manifest);
+  for_each_record(directory, warn, [&](RecordedReplicate held) { results.replicates.push_back(std::move(held)); });
   return results;
 }
 

@@ -185,19 +185,32 @@ void Store::write(const Outcome& outcome) const {
 
 void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), sealed(tables)); }
 
-void for_each_record(const fs::path& directory, const Warn& warn,
-                     const std::function<void(const RecordSummary&)>& use) {
+void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use) {
   const auto names = names_in(directory / "records");
   if (names.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
   const auto manifest = stored_manifest(directory);
+  const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
   const auto own = manifest ? digest(*manifest) : "";
-  const auto record_of = [&](std::size_t index) { return read_record(directory, names[index]); };
-  in_order(names.size(), record_of, [&](const RecordedReplicate& held) {
-    if (manifest && held.summary.manifest_digest != own) {
+  struct Read {
+    std::optional<RecordedReplicate> held;
+    std::string damage;
+  };
+  const auto read = [&](std::size_t index) -> Read {
+    try {
+      return {read_record(directory, names[index]), ""};
+    } catch (const InputError& damage) {
+      if (!plan || plan->place_of(names[index])) throw;
+      return {std::nullopt, damage.what()};
+    }
+  };
+  in_order(names.size(), read, [&](Read one) {
+    if (!one.held) {
+      warn(one.damage + "; not of the plan, and left out");
+    } else if (manifest && one.held->summary.manifest_digest != own) {
       warn(fmt::format("{}: of another manifest than the directory's, and left out",
-                       (directory / "records" / (held.name + ".json")).string()));
+                       (directory / "records" / (one.held->name + ".json")).string()));
     } else {
-      use(held.summary);
+      use(*std::move(one.held));
     }
   });
 }

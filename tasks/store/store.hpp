@@ -62,10 +62,10 @@ class Store {
   Warn warn_;
 };
 
-/// Gives every record of a results directory to `use`, one at a time, in order of names; those of another manifest
-/// than the directory's are reported and left out. Throws InputError for a damaged record, FileError if the directory
-/// holds no records.
+/// Gives every record of a results directory to `use`, one at a time, in order of names. Reported and left out are
+/// those of another manifest than the directory's, and damaged ones that its plan does not know. Throws InputError for
+/// any other that is damaged, FileError if the directory holds no records or one cannot be read now.
 void for_each_record(const std::filesystem::path& directory, const Warn& warn,
-                     const std::function<void(const RecordSummary&)>& use);
+                     const std::function<void(RecordedReplicate)>& use);
 
 }  // namespace isojam

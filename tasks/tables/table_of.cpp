@@ -55,7 +55,7 @@ Table table_of(const std::vector<std::string>& directories, const Warn& warn,
   const auto manifests = manifests_of(directories);
   Aggregation aggregation(exclude ? *exclude : common_exclusions(directories, manifests));
   for (const auto& directory : directories)
-    for_each_record(directory, warn, [&](const RecordSummary& record) { aggregation.add(record); });
+    for_each_record(directory, warn, [&](const RecordedReplicate& held) { aggregation.add(held.summary); });
   auto table = aggregation.table(common_rule(manifests));
   if (table.builds.size() > 1)
     warn(fmt::format("the records are of {} builds of isojam, which may round differently: {}", table.builds.size(),

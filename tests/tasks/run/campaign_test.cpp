@@ -129,7 +129,8 @@ TEST(Campaign, TheTableSaysHowManyWereNeeded) {
   const auto manifest = with_goal();
   run_all(directory.path(), manifest);
   Aggregation aggregation;
-  for_each_record(directory.path(), test::unheard, [&](const RecordSummary& record) { aggregation.add(record); });
+  for_each_record(directory.path(), test::unheard,
+                  [&](const RecordedReplicate& held) { aggregation.add(held.summary); });
   const auto table = aggregation.table(manifest.replicates);
   ASSERT_EQ(table.rows.size(), 3U);
   for (const auto& row : table.rows) {

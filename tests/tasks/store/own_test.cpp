@@ -101,7 +101,7 @@ TEST_F(Own, ARecordHasTheDigestThatItStates) {
   change(path("records", 0), [](Json& json) { json["phi_j"]["value"] = 0.7; });
   expect_not_held(path("records", 0));
   EXPECT_THROW(table_of({here_.path().string()}, unheard), InputError);
-  EXPECT_THROW(read_results(here_.path()), InputError);
+  EXPECT_THROW(read_results(here_.path(), unheard), InputError);
 }
 
 TEST_F(Own, ARecordIsOfTheReplicateItsNameSays) {

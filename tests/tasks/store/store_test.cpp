@@ -34,7 +34,7 @@ Manifest manifest_with(int seed = 7, int replicates = 2) {
 
 int count_records(const std::filesystem::path& directory) {
   int count = 0;
-  for_each_record(directory, unheard, [&](const RecordSummary&) { ++count; });
+  for_each_record(directory, unheard, [&](const RecordedReplicate&) { ++count; });
   return count;
 }
 
@@ -162,6 +162,9 @@ TEST(Store, ADamagedRecordBeyondThePlanIsToldAndNoObstacle) {
   ASSERT_EQ(warnings.said.size(), 1U);
   EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
   EXPECT_EQ(read_text(path), "{");
+  const auto plan = test::make_plan(manifest_with());
+  Store(directory.path(), manifest_with(), unheard).write(test::made_up_outcome(plan[0]));
+  EXPECT_EQ(count_records(directory.path()), 1) << "nor is it one of a table";
 }
 
 TEST(Store, ThePlanOnlyGrows) {
@@ -202,7 +205,7 @@ TEST(Store, RecordsComeInOrderUpToTheFirstDamagedOne) {
     std::vector<int> seen;
     try {
       for_each_record(directory.path(), unheard,
-                      [&](const RecordSummary& record) { seen.push_back(record.replicate); });
+                      [&](const RecordedReplicate& held) { seen.push_back(held.summary.replicate); });
       FAIL() << "damage went unnoticed";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("-r0040.json"), std::string::npos) << error.what();
