@@ -23,7 +23,8 @@ namespace isojam {
 namespace {
 
 constexpr auto exit_codes =
-    "Exit codes: 0 all done; 1 some replicates failed, or results could no longer be written; 2 usage, or a path on "
+    "Exit codes: 0 all done; 1 some replicates failed, or the machine lacked something, or output could not be "
+    "written; 2 usage, or a path on "
     "the command line that cannot be read or written; 65 bad manifest or record, or a directory of another manifest; "
     "75 interrupted, the same command continues.";
 
@@ -86,7 +87,7 @@ ExitCode parse_and_run(int argc, char** argv) {
     std::ostringstream out, err;
     const bool asked = app.exit(error, out, err) == 0;
     print(out.str());
-    std::fputs(printable(err.str()).c_str(), stderr);
+    if (!asked) std::fprintf(stderr, "isojam: error: %s", printable(err.str()).c_str());
     return asked ? ExitCode::done : ExitCode::usage;
   }
 

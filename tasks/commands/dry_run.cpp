@@ -20,16 +20,12 @@ std::string point_name(const ReplicateSpec& spec) {
   return name;
 }
 
-std::string about(double seconds) {
-  return seconds < 0.5 ? "less than 1 s" : fmt::format("about {}", duration_text(seconds));
-}
-
 /// From `least` to `most` seconds.
 std::string left_text(double least, double most) {
   if (most == 0) return "nothing";
-  if (least == most) return about(most);
+  if (least == most) return about_text(most);
   return least < 0.5 ? fmt::format("up to {}", duration_text(std::max(most, 1.0)))
-                     : fmt::format("{} to {}", about(least), duration_text(most));
+                     : fmt::format("{} to {}", about_text(least), duration_text(most));
 }
 
 }  // namespace
@@ -54,7 +50,8 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
     const auto replicates = manifest.replicates.goal
                                 ? fmt::format("{} to {} replicates", manifest.replicates.min, manifest.replicates.max)
                                 : counted(static_cast<std::size_t>(manifest.replicates.max), "replicate");
-    text += fmt::format("  {}: {}, {} recorded, {} of CPU each\n", point_name(spec), replicates, recorded, about(each));
+    text += fmt::format("  {}: {}, {} recorded, {} of CPU each\n", point_name(spec), replicates, recorded,
+                        about_text(each));
   }
   if (manifest.replicates.goal)
     text += fmt::format("  until the 95 % interval of {} is narrower than ± {:g}\n", manifest.replicates.goal->quantity,

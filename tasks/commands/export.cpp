@@ -10,7 +10,7 @@
 #include "tasks/export/exported_files.hpp"
 #include "tasks/json/place.hpp"
 #include "tasks/replicate/packing_json.hpp"
-#include "tasks/store/recorded.hpp"
+#include "tasks/store/store.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/file.hpp"
 #include "tasks/system/standard_streams.hpp"
@@ -45,7 +45,7 @@ fs::path file_of(const Arguments& arguments, const char* folder, const std::stri
 /// Only names of records that are there ever become part of a path.
 std::vector<std::string> chosen_names(const Arguments& arguments) {
   auto names = names_in(fs::path(arguments.directory) / "records");
-  if (names.empty()) throw FileError(fmt::format("{}: holds no records", arguments.directory));
+  if (names.empty()) throw_without_records(arguments.directory);
   if (arguments.replicate == every_replicate) return names;
   if (std::find(names.begin(), names.end(), arguments.replicate) != names.end()) return {arguments.replicate};
   const std::vector<std::string_view> candidates(names.begin(), names.end());

@@ -78,9 +78,11 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
   const auto stages = resuming_stages(store);
   int failed = 0;
   for (int round = 0; campaign.open_round(); ++round) {
-    if (round > 0)
+    // Rounds of earlier runs are gone through again, and are no news.
+    const auto size = campaign.round_size();
+    if (round > 0 && size.replicates > size.recorded)
       console.info(
-          fmt::format("not known well enough yet: {}", counted(campaign.round_size().replicates, "more replicate")));
+          fmt::format("not known well enough yet: {}", counted(size.replicates - size.recorded, "more replicate")));
     const auto tally = run_round(campaign, store, stages, options, console);
     failed += tally.failed;
     if (options.stop.stop_requested()) {
@@ -137,12 +139,14 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();
   GraphOptions options{threads, replicates_in_flight(threads, campaign.largest_memory(), memory), watcher.token(), {}};
-  console.info(fmt::format("{}: {}{}{}, {} recorded already, results in {}", manifest.name,
-                           manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"),
-                           arguments.shard.whole() ? ""
-                                                   : fmt::format(" in shards, of which this is {}/{}",
-                                                                 arguments.shard.index + 1, arguments.shard.count),
-                           names_in(store.directory() / "records").size(), directory));
+  const auto begun = names_in(store.directory() / "checkpoints").size();
+  console.info(fmt::format(
+      "{}: {}{}{}, {} recorded already{}, results in {}", manifest.name, manifest.replicates.goal ? "up to " : "",
+      counted(plan.size(), "replicate"),
+      arguments.shard.whole()
+          ? ""
+          : fmt::format(" in shards, of which this is {}/{}", arguments.shard.index + 1, arguments.shard.count),
+      names_in(store.directory() / "records").size(), begun > 0 ? fmt::format(" and {} begun", begun) : "", directory));
   try {
     const auto code = run_campaign(campaign, store, options, console);
     return code == ExitCode::interrupted ? code : finish(campaign, store, arguments.shard, code, console);

@@ -49,10 +49,8 @@ std::string time_left(const Survey& survey, const Totals& totals, bool has_goal)
   const auto* at_most = has_goal ? "at most " : "";
   if (totals.cpu_left == 0) return "";
   if (moving == 0)
-    return fmt::format("nobody is working on it; {}about {} of CPU time left\n", at_most,
-                       duration_text(totals.cpu_left));
-  return fmt::format("{}about {} left at {} at a time\n", at_most,
-                     duration_text(totals.cpu_left / static_cast<double>(moving)),
+    return fmt::format("nobody is working on it; {}{} of CPU time left\n", at_most, about_text(totals.cpu_left));
+  return fmt::format("{}{} left at {} at a time\n", at_most, about_text(totals.cpu_left / static_cast<double>(moving)),
                      counted(static_cast<std::size_t>(moving), "replicate"));
 }
 
@@ -70,6 +68,7 @@ ExitCode status(const Arguments& arguments, Console&) {
                   totals.flagged, moving, stopped > 0 ? fmt::format(", {} stopped half way", stopped) : "");
   if (survey.unplanned > 0)
     text += fmt::format("{} beyond the plan\n", counted(static_cast<std::size_t>(survey.unplanned), "record"));
+  for (const auto& [flag, count] : survey.flags) text += fmt::format("  flagged {}: {}\n", to_string(flag), count);
   for (const auto& replicate : survey.under_way) {
     text += fmt::format("  {}: {}{}, density {:.4f}, {} steps, {} of CPU, last step {} ago\n", replicate.name,
                         is_moving(replicate) ? "" : "stopped in ", replicate.stage, replicate.density, replicate.steps,

@@ -114,8 +114,11 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
                                          "{} packings jam at about {:.3g} and have target_energy {} from about "
                                          "{:.2f} on",
                                          name, solid.density, options.target_energy, needed);
-  if (options.max_density < needed - scatter)
-    warnings.add("max_density", name, fmt::format("{} is too low: {}", options.max_density, where));
+  // What is only just enough for most is too little for some; that jamming itself is reached is sure enough.
+  if (options.max_density < needed + (distance == 0 ? 0 : scatter))
+    warnings.add("max_density", name,
+                 fmt::format("{} is too low{}: {}", options.max_density,
+                             options.max_density < needed ? "" : " for some packings", where));
   const double reached = options.initial_density + (options.max_steps - 1) * options.consolidation_step;
   if (reached < needed - scatter) {
     warnings.add("max_steps", name,

@@ -83,10 +83,13 @@ void remove_outlived_checkpoints(const fs::path& directory) {
   }
 }
 
-/// A plan only grows: records beyond a smaller number of replicates are kept and counted.
+/// A plan only grows: records beyond a smaller number of replicates are kept and counted, and who asks for fewer than a
+/// goal may take does not take the goal back.
 Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
-  if (before) manifest.replicates.max = std::max(manifest.replicates.max, before->replicates.max);
-  if (before && !manifest.replicates.goal) manifest.replicates.min = manifest.replicates.max;
+  if (!before) return manifest;
+  auto& replicates = manifest.replicates;
+  if (!replicates.goal && replicates.max <= before->replicates.max) replicates = before->replicates;
+  replicates.max = std::max(replicates.max, before->replicates.max);
   return manifest;
 }
 
@@ -101,6 +104,11 @@ void claim(const fs::path& directory, const Manifest& manifest) {
 }
 
 }  // namespace
+
+void throw_without_records(const fs::path& directory) {
+  const bool there = fs::is_directory(directory);
+  throw FileError(fmt::format("{}: {}", directory.string(), there ? "holds no records" : "there is no such directory"));
+}
 
 void check_directory(const fs::path& directory, const Manifest& manifest, const Warn& warn) {
   const auto before = manifest_in(directory, manifest);
@@ -187,7 +195,7 @@ void Store::write_tables(const Json& tables) const { write_atomically(tables_pat
 
 void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use) {
   const auto names = names_in(directory / "records");
-  if (names.empty()) throw FileError(fmt::format("{}: holds no records", directory.string()));
+  if (names.empty()) throw_without_records(directory);
   const auto manifest = stored_manifest(directory);
   const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
   const auto own = manifest ? digest(*manifest) : "";

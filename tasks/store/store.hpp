@@ -62,6 +62,9 @@ class Store {
   Warn warn_;
 };
 
+/// Says that a directory is none, or holds no results.
+[[noreturn]] void throw_without_records(const std::filesystem::path& directory);
+
 /// Gives every record of a results directory to `use`, one at a time, in order of names. Reported and left out are
 /// those of another manifest than the directory's, and damaged ones that its plan does not know. Throws InputError for
 /// any other that is damaged, FileError if the directory holds no records or one cannot be read now.

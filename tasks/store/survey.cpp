@@ -58,6 +58,7 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
       ++point.recorded;
       point.failed += summary.failed;
       point.flagged += summary.flagged;
+      for (const auto flag : summary.flags) ++survey.flags[flag];
       measured += summary.cpu_seconds;
       estimated += estimated_cost(plan.at(place->point, place->replicate), false).cpu_seconds;
       ++survey.calibration_records;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tasks/manifest/plan.hpp"
+#include "tasks/measure/flag.hpp"
 
 namespace isojam {
 
@@ -26,6 +28,7 @@ struct Survey {
     int recorded = 0, failed = 0, flagged = 0, under_way = 0;
   };
   std::vector<Point> points;  ///< of the plan
+  std::map<Flag, int> flags;  ///< replicates of the plan that have it
   int unplanned = 0;          ///< records that the plan does not know
   std::vector<UnderWay> under_way;
   std::vector<std::string> damaged;  ///< one line for each file

@@ -1,6 +1,7 @@
 #include "tasks/system/console.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +18,13 @@ constexpr auto bar_interval = std::chrono::milliseconds(100);
 constexpr auto line_interval = std::chrono::seconds(5);
 constexpr int bar_width = 24;
 constexpr std::string_view red = "\033[1;31m", yellow = "\033[1;33m", plain;
+
+/// Characters in a line; what a terminal of unknown size surely has.
+std::size_t terminal_width() {
+  constexpr std::size_t unknown = 80;
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : unknown;
+}
 
 bool wants_colour(Colour colour, bool terminal) {
   if (colour != Colour::automatic) return colour == Colour::always;
@@ -75,14 +83,19 @@ void Console::tick(std::string_view what) {
                : fmt::format("isojam: {}\n", printable(what)));
     return;
   }
-  if (total_ == 0) {
-    put(fmt::format("\r\033[K{}", printable(what)));
-    bar_shown_ = true;
-    return;
+  show_bar(what);
+}
+
+void Console::show_bar(std::string_view what) {
+  const auto width = terminal_width();
+  auto text = total_ > 0 ? status() : printable(what);
+  // What does not fit on one line could not be cleared again: the bar goes first, then the end of the text.
+  if (total_ > 0 && text.size() + bar_width + 3 < width) {
+    const int filled = bar_width * std::min(done_, total_) / total_;
+    text = fmt::format("[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
+                       std::string(static_cast<std::size_t>(bar_width - filled), '.'), text);
   }
-  const int filled = bar_width * std::min(done_, total_) / total_;
-  put(fmt::format("\r\033[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
-                  std::string(static_cast<std::size_t>(bar_width - filled), '.'), status()));
+  put(fmt::format("\r\033[K{}", text.substr(0, width - 1)));
   bar_shown_ = true;
 }
 
@@ -106,9 +119,9 @@ void Console::clear_bar() {
 std::string Console::status() const {
   auto text = fmt::format("{} of {} replicate{}", done_, total_, total_ == 1 ? "" : "s");
   if (failed_) text += fmt::format(", {} failed", failed_);
-  if (work_done_ > 0 && work_done_ < work_total_) {
+  if (work_done_ > 0 && work_done_ < work_total_ && done_ < total_) {
     const double elapsed = std::chrono::duration<double>(Clock::now() - begun_).count();
-    text += fmt::format(", about {} left", duration_text(elapsed * (work_total_ - work_done_) / work_done_));
+    text += fmt::format(", {} left", about_text(elapsed * (work_total_ - work_done_) / work_done_));
   }
   return text;
 }
@@ -118,6 +131,10 @@ std::string duration_text(double seconds) {
   if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
   if (s >= 60) return fmt::format("{} min {:02} s", s / 60, s % 60);
   return fmt::format("{} s", s);
+}
+
+std::string about_text(double seconds) {
+  return seconds < 0.5 ? "less than 1 s" : fmt::format("about {}", duration_text(seconds));
 }
 
 }  // namespace isojam

@@ -37,7 +37,8 @@ class Console {
   /// A round of so many replicates, counted from none. `work` measures cost (any unit), for the time left.
   void begin(int total, double work);
   void finished(double work, bool failed);
-  /// Redraws the bar on a terminal, prints a line every few seconds elsewhere; without begin() only what is under way.
+  /// Redraws the bar on a terminal, no wider than it is, prints a line every few seconds elsewhere; without begin()
+  /// only what is under way.
   void tick(std::string_view what);
   void end();
 
@@ -46,6 +47,7 @@ class Console {
 
   void line(std::string_view label, std::string_view style, std::string_view message);
   void clear_bar();
+  void show_bar(std::string_view what);
   std::string status() const;
 
   ConsoleOptions options_;
@@ -58,5 +60,8 @@ class Console {
 
 /// "1 h 02 min", "3 min 20 s", "12 s".
 std::string duration_text(double seconds);
+
+/// "about 12 s", "less than 1 s".
+std::string about_text(double seconds);
 
 }  // namespace isojam

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <exception>
 #include <system_error>
 
 namespace isojam {
@@ -19,6 +20,9 @@ FileError::Reason reason_of(int error) {
   switch (error) {
     case ENOENT:
     case ENOTDIR: return FileError::Reason::missing;
+    case EISDIR:
+    case ELOOP:
+    case ENXIO: return FileError::Reason::no_file;
     case ENOMEM:
     case EMFILE:
     case ENFILE:
@@ -51,6 +55,17 @@ bool read_rest(int fd, std::size_t most, std::string& text) {
   }
 }
 
+/// False, with the reason in errno, if there is not so much memory.
+bool reserve(std::string& text, std::size_t size) {
+  try {
+    text.reserve(size);
+    return true;
+  } catch (const std::exception&) {
+    errno = ENOMEM;
+    return false;
+  }
+}
+
 std::string read_opened(const Descriptor& file, const std::filesystem::path& path, bool any_kind) {
   struct stat status {};
   if (!file.valid() || ::fstat(file.number(), &status) != 0) throw FileError::of_errno(path, cannot_be_read);
@@ -60,7 +75,8 @@ std::string read_opened(const Descriptor& file, const std::filesystem::path& pat
                     FileError::Reason::no_file);
   std::string text;
   const bool regular = S_ISREG(status.st_mode);
-  if (regular) text.reserve(static_cast<std::size_t>(status.st_size) + block);
+  if (regular && !reserve(text, static_cast<std::size_t>(status.st_size) + block))
+    throw FileError::of_errno(path, cannot_be_read);
   if (!read_rest(file.number(), regular ? text.max_size() / 2 : longest_stream, text))
     throw FileError::of_errno(path, cannot_be_read);
   return text;

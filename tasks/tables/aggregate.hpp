@@ -32,7 +32,7 @@ struct SeriesPoint {
 struct GoalOutcome {
   Goal goal;
   std::optional<int> needed;         ///< replicates after which the rule stopped; nullopt if it asks for more
-  bool met = false;                  ///< false at max replicates too wide
+  bool met = false;                  ///< false if it stopped too wide, at max replicates or where there is no hope
   std::optional<double> half_width;  ///< at the last batch that is complete
 };
 

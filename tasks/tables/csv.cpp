@@ -44,11 +44,12 @@ Cells cells_of(const Estimate& estimate) {
 
 void append(Cells& cells, const Cells& more) { cells.insert(cells.end(), more.begin(), more.end()); }
 
-/// Those that some line has a value of, by their places in all_quantities().
-std::vector<std::size_t> quantities_in(const std::vector<TableLine>& lines) {
+/// Those that some line has a value of, and all of the first group if asked for, by their places in all_quantities().
+std::vector<std::size_t> quantities_in(const std::vector<TableLine>& lines, bool first_group) {
   std::vector<std::size_t> list;
   for (std::size_t i = 0; i < all_quantities().size(); ++i) {
-    if (std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) { return (*line.estimates)[i].n > 0; }))
+    if ((first_group && all_quantities()[i].group == main_group) ||
+        std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) { return (*line.estimates)[i].n > 0; }))
       list.push_back(i);
   }
   return list;
@@ -72,7 +73,7 @@ std::string line_of(Cells cells) {
 std::string to_csv(const Table& table, View view) {
   const auto parameters = parameter_names(table);
   const auto lines = lines_of(table, view);
-  const auto quantities = quantities_in(lines);
+  const auto quantities = quantities_in(lines, true);
   auto head = head_of(parameters, view);
   for (const auto i : quantities) {
     for (const auto part : parts) head.push_back(fmt::format("{}_{}", all_quantities()[i].name, part));
@@ -95,7 +96,7 @@ std::string to_long_csv(const Table& table, View view) {
   head.emplace_back("quantity");
   append(head, {parts.begin(), parts.end()});
   auto text = line_of(head);
-  const auto quantities = quantities_in(lines);
+  const auto quantities = quantities_in(lines, false);
   for (const TableLine& line : lines) {
     for (const auto i : quantities) {
       auto cells = begin_of(line, parameters);

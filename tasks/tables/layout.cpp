@@ -166,7 +166,7 @@ std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
 std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{{"solid", symbol("N", "N", format)}};
   for (const auto& name : parameters) lines[0].push_back(spelt(parameter_head(name), format));
-  lines[0].insert(lines[0].end(), {"quantity", "half width", "aim", "replicates needed", "met"});
+  lines[0].insert(lines[0].end(), {"quantity", "half width", "aim", "replicates used", "met"});
   for (const auto& row : table.rows) {
     if (!row.goal) continue;
     const auto& goal = *row.goal;
@@ -175,7 +175,7 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
     cells.push_back(spelt(goal.goal.quantity, format));
     cells.push_back(goal.half_width ? fmt::format("{:.3g}", *goal.half_width) : "-");
     cells.push_back(fmt::format("{:.3g}", goal.goal.half_width));
-    cells.push_back(goal.needed ? std::to_string(*goal.needed) : "more");
+    cells.push_back(goal.needed ? std::to_string(*goal.needed) : "more to come");
     cells.emplace_back(goal.met ? "yes" : "no");
     lines.push_back(std::move(cells));
   }

@@ -16,6 +16,10 @@ std::optional<double> half_width_of(std::span<const std::optional<double>> value
   return student_half_width(known);
 }
 
+bool none_known(std::span<const std::optional<double>> values) {
+  return std::none_of(values.begin(), values.end(), [](const auto& value) { return value.has_value(); });
+}
+
 }  // namespace
 
 int next_batch_end(int replicates, int max) { return std::min(max, replicates + std::max(2, replicates / 4)); }
@@ -28,7 +32,8 @@ Advance advance_of(const Replicates& replicates, std::span<const std::optional<d
       advance.half_width = half_width_of(values.first(static_cast<std::size_t>(advance.wanted)));
       advance.met = advance.half_width && *advance.half_width <= replicates.goal->half_width;
     }
-    if (advance.met || advance.wanted == replicates.max) {
+    const bool hopeless = replicates.goal && none_known(values.first(static_cast<std::size_t>(replicates.min)));
+    if (advance.met || hopeless || advance.wanted == replicates.max) {
       advance.finished = true;
       break;
     }

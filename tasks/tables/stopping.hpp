@@ -11,7 +11,7 @@ namespace isojam {
 /// How far a sweep point has come towards its goal.
 struct Advance {
   int wanted = 0;         ///< replicates 0 … wanted − 1 are to be recorded; all there: the point is finished
-  bool finished = false;  ///< the goal is met, or max reached
+  bool finished = false;  ///< the goal is met, or max reached, or none of the first min has a value: there is no hope
   bool met = false;       ///< the half width was reached; false without a goal
   std::optional<double> half_width;  ///< at the last batch that is complete
 };

@@ -23,7 +23,7 @@ Json to_json(const Estimate& estimate) {
   put("sd", estimate.sd);
   json["n"] = estimate.n;
   put_interval("bootstrap95", estimate.bootstrap95);
-  if (estimate.n == 0) json["reason"] = "no replicate has this value";
+  if (estimate.n == 0) json["reason"] = "no replicate that counts has this value";
   if (estimate.n == 1) json["reason"] = "one replicate has no spread";
   return json;
 }

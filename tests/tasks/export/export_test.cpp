@@ -240,7 +240,7 @@ TEST_F(ExportCommandTest, NamesThatNoRecordHasAreRefused) {
     expect_refused(run(path, "gsd", "a.gsd"), 2, "holds no replicate \"" + path + "\"");
   }
   expect_refused(isojam({"export", "elsewhere", names_[0], "--format", "gsd", "-o", "a"}, directory_.path()), 2,
-                 "elsewhere: holds no records");
+                 "elsewhere: there is no such directory");
 }
 
 TEST_F(ExportCommandTest, WhatCannotBeExportedIsRefused) {

@@ -176,6 +176,26 @@ TEST(Store, ThePlanOnlyGrows) {
   }
 }
 
+TEST(Store, FewerReplicatesDoNotTakeAGoalBack) {
+  const TemporaryDirectory directory;
+  const auto with = [](const Json& replicates) {
+    auto json = test::good_manifest();
+    json["replicates"] = replicates;
+    return parse_manifest(json.dump(), "m.json");
+  };
+  const auto goal = with({{"min", 4}, {"max", 10}, {"quantity", "phi_j"}, {"half_width", 0.006}});
+  const auto kept = [&](const Manifest& asked) {
+    const Store store(directory.path(), asked, unheard);
+    return own_manifest(directory.path()).replicates;
+  };
+  EXPECT_EQ(kept(goal), goal.replicates);
+  EXPECT_EQ(kept(with(4)), goal.replicates);
+  EXPECT_EQ(kept(with(10)), goal.replicates);
+  EXPECT_EQ(kept(with(12)), with(12).replicates) << "more than the goal may take are asked for outright";
+  EXPECT_EQ(kept(goal).max, 12);
+  EXPECT_EQ(kept(goal).goal, goal.replicates.goal);
+}
+
 TEST(Store, TemporariesAreNotResults) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();

@@ -74,9 +74,10 @@ void write_text(const fs::path& path, const std::string& text) {
   if (!stream.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
-std::pair<std::string, int> on_a_terminal(const std::function<void()>& work) {
+std::pair<std::string, int> on_a_terminal(const std::function<void()>& work, int columns) {
   int terminal = -1;
-  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  const winsize size{24, static_cast<unsigned short>(columns), 0, 0};
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
   if (child == 0) {
     work();
     _exit(0);

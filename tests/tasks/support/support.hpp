@@ -41,7 +41,7 @@ Finished isojam(const std::vector<std::string>& arguments, const std::filesystem
 Finished shell(const std::string& line, const std::filesystem::path& directory);
 
 /// What `work` writes to a terminal, in a process of its own, and how that ended (the status of waitpid).
-std::pair<std::string, int> on_a_terminal(const std::function<void()>& work);
+std::pair<std::string, int> on_a_terminal(const std::function<void()>& work, int columns = 80);
 
 /// Warnings that a test keeps, or does without.
 struct Warnings {

@@ -1,6 +1,7 @@
 // Facts proved here, on a pseudo-terminal, as a person sees it:
 // - a bar of constant length counts the replicates of each round from none to its own total, however many rounds came
 //   before;
+// - nothing is wider than the terminal, for what is could not be cleared again;
 // - time left is told while some work is done and some is not, and the bar is gone when the round ends.
 
 #include "tasks/system/console.hpp"
@@ -43,8 +44,26 @@ TEST(Console, CountsEveryRoundFromNoneOnATerminal) {
   const std::vector<std::string> expected{"1 of 6", "2 of 6", "3 of 6", "4 of 6", "5 of 6", "6 of 6",
                                           "1 of 2", "2 of 2", "1 of 3", "2 of 3", "3 of 3"};
   EXPECT_EQ(counts, expected) << text;
-  EXPECT_NE(text.find("1 of 2 replicates, about 0 s left"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 of 2 replicates, less than 1 s left"), std::string::npos) << text;
   EXPECT_TRUE(text.ends_with("\r\033[K")) << text;
+}
+
+TEST(Console, NothingIsWiderThanTheTerminal) {
+  for (const int columns : {20, 35, 60, 200}) {
+    const auto [text, status] = test::on_a_terminal(rounds, columns);
+    ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text;
+    int bars = 0, shown = 0;
+    const std::string clear = "\r\033[K";
+    for (auto at = text.find(clear); at != std::string::npos; ++shown) {
+      const auto next = text.find(clear, at + clear.size());
+      const auto line = text.substr(at + clear.size(), next == std::string::npos ? next : next - at - clear.size());
+      EXPECT_LT(line.size(), static_cast<std::size_t>(columns)) << line;
+      bars += line.starts_with('[');
+      at = next;
+    }
+    EXPECT_GT(shown, 11) << columns;
+    EXPECT_EQ(bars > 0, columns >= 60) << text;
+  }
 }
 
 }  // namespace

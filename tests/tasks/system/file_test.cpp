@@ -118,11 +118,22 @@ TEST(ReadFile, AResultIsARegularFile) {
   const auto pipe = directory / "pipe", device = directory / "device";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", device);
-  for (const auto& path : {pipe, device, directory.path()})
+  fs::create_symlink("circle", directory / "circle");
+  for (const auto& path : {pipe, device, directory.path(), directory / "circle"})
     EXPECT_EQ(reason_of([&] { read_file(path); }), FileError::Reason::no_file) << path;
   EXPECT_EQ(reason_of([&] { read_file(directory / "absent"); }), FileError::Reason::missing);
   EXPECT_EQ(reason_of([&] { read_text("/dev/zero"); }), FileError::Reason::shortage) << "endless";
   EXPECT_EQ(read_text("/dev/null"), "");
+  // Larger than any memory, and nothing on the disk.
+  test::write_text(directory / "huge", "{");
+  fs::resize_file(directory / "huge", std::uintmax_t{1} << 42);
+  try {
+    read_file(directory / "huge");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.reason(), FileError::Reason::shortage);
+    EXPECT_NE(std::string(error.what()).find("huge: cannot be read: Cannot allocate memory"), std::string::npos);
+  }
 }
 
 TEST(Process, IsAliveUntilItEnds) {

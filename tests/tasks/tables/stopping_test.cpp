@@ -94,6 +94,10 @@ TEST(Stopping, FailuresAloneMeetNoGoal) {
   EXPECT_TRUE(advance.finished);
   EXPECT_FALSE(advance.met);
   EXPECT_FALSE(advance.half_width);
+  EXPECT_EQ(advance.wanted, 2) << "there is no hope where none of the first has a value";
+  Known late(6);
+  late[1] = 1.0;
+  EXPECT_EQ(advance_of(rule(2, 6, 1), late).wanted, 6) << "one that has a value is hope";
 }
 
 TEST(Stopping, TheIntervalCoversAboutAsOftenAsItSays) {

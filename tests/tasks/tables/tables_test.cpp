@@ -200,7 +200,7 @@ TEST(Tables, JsonSaysWhyThereIsNoInterval) {
   EXPECT_TRUE(rows.at(1).at("phi_j").at("ci95").is_null());
   EXPECT_EQ(rows.at(1).at("phi_j").at("reason"), "one replicate has no spread");
   EXPECT_TRUE(rows.at(2).at("phi_j").at("mean").is_null());
-  EXPECT_EQ(rows.at(2).at("phi_j").at("reason"), "no replicate has this value");
+  EXPECT_EQ(rows.at(2).at("phi_j").at("reason"), "no replicate that counts has this value");
 }
 
 }  // namespace
