@@ -128,6 +128,8 @@ ExitCode parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
   isojam::open_standard_streams();
   std::set_terminate(isojam::terminated);
+  // At the first allocation that fails, before anything is unwound: not all that would be can bear it.
+  std::set_new_handler([] { isojam::end_for_want("the machine has no more memory to give"); });
   // A file that may not grow is a failed write like any other, not the end.
   std::signal(SIGXFSZ, SIG_IGN);
   try {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tasks/commands/shared.hpp"
+#include "tasks/json/input_error.hpp"
 #include "tasks/manifest/cost.hpp"
 #include "tasks/run/graph.hpp"
 #include "tasks/store/survey.hpp"
@@ -33,6 +34,9 @@ std::string left_text(double least, double most) {
 ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory,
                  const RunArguments& arguments) {
   const auto survey = survey_of(directory, plan, manifest.keep_path);
+  if (!survey.others.empty())
+    throw InputError({directory + "/records/" + survey.others.front() + ".json", "/provenance/manifest_digest",
+                      "belongs to another manifest", "results of this manifest: choose another directory with -o", ""});
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   double least = 0, most = 0, disk = 0, largest = 0;
   std::string text = fmt::format("{}: {}, seed {}, results in {}\n", manifest.name,

@@ -8,6 +8,7 @@
 
 #include "tasks/commands/command.hpp"
 #include "tasks/export/exported_files.hpp"
+#include "tasks/json/input_error.hpp"
 #include "tasks/json/place.hpp"
 #include "tasks/replicate/packing_json.hpp"
 #include "tasks/store/store.hpp"
@@ -96,8 +97,13 @@ std::vector<ExportFrame> read_path(const Arguments& arguments, const RecordedRep
 }
 
 /// A failed replicate that was not asked for by name gives a warning and no file.
-void export_replicate(const Arguments& arguments, const std::string& name, const fs::path& output, Console& console) {
+/// `own` is the digest of the directory's manifest, if it has one.
+void export_replicate(const Arguments& arguments, const std::optional<std::string>& own, const std::string& name,
+                      const fs::path& output, Console& console) {
   const auto held = read_record(arguments.directory, name);
+  if (own && held.summary.manifest_digest != *own)
+    throw InputError({file_of(arguments, "records", name).string(), "/provenance/manifest_digest",
+                      "belongs to another manifest than the directory", "", ""});
   const JsonPlace record(held.record, file_of(arguments, "records", name).string());
   if (const auto failure = failure_text(record)) {
     const auto message = fmt::format("{} {}; it has no packing", name, *failure);
@@ -123,8 +129,10 @@ void export_replicate(const Arguments& arguments, const std::string& name, const
 /// warning.
 ExitCode export_packings(const Arguments& arguments, Console& console) {
   const auto names = chosen_names(arguments);
+  const auto manifest = stored_manifest(arguments.directory);
+  const auto own = manifest ? std::optional(digest(*manifest)) : std::nullopt;
   if (arguments.replicate != every_replicate) {
-    export_replicate(arguments, names.front(), arguments.output, console);
+    export_replicate(arguments, own, names.front(), arguments.output, console);
     return ExitCode::done;
   }
   std::error_code error;
@@ -132,7 +140,7 @@ ExitCode export_packings(const Arguments& arguments, Console& console) {
   if (error) throw FileError(fmt::format("{}: cannot be created: {}", arguments.output, error.message()));
   for (const auto& name : names) {
     const auto file = name + std::string(extension_of(arguments.format, arguments.path));
-    export_replicate(arguments, name, fs::path(arguments.output) / file, console);
+    export_replicate(arguments, own, name, fs::path(arguments.output) / file, console);
   }
   return ExitCode::done;
 }

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <set>
+#include <string>
 
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/dry_run.hpp"
@@ -93,27 +96,43 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
   return failed + campaign.failed() > 0 ? ExitCode::some_failed : ExitCode::done;
 }
 
+/// Whether what this run made or found is still there, which `seen` says of each by name; says if not.
+bool all_there(const Campaign& campaign, const std::function<bool(const std::string&)>& seen, Console& console) {
+  const auto missing = campaign.without(seen);
+  if (missing.empty()) return true;
+  console.error(
+      fmt::format("of {} that this run made or found, records, packings or paths have gone or changed since, "
+                  "{} the first; the same command makes them again",
+                  counted(missing.size(), "replicate"), missing.front()));
+  return false;
+}
+
 ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard, ExitCode code, Console& console) {
   const auto directory = store.directory().string();
-  const auto all_there = [&] {
-    const auto missing = campaign.missing();
-    if (!missing.empty())
-      console.error(
-          fmt::format("{} made or found by this run {} gone since, {} the first; the same command makes them "
-                      "again",
-                      counted(missing.size(), "record"), missing.size() == 1 ? "has" : "have", missing.front()));
-    return missing.empty();
+  std::set<std::string> whole;
+  const auto names_of = [&](const char* folder) {
+    const auto names = names_in(store.directory() / folder);
+    return std::set<std::string>(names.begin(), names.end());
   };
   if (!shard.whole()) {
-    if (!all_there()) return ExitCode::some_failed;
+    whole = names_of("records");
+    if (!all_there(
+            campaign, [&](const auto& name) { return whole.contains(name); }, console))
+      return ExitCode::some_failed;
     console.info(fmt::format("shard {}/{} is done; when all are: isojam aggregate {} -o {}", shard.index + 1,
                              shard.count, directory, store.tables_path().string()));
     return code;
   }
-  const Warn warn = [&](const std::string& message) { console.warn(message); };
-  const auto table = table_of({directory}, warn);
-  // Once the table is made: what was gone before that is not in it.
-  if (!all_there()) return ExitCode::some_failed;
+  const auto packings = names_of("packings"), paths = names_of("paths");
+  const auto table = table_of(
+      directory, store.kept(), [&](const std::string& message) { console.warn(message); },
+      [&](const RecordedReplicate& held) {
+        const bool kept = packings.contains(held.name) && (!store.kept().keep_path || paths.contains(held.name));
+        if (held.summary.failed || kept) whole.insert(held.name);
+      });
+  if (!all_there(
+          campaign, [&](const auto& name) { return whole.contains(name); }, console))
+    return ExitCode::some_failed;
   store.write_tables(to_json(table));
   print(to_text(table));
   const bool failed = std::any_of(table.rows.begin(), table.rows.end(), [](const Row& row) { return row.failed > 0; });

@@ -75,7 +75,7 @@ ExitCode status(const Arguments& arguments, Console&) {
                         duration_text(replicate.cpu_seconds), duration_text(replicate.seconds_since_step));
   }
   for (const auto& line : survey.damaged) text += fmt::format("  damaged: {}\n", line);
-  print(printable(text + time_left(survey, totals, manifest.replicates.goal.has_value())));
+  print(text + time_left(survey, totals, manifest.replicates.goal.has_value()));
   return ExitCode::done;
 }
 

@@ -105,6 +105,7 @@ JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
   result.work = read_work(root.at("work"));
   const auto path = root.at("path");
   const auto steps = path.expect_list("a list of steps");
+  if (steps == 0) path.refuse("there is no step", "the steps so far, one or more");
   for (std::size_t k = 0; k < steps; ++k) result.path.push_back(read_step(path.at(k)));
   read_states(root, spec, result);
   if (result.status != JamStatus::not_called)
@@ -158,7 +159,7 @@ Checkpoint read_checkpoint(const JsonPlace& root, const ReplicateSpec& spec) {
   read_writer(root);
   const auto timing = root.at("timing");
   return {{read_own_packing(root.at("packing"), spec), root.at("stage").choice<JamStage>(),
-           root.at("step_fraction").number({0, 1}), static_cast<int>(root.at("halvings").integer({0, 100})),
+           root.at("step_fraction").number({0, 1, true}), static_cast<int>(root.at("halvings").integer({0, 100})),
            read_result(root, spec)},
           {timing.at("wall_seconds").number(not_negative), timing.at("cpu_seconds").number(not_negative)}};
 }

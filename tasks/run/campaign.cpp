@@ -85,14 +85,13 @@ Campaign::Size Campaign::round_size() const {
   return size;
 }
 
-std::vector<std::string> Campaign::missing() const {
-  const auto there = names_in(store_.directory() / "records");
+std::vector<std::string> Campaign::without(const std::function<bool(const std::string&)>& has) const {
   std::vector<std::string> names;
   for (std::size_t point = 0; point < points_.size(); ++point) {
     for (int replicate = 0; replicate < points_[point].wanted; ++replicate) {
       if (!takes(point, replicate)) continue;
       auto name = replicate_name(plan_.at(point, replicate));
-      if (!std::binary_search(there.begin(), there.end(), name)) names.push_back(std::move(name));
+      if (!has(name)) names.push_back(std::move(name));
     }
   }
   return names;

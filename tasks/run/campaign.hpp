@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +34,8 @@ class Campaign {
   Size round_size() const;
   /// Largest memory that a replicate of the plan is expected to take.
   double largest_memory() const;
-  /// Of the replicates of all rounds so far, those that have no record any more.
-  std::vector<std::string> missing() const;
+  /// Names of the replicates of all rounds so far of which `has` is false.
+  std::vector<std::string> without(const std::function<bool(const std::string&)>& has) const;
   /// Failures among the valid records that next() passed over.
   int failed() const { return failed_; }
 

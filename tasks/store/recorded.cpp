@@ -8,7 +8,6 @@
 
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/sealed.hpp"
-#include "tasks/manifest/plan.hpp"
 #include "tasks/replicate/companion.hpp"
 #include "tasks/replicate/record.hpp"
 #include "tasks/system/file.hpp"
@@ -46,6 +45,11 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
   if (const auto own = name_of(summary); own != name)
     throw InputError({file, "/spec", "is not the replicate that the name of the file says", own, ""});
   return {name, std::move(record), std::move(summary)};
+}
+
+void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
+  if (replicate.record.at("spec") != to_json(spec))
+    throw InputError({replicate.name, "/spec", "is not what its manifest plans", "", ""});
 }
 
 void check_companions(const fs::path& directory, const RecordedReplicate& replicate, bool with_path) {

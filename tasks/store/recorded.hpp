@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tasks/json/json.hpp"
-#include "tasks/manifest/manifest.hpp"
+#include "tasks/manifest/plan.hpp"
 #include "tasks/replicate/summary.hpp"
 
 namespace isojam {
@@ -22,6 +22,9 @@ struct RecordedReplicate {
 /// The record of that name. Throws FileError if it is not there or cannot be read now; InputError if it is damaged,
 /// does not have the result digest that it states, or is of another replicate than its name says.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
+
+/// Throws InputError unless the record has all the settings of this specification.
+void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec);
 
 /// Throws, as read_record does, unless the packing of a replicate that did not fail is there and its own, and its path
 /// if `with_path`.

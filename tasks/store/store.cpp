@@ -64,12 +64,17 @@ void make_folder(const fs::path& folder) {
   throw FileError::of_errno(folder, "cannot be created");
 }
 
+void refuse_links(const fs::path& directory) {
+  std::error_code error;
+  for (const auto* name : {"records", "packings", "paths", "checkpoints"}) {
+    if (fs::is_symlink(fs::symlink_status(directory / name, error)))
+      throw FileError(fmt::format("{}: is a symbolic link; results are written to folders of the directory itself",
+                                  (directory / name).string()));
+  }
+}
+
 /// Within a results directory.
 void make_own_folder(const fs::path& folder) {
-  std::error_code error;
-  if (fs::is_symlink(fs::symlink_status(folder, error)))
-    throw FileError(
-        fmt::format("{}: is a symbolic link; results are written to folders of the directory itself", folder.string()));
   make_folder(folder);
   remove_stale_temporaries(folder);
 }
@@ -93,14 +98,16 @@ Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
   return manifest;
 }
 
-/// Makes the directory this manifest's, or finds that it has become another's.
-void claim(const fs::path& directory, const Manifest& manifest) {
+/// Makes the directory this manifest's, or finds that it has become another's. What it keeps of it.
+Manifest claim(const fs::path& directory, const Manifest& manifest) {
   const auto path = directory / "manifest.json";
   auto before = manifest_in(directory, manifest);
-  if (!before && write_exclusively(path, sealed(to_json(manifest)))) return;
+  if (!before && write_exclusively(path, sealed(to_json(manifest)))) return manifest;
   if (!before) before = manifest_in(directory, manifest);
-  const auto text = sealed(to_json(grown(manifest, before)));
+  auto kept = grown(manifest, before);
+  const auto text = sealed(to_json(kept));
   if (text != read_file(path)) write_atomically(path, text);
+  return kept;
 }
 
 }  // namespace
@@ -111,6 +118,7 @@ void throw_without_records(const fs::path& directory) {
 }
 
 void check_directory(const fs::path& directory, const Manifest& manifest, const Warn& warn) {
+  refuse_links(directory);
   const auto before = manifest_in(directory, manifest);
   check_records(directory, manifest, !before, warn);
 }
@@ -122,7 +130,7 @@ Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
       warn_(std::move(warn)) {
   check_directory(directory_, manifest, warn_);
   make_folder(directory_);
-  claim(directory_, manifest);
+  kept_ = claim(directory_, manifest);
   // What was put there between the two is read back.
   manifest_in(directory_, manifest);
   remove_stale_temporaries(directory_);
@@ -143,8 +151,7 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
     auto held = read_record(directory_, replicate_name(spec));
     theirs = held.summary.manifest_digest;
     if (theirs == digest_) {
-      if (held.record.at("spec") != to_json(spec))
-        throw InputError({path, "/spec", "is not the replicate that its manifest plans", "", ""});
+      check_spec(held, spec);
       if (failed_for_want(held))
         throw InputError({path, "/failure", "records what the machine lacked, not what came of the replicate", "", ""});
       check_companions(directory_, held, keep_path_);
@@ -194,9 +201,13 @@ void Store::write(const Outcome& outcome) const {
 void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), sealed(tables)); }
 
 void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use) {
+  for_each_record(directory, stored_manifest(directory), warn, use);
+}
+
+void for_each_record(const fs::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
+                     const std::function<void(RecordedReplicate)>& use) {
   const auto names = names_in(directory / "records");
   if (names.empty()) throw_without_records(directory);
-  const auto manifest = stored_manifest(directory);
   const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
   const auto own = manifest ? digest(*manifest) : "";
   struct Read {
@@ -215,7 +226,7 @@ void for_each_record(const fs::path& directory, const Warn& warn, const std::fun
     if (!one.held) {
       warn(one.damage + "; not of the plan, and left out");
     } else if (manifest && one.held->summary.manifest_digest != own) {
-      warn(fmt::format("{}: of another manifest than the directory's, and left out",
+      warn(fmt::format("{}: of another manifest, and left out",
                        (directory / "records" / (one.held->name + ".json")).string()));
     } else {
       use(*std::move(one.held));

@@ -47,6 +47,9 @@ class Store {
   void write_tables(const Json& tables) const;
 
   const std::filesystem::path& directory() const { return directory_; }
+  /// What manifest.json says of this manifest: the plan that its records belong to, which may be larger than the one
+  /// that the store was opened for.
+  const Manifest& kept() const { return kept_; }
   std::filesystem::path record_path(const ReplicateSpec& spec) const { return file("records", spec); }
   std::filesystem::path packing_path(const ReplicateSpec& spec) const { return file("packings", spec); }
   std::filesystem::path path_path(const ReplicateSpec& spec) const { return file("paths", spec); }
@@ -60,14 +63,18 @@ class Store {
   std::string digest_;
   bool keep_path_;
   Warn warn_;
+  Manifest kept_;
 };
 
 /// Says that a directory is none, or holds no results.
 [[noreturn]] void throw_without_records(const std::filesystem::path& directory);
 
 /// Gives every record of a results directory to `use`, one at a time, in order of names. Reported and left out are
-/// those of another manifest than the directory's, and damaged ones that its plan does not know. Throws InputError for
+/// those of another manifest than this one, and damaged ones that its plan does not know. Throws InputError for
 /// any other that is damaged, FileError if the directory holds no records or one cannot be read now.
+void for_each_record(const std::filesystem::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
+                     const std::function<void(RecordedReplicate)>& use);
+/// The same of the manifest that the directory keeps.
 void for_each_record(const std::filesystem::path& directory, const Warn& warn,
                      const std::function<void(RecordedReplicate)>& use);
 

@@ -54,13 +54,20 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
         continue;
       }
       check_companions(directory, held, with_paths);
+      const auto spec = plan.at(place->point, place->replicate);
+      if (summary.manifest_digest != spec.manifest_digest) {
+        survey.others.push_back(name);
+        survey.damaged.push_back(name + ": belongs to another manifest");
+        continue;
+      }
+      check_spec(held, spec);
       auto& point = survey.points[place->point];
       ++point.recorded;
       point.failed += summary.failed;
       point.flagged += summary.flagged;
       for (const auto flag : summary.flags) ++survey.flags[flag];
       measured += summary.cpu_seconds;
-      estimated += estimated_cost(plan.at(place->point, place->replicate), false).cpu_seconds;
+      estimated += estimated_cost(spec, false).cpu_seconds;
       ++survey.calibration_records;
     } catch (const InputError& damage) {
       survey.damaged.emplace_back(damage.what());

@@ -27,9 +27,10 @@ struct Survey {
   struct Point {
     int recorded = 0, failed = 0, flagged = 0, under_way = 0;
   };
-  std::vector<Point> points;  ///< of the plan
-  std::map<Flag, int> flags;  ///< replicates of the plan that have it
-  int unplanned = 0;          ///< records that the plan does not know
+  std::vector<Point> points;        ///< of the plan
+  std::map<Flag, int> flags;        ///< replicates of the plan that have it
+  std::vector<std::string> others;  ///< records that belong to another manifest
+  int unplanned = 0;                ///< records that the plan does not know
   std::vector<UnderWay> under_way;
   std::vector<std::string> damaged;  ///< one line for each file
   /// Measured CPU time over the estimated, of all records; 1 without any.

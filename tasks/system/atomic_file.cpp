@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <random>
 #include <system_error>
 
@@ -73,11 +74,21 @@ void sync_directory_of(const fs::path& path) {
     throw FileError::of_errno(parent, "cannot be synchronised");
 }
 
+/// The number of an open descriptor that the path is another name of, as /dev/stdout is of 1.
+std::optional<int> descriptor_at(const fs::path& path) {
+  const auto folder = path.parent_path();
+  const auto name = path.filename().string();
+  if ((folder != "/proc/self/fd" && folder != "/dev/fd") || name.empty() || name.size() > 6 ||
+      name.find_first_not_of("0123456789") != std::string::npos)
+    return std::nullopt;
+  return std::stoi(name);
+}
+
 /// Where a chain of symbolic links ends, whether or not anything stands there.
 fs::path followed(fs::path path) {
   constexpr int longest_chain = 40;  // as the kernel has it
   std::error_code error;
-  for (int k = 0; fs::is_symlink(fs::symlink_status(path, error)); ++k) {
+  for (int k = 0; !descriptor_at(path) && fs::is_symlink(fs::symlink_status(path, error)); ++k) {
     if (k == longest_chain) {
       errno = ELOOP;
       throw FileError::of_errno(path, cannot_be_written);
@@ -109,6 +120,12 @@ bool write_exclusively(const fs::path& path, std::string_view content) {
 
 void write_output(const fs::path& path, std::string_view content) {
   const auto target = followed(path);
+  // What a shell has opened for the output is written to where it stands, and not replaced by a file of that name.
+  if (const auto number = descriptor_at(target)) {
+    const Descriptor own(::dup(*number));
+    if (!own.valid() || !own.write(content)) throw FileError::of_errno(path, cannot_be_written);
+    return;
+  }
   struct stat status {};
   const bool there = ::stat(target.c_str(), &status) == 0;
   if (there && !S_ISREG(status.st_mode)) {

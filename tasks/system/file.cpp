@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <exception>
+#include <cstdlib>
 #include <system_error>
 
 namespace isojam {
@@ -30,7 +30,9 @@ FileError::Reason reason_of(int error) {
     case EDQUOT:
     case EFBIG:
     case EIO:
-    case EAGAIN: return FileError::Reason::shortage;
+    case EAGAIN:
+    case EINTR:
+    case ESTALE: return FileError::Reason::shortage;
     default: return FileError::Reason::refused;
   }
 }
@@ -55,15 +57,15 @@ bool read_rest(int fd, std::size_t most, std::string& text) {
   }
 }
 
-/// False, with the reason in errno, if there is not so much memory.
+/// False, with the reason in errno, if there is not so much memory. Asked of malloc first, where a file is named in
+/// what is said; what fails in operator new ends the program with less.
 bool reserve(std::string& text, std::size_t size) {
-  try {
-    text.reserve(size);
-    return true;
-  } catch (const std::exception&) {
-    errno = ENOMEM;
-    return false;
-  }
+  void* const probe = std::malloc(size);
+  const bool enough = probe != nullptr && size < text.max_size();
+  std::free(probe);
+  if (enough) text.reserve(size);
+  if (!enough) errno = ENOMEM;
+  return enough;
 }
 
 std::string read_opened(const Descriptor& file, const std::filesystem::path& path, bool any_kind) {

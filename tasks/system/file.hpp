@@ -33,6 +33,7 @@ class FileError : public std::runtime_error {
 class Descriptor {
  public:
   Descriptor(const std::filesystem::path& path, int flags);
+  explicit Descriptor(int number) : fd_(number) {}
   ~Descriptor();
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;

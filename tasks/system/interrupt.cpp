@@ -1,8 +1,11 @@
 #include "tasks/system/interrupt.hpp"
 
-#include <cstdio>
+#include <poll.h>
+#include <unistd.h>
+
 #include <cstdlib>
 #include <ctime>
+#include <string_view>
 
 #include "tasks/system/exit_codes.hpp"
 
@@ -11,6 +14,13 @@ namespace {
 
 /// By which the watcher's thread is woken to end: one that nobody sends to ask for anything.
 constexpr int wake = SIGURG;
+
+/// To who reads it: waits neither for a pipe that nobody empties nor for the thread that waits there already.
+void say(std::string_view text) {
+  pollfd err{STDERR_FILENO, POLLOUT, 0};
+  if (poll(&err, 1, 0) == 1 && (err.revents & POLLOUT) != 0) [[maybe_unused]]
+    const auto written = write(STDERR_FILENO, text.data(), text.size());
+}
 
 bool is_ignored(int signal) {
   struct sigaction action {};
@@ -49,7 +59,7 @@ void InterruptWatcher::watch() {
   // What is under way is asked first. A measurement of a large packing does not listen: it is left.
   const timespec patience{1, 500'000'000};
   if (sigtimedwait(&signals_, nullptr, &patience) >= 0 && finished_) return;
-  std::fputs("\nisojam: warning: interrupted; what was recorded is kept, and the same command continues\n", stderr);
+  say("\nisojam: warning: interrupted; what was recorded is kept, and the same command continues\n");
   std::_Exit(static_cast<int>(ExitCode::interrupted));
 }
 

@@ -34,7 +34,8 @@ void open_standard_streams() {
   }
 }
 
-void print(std::string_view text) {
+void print(std::string_view words) {
+  const auto text = isatty(STDOUT_FILENO) == 1 ? printable(words) : std::string(words);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) fail();
 }
 
@@ -45,10 +46,17 @@ void flush_output() {
 
 std::string printable(std::string_view text) {
   std::string shown;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    const bool control = (code < 0x20 && c != '\n' && c != '\t') || code == 0x7f;
-    shown += control ? fmt::format("\\x{:02x}", code) : std::string(1, c);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto code = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+    if (code == 0xc2 && next >= 0x80 && next < 0xa0) {
+      shown += fmt::format("\\x{:02x}", next);
+      ++i;
+    } else if ((code < 0x20 && code != '\n' && code != '\t') || code == 0x7f) {
+      shown += fmt::format("\\x{:02x}", code);
+    } else {
+      shown += text[i];
+    }
   }
   return shown;
 }

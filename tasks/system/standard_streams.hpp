@@ -10,14 +10,14 @@ namespace isojam {
 /// output still fails.
 void open_standard_streams();
 
-/// Writes to standard output, through to whoever reads it. Throws FileError.
+/// Writes to standard output, through to whoever reads it; to a terminal as printable() has it. Throws FileError.
 void print(std::string_view text);
 
 /// For who has written to standard output otherwise: throws FileError if some of it was lost.
 void flush_output();
 
-/// The text with every control character but line feed and tab as "\x1b": what stands in the name of a file must not
-/// command a terminal.
+/// The text with every control character (C0, C1 in UTF-8, DEL) but line feed and tab as "\x1b": what stands in the
+/// name of a file must not command a terminal.
 std::string printable(std::string_view text);
 
 }  // namespace isojam

@@ -48,6 +48,13 @@ std::vector<Flag> common_exclusions(const std::vector<std::string>& directories,
   return manifests.empty() ? usually_excluded() : of(0);
 }
 
+Table told(Table table, const Warn& warn) {
+  if (table.builds.size() > 1)
+    warn(fmt::format("the records are of {} builds of isojam, which may round differently: {}", table.builds.size(),
+                     fmt::join(table.builds, "; ")));
+  return table;
+}
+
 }  // namespace
 
 Table table_of(const std::vector<std::string>& directories, const Warn& warn,
@@ -56,11 +63,17 @@ Table table_of(const std::vector<std::string>& directories, const Warn& warn,
   Aggregation aggregation(exclude ? *exclude : common_exclusions(directories, manifests));
   for (const auto& directory : directories)
     for_each_record(directory, warn, [&](const RecordedReplicate& held) { aggregation.add(held.summary); });
-  auto table = aggregation.table(common_rule(manifests));
-  if (table.builds.size() > 1)
-    warn(fmt::format("the records are of {} builds of isojam, which may round differently: {}", table.builds.size(),
-                     fmt::join(table.builds, "; ")));
-  return table;
+  return told(aggregation.table(common_rule(manifests)), warn);
+}
+
+Table table_of(const std::string& directory, const Manifest& manifest, const Warn& warn,
+               const std::function<void(const RecordedReplicate&)>& seen) {
+  Aggregation aggregation(manifest.exclude);
+  for_each_record(directory, manifest, warn, [&](const RecordedReplicate& held) {
+    aggregation.add(held.summary);
+    seen(held);
+  });
+  return told(aggregation.table(manifest.replicates), warn);
 }
 
 }  // namespace isojam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,5 +16,9 @@ namespace isojam {
 /// do.
 Table table_of(const std::vector<std::string>& directories, const Warn& warn,
                const std::optional<std::vector<Flag>>& exclude = std::nullopt);
+
+/// The table of a run: of the records of this manifest in one directory, each of which is shown to `seen`.
+Table table_of(const std::string& directory, const Manifest& manifest, const Warn& warn,
+               const std::function<void(const RecordedReplicate&)>& seen);
 
 }  // namespace isojam

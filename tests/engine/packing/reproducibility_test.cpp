@@ -1,12 +1,13 @@
 // Facts proved here, bit for bit:
 //   an evaluation, a Hessian (in either precision) and a list of contacts are functions of the packing alone: whatever
 //   was evaluated before (other solids, sizes, densities, cells; a walk that kept or rebuilt the neighbour list) and
-//   for 1 and 2 threads;
+//   for 1 and 2 threads, and where the task that it is part of has been cancelled;
 //   Eigen's products of matrices are cut into blocks alike on every machine: for caches of 32, 256 and 2048 KiB,
 //   whatever its own are.
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_group.h>
 
 #include "engine/packing/energy.hpp"
 #include "tests/engine/packing/packings.hpp"
@@ -167,6 +168,19 @@ TEST(ReproducibilityTest, TheNumberOfThreadsChangesNothing) {
     };
     const Answer one = with_threads(1);
     for (int again = 0; again < 3; ++again) expect_same_bits(one, with_threads(2));
+  }
+}
+
+TEST(ReproducibilityTest, ACancelledTaskChangesNothing) {
+  for (const Packing& packing : samples(35, particles, density)) {
+    SCOPED_TRACE(describe(packing));
+    const Answer alone = fresh(packing);
+    tbb::task_group group;
+    group.run([&] {
+      group.cancel();
+      expect_same_bits(fresh(packing), alone);
+    });
+    group.wait();
   }
 }
 

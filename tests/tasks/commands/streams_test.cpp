@@ -63,6 +63,14 @@ TEST_F(Streams, ANumberThatIsNoneIsRefused) {
 
 TEST_F(Streams, AnOutputIsWrittenWhereItPoints) {
   ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
+  // What a shell has opened under a name is that, whatever stands behind it.
+  const auto opened = shell(
+      "$ISOJAM aggregate r -o /dev/stdout | head -c 2000 >piped && "
+      "$ISOJAM aggregate r --format csv -o /dev/stdout >both && $ISOJAM aggregate r --format csv >csv && "
+      "cat r/tables.json csv | cmp - both && $ISOJAM aggregate r -o /dev/fd/7 7>seven >table && "
+      "cmp seven r/tables.json && $ISOJAM aggregate r --format json >json && cmp json seven",
+      here_.path());
+  EXPECT_EQ(opened.exit_code, 0) << opened.out << opened.err;
   const auto ended = shell(
       "mkfifo pipe; (cat pipe >copy) & $ISOJAM aggregate r -o pipe && wait && "
       "$ISOJAM aggregate r -o /dev/null && ln -s target link && : >target && chmod 600 target && "

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using test::Crash;
+using test::crash_manifest;
 using test::isojam;
 using test::stop_at_checkpoints;
 
@@ -51,18 +52,66 @@ TEST_F(Crash, StatusSaysWhatIsUnderWay) {
   EXPECT_EQ(isojam({"status", "absent"}, here_.path()).exit_code, 2);
 }
 
-TEST_F(Crash, ARecordThatGoesMeanwhileIsMissed) {
-  const auto incomplete = run([&](int) {
+TEST_F(Crash, WhatGoesMeanwhileIsMissed) {
+  for (const std::string folder : {"records", "packings", "paths"}) {
+    fs::remove_all(here_ / "results");
+    const auto incomplete = run([&](int) {
+      for (int i = 0; i < 20000 && names_in(here_ / "results" / "records").empty(); ++i)
+        std::this_thread::sleep_for(500us);
+      const auto name = names_in(here_ / "results" / "records").at(0);
+      fs::remove(here_ / "results" / folder / (name + ".json"));
+    });
+    EXPECT_EQ(incomplete.exit_code, 1) << folder << ": " << incomplete.err;
+    EXPECT_NE(incomplete.err.find("have gone or changed since"), std::string::npos) << incomplete.err;
+    EXPECT_EQ(incomplete.out, "") << "no table of what is left";
+    EXPECT_EQ(run().exit_code, 0);
+    EXPECT_EQ(results(), reference());
+  }
+}
+
+TEST_F(Crash, TheTableIsOfTheManifestThatWasRun) {
+  const auto manifest = [&](int seed) {
+    auto json = crash_manifest();
+    json["seed"] = seed;
+    return json.dump();
+  };
+  test::write_text(here_ / "other.json", manifest(8));
+  ASSERT_EQ(isojam({"run", "other.json", "-o", "other"}, here_.path()).exit_code, 0);
+  // Another's manifest and a record of its come in while records are made.
+  const auto foreign = run([&](int) {
     for (int i = 0; i < 20000 && names_in(here_ / "results" / "records").empty(); ++i)
       std::this_thread::sleep_for(500us);
-    const auto name = names_in(here_ / "results" / "records").at(0);
-    fs::remove(here_ / "results" / "records" / (name + ".json"));
+    const auto name = "records/" + names_in(here_ / "results" / "records").at(0) + ".json";
+    fs::copy_file(here_ / "other" / name, here_ / "results" / name, fs::copy_options::overwrite_existing);
+    fs::copy_file(here_ / "other/manifest.json", here_ / "results/manifest.json", fs::copy_options::overwrite_existing);
   });
-  EXPECT_EQ(incomplete.exit_code, 1) << incomplete.err;
-  EXPECT_NE(incomplete.err.find(" gone since"), std::string::npos) << incomplete.err;
-  EXPECT_EQ(incomplete.out, "") << "no table of what is left";
-  EXPECT_EQ(run().exit_code, 0);
-  EXPECT_EQ(results(), reference());
+  EXPECT_EQ(foreign.exit_code, 1) << foreign.err;
+  EXPECT_NE(foreign.err.find("of another manifest, and left out"), std::string::npos) << foreign.err;
+  EXPECT_NE(foreign.err.find("have gone or changed since"), std::string::npos) << foreign.err;
+}
+
+TEST_F(Crash, WhatIsAnothersIsSaidByAll) {
+  copy_reference();
+  auto json = crash_manifest();
+  json["seed"] = 8;
+  test::write_text(here_ / "other.json", json.dump());
+  ASSERT_EQ(isojam({"run", "other.json", "-o", "other"}, here_.path()).exit_code, 0);
+  const auto name = names_in(here_ / "other/records").at(0);
+  for (const std::string folder : {"records/", "packings/", "paths/"}) {
+    const auto file = folder + name + ".json";
+    fs::copy_file(here_ / "other" / file, here_ / "results" / file, fs::copy_options::overwrite_existing);
+  }
+  const auto status = isojam({"status", "results"}, here_.path());
+  EXPECT_NE(status.out.find("5 of 6 replicates recorded"), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find(name + ": belongs to another manifest"), std::string::npos) << status.out;
+  EXPECT_EQ(isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path()).exit_code, 65);
+  EXPECT_EQ(run().exit_code, 65);
+  EXPECT_EQ(isojam({"export", "results", name, "--format", "gsd", "-o", "x.gsd"}, here_.path()).exit_code, 65);
+  EXPECT_FALSE(fs::exists(here_ / "x.gsd"));
+  for (const std::string command : {"aggregate", "report"}) {
+    const auto made = isojam({command, "results"}, here_.path());
+    EXPECT_NE(made.err.find("of another manifest, and left out"), std::string::npos) << command << ": " << made.err;
+  }
 }
 
 TEST_F(Crash, RerunOfARecordThatCannotBeReadSaysSo) {

@@ -77,6 +77,7 @@ void write_text(const fs::path& path, const std::string& text) {
 std::pair<std::string, int> on_a_terminal(const std::function<void()>& work, int columns) {
   int terminal = -1;
   const winsize size{24, static_cast<unsigned short>(columns), 0, 0};
+  std::fflush(nullptr);
   const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
   if (child == 0) {
     work();

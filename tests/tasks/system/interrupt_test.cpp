@@ -10,7 +10,9 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <functional>
+#include <string>
 #include <thread>
 
 namespace isojam {
@@ -68,6 +70,21 @@ TEST(Interrupt, WhoDoesNotListenIsEnded) {
   const auto ended = end_of(deaf, 1);
   EXPECT_EQ(ended.exit_code, 75);
   EXPECT_GT(ended.seconds_after_signal, 1) << "no time to end by itself";
+  EXPECT_LT(ended.seconds_after_signal, 2);
+}
+
+/// Waits for good in a message that nobody reads, and holds stderr meanwhile.
+int choked(const std::stop_token&) {
+  int unread[2];
+  if (pipe(unread) != 0 || dup2(unread[1], STDERR_FILENO) < 0) return 9;
+  const std::string words(1 << 20, 'x');
+  std::fwrite(words.data(), 1, words.size(), stderr);
+  return 3;
+}
+
+TEST(Interrupt, WhoWaitsForAReaderIsEnded) {
+  const auto ended = end_of(choked, 1);
+  EXPECT_EQ(ended.exit_code, 75);
   EXPECT_LT(ended.seconds_after_signal, 2);
 }
 
