@@ -141,6 +141,9 @@ int main(int argc, char** argv) {
   } catch (const std::system_error& error) {
     const bool thread = error.code() == std::errc::resource_unavailable_try_again;
     isojam::end_for_want(thread ? "the machine has no more threads to give" : error.what());
+  } catch (const isojam::FileError& error) {
+    std::fprintf(stderr, "isojam: error: %s\n", isojam::printable(error.what()).c_str());
+    return static_cast<int>(isojam::ExitCode::some_failed);
   } catch (const std::exception& error) {
     if (isojam::is_shortage(error)) isojam::end_for_want(error.what());
     std::fprintf(stderr, "isojam: error: %s\n", isojam::printable(error.what()).c_str());

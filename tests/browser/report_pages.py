@@ -5,6 +5,7 @@ import json
 import math
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 
@@ -32,17 +33,48 @@ def checksum(data):
     return f"{value:016x}"
 
 
+NUMBER = "@number "
+
+
+def read(path):
+    """A document whose numbers keep their digits: a hash is of those, and Python would write some otherwise."""
+    return json.loads(path.read_text(encoding="utf-8"), parse_float=lambda digits: NUMBER + digits)
+
+
+def text_of(document, **form):
+    return re.sub(f'"{NUMBER}([^"]*)"', r"\1", json.dumps(document, ensure_ascii=False, **form))
+
+
 def write_sealed(path, document):
     """As isojam seals its files: the checksum of the text with zeros in its place stands second."""
     first, *others = [(key, value) for key, value in document.items() if key != "checksum"]
-    text = json.dumps(dict([first, ("checksum", "0" * 16), *others]), indent=2, ensure_ascii=False) + "\n"
+    text = text_of(dict([first, ("checksum", "0" * 16), *others]), indent=2) + "\n"
     path.write_text(text.replace("0" * 16, checksum(text.encode()), 1), encoding="utf-8")
 
 
+def result_digest(record):
+    """As isojam has it: the hash of all but timing, provenance and what vouches for the record."""
+    result = {key: value for key, value in record.items()
+              if key not in ("checksum", "timing", "provenance", "result_digest")}
+    return checksum(text_of(result, separators=(",", ":")).encode())
+
+
 def change_record(path, change):
-    document = json.loads(path.read_text(encoding="utf-8"))
+    """Changes a record and what vouches for it, its packing's head too; its files get the name that it then has."""
+    document = read(path)
+    assert result_digest(document) == document["result_digest"], path
     change(document)
-    write_sealed(path, document)
+    document["result_digest"] = result_digest(document)
+    spec = document["spec"]
+    name = f"{spec['solid']}-N{spec['particles']}-r{spec['replicate']:04}"
+    path.unlink()
+    write_sealed(path.with_stem(name), document)
+    packing = path.parents[1] / "packings" / path.name
+    if packing.exists():
+        held = read(packing)
+        packing.unlink()
+        held.update(replicate=name, result_digest=document["result_digest"])
+        write_sealed(packing.with_stem(name), held)
 
 
 def fail(record):
@@ -105,11 +137,8 @@ class Pages:
         return directory
 
     def forged(self, name, source):
-        """Texts of records and of the manifest that would be markup if anyone took them for it."""
+        """Texts of records that would be markup if anyone took them for it."""
         directory = self.copied(name, source)
-        document = json.loads((directory / "manifest.json").read_text())
-        document["name"] = HOSTILE
-        (directory / "manifest.json").write_text(json.dumps(document))
 
         def forge(record):
             record["provenance"]["compiler"] = HOSTILE + "<img src=x onerror=alert(2)>"
@@ -123,13 +152,13 @@ class Pages:
         """One replicate of `particles` on a lattice, turned at random, with the states of a real one."""
         directory = self.single(name, source)
         record = next((directory / "records").iterdir())
-        packing = directory / "packings" / record.name
 
         def resize(document):
             document["spec"].update(solid=solid, particles=particles)
             document["flags"] = []
 
         change_record(record, resize)
+        packing = next((directory / "packings").iterdir())
         made = json.loads(packing.read_text())
         made.update(lattice(particles, density), solid=solid)
         write_sealed(packing, made)
