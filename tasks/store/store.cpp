@@ -28,7 +28,7 @@ namespace {
 /// The manifest that the directory belongs to already.
 std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& manifest) {
   const auto path = directory / "manifest.json";
-  const auto theirs = stored_manifest(directory);
+  auto theirs = stored_manifest(directory);
   if (theirs && digest(*theirs) != digest(manifest))
     refuse_other(path.string(), "", differences(*theirs, manifest), digest(manifest));
   return theirs;

@@ -60,9 +60,11 @@ bool read_rest(int fd, std::size_t most, std::string& text) {
 /// False, with the reason in errno, if there is not so much memory. Asked of malloc first, where a file is named in
 /// what is said; what fails in operator new ends the program with less.
 bool reserve(std::string& text, std::size_t size) {
+  // NOLINTBEGIN(cppcoreguidelines-no-malloc): asked whether there is so much, and given back
   void* const probe = std::malloc(size);
   const bool enough = probe != nullptr && size < text.max_size();
   std::free(probe);
+  // NOLINTEND(cppcoreguidelines-no-malloc)
   if (enough) text.reserve(size);
   if (!enough) errno = ENOMEM;
   return enough;

@@ -34,9 +34,9 @@ void open_standard_streams() {
   }
 }
 
-void print(std::string_view words) {
-  const auto text = isatty(STDOUT_FILENO) == 1 ? printable(words) : std::string(words);
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) fail();
+void print(std::string_view text) {
+  const auto shown = isatty(STDOUT_FILENO) == 1 ? printable(text) : std::string(text);
+  if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size() || std::fflush(stdout) != 0) fail();
 }
 
 void flush_output() {
