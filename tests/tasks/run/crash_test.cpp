@@ -36,7 +36,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using test::isojam;
-using test::results_below;
 using test::TemporaryDirectory;
 
 using test::Crash;

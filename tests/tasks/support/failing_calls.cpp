@@ -61,12 +61,12 @@ __attribute__((destructor)) void say_count() {
 
 template <class Function>
 Function next(const char* name) {
-  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));  // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
 }
 
 }  // namespace
 
-// NOLINTBEGIN(readability-identifier-naming,cert-dcl50-cpp,cert-dcl58-cpp): as the C library has them
+// NOLINTBEGIN(*-naming,*-parameter-name,cert-dcl50-cpp,cert-dcl58-cpp): as the C library has them
 extern "C" {
 
 void* __libc_malloc(std::size_t size);
@@ -117,4 +117,4 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
 }
 
 }  // extern "C"
-// NOLINTEND(readability-identifier-naming,cert-dcl50-cpp,cert-dcl58-cpp)
+// NOLINTEND(*-naming,*-parameter-name,cert-dcl50-cpp,cert-dcl58-cpp)

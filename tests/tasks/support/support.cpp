@@ -1,6 +1,7 @@
 #include "tests/tasks/support/support.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <pty.h>
 #include <sys/wait.h>
