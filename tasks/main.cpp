@@ -24,9 +24,8 @@ namespace {
 
 constexpr auto exit_codes =
     "Exit codes: 0 all done; 1 some replicates failed, or the machine lacked something, or output could not be "
-    "written; 2 usage, or a path on "
-    "the command line that cannot be read or written; 65 bad manifest or record, or a directory of another manifest; "
-    "75 interrupted, the same command continues.";
+    "written; 2 usage, or a path on the command line that cannot be read or written; 65 bad manifest or record, or a "
+    "directory of another manifest; 75 interrupted, the same command continues.";
 
 void add_console_options(Options options, ConsoleOptions& console) {
   options.flag("--quiet", console.quiet, "Errors only on stderr");

@@ -96,8 +96,8 @@ std::vector<ExportFrame> read_path(const Arguments& arguments, const RecordedRep
   return frames;
 }
 
-/// A failed replicate that was not asked for by name gives a warning and no file.
-/// `own` is the digest of the directory's manifest, if it has one.
+/// A failed replicate that was not asked for by name gives a warning and no file. `own` is the digest of the
+/// directory's manifest, if it has one. A stream gets the file that was named and not those that stand beside it.
 void export_replicate(const Arguments& arguments, const std::optional<std::string>& own, const std::string& name,
                       const fs::path& output, Console& console) {
   const auto held = read_record(arguments.directory, name);
@@ -119,7 +119,10 @@ void export_replicate(const Arguments& arguments, const std::optional<std::strin
     console.warn(fmt::format("{}: classes of contacts, and so clusters, are undecided in {} of {} states", name,
                              undecided, frames.size()));
   }
-  for (const auto& exported : exported_files(frames, arguments.format, arguments.path, output)) {
+  auto files = exported_files(frames, arguments.format, arguments.path, output);
+  if (is_stream(output)) std::erase_if(files, [&](const ExportedFile& file) { return file.path != output; });
+  if (files.empty()) throw FileError(fmt::format("{}: takes one file, and this makes several", output.string()));
+  for (const auto& exported : files) {
     write_output(exported.path, exported.bytes);
     print(exported.path.string() + "\n");
   }

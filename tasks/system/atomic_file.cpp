@@ -141,6 +141,13 @@ void write_output(const fs::path& path, std::string_view content) {
   sync_directory_of(target);
 }
 
+bool is_stream(const fs::path& path) {
+  const auto target = followed(path);
+  struct stat status {};
+  return descriptor_at(target) ||
+         (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
+}
+
 void check_writable(const fs::path& directory) {
   const auto probe = temporary_beside(directory / "probe");
   const Descriptor file(probe, O_WRONLY | O_CREAT | O_EXCL);

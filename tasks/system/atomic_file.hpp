@@ -25,6 +25,10 @@ bool write_exclusively(const std::filesystem::path& path, std::string_view conte
 /// and owner of the file that stands there, and into a pipe or device instead of replacing it. Throws FileError.
 void write_output(const std::filesystem::path& path, std::string_view content);
 
+/// Whether what is written under that name goes into a pipe, a device or what a shell has opened: nothing can stand
+/// beside.
+bool is_stream(const std::filesystem::path& path);
+
 /// Throws FileError unless files can be written in the directory.
 void check_writable(const std::filesystem::path& directory);
 

@@ -63,6 +63,22 @@ TEST_F(Streams, ANumberThatIsNoneIsRefused) {
 
 TEST_F(Streams, AnOutputIsWrittenWhereItPoints) {
   ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
+  // A stream has nothing beside it: the solid of an XYZ file stays away, a collection is refused.
+  const auto name = "dodecahedron-N24-r0000";
+  for (const std::string stream : {"fifo", "descriptor"}) {
+    fs::remove_all(here_ / "beside");
+    fs::create_directory(here_ / "beside");
+    const std::string target = stream == "fifo" ? "beside/pipe" : "/dev/fd/7";
+    const auto line = [&](const std::string& options) {
+      return std::string("rm -f beside/pipe; mkfifo beside/pipe; (cat beside/pipe >/dev/null) 2>/dev/null & cat=$!; ") +
+             "$ISOJAM export r " + name + options + " -o " + target +
+             " 7>seven; code=$?; kill $cat 2>/dev/null; exit $code";
+    };
+    EXPECT_EQ(shell(line(" --format xyz"), here_.path()).exit_code, 0) << stream;
+    EXPECT_EQ(shell(line(" --format vtp --path"), here_.path()).exit_code, 2) << stream;
+    EXPECT_EQ(std::distance(fs::directory_iterator(here_ / "beside"), {}), 1) << stream;
+    EXPECT_FALSE(fs::exists("/dev/fd/7.obj") || fs::exists(here_ / "beside/pipe.obj")) << stream;
+  }
   // What a shell has opened under a name is that, whatever stands behind it.
   const auto opened = shell(
       "$ISOJAM aggregate r -o /dev/stdout | head -c 2000 >piped && "
