@@ -48,13 +48,12 @@ Pose normalised(const Pose& pose) {
 
 }  // namespace
 
-Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta) {
+namespace {
+
+/// The pose with its centre at x + dx and turned by the quaternion 1 + turn: so that a small turn is added to q and not
+/// multiplied away.
+Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Quaterniond& turn) {
   Pose result = pose;
-  const double angle = theta.norm();
-  // exp(θ) − 1, so that a small turn is added to q and not multiplied away.
-  Eigen::Quaterniond turn;
-  turn.w() = -2 * std::pow(std::sin(angle / 4), 2);
-  turn.vec() = half_sinc(angle) * theta;
   const Eigen::Vector4d change = (turn * pose.orientation).coeffs();
   for (int c = 0; c < 4; ++c) store(result, c, short_sum(pose.component(c), change[c]));
   result = normalised(result);
@@ -64,6 +63,24 @@ Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& t
     result.position_low[c] = x.low;
   }
   return result;
+}
+
+}  // namespace
+
+Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta) {
+  const double angle = theta.norm();
+  Eigen::Quaterniond turn;
+  turn.w() = -2 * std::pow(std::sin(angle / 4), 2);
+  turn.vec() = half_sinc(angle) * theta;
+  return moved(pose, dx, turn);
+}
+
+Pose moved_by_half_turn(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& v) {
+  const double square = v.squaredNorm();
+  Eigen::Quaterniond turn;
+  turn.w() = -square / (1 + std::sqrt(1 - square));
+  turn.vec() = v;
+  return moved(pose, dx, turn);
 }
 
 Pose scaled(const Pose& pose, const DoubleDouble& s) {

@@ -46,6 +46,9 @@ struct Pose {
 /// below the spacing of doubles are kept.
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta);
 
+/// The same for the turn with unit quaternion (√(1 − |v|²), v), v = sin(|θ|/2) θ/|θ|; |v| ≤ 1.
+Pose moved_by_half_turn(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& v);
+
 /// The pose with its centre at s·x.
 Pose scaled(const Pose& pose, const DoubleDouble& s);
 

@@ -17,6 +17,10 @@ struct BlockMatrix {
   std::vector<Block> off_diagonal;  ///< in order of (row, column), each at most once
 
   int size() const { return static_cast<int>(diagonal.size()); }  ///< in blocks
+  /// Adds the blocks of a pair of particles, row < column; pairs come in order of (row, column), any of them
+  /// repeatedly.
+  void add_pair(int row, int column, const Matrix6d& row_row, const Matrix6d& row_column,
+                const Matrix6d& column_column);
 };
 
 Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x);

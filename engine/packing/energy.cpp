@@ -4,33 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <tuple>
 
 #include "engine/geometry/overlap/small_distances.hpp"
 
 namespace isojam {
 
 namespace {
-
-/// Skin of the neighbour list in circumradii: wide enough that a minimisation rebuilds it seldom, narrow enough that
-/// few listed pairs are out of reach.
-constexpr double skin_in_circumradii = 0.15;
-
-auto canonical_key(const NeighbourPair& p) { return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]); }
-
-/// Axes of the pairs that stay, by a merge of two lists in canonical order.
-std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_pairs,
-                                         const std::vector<SeparatingAxis>& old_axes,
-                                         const std::vector<NeighbourPair>& pairs) {
-  std::vector<SeparatingAxis> axes(pairs.size());
-  std::size_t old = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    while (old < old_pairs.size() && canonical_key(old_pairs[old]) < canonical_key(pairs[k])) ++old;
-    if (old < old_pairs.size() && canonical_key(old_pairs[old]) == canonical_key(pairs[k])) axes[k] = old_axes[old];
-  }
-  return axes;
-}
 
 /// Sums that an evaluation needs on the way.
 struct Accumulator {
@@ -112,36 +91,19 @@ double largest_imbalance(const Eigen::VectorXd& gradient) {
 
 }  // namespace
 
-void PackingEnergy::refresh(const Packing& packing) {
-  const std::size_t n = packing.poses.size();
-  bool valid = list_solid_ == packing.solid && list_side_ == packing.cell.side() && list_positions_.size() == n;
-  for (std::size_t i = 0; valid && i < n; ++i)
-    valid = (packing.poses[i].position - list_positions_[i]).squaredNorm() < skin_ * skin_ / 4;
-  if (valid) return;
-  if (!(packing.cell.side() > least_side(*packing.solid)))
-    throw std::invalid_argument("the cell is so small that a particle can touch two images of another");
-  const bool same_system = list_solid_ == packing.solid && list_positions_.size() == n;
-  skin_ = skin_in_circumradii * packing.solid->circumradius();
-  std::vector<NeighbourPair> pairs = find_neighbours(packing, 2 * packing.solid->circumradius() + skin_);
-  axes_ = same_system ? carried_over(pairs_, axes_, pairs) : std::vector<SeparatingAxis>(pairs.size());
-  pairs_ = std::move(pairs);
-  overlaps_.resize(pairs_.size());
-  list_positions_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) list_positions_[i] = packing.poses[i].position;
-  list_side_ = packing.cell.side();
-  list_solid_ = packing.solid;
-}
-
 void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   // Hessians and contacts are mostly asked for in a state that was evaluated a moment ago.
-  const bool seen = list_solid_ == packing.solid && list_side_ == packing.cell.side() && seen_ == packing.poses &&
+  const bool seen = seen_solid_ == packing.solid && seen_side_ == packing.cell.side() && seen_ == packing.poses &&
                     seen_precision_ == precision;
   if (seen) return;
   seen_.clear();
-  refresh(packing);
+  list_.refresh(packing);
+  overlaps_.resize(list_.pairs().size());
   place_all(packing, precision, placed_);
-  totals_ += overlap_pairs(packing, precision, placed_, pairs_, axes_, overlaps_);
+  totals_ += overlap_pairs(packing, precision, placed_, list_.pairs(), list_.axes(), overlaps_);
   seen_ = packing.poses;
+  seen_side_ = packing.cell.side();
+  seen_solid_ = packing.solid;
   seen_precision_ = precision;
 }
 
@@ -160,12 +122,12 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   const std::vector<double> zeros(packing.poses.size(), 0.0);
   Accumulator on_the_way{0, zeros, zeros};
   // The arithmetic of a contact is done in parallel; only the additions, whose order decides their rounding, are not.
-  terms_.resize(pairs_.size());
-  for_each_slot(pairs_.size(), [&](std::size_t k) {
-    if (overlaps_[k].touching()) terms_[k] = terms_of(packing, pairs_[k], overlaps_[k]);
+  terms_.resize(list_.pairs().size());
+  for_each_slot(list_.pairs().size(), [&](std::size_t k) {
+    if (overlaps_[k].touching()) terms_[k] = terms_of(packing, list_.pairs()[k], overlaps_[k]);
   });
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (overlaps_[k].touching()) add_contact(pairs_[k], terms_[k], result, on_the_way);
+  for (std::size_t k = 0; k < list_.pairs().size(); ++k) {
+    if (overlaps_[k].touching()) add_contact(list_.pairs()[k], terms_[k], result, on_the_way);
   }
   result.stress /= packing.cell.volume();
   result.pressure = -result.stress.trace() / 3;
@@ -179,24 +141,19 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
 
 SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_distance, Precision precision) {
   overlap_all(packing, precision);
-  hessians_.resize(pairs_.size());
-  pair_hessians(packing, precision, placed_, pairs_, overlaps_, hessians_);
-  closed_.assign(pairs_.size(), Overlap{});
-  if (probe_distance > 0) probe_pairs(packing, placed_, pairs_, axes_, probe_distance, closed_);
+  hessians_.resize(list_.pairs().size());
+  pair_hessians(packing, precision, placed_, list_.pairs(), overlaps_, hessians_);
+  closed_.assign(list_.pairs().size(), Overlap{});
+  if (probe_distance > 0) probe_pairs(packing, placed_, list_.pairs(), list_.axes(), probe_distance, closed_);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
-  std::vector<BlockMatrix::Block>& blocks = result.hessian.off_diagonal;
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const NeighbourPair& pair = pairs_[k];
+  for (std::size_t k = 0; k < list_.pairs().size(); ++k) {
+    const NeighbourPair& pair = list_.pairs()[k];
     if (!overlaps_[k].touching() && !closed_[k].touching()) continue;
     result.pairs.push_back(incipient_contact(pair.a, pair.b, overlaps_[k], closed_[k], displacement(packing, pair),
                                              probe_distance, packing.solid->gyration_radius()));
     if (!overlaps_[k].touching()) continue;
-    result.hessian.diagonal[pair.a] += hessians_[k].aa;
-    result.hessian.diagonal[pair.b] += hessians_[k].bb;
-    if (blocks.empty() || blocks.back().row != pair.a || blocks.back().column != pair.b)
-      blocks.push_back({pair.a, pair.b, Matrix6d::Zero()});
-    blocks.back().value += hessians_[k].ab;
+    result.hessian.add_pair(pair.a, pair.b, hessians_[k].aa, hessians_[k].ab, hessians_[k].bb);
   }
   return result;
 }
@@ -204,9 +161,9 @@ SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_dis
 std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
   overlap_all(packing, Precision::working);
   std::vector<Contact> result;
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+  for (std::size_t k = 0; k < list_.pairs().size(); ++k) {
     if (!overlaps_[k].touching()) continue;
-    const NeighbourPair& pair = pairs_[k];
+    const NeighbourPair& pair = list_.pairs()[k];
     const Eigen::Vector3d d = displacement(packing, pair);
     const Eigen::Quaterniond &a = packing.poses[pair.a].orientation, &b = packing.poses[pair.b].orientation;
     Contact contact{pair, d, relative_pose(a, b, d), overlaps_[k]};

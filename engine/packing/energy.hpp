@@ -5,6 +5,7 @@
 
 #include "engine/packing/block_matrix.hpp"
 #include "engine/packing/incipient_contact.hpp"
+#include "engine/packing/neighbour_list.hpp"
 #include "engine/packing/pair_loop.hpp"
 
 namespace isojam {
@@ -78,20 +79,17 @@ class PackingEnergy {
   const PairCounts& counts() const { return totals_; }  ///< summed over all evaluations
 
  private:
-  void refresh(const Packing& packing);
   void overlap_all(const Packing& packing, Precision precision);
 
-  std::vector<NeighbourPair> pairs_;
-  std::vector<SeparatingAxis> axes_;
+  NeighbourList list_;
   std::vector<PlacedSolid> placed_;
   std::vector<Overlap> overlaps_;  ///< lab frame
   std::vector<Overlap> closed_;    ///< lab frame, with gaps closed by the probe distance
   std::vector<ContactTerms> terms_;
   std::vector<PairHessian> hessians_;
-  std::vector<Eigen::Vector3d> list_positions_;
-  double list_side_ = 0, skin_ = 0;
-  const ConvexSolid* list_solid_ = nullptr;
-  std::vector<Pose> seen_;  ///< the packing that overlaps_ belong to, with seen_precision_ and list_side_
+  std::vector<Pose> seen_;  ///< of the packing that overlaps_ belong to
+  double seen_side_ = 0;
+  const ConvexSolid* seen_solid_ = nullptr;
   Precision seen_precision_ = Precision::working;
   long evaluations_ = 0;
   PairCounts totals_;

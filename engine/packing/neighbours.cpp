@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace isojam {
 
@@ -30,9 +29,8 @@ void append_images(const Packing& packing, int a, int b, double reach, std::vect
 
 /// From the `first` on, in order of (a, b, shift).
 void sort_canonically(std::vector<NeighbourPair>& pairs, std::size_t first) {
-  const auto key = [](const NeighbourPair& p) { return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]); };
   std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
-            [&](const auto& p, const auto& q) { return key(p) < key(q); });
+            [](const auto& p, const auto& q) { return canonical_key(p) < canonical_key(q); });
 }
 
 /// Particles by cell of a grid with `cells` ≥ 3 cells a side.

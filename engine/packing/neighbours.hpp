@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <tuple>
 #include <vector>
 
 #include "engine/packing/packing.hpp"
@@ -13,6 +14,11 @@ struct NeighbourPair {
   int a = 0, b = 0;
   Eigen::Vector3i shift = Eigen::Vector3i::Zero();
 };
+
+/// The order of pairs everywhere: by (a, b, shift).
+inline auto canonical_key(const NeighbourPair& p) {
+  return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]);
+}
 
 /// Displacement x_b − x_a + L·shift of a pair, from the high parts of positions.
 Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair);

@@ -79,16 +79,7 @@ void pair_hessian(const Packing& packing, Precision precision, std::span<const P
   const Overlap value = precision == Precision::double_double
                             ? overlap_with_hessian(a, b, displacement_double_double(packing, pair), unused, h)
                             : overlap_with_hessian(a, b, r, unused, h);
-  Vector6d scale = Vector6d::Ones();
-  scale.tail<3>().setConstant(1 / packing.solid->gyration_radius());
-  const Vector6d ga = joined(value.area, value.moment);
-  const Vector6d gb = joined(-value.area, r.cross(value.area) - value.moment);
-  const auto block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second) -> Matrix6d {
-    return scale.asDiagonal() * ((g * k.transpose() + value.volume * second) / 2) * scale.asDiagonal();
-  };
-  out.aa = block(ga, ga, h.aa);
-  out.ab = block(ga, gb, h.ab);
-  out.bb = block(gb, gb, h.bb);
+  out = pair_energy(value, h, r, packing.solid->gyration_radius()).hessian;
 }
 
 }  // namespace

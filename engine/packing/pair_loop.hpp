@@ -8,6 +8,7 @@
 #include "engine/geometry/overlap/separating_axis.hpp"
 #include "engine/geometry/placed_solid.hpp"
 #include "engine/packing/neighbours.hpp"
+#include "engine/packing/pair_energy.hpp"
 
 namespace isojam {
 
@@ -46,12 +47,6 @@ PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<
 /// (V_p^(1/3)); volume 0 where they would still be apart. `axes` as overlap_pairs left them.
 void probe_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
                  std::span<const SeparatingAxis> axes, double probe_distance, std::span<Overlap> out);
-
-/// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
-/// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
-struct PairHessian {
-  Matrix6d aa, ab, bb;
-};
 
 /// PairHessian of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left
 /// them.

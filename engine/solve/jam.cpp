@@ -6,17 +6,22 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/solve/multipliers/multipliers.hpp"
+#include "engine/solve/rearrangement.hpp"
+
 namespace isojam {
 
 namespace {
 
-/// Estimated φ − φ_J of a minimised state, from E ∝ (φ − φ_J)⁶: 6E/(dE/dφ), dE/dφ = N p/φ².
-double distance_to_jamming(const JamStep& step) {
-  return 6 * step.energy_per_particle * step.density * step.density / step.pressure;
-}
-
 /// How often an expansion step that failed is tried again at half its length.
 constexpr int max_halvings = 4;
+
+/// Equilibria are followed from φ − φ_J below this. Farther off all contacts are soft, and Newton's method needs no
+/// help.
+constexpr double followed_within = 1;
+
+/// Mean contact force at a pressure, from 3 p V_cell = Σ r·F with some 4.5 contacts a particle at distance 1.
+double mean_force_at(double pressure, double density) { return 3 * pressure / (4.5 * density); }
 
 /// One strain step of a run.
 class StrainStep {
@@ -47,9 +52,13 @@ class StrainStep {
       options.max_evaluations = options_.consolidation_evaluations;
       options.method = Method::lbfgs;
     }
+    return append(packing, minimise(packing, energy_, options, stop_));
+  }
+
+  const JamStep& append(const Packing& packing, const MinimiseSummary& summary) {
     JamStep step;
     step.stage = progress_.stage;
-    step.summary = minimise(packing, energy_, options, stop_);
+    step.summary = summary;
     step.density = packing.density();
     const Evaluation value = energy_.evaluate(packing, step.summary.precision);
     step.energy_per_particle = value.energy / packing.size();
@@ -107,10 +116,10 @@ class StrainStep {
     if (!must_end(step) && consolidated(step)) progress_.stage = JamStage::expansion;
   }
 
+  const JamStep& last_state() const { return result_.path[static_cast<std::size_t>(result_.state_steps.back())]; }
+
   /// Estimated φ − φ_J of the last equilibrium.
-  double distance() const {
-    return distance_to_jamming(result_.path[static_cast<std::size_t>(result_.state_steps.back())]);
-  }
+  double distance() const { return distance_to_jamming(last_state()); }
 
   /// What bounds an expansion step beside the fraction: nearer than asked for costs more than it tells.
   double step_bound() const { return std::min(options_.longest_step, distance() - 0.95 * options_.final_distance); }
@@ -119,17 +128,69 @@ class StrainStep {
 
   /// Strains down towards φ_J from the last equilibrium; the first step only minimises.
   void expand() {
+    if (progress_.lost >= 0) return rise();
     Packing next = progress_.packing;
     const bool first = result_.states.empty();
-    if (!first) next = strained_to(next, next.density() - expansion_step());
-    const JamStep& step = relax(next);
+    const JamStep& step = first ? relax(next) : strained_down(next);
     if (must_end(step)) return;
+    if (step.summary.reason == StopReason::unjammed && follows()) return lose(std::move(next));
     if (!is_state(step.summary)) return failed(first);
-    if (!first) progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
-    progress_.packing = std::move(next);
+    if (!first) {
+      progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
+      result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
+    }
+    keep(std::move(next));
+    if (distance_to_jamming(result_.path.back()) <= options_.final_distance) end_expansion(JamStatus::jammed);
+  }
+
+  void keep(Packing state) {
+    progress_.packing = std::move(state);
     result_.states.push_back(progress_.packing);
     result_.state_steps.push_back(static_cast<int>(result_.path.size()) - 1);
-    if (distance_to_jamming(step) <= options_.final_distance) end_expansion(JamStatus::jammed);
+  }
+
+  /// Whether the next state is to be found from the last equilibrium and not from the strained packing alone.
+  bool follows() const {
+    return options_.minimise.method == Method::multipliers && !result_.states.empty() &&
+           distance() <= followed_within && is_equilibrium(last_state().summary);
+  }
+
+  const JamStep& strained_down(Packing& next) {
+    const double density = next.density() - expansion_step();
+    if (!follows()) {
+      next = strained_to(next, density);
+      return relax(next);
+    }
+    return append(next, follow_equilibrium(next, density, distance(), energy_, options_.minimise, stop_));
+  }
+
+  /// The branch has come to its end: the packing is not jammed at a density at which it was expected to be.
+  void lose(Packing packing) {
+    if (++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
+    progress_.packing = std::move(packing);
+    progress_.lost = result_.state_steps.back();
+  }
+
+  /// Strains what the packing has become up again, to an equilibrium from which the expansion can go on. Energies of
+  /// the branch that was lost say nothing about φ_J of the new one.
+  void rise() {
+    const JamStep& before = result_.path[static_cast<std::size_t>(progress_.lost)];
+    const double distance = distance_to_jamming(before), strain = options_.step_fraction * distance;
+    Packing next = strained_to(progress_.packing, progress_.packing.density() + strain);
+    if (next.density() > options_.max_density) return end_expansion(JamStatus::goal_not_reached);
+    const double force = mean_force_at(before.pressure, before.density);
+    const JamStep& step = append(next, relax_to_equilibrium(next, force, distance, energy_, options_.minimise, stop_));
+    if (must_end(step)) return;
+    progress_.packing = next;
+    if (!is_state(step.summary)) {
+      if (step.summary.reason != StopReason::unjammed) failed(false);
+      return;
+    }
+    if (distance_to_jamming(step) < options_.final_distance / (1 - options_.step_fraction)) return;
+    progress_.lost = -1;
+    result_.states.clear();
+    result_.state_steps.clear();
+    keep(std::move(next));
   }
 
   /// An equilibrium, or what ended by the rule on the energy if that was asked for: it is how others have jammed.
@@ -165,7 +226,7 @@ std::vector<EnergyPoint> energy_points(const JamResult& result) {
 }
 
 JamProgress begin_jam(Packing start, const JamOptions& options) {
-  return {std::move(start), JamStage::consolidation, options.step_fraction, 0, {}};
+  return {std::move(start), JamStage::consolidation, options.step_fraction, 0, -1, {}};
 }
 
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop) {

@@ -51,6 +51,15 @@ template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "consolidation"},
                                                  EnumName{JamStage::expansion, "expansion"}};
 
+/// How a state of the expansion differs from the one before. On a smooth piece of the path energies go as Δφ⁶ and
+/// particles move alike; where the packing gives way, at a fold, energy is lost and a few particles move far.
+struct Rearrangement {
+  double energy_ratio = 0;  ///< E over the one that (Δφ₁/Δφ₀)⁶ lets expect, with Δφ as the state before shows it
+  int contacts_lost = 0, contacts_gained = 0;
+  /// Participation number (Σu²)²/Σu⁴ of the particles' displacements u beside the affine ones, translation and R·turn.
+  double particles_moved = 0;
+};
+
 /// A minimised state on the path; energy in Y·V_p, pressure in Y.
 struct JamStep {
   JamStage stage = JamStage::consolidation;
@@ -58,7 +67,8 @@ struct JamStep {
   double energy_per_particle = 0;
   double pressure = 0;
   MinimiseSummary summary;
-  int descents = 0;  ///< saddles that the state was followed down from before it was kept
+  int descents = 0;                            ///< saddles that the state was followed down from before it was kept
+  std::optional<Rearrangement> rearrangement;  ///< since the state before; of states that followed one
 };
 
 enum class JamStatus {
@@ -84,7 +94,7 @@ inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called
 struct JamResult {
   JamStatus status = JamStatus::not_called;
   std::vector<JamStep> path;
-  std::vector<Packing> states;   ///< minimised packings of the expansion, in the order of expansion
+  std::vector<Packing> states;   ///< minimised packings of the expansion on its last branch, in the order of expansion
   std::vector<int> state_steps;  ///< index in `path` of each: equilibria, or ended by minimise.energy_change
   std::optional<JammingPoint> phi_j;
   long evaluations = 0;
@@ -102,7 +112,10 @@ struct JamProgress {
   JamStage stage = JamStage::consolidation;  ///< of the next step
   double step_fraction = 0;  ///< of the distance φ − φ_J, for the next expansion step; see JamOptions::step_fraction
   int halvings = 0;          ///< expansion steps that failed
-  JamResult result;          ///< so far; not_called while steps remain
+  /// Index in the path of the last equilibrium of a branch that came to its end: the packing lost all contact forces in
+  /// the strain step from there, `packing` is what it became, and the next steps strain it up again. −1: none did.
+  int lost = -1;
+  JamResult result;  ///< so far; not_called while steps remain
 
   bool ended() const { return result.status != JamStatus::not_called; }
 };

@@ -85,12 +85,13 @@ void look_at_minimiser(const JamOptions& options, const std::vector<Flag>& exclu
                     "mean: few or none may be left",
                     minimise.energy_change));
   }
-  if (minimise.method != Method::newton && minimise.energy_change == 0 && minimise.residual < residual_left &&
+  const bool second_order = minimise.method == Method::newton || minimise.method == Method::multipliers;
+  if (!second_order && minimise.energy_change == 0 && minimise.residual < residual_left &&
       minimise.max_evaluations <= spent_in_vain && options.final_distance < near_jamming) {
     warnings.add(
         "method", "",
         fmt::format("{} does not reach residual {} in {} evaluations as near jamming as final_distance {}; "
-                    "newton does",
+                    "multipliers does",
                     to_string(minimise.method), minimise.residual, minimise.max_evaluations, options.final_distance));
   }
   for (const auto& [name, energy] : {std::pair("consolidation_energy", options.consolidation_energy),

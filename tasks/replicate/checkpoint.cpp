@@ -29,6 +29,7 @@ Json step_json(const JamStep& step) {
   json["energy_per_particle"] = step.energy_per_particle;
   json["pressure"] = step.pressure;
   json["descents"] = step.descents;
+  if (step.rearrangement) json["rearrangement"] = to_json(*step.rearrangement);
   json["stopped"] = to_string(summary.reason);
   json["energy"] = summary.energy;
   json["residual"] = residual_json(summary.residual);
@@ -43,8 +44,19 @@ Json step_json(const JamStep& step) {
 long read_count(const JsonPlace& place) { return static_cast<long>(place.integer(count_range)); }
 
 MinimiseWork read_work(const JsonPlace& place) {
-  return {read_count(place.at("double_double_evaluations")), read_count(place.at("hessians")),
-          read_count(place.at("factorisations")), read_count(place.at("factor_updates"))};
+  return {read_count(place.at("double_double_evaluations")),
+          read_count(place.at("hessians")),
+          read_count(place.at("factorisations")),
+          read_count(place.at("factor_updates")),
+          read_count(place.at("envelopes")),
+          read_count(place.at("envelope_overlaps")),
+          read_count(place.at("local_factorisations"))};
+}
+
+Rearrangement read_rearrangement(const JsonPlace& place) {
+  const auto contacts = [&](const std::string& key) { return static_cast<int>(place.at(key).integer({0, 1e9})); };
+  return {place.at("energy_ratio").number(any_number), contacts("contacts_lost"), contacts("contacts_gained"),
+          place.at("particles_moved").number(not_negative)};
 }
 
 JamStep read_step(const JsonPlace& place) {
@@ -54,6 +66,7 @@ JamStep read_step(const JsonPlace& place) {
   step.energy_per_particle = place.at("energy_per_particle").number(any_number);
   step.pressure = place.at("pressure").number(any_number);
   step.descents = static_cast<int>(place.at("descents").integer({0, 1e9}));
+  if (place.has("rearrangement")) step.rearrangement = read_rearrangement(place.at("rearrangement"));
   auto& summary = step.summary;
   summary.reason = place.at("stopped").choice<StopReason>();
   summary.energy = place.at("energy").number(any_number);
@@ -113,6 +126,12 @@ JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
   return result;
 }
 
+/// Index in the path, or −1.
+int read_lost(const JsonPlace& root) {
+  const auto steps = static_cast<double>(root.at("path").expect_list("a list of steps"));
+  return static_cast<int>(root.at("lost").integer({-1, steps - 1}));
+}
+
 Json to_json(const ProcessId& process) {
   return {{"machine", process.machine}, {"process", process.process}, {"started", process.started}};
 }
@@ -133,6 +152,7 @@ std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint&
   json["stage"] = to_string(progress.stage);
   json["step_fraction"] = progress.step_fraction;
   json["halvings"] = progress.halvings;
+  json["lost"] = progress.lost;
   json["evaluations"] = result.evaluations;
   json["pairs"] = to_json(result.counts);
   json["work"] = to_json(result.work);
@@ -160,7 +180,7 @@ Checkpoint read_checkpoint(const JsonPlace& root, const ReplicateSpec& spec) {
   const auto timing = root.at("timing");
   return {{read_own_packing(root.at("packing"), spec), root.at("stage").choice<JamStage>(),
            root.at("step_fraction").number({0, 1, true}), static_cast<int>(root.at("halvings").integer({0, 100})),
-           read_result(root, spec)},
+           read_lost(root), read_result(root, spec)},
           {timing.at("wall_seconds").number(not_negative), timing.at("cpu_seconds").number(not_negative)}};
 }
 

@@ -8,7 +8,7 @@
 
 namespace isojam {
 
-inline constexpr std::string_view checkpoint_schema = "isojam.checkpoint.v3";
+inline constexpr std::string_view checkpoint_schema = "isojam.checkpoint.v4";
 
 /// All that a replicate needs to go on, and what it belongs to: specification, manifest and build. nullopt where a
 /// number is not finite that should be; such a run is about to end.

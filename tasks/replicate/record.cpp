@@ -36,6 +36,7 @@ Json step_record(const JamStep& step, const JamResult& jam) {
   json["evaluations"] = step.summary.evaluations;
   json["iterations"] = step.summary.iterations;
   json["descents"] = step.descents;
+  if (step.rearrangement) json["rearrangement"] = to_json(*step.rearrangement);
   return json;
 }
 
@@ -127,6 +128,18 @@ Json to_json(const MinimiseWork& work) {
   json["hessians"] = work.hessians;
   json["factorisations"] = work.factorisations;
   json["factor_updates"] = work.factor_updates;
+  json["envelopes"] = work.envelopes;
+  json["envelope_overlaps"] = work.envelope_overlaps;
+  json["local_factorisations"] = work.local_factorisations;
+  return json;
+}
+
+Json to_json(const Rearrangement& rearrangement) {
+  Json json;
+  json["energy_ratio"] = rearrangement.energy_ratio;
+  json["contacts_lost"] = rearrangement.contacts_lost;
+  json["contacts_gained"] = rearrangement.contacts_gained;
+  json["particles_moved"] = rearrangement.particles_moved;
   return json;
 }
 

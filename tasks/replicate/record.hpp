@@ -28,5 +28,6 @@ Json provenance(const ReplicateSpec& spec);
 Json to_json(const Timing& timing);
 Json to_json(const PairCounts& counts);
 Json to_json(const MinimiseWork& work);
+Json to_json(const Rearrangement& rearrangement);
 
 }  // namespace isojam

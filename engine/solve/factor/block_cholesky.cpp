@@ -19,6 +19,14 @@ std::ptrdiff_t block_at(int row, int column, int width) {
 
 using Block6 = Eigen::Map<Matrix6d, Eigen::Unaligned, Eigen::OuterStride<panels::height>>;
 
+/// Makes room for `size` entries of any value. Eigen frees what a vector had before it asks for more, and frees it
+/// again if it gets none, unless the vector is empty.
+void reallocate(Eigen::VectorXd& vector, std::ptrdiff_t size) {
+  if (vector.size() == size) return;
+  vector = Eigen::VectorXd();
+  vector.resize(size);
+}
+
 /// to += from, for 6 rows and `columns` columns of panels.
 void add_columns(const double* from, int columns, double* to) {
   for (int c = 0; c < columns; ++c, from += panels::height, to += panels::height) {
@@ -69,8 +77,8 @@ void BlockCholesky::lay_out_fronts() {
     front.below = end + panels::size(panels_of(front.node.columns), front.width());
     end = front.below + panels::size(front.panels, front.width());
   }
-  factor_.resize(end);
-  reciprocals_.resize(6 * size_);
+  reallocate(factor_, end);
+  reallocate(reciprocals_, std::ptrdiff_t{6} * size_);
 }
 
 /// An update lives from its own front to its parent's. Each takes the lowest gap that fits, so that what is in use
@@ -89,7 +97,7 @@ void BlockCholesky::lay_out_updates() {
     for (const int child : front.node.children)
       std::erase_if(live, [&](const auto& span) { return span.first == fronts_[child].update; });
   }
-  updates_.resize(size);
+  reallocate(updates_, size);
 }
 
 namespace {

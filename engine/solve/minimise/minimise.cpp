@@ -15,7 +15,8 @@ MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const Minimise
     case Method::conjugate_gradient: return minimise_conjugate_gradient(descent);
     case Method::fire: return minimise_fire(descent);
     case Method::lbfgs: return minimise_lbfgs(descent);
-    case Method::newton: return minimise_newton(descent);
+    case Method::newton:
+    case Method::multipliers: return minimise_newton(descent);
   }
   return {};
 }

@@ -11,15 +11,18 @@
 
 namespace isojam {
 
-/// Method of minimisation: newton. The others are there to be compared with; near jamming they do not converge.
-enum class Method { conjugate_gradient, fire, lbfgs, newton };
+/// Method of minimisation. multipliers follows an equilibrium through a strain step (solve/multipliers/), which jam() does
+/// near jamming; where there is none to follow, and wherever minimise() is called, it is newton. The others are there to
+/// be compared with: near jamming they do not converge.
+enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
 inline constexpr std::array enum_names<Method>{EnumName{Method::conjugate_gradient, "conjugate_gradient"},
                                                EnumName{Method::fire, "fire"}, EnumName{Method::lbfgs, "lbfgs"},
-                                               EnumName{Method::newton, "newton"}};
+                                               EnumName{Method::newton, "newton"},
+                                               EnumName{Method::multipliers, "multipliers"}};
 
 struct MinimiseOptions {
-  Method method = Method::newton;
+  Method method = Method::multipliers;
   /// Residual at which to stop: forces balance to this fraction of the mean contact force.
   double residual = 1e-6;
   /// Energy rule: stop when an iteration changes the energy by less than this fraction of it; 0 switches the rule off.

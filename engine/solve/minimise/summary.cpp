@@ -10,6 +10,9 @@ MinimiseWork& MinimiseWork::operator+=(const MinimiseWork& term) {
   hessians += term.hessians;
   factorisations += term.factorisations;
   factor_updates += term.factor_updates;
+  envelopes += term.envelopes;
+  envelope_overlaps += term.envelope_overlaps;
+  local_factorisations += term.local_factorisations;
   return *this;
 }
 

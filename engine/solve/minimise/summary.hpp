@@ -37,6 +37,9 @@ struct MinimiseWork {
   long hessians = 0;                   ///< second derivatives of the packing, touching pairs and near ones
   long factorisations = 0;             ///< of a shifted Hessian, failed ones too
   long factor_updates = 0;             ///< systems solved by updating a factor instead of factorising anew
+  long envelopes = 0;                  ///< evaluations of the multiplier method, EnvelopeEvaluation
+  long envelope_overlaps = 0;          ///< overlaps with Hessian that these took
+  long local_factorisations = 0;       ///< of the Hessian of a few particles
 
   MinimiseWork& operator+=(const MinimiseWork& term);
   bool operator==(const MinimiseWork&) const = default;

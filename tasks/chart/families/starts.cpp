@@ -11,6 +11,7 @@ namespace isojam {
 std::vector<JammedSolid> jam_all(const Measuring& measuring) {
   const ChartConfig& config = measuring.config;
   JamOptions options;
+  options.minimise.method = Method::newton;
   options.final_distance = 0.8 * *std::min_element(config.distances.begin(), config.distances.end());
   std::vector<JammedSolid> all;
   for (const SolidKind solid : config.solids) {

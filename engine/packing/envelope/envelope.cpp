@@ -1,0 +1,150 @@
+#include "engine/packing/envelope/envelope.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace isojam {
+
+namespace {
+
+/// The force of each listed pair, by a merge of two lists in canonical order; null if it has none.
+std::vector<const ContactForce*> by_pair(const std::vector<NeighbourPair>& pairs,
+                                         std::span<const ContactForce> forces) {
+  std::vector<const ContactForce*> found(pairs.size(), nullptr);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    while (next < forces.size() && canonical_key(forces[next].pair) < canonical_key(pairs[k])) ++next;
+    if (next < forces.size() && canonical_key(forces[next].pair) == canonical_key(pairs[k])) found[k] = &forces[next];
+  }
+  return found;
+}
+
+bool apart(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
+  const double reach = a.solid().circumradius() + b.solid().circumradius();
+  if (r.squaredNorm() >= reach * reach || separates(a, b, r, axis)) return true;
+  if (overlap(a, b, r, axis).touching()) return false;
+  // No face separates: an edge pair does, and it is worth a search once.
+  if (axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
+  return true;
+}
+
+void add(const EnvelopeContact& contact, EnvelopeEvaluation& sum) {
+  const ProximalContact& at = contact.at;
+  sum.value += at.value;
+  sum.noise += std::numeric_limits<double>::epsilon() *
+               (at.energy + std::abs(at.shift.dot(contact.multiplier)) + std::abs(at.shift.dot(at.wrench)));
+  sum.gradient.segment<6>(6 * contact.pair.a) += at.gradient_a;
+  sum.gradient.segment<6>(6 * contact.pair.b) += at.gradient_b;
+  sum.multiplier_error = std::max(sum.multiplier_error, (at.wrench - contact.multiplier).norm());
+  if (!at.touching) return;
+  sum.mean_force += at.wrench.head<3>().norm();
+  ++sum.touching;
+}
+
+/// Sums up contacts that touch or have a multiplier; the others are dropped.
+EnvelopeEvaluation summed(std::vector<EnvelopeContact> contacts, int particles) {
+  EnvelopeEvaluation sum;
+  sum.gradient = Eigen::VectorXd::Zero(6 * particles);
+  for (const EnvelopeContact& contact : contacts) sum.overlaps += contact.at.iterations;
+  std::erase_if(contacts,
+                [](const EnvelopeContact& contact) { return !contact.at.touching && contact.multiplier.isZero(0); });
+  for (const EnvelopeContact& contact : contacts) add(contact, sum);
+  if (sum.touching > 0) sum.mean_force /= static_cast<double>(sum.touching);
+  sum.contacts = std::move(contacts);
+  return sum;
+}
+
+}  // namespace
+
+/// Those anew that have moved.
+void EnvelopeEnergy::place(const Packing& packing) {
+  list_.refresh(packing);
+  const std::size_t n = packing.poses.size();
+  const bool same = placed_.size() == n && !placed_.empty() && &placed_[0].solid() == packing.solid;
+  placed_.resize(n);
+  poses_.resize(n);
+  for_each_slot(n, [&](std::size_t k) {
+    if (same && poses_[k] == packing.poses[k]) return;
+    std::construct_at(&placed_[k], *packing.solid, rotation_matrix(packing.poses[k]));
+    poses_[k] = packing.poses[k];
+  });
+}
+
+/// Of the listed pairs those that have a force or touch.
+std::vector<std::size_t> EnvelopeEnergy::near_pairs(const Packing& packing,
+                                                    const std::vector<const ContactForce*>& force_of,
+                                                    std::span<const char> only) {
+  const std::vector<NeighbourPair>& pairs = list_.pairs();
+  std::vector<char> near(pairs.size(), 0);
+  for_each_slot(pairs.size(), [&](std::size_t k) {
+    const NeighbourPair& pair = pairs[k];
+    if (!only.empty() && !only[pair.a] && !only[pair.b]) return;
+    near[k] = force_of[k] != nullptr ||
+              !apart(placed_[pair.a], placed_[pair.b], displacement(packing, pair), list_.axes()[k]);
+  });
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    if (near[k]) found.push_back(k);
+  }
+  return found;
+}
+
+EnvelopeEvaluation EnvelopeEnergy::evaluate(const Packing& packing, std::span<const ContactForce> forces,
+                                            double stiffness, std::span<const char> only) {
+  place(packing);
+  const std::vector<const ContactForce*> force_of = by_pair(list_.pairs(), forces);
+  const std::vector<std::size_t> near = near_pairs(packing, force_of, only);
+  std::vector<EnvelopeContact> contacts(near.size());
+  for_each_slot(near.size(), [&](std::size_t slot) {
+    EnvelopeContact& out = contacts[slot];
+    out.pair = list_.pairs()[near[slot]];
+    const DoubleDoubleVector r = displacement_double_double(packing, out.pair);
+    out.displacement = r.high;
+    Vector6d start = Vector6d::Zero();
+    if (const ContactForce* force = force_of[near[slot]]) out.multiplier = force->multiplier, start = force->shift;
+    out.at = proximal_contact(placed_[out.pair.a], packing.poses[out.pair.b], r, {out.multiplier, stiffness}, start);
+  });
+  return summed(std::move(contacts), packing.size());
+}
+
+EnvelopeEvaluation EnvelopeEnergy::unshifted(const Packing& packing, double stiffness) {
+  place(packing);
+  const std::vector<const ContactForce*> none(list_.pairs().size(), nullptr);
+  const std::vector<std::size_t> near = near_pairs(packing, none, {});
+  std::vector<EnvelopeContact> contacts(near.size());
+  for_each_slot(near.size(), [&](std::size_t slot) {
+    EnvelopeContact& out = contacts[slot];
+    out.pair = list_.pairs()[near[slot]];
+    const DoubleDoubleVector r = displacement_double_double(packing, out.pair);
+    out.displacement = r.high;
+    out.at = unshifted_contact(placed_[out.pair.a], packing.poses[out.pair.b], r, stiffness);
+    out.multiplier = out.at.wrench;
+  });
+  return summed(std::move(contacts), packing.size());
+}
+
+BlockMatrix curvature(const EnvelopeEvaluation& evaluation) {
+  std::vector<PairHessian> terms(evaluation.contacts.size());
+  for_each_slot(terms.size(), [&](std::size_t k) { terms[k] = evaluation.contacts[k].at.curvature(); });
+  BlockMatrix sum;
+  sum.diagonal.assign(static_cast<std::size_t>(evaluation.gradient.size() / 6), Matrix6d::Zero());
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const NeighbourPair& pair = evaluation.contacts[k].pair;
+    if (!evaluation.contacts[k].at.touching) continue;
+    sum.add_pair(pair.a, pair.b, terms[k].aa, terms[k].ab, terms[k].bb);
+  }
+  return sum;
+}
+
+std::vector<ContactForce> forces_of(const EnvelopeEvaluation& evaluation) {
+  std::vector<ContactForce> forces;
+  forces.reserve(evaluation.contacts.size());
+  for (const EnvelopeContact& contact : evaluation.contacts)
+    forces.push_back({contact.pair, contact.multiplier, contact.at.shift});
+  return forces;
+}
+
+}  // namespace isojam

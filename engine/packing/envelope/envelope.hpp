@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "engine/packing/block_matrix.hpp"
+#include "engine/packing/envelope/proximal_contact.hpp"
+#include "engine/packing/neighbour_list.hpp"
+
+namespace isojam {
+
+/// What is known of a contact before its envelope is: its multiplier μ, and a guess of its shift w; see ProximalTerms.
+struct ContactForce {
+  NeighbourPair pair;
+  Vector6d multiplier = Vector6d::Zero();
+  Vector6d shift = Vector6d::Zero();
+};
+
+/// A contact of an envelope: A touches the ghost of B, or the contact has a multiplier.
+struct EnvelopeContact {
+  NeighbourPair pair;
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< x_b − x_a, the touching image, lab frame
+  Vector6d multiplier = Vector6d::Zero();
+  ProximalContact at;
+};
+
+/// Φ(x; μ) = Σ_contacts min_w [ e(w) + ½ ρ |w|² − μ·w ] of a packing: its energy with every contact no stiffer than ρ.
+/// Where no contact is shifted its value and gradient are those of the energy.
+struct EnvelopeEvaluation {
+  double value = 0;                       ///< Φ, Y·V_p
+  double noise = 0;                       ///< differences of Φ that rounding makes
+  Eigen::VectorXd gradient;               ///< 6N, as Evaluation::gradient
+  std::vector<EnvelopeContact> contacts;  ///< in order of (a, b, shift)
+  double mean_force = 0;                  ///< mean |F| where A and the ghost touch
+  double multiplier_error = 0;            ///< largest |∇e − μ| of a contact
+  long touching = 0;
+  long overlaps = 0;  ///< with Hessian, that finding the shifts took
+};
+
+/// Evaluates envelopes of packings of one solid. Holds caches only, as PackingEnergy does.
+class EnvelopeEnergy {
+ public:
+  /// `forces` in order of (a, b, shift); pairs without one have μ = 0. With `only`, one flag for each particle,
+  /// contacts without a flagged particle are left out. Throws std::invalid_argument if the cell is not larger than
+  /// least_side(solid).
+  EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactForce> forces, double stiffness,
+                              std::span<const char> only = {});
+  /// The touching pairs as they are, each with the multiplier ∇e: no contact is shifted and Φ = E.
+  EnvelopeEvaluation unshifted(const Packing& packing, double stiffness);
+
+ private:
+  void place(const Packing& packing);
+  std::vector<std::size_t> near_pairs(const Packing& packing, const std::vector<const ContactForce*>& force_of,
+                                      std::span<const char> only);
+
+  NeighbourList list_;
+  std::vector<PlacedSolid> placed_;
+  std::vector<Pose> poses_;  ///< that placed_ were made of
+};
+
+/// Second derivatives of Φ.
+BlockMatrix curvature(const EnvelopeEvaluation& evaluation);
+
+/// Multipliers and shifts of the contacts as they are.
+std::vector<ContactForce> forces_of(const EnvelopeEvaluation& evaluation);
+
+}  // namespace isojam

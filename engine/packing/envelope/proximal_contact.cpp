@@ -1,0 +1,210 @@
+#include "engine/packing/envelope/proximal_contact.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// The minimand F(w) = e(w) + ½ ρ |w|² − μ·w is strictly convex but for the little by which e is not, and Newton's
+// method finds its minimum in three or four steps unless it meets a kink of ∇e: where a gap closes, and where a face
+// comes to be cut by the other's section line. There a full step goes too far and the next as far back, for ever; so
+// steps end where the slope along them is a fraction of what it was.
+
+namespace isojam {
+
+namespace {
+
+/// Imbalance |∇F| / (|∇e| + |μ|) that is asked for, and the one that is taken where rounding lets it fall no further.
+constexpr double goal = 1e-12, enough = 1e-9;
+constexpr int most_steps = 60, most_probes = 30;
+
+/// A full step is taken if the slope at its end is no more than this, and a shorter one at which the slope is within
+/// the second, both as fractions of the slope at its beginning.
+constexpr double overshoot = 0.5, flat_enough = 0.3;
+
+/// No ghost moves farther in one step (inradii).
+constexpr double longest_step = 0.2;
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
+  return m;
+}
+
+/// A trial ghost; all in the lab frame.
+struct Ghost {
+  Vector6d shift = Vector6d::Zero();
+  PairEnergy pair;                       ///< of A and the ghost
+  Matrix6d turn = Matrix6d::Identity();  ///< ∂w/∂(x, R·θ) of the ghost
+  Vector6d gradient = Vector6d::Zero();  ///< of F by (x, R·θ) of the ghost
+  double value = 0;                      ///< F
+};
+
+class Proximal {
+ public:
+  Proximal(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r, const ProximalTerms& terms)
+      : a_(a),
+        b_(b),
+        r_(r),
+        stiffness_(terms.stiffness),
+        radius_(a.solid().gyration_radius()),
+        multiplier_(to_lab(b, terms.multiplier)) {}
+
+  ProximalContact unshifted() { return result(at(Vector6d::Zero()), true); }
+
+  ProximalContact minimise(const Vector6d& start) {
+    Ghost here = at(to_lab(b_, start));
+    bool converged = is_minimum(here, std::numeric_limits<double>::infinity());
+    for (int k = 0; !converged && k < most_steps; ++k) {
+      const double before = imbalance(here);
+      here = step(here);
+      converged = is_minimum(here, before);
+    }
+    return result(here, converged);
+  }
+
+ private:
+  Ghost at(const Vector6d& shift) {
+    ++iterations_;
+    Ghost ghost;
+    ghost.shift = shift;
+    const Eigen::Vector3d half = shift.tail<3>() / (2 * radius_);
+    const Pose pose = moved_by_half_turn(b_, Eigen::Vector3d::Zero(), half);
+    const PlacedSolid placed(a_.solid(), rotation_matrix(pose));
+    DoubleDoubleVector r = r_;
+    for (int c = 0; c < 3; ++c) r.set(c, short_sum(r_[c], shift[c]));
+    ghost.pair = pair_energy(a_, placed, r);
+    // q → exp(dθ) q changes its vector part v by ½ (q₀ dθ + dθ×v).
+    ghost.turn.bottomRightCorner<3, 3>() =
+        std::sqrt(1 - half.squaredNorm()) * Eigen::Matrix3d::Identity() - cross_matrix(half);
+    ghost.gradient = ghost.pair.gradient_b + ghost.turn.transpose() * (stiffness_ * shift - multiplier_);
+    ghost.value = ghost.pair.energy + (stiffness_ / 2 * shift - multiplier_).dot(shift);
+    return ghost;
+  }
+
+  double imbalance(const Ghost& ghost) const {
+    const double gradient = ghost.gradient.norm();
+    return gradient > 0 ? gradient / (ghost.pair.gradient_b.norm() + multiplier_.norm()) : 0;
+  }
+
+  bool is_minimum(const Ghost& ghost, double before) const {
+    const double now = imbalance(ghost);
+    return now <= goal || (now <= enough && now >= before / 2);
+  }
+
+  /// Second derivatives of F by (x, R·θ) of the ghost, to first order in w.
+  Matrix6d matrix(const Ghost& ghost) const {
+    return ghost.pair.hessian.bb + stiffness_ * ghost.turn.transpose() * ghost.turn;
+  }
+
+  /// Newton's step by (x, R·θ) of the ghost; where the matrix is not positive definite, Levenberg's and Marquardt's.
+  Vector6d newton(const Ghost& here) const {
+    const Matrix6d h = matrix(here);
+    Eigen::LLT<Matrix6d> factor(h);
+    for (double shift = stiffness_ / 4; factor.info() != Eigen::Success && std::isfinite(shift); shift *= 4)
+      factor.compute(h + shift * Matrix6d::Identity());
+    const Vector6d step = -factor.solve(here.gradient);
+    const double length = std::max(step.head<3>().norm(), step.tail<3>().norm());
+    return std::min(1.0, longest_step * a_.solid().inradius() / length) * step;
+  }
+
+  /// Slope of F along a change of w.
+  double slope(const Ghost& ghost, const Vector6d& along) const {
+    return ghost.pair.gradient_b.dot(ghost.turn.inverse() * along) +
+           (stiffness_ * ghost.shift - multiplier_).dot(along);
+  }
+
+  Ghost step(const Ghost& here) {
+    const Vector6d along = here.turn * newton(here);
+    Ghost next = at(here.shift + along);
+    const double from = slope(here, along);
+    double to = slope(next, along);
+    // From a gap the way leads through an overlap that is far too deep, and from there back to the right one.
+    if (here.pair.energy == 0 || to <= -overshoot * from) return next;
+    // Regula falsi, with the slope at the end that stays halved (Illinois).
+    double low = 0, high = 1, slope_low = from, slope_high = to;
+    for (int k = 0; k < most_probes && std::abs(to) > -flat_enough * from; ++k) {
+      const double t = low + (high - low) * std::clamp(slope_low / (slope_low - slope_high), 0.02, 0.98);
+      next = at(here.shift + t * along);
+      to = slope(next, along);
+      if (to > 0) {
+        high = t, slope_high = to, slope_low /= k > 0 ? 2 : 1;
+      } else {
+        low = t, slope_low = to, slope_high /= k > 0 ? 2 : 1;
+      }
+    }
+    return next;
+  }
+
+  ProximalContact result(const Ghost& ghost, bool converged) const {
+    ProximalContact contact;
+    const PairEnergy& pair = ghost.pair;
+    contact.shift = to_body(b_, ghost.shift);
+    contact.value = ghost.value;
+    contact.energy = pair.energy;
+    contact.touching = pair.energy > 0;
+    contact.wrench = to_body(b_, ghost.turn.transpose().inverse() * pair.gradient_b);
+    contact.gradient_a = pair.gradient_a;
+    contact.gradient_b = pair.gradient_b;
+    // About B's centre.
+    contact.gradient_b.tail<3>() += ghost.shift.head<3>().cross(pair.gradient_b.head<3>()) / radius_;
+    contact.ghost = pair.hessian;
+    contact.compliance = matrix(ghost).inverse();
+    contact.iterations = iterations_;
+    contact.converged = converged;
+    return contact;
+  }
+
+  const PlacedSolid& a_;
+  const Pose& b_;
+  const DoubleDoubleVector& r_;
+  double stiffness_, radius_;
+  Vector6d multiplier_;  // lab frame
+  int iterations_ = 0;
+};
+
+}  // namespace
+
+PairHessian ProximalContact::curvature() const {
+  PairHessian h = ghost;
+  const Matrix6d a = compliance * ghost.ab.transpose(), b = compliance * ghost.bb;
+  h.aa -= ghost.ab * a;
+  h.ab -= ghost.ab * b;
+  h.bb -= ghost.bb * b;
+  h.aa = (h.aa + h.aa.transpose()).eval() / 2;
+  h.bb = (h.bb + h.bb.transpose()).eval() / 2;
+  return h;
+}
+
+double ProximalContact::predicted(const Vector6d& a, const Vector6d& b) const {
+  const Vector6d pull = ghost.ab.transpose() * a + ghost.bb * b;
+  return value + gradient_a.dot(a) + gradient_b.dot(b) +
+         (a.dot(ghost.aa * a) + 2 * a.dot(ghost.ab * b) + b.dot(ghost.bb * b) - pull.dot(compliance * pull)) / 2;
+}
+
+Vector6d ProximalContact::shift_change(const Vector6d& a, const Vector6d& b) const {
+  return -compliance * (ghost.ab.transpose() * a + ghost.bb * b);
+}
+
+ProximalContact proximal_contact(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r,
+                                 const ProximalTerms& terms, const Vector6d& start) {
+  return Proximal(a, b, r, terms).minimise(start);
+}
+
+ProximalContact unshifted_contact(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r, double stiffness) {
+  return Proximal(a, b, r, {Vector6d::Zero(), stiffness}).unshifted();
+}
+
+Vector6d to_lab(const Pose& b, const Vector6d& w) {
+  const Eigen::Matrix3d rotation = b.orientation.toRotationMatrix();
+  return joined(rotation * w.head<3>(), rotation * w.tail<3>());
+}
+
+Vector6d to_body(const Pose& b, const Vector6d& w) {
+  const Eigen::Matrix3d rotation = b.orientation.toRotationMatrix();
+  return joined(rotation.transpose() * w.head<3>(), rotation.transpose() * w.tail<3>());
+}
+
+}  // namespace isojam

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "engine/geometry/overlap/overlap.hpp"
+
+namespace isojam {
+
+/// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
+/// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
+struct PairHessian {
+  Matrix6d aa = Matrix6d::Zero(), ab = Matrix6d::Zero(), bb = Matrix6d::Zero();
+};
+
+/// The energy E = V²/4 of one pair with its derivatives, as in PairHessian; Y·V_p.
+struct PairEnergy {
+  double energy = 0;
+  Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();
+  PairHessian hessian;
+};
+
+/// The energy of A and B, B's centre at r = x_B − x_A, in double-double; both placed so.
+PairEnergy pair_energy(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r);
+
+/// The energy of a pair with that overlap and its Hessian.
+PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, const Eigen::Vector3d& r,
+                       double gyration_radius);
+
+}  // namespace isojam

@@ -1,0 +1,40 @@
+#include "engine/solve/multipliers/lifted_step.hpp"
+
+#include "engine/solve/minimise/descent.hpp"
+
+namespace isojam {
+
+std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double shift, double longest,
+                                         EnvelopeEvaluator& evaluator, BlockCholesky& factor, MinimiseWork& work) {
+  BlockMatrix hessian;
+  hessian.diagonal.assign(state.packing.poses.size(), Matrix6d::Zero());
+  Eigen::VectorXd gradient = state.value.gradient;
+  const auto shift_of = [&](const EnvelopeContact& contact) {
+    return to_lab(state.packing.poses[contact.pair.b], contact.at.shift);
+  };
+  for (const EnvelopeContact& contact : state.value.contacts) {
+    if (!contact.at.touching) continue;
+    const PairHessian& h = contact.at.ghost;
+    const Vector6d w = shift_of(contact);
+    hessian.add_pair(contact.pair.a, contact.pair.b, h.aa, h.ab, h.bb);
+    gradient.segment<6>(6 * contact.pair.a) -= h.ab * w;
+    gradient.segment<6>(6 * contact.pair.b) -= h.bb * w;
+  }
+  ++work.factorisations;
+  if (!factor.factorise(hessian, shift)) return std::nullopt;
+  const Eigen::VectorXd step = -factor.solve(gradient);
+  if (!(largest_displacement(step) <= longest)) return std::nullopt;
+  std::vector<ContactForce> forces;
+  for (const EnvelopeContact& contact : state.value.contacts) {
+    if (!contact.at.touching) continue;
+    const PairHessian& h = contact.at.ghost;
+    const Vector6d of_a = step.segment<6>(6 * contact.pair.a);
+    const Vector6d of_ghost = step.segment<6>(6 * contact.pair.b) - shift_of(contact);
+    const Vector6d change = h.ab.transpose() * of_a + h.bb * of_ghost;
+    forces.push_back(
+        {contact.pair, contact.at.wrench + to_body(state.packing.poses[contact.pair.b], change), Vector6d::Zero()});
+  }
+  return evaluator.at(moved(state.packing, step), forces);
+}
+
+}  // namespace isojam

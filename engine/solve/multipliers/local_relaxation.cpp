@@ -1,0 +1,145 @@
+#include "engine/solve/multipliers/local_relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/solve/factor/block_cholesky.hpp"
+
+namespace isojam {
+
+namespace {
+
+/// A contact is mispredicted if Φ of it is wrong by this part of the decrease that was promised for all.
+constexpr double wrong_by = 0.05;
+
+constexpr int most_steps = 12;
+
+/// The relaxation has ended when a step promises less than this part of the decrease promised for all; after a failed
+/// step sooner.
+constexpr double enough = 0.01, enough_after_failure = 0.001;
+
+constexpr double growth = 4;
+constexpr double longest_step = 0.1;  ///< inradii
+
+std::vector<NeighbourPair> mispredictions(const EnvelopeState& here, const EnvelopeState& there,
+                                          const Eigen::VectorXd& step, double tolerance) {
+  std::vector<NeighbourPair> wrong;
+  std::size_t k = 0;
+  const std::vector<EnvelopeContact>& before = here.value.contacts;
+  for (const EnvelopeContact& contact : there.value.contacts) {
+    const NeighbourPair& pair = contact.pair;
+    while (k < before.size() && canonical_key(before[k].pair) < canonical_key(pair)) ++k;
+    double promised = 0;
+    if (k < before.size() && canonical_key(before[k].pair) == canonical_key(pair))
+      promised = before[k].at.predicted(step.segment<6>(6 * pair.a), step.segment<6>(6 * pair.b));
+    if (std::abs(contact.at.value - promised) > tolerance) wrong.push_back(pair);
+  }
+  return wrong;
+}
+
+/// The part of a packing that moves.
+class Part {
+ public:
+  explicit Part(const std::vector<char>& flags) : place_(flags.size(), -1) {
+    for (std::size_t p = 0; p < flags.size(); ++p) {
+      if (flags[p]) place_[p] = static_cast<int>(particles_.size()), particles_.push_back(static_cast<int>(p));
+    }
+  }
+
+  bool empty() const { return particles_.empty(); }
+
+  BlockMatrix of(const BlockMatrix& matrix) const {
+    BlockMatrix part;
+    for (const int p : particles_) part.diagonal.push_back(matrix.diagonal[p]);
+    for (const BlockMatrix::Block& block : matrix.off_diagonal) {
+      if (place_[block.row] >= 0 && place_[block.column] >= 0)
+        part.off_diagonal.push_back({place_[block.row], place_[block.column], block.value});
+    }
+    return part;
+  }
+
+  Eigen::VectorXd of(const Eigen::VectorXd& whole) const {
+    Eigen::VectorXd part(6 * static_cast<Eigen::Index>(particles_.size()));
+    for (std::size_t k = 0; k < particles_.size(); ++k)
+      part.segment<6>(static_cast<Eigen::Index>(6 * k)) = whole.segment<6>(6 * particles_[k]);
+    return part;
+  }
+
+  Eigen::VectorXd embedded(const Eigen::VectorXd& part) const {
+    Eigen::VectorXd whole = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(place_.size()));
+    for (std::size_t k = 0; k < particles_.size(); ++k)
+      whole.segment<6>(6 * particles_[k]) = part.segment<6>(static_cast<Eigen::Index>(6 * k));
+    return whole;
+  }
+
+ private:
+  std::vector<int> place_, particles_;
+};
+
+/// Forces of the contacts that were not evaluated with a part, and of those that were.
+std::vector<ContactForce> merged(const std::vector<ContactForce>& all, const std::vector<ContactForce>& part,
+                                 const std::vector<char>& flags) {
+  std::vector<ContactForce> forces;
+  for (const ContactForce& force : all) {
+    if (!flags[force.pair.a] && !flags[force.pair.b]) forces.push_back(force);
+  }
+  const auto middle = static_cast<std::ptrdiff_t>(forces.size());
+  forces.insert(forces.end(), part.begin(), part.end());
+  std::inplace_merge(forces.begin(), forces.begin() + middle, forces.end(),
+                     [](const auto& p, const auto& q) { return canonical_key(p.pair) < canonical_key(q.pair); });
+  return forces;
+}
+
+}  // namespace
+
+std::vector<char> mispredicted(const EnvelopeState& here, const EnvelopeState& there, const Eigen::VectorXd& step,
+                               double promised) {
+  const auto wrong = mispredictions(here, there, step, wrong_by * promised);
+  std::vector<char> core(here.packing.poses.size(), 0);
+  for (const NeighbourPair& pair : wrong) core[pair.a] = core[pair.b] = 1;
+  std::vector<char> flags = core;
+  for (const EnvelopeContact& contact : there.value.contacts) {
+    const NeighbourPair& pair = contact.pair;
+    if (core[pair.a] || core[pair.b]) flags[pair.a] = flags[pair.b] = 1;
+  }
+  return flags;
+}
+
+bool relax_locally(const std::vector<char>& flags, double shift, double promised, EnvelopeEvaluator& evaluator,
+                   EnvelopeState& state, MinimiseWork& work) {
+  const Part part(flags);
+  if (part.empty()) return false;
+  const double longest = longest_step * state.packing.solid->inradius();
+  const std::vector<ContactForce> all = forces_of(state.value);
+  EnvelopeState here = evaluator.at(state.packing, all, flags);
+  BlockCholesky factor;
+  bool moved_at_all = false;
+  for (int k = 0; k < most_steps; ++k) {
+    const BlockMatrix matrix = part.of(curvature(here.value));
+    ++work.local_factorisations;
+    if (!factor.factorise(matrix, shift)) {
+      shift *= growth;
+      continue;
+    }
+    const Eigen::VectorXd gradient = part.of(here.value.gradient);
+    const Eigen::VectorXd step = limited(-factor.solve(gradient), longest);
+    const double decrease = -gradient.dot(step) - step.dot(matrix * step) / 2;
+    const Eigen::VectorXd whole = part.embedded(step);
+    EnvelopeState there = evaluator.at(moved(here.packing, whole), forces_after(here, whole), flags);
+    const double actual = here.value.value - there.value.value;
+    if (actual > 1e-4 * decrease) {
+      shift = adapted_shift(shift, actual / decrease);
+      here = std::move(there);
+      moved_at_all = true;
+      if (decrease < enough * promised) break;
+    } else {
+      shift *= growth;
+      if (decrease < enough_after_failure * promised) break;
+    }
+  }
+  if (moved_at_all) state = evaluator.at(std::move(here.packing), merged(all, forces_of(here.value), flags));
+  return moved_at_all;
+}
+
+}  // namespace isojam

@@ -1,0 +1,366 @@
+#include "engine/solve/multipliers/multipliers.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/solve/minimise/descent.hpp"
+#include "engine/solve/multipliers/envelope_state.hpp"
+#include "engine/solve/multipliers/lifted_step.hpp"
+#include "engine/solve/multipliers/local_relaxation.hpp"
+
+// Near jamming all contact forces are of one size, f ~ Δφ⁵, and so the depth of a contact depends on its kind: ~ Δφ for
+// corners and crossed edges, ~ Δφ⁵ for flat faces. A flat contact is a spring of stiffness .1 that holds over 1e-10,
+// beside springs of stiffness Δφ⁴ that hold over Δφ: Newton's method on the energy itself has to find the flat ones
+// again at every step. As a constraint with a force of its own a flat contact is harmless. So the energy of every
+// contact is replaced by its Moreau envelope Φ about a force μ (proximal_contact.hpp), none stiffer than
+//
+//   ρ = stiffening · k₀,   k₀ = f/Δφ,
+//
+// f the mean contact force: the stiffness of the soft contacts, some times over. Three loops, one inside the other:
+//
+//   start       From the equilibrium at φ₀, μ₀ = ∇e. To φ₁ positions are strained and follow the tangent, one linear
+//               solve; forces as r⁵, r = Δφ₁/Δφ₀.
+//   multipliers Φ is minimised until its forces balance better than μ is known, |∇Φ| < ½ max |∇e − μ|; then μ ← ∇e, so
+//               that no contact is shifted in the end and Φ is the energy (Hestenes 1969, Powell 1969).
+//   descent     Levenberg's and Marquardt's steps on Φ. Where contacts come and go the model of a step is wrong for a
+//   few
+//               pairs; then their particles are relaxed by themselves before the state is judged
+//               (local_relaxation.hpp), which is cheap and leaves next to no step to be rejected.
+//   finish      Once forces and multipliers agree to some 3 %, lifted steps (lifted_step.hpp), which converge
+//               quadratically. The residual of the energy itself, in double-double, decides.
+//
+// The path of equilibria is smooth between folds, where a packing gives way and its energy falls, now and then by
+// orders of magnitude. Scales follow the forces then.
+//
+// Constants were measured on 78 states of 100 tetrahedra, octahedra, dodecahedra and icosahedra, Δφ .12 to .005,
+// expanded by 35 %: the median of factorisations is 29, and over a factor of two in any of them it
+// changes by less than a fifth.
+
+namespace isojam {
+
+namespace {
+
+/// ρ/k₀. Below 100 the descent wanders, above 600 it stumbles over what flat contacts are.
+constexpr double stiffening = 300;
+
+constexpr double first_shift = 1, least_shift = 1e-7, most_shift = 1e12;  ///< λ/k₀
+constexpr double tangent_shift = 0.01;  ///< λ/k₀ of the equilibrium that it starts from
+
+/// λ after a model that was not positive definite, and for how long it is kept above what was too little.
+constexpr double growth_if_indefinite = 8, above_indefinite = 1.5, forgotten = 0.5;
+
+/// A step that does worse than the first is followed by local relaxation; λ is adapted after that one too if it then
+/// does better than the second.
+constexpr double relaxed_below = 0.9, trusted_above = 0.8;
+
+/// μ is renewed once ∇Φ is this part of its error.
+constexpr double balance_before_renewal = 0.5;
+
+/// Lifted steps begin when ∇Φ and the error of μ are this part of the mean force; after each attempt that fails, at a
+/// tenth of it. Below the second the rest is left to Newton's method on the energy, of so many evaluations.
+constexpr double finish_from = 0.03, finish_to = 1e-7;
+constexpr double lifted_shift = 1e-7;  ///< λ/k₀
+constexpr long last_evaluations = 500;
+
+/// The energy's own residual is worth asking for below this imbalance.
+constexpr double nearly_balanced = 1e-3;
+
+constexpr double longest_step = 0.1, longest_tangent = 0.4;  ///< inradii
+
+/// Renewals of the multipliers, none of which halves what is wrong or lowers Φ by this part, before the rest is left to
+/// Newton's method.
+constexpr int most_renewals = 10;
+constexpr double least_fall = 1e-4;
+constexpr double stalled_below = 0.03;  ///< of the mean force
+
+/// Forces that differ from the expected by more than this factor make new scales; fallen to the second they are those
+/// of a packing that is not jammed.
+constexpr double off_scale = 3, unjammed_force = 1e-9;
+
+/// Steps, one after the other, to states with fewer contacts than rigidity takes, before the packing counts as
+/// unjammed. Newton's method then has the last word.
+constexpr int most_loose = 10;
+
+/// Far more than any state needs but those at the end of their branch.
+constexpr long most_factorisations = 1000;
+
+/// Maxwell's count: even if every contact were of two faces, three constraints, there are fewer than the particles that
+/// have contacts have degrees of freedom.
+bool cannot_be_rigid(const EnvelopeEvaluation& value) {
+  std::vector<char> bears(static_cast<std::size_t>(value.gradient.size() / 6), 0);
+  for (const EnvelopeContact& contact : value.contacts) {
+    if (contact.at.touching) bears[contact.pair.a] = bears[contact.pair.b] = 1;
+  }
+  return 3 * value.touching < 6 * std::count(bears.begin(), bears.end(), 1) - 3;
+}
+
+class Multipliers {
+ public:
+  Multipliers(Packing& packing, double distance, PackingEnergy& energy, const MinimiseOptions& options,
+              std::stop_token stop)
+      : packing_(packing),
+        distance_(distance),
+        energy_(energy),
+        options_(options),
+        stop_(std::move(stop)),
+        evaluator_(summary_.work),
+        here_{packing, {}} {}
+
+  /// From the equilibrium to one at another density.
+  MinimiseSummary follow(double density) {
+    follow_strain(density);
+    return run();
+  }
+
+  /// To an equilibrium from where it is.
+  MinimiseSummary relax(double force) {
+    first_force_ = force;
+    k0_ = shift_ = 1;
+    set_scales(force, distance_);
+    shift_ = first_shift * k0_;
+    here_ = evaluator_.at(packing_, {});
+    return run();
+  }
+
+ private:
+  MinimiseSummary run() {
+    summary_.reason = descend();
+    packing_ = std::move(here_.packing);
+    if (summary_.reason == StopReason::line_search_failed || summary_.reason == StopReason::unjammed) polish();
+    if (!measured_) measure();
+    return summary_;
+  }
+
+  /// Sets the scales for a mean force.
+  void set_scales(double force, double distance) {
+    force_ = force;
+    const double k = force / distance;
+    shift_ *= k / k0_;
+    k0_ = k;
+    evaluator_.set_stiffness(stiffening * k0_);
+  }
+
+  void follow_strain(double density) {
+    k0_ = 1;
+    set_scales(1, 1);
+    const double distance = distance_ - (packing_.density() - density), ratio = distance / distance_;
+    assert(distance > 0);
+    // Scales ask for the mean force, which does not depend on them.
+    first_force_ = evaluator_.unshifted(packing_).value.mean_force;
+    set_scales(first_force_, distance_);
+    const EnvelopeState from = evaluator_.unshifted(packing_);
+    const double fall = std::pow(ratio, 5);
+    shift_ = first_shift * k0_;
+    EnvelopeState strained{strained_to(packing_, density), {}};
+    std::vector<ContactForce> forces;
+    const Eigen::VectorXd tangent = tangent_step(from, strained.packing, forces);
+    for (ContactForce& force : forces) force.multiplier *= fall;
+    set_scales(fall * first_force_, distance);
+    here_ = evaluator_.at(moved(strained.packing, tangent), forces);
+  }
+
+  /// How particles follow the strain to first order, −H⁻¹ (∂g/∂ε) ε, and the forces of `from` with the shifts that this
+  /// makes.
+  Eigen::VectorXd tangent_step(const EnvelopeState& from, const Packing& strained, std::vector<ContactForce>& forces) {
+    const double stretch = strained.cell.side() / from.packing.cell.side() - 1;
+    const auto stretched = [&](const EnvelopeContact& contact) {
+      return joined(stretch * contact.displacement, Eigen::Vector3d::Zero());
+    };
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(from.value.gradient.size());
+    for (const EnvelopeContact& contact : from.value.contacts) {
+      const PairHessian h = contact.at.curvature();
+      gradient.segment<6>(6 * contact.pair.a) += h.ab * stretched(contact);
+      gradient.segment<6>(6 * contact.pair.b) += h.bb * stretched(contact);
+    }
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(gradient.size());
+    ++summary_.work.hessians;
+    ++summary_.work.factorisations;
+    if (factor_.factorise(curvature(from.value), tangent_shift * k0_))
+      step = limited(-factor_.solve(gradient), longest_tangent * packing_.solid->inradius());
+    forces = forces_of(from.value);
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      const EnvelopeContact& contact = from.value.contacts[k];
+      const Vector6d a = step.segment<6>(6 * contact.pair.a);
+      const Vector6d b = step.segment<6>(6 * contact.pair.b) + stretched(contact);
+      forces[k].shift = to_body(strained.poses[contact.pair.b], contact.at.shift_change(a, b));
+    }
+    return step;
+  }
+
+  std::optional<StopReason> verdict() const {
+    const EnvelopeEvaluation& value = here_.value;
+    if (!std::isfinite(value.value) || !value.gradient.allFinite()) return StopReason::not_finite;
+    if (value.touching == 0 || value.mean_force < unjammed_force * expected_force_ || loose_ > most_loose)
+      return StopReason::unjammed;
+    if (stop_.stop_requested()) return StopReason::interrupted;
+    if (shift_ > most_shift * k0_) return StopReason::line_search_failed;
+    const bool spent = summary_.evaluations + summary_.work.envelopes >= options_.max_evaluations;
+    if (spent || summary_.work.factorisations >= most_factorisations) return StopReason::budget;
+    return std::nullopt;
+  }
+
+  StopReason descend() {
+    expected_force_ = force_;
+    double finish_at = finish_from;
+    while (true) {
+      if (const auto reason = verdict()) return *reason;
+      const double force = here_.value.mean_force, imbalance = largest_displacement(here_.value.gradient);
+      const double error = here_.value.multiplier_error;
+      if (stalled(std::max(imbalance, error) / force)) return StopReason::line_search_failed;
+      if (std::max(imbalance, error) < finish_at * force) {
+        if (const auto reason = finish()) return *reason;
+        finish_at /= 10;
+        if (finish_at < finish_to) return StopReason::line_search_failed;
+      } else if (imbalance < balance_before_renewal * error) {
+        renew_multipliers();
+      } else {
+        advance();
+      }
+    }
+  }
+
+  /// Whether the last renewals of the multipliers have led nowhere: near a saddle they can go round for ever.
+  bool stalled(double wrong) {
+    const bool lower = here_.value.value < (1 - least_fall) * lowest_;
+    if (wrong < best_ / 2 || lower) best_ = wrong, lowest_ = here_.value.value, renewals_ = 0;
+    return renewals_ > most_renewals && wrong < stalled_below;
+  }
+
+  void renew_multipliers() {
+    ++renewals_;
+    const double force = here_.value.mean_force;
+    if (!(force > force_ / off_scale && force < off_scale * force_))
+      set_scales(force, distance_ * std::pow(force / first_force_, 0.2));
+    std::vector<ContactForce> forces = forces_of(here_.value);
+    for (std::size_t k = 0; k < forces.size(); ++k) forces[k].multiplier = here_.value.contacts[k].at.wrench;
+    here_ = evaluator_.at(std::move(here_.packing), forces);
+  }
+
+  /// One step, with as many shifts as it needs unless a verdict falls.
+  void advance() {
+    const BlockMatrix matrix = curvature(here_.value);
+    ++summary_.work.hessians;
+    for (double growth = 2; !verdict(); growth *= 2) {
+      while (!factorised(matrix)) {
+        if (verdict()) return;
+      }
+      const Eigen::VectorXd& gradient = here_.value.gradient;
+      const Eigen::VectorXd step = limited(-factor_.solve(gradient), longest_step * packing_.solid->inradius());
+      const double promised = -gradient.dot(step) - step.dot(matrix * step) / 2;
+      EnvelopeState there = evaluator_.at(moved(here_.packing, step), forces_after(here_, step));
+      bool relaxed = false;
+      if (here_.value.value - there.value.value < relaxed_below * promised)
+        relaxed = relax_locally(mispredicted(here_, there, step, promised), shift_, promised, evaluator_, there,
+                                summary_.work);
+      if (acceptable(here_.value, there.value, promised)) return accept(std::move(there), promised, relaxed);
+      shift_ *= growth;
+    }
+  }
+
+  bool factorised(const BlockMatrix& matrix) {
+    ++summary_.work.factorisations;
+    if (factor_.factorise(matrix, shift_)) return true;
+    indefinite_ = shift_;
+    shift_ *= growth_if_indefinite;
+    return false;
+  }
+
+  void accept(EnvelopeState there, double promised, bool relaxed) {
+    const double ratio = promised > here_.value.noise ? (here_.value.value - there.value.value) / promised : 1;
+    if (!relaxed || ratio > trusted_above) shift_ = adapted_shift(shift_, ratio);
+    shift_ = std::max({shift_, least_shift * k0_, above_indefinite * indefinite_});
+    indefinite_ *= forgotten;
+    here_ = std::move(there);
+    loose_ = cannot_be_rigid(here_.value) ? loose_ + 1 : 0;
+    ++summary_.iterations;
+  }
+
+  /// Lifted steps as long as each halves what is wrong. The reason to stop if the state is an equilibrium then.
+  std::optional<StopReason> finish() {
+    const auto wrong = [](const EnvelopeEvaluation& value) {
+      return std::max(largest_displacement(value.gradient), value.multiplier_error);
+    };
+    while (!verdict()) {
+      ++summary_.work.hessians;
+      auto there = lifted_step(here_, lifted_shift * k0_, longest_step * packing_.solid->inradius(), evaluator_,
+                               factor_, summary_.work);
+      if (!there || !(wrong(there->value) < wrong(here_.value) / 2)) break;
+      here_ = std::move(*there);
+      ++summary_.iterations;
+      if (wrong(here_.value) > nearly_balanced * here_.value.mean_force) continue;
+      packing_ = here_.packing;
+      measure();
+      if (summary_.residual <= options_.residual) return StopReason::residual_reached;
+      if (summary_.residual <= summary_.residual_floor) return StopReason::precision_floor;
+    }
+    return std::nullopt;
+  }
+
+  /// The energy itself in the present state.
+  void measure() {
+    const Evaluation value = energy_.evaluate(packing_, Precision::double_double);
+    ++summary_.evaluations;
+    ++summary_.work.double_double_evaluations;
+    summary_.energy = value.energy;
+    summary_.residual = value.residual;
+    summary_.residual_floor = value.residual_floor;
+    summary_.precision = Precision::double_double;
+    measured_ = true;
+  }
+
+  /// Newton's method on the energy for what lifted steps leave.
+  void polish() {
+    MinimiseOptions options = options_;
+    options.method = Method::newton;
+    options.max_evaluations = std::min(last_evaluations, options_.max_evaluations);
+    const MinimiseSummary rest = minimise(packing_, energy_, options, stop_);
+    MinimiseSummary sum = rest;
+    // What Newton's method could not balance either is what it was found to be.
+    if (summary_.reason == StopReason::unjammed && rest.reason == StopReason::budget) sum.reason = summary_.reason;
+    sum.evaluations += summary_.evaluations;
+    sum.iterations += summary_.iterations;
+    sum.work += summary_.work;
+    summary_ = sum;
+    measured_ = true;
+  }
+
+  Packing& packing_;
+  double distance_;
+  PackingEnergy& energy_;
+  const MinimiseOptions& options_;
+  std::stop_token stop_;
+  MinimiseSummary summary_;
+  EnvelopeEvaluator evaluator_;
+  EnvelopeState here_;
+  BlockCholesky factor_;
+  double first_force_ = 0;                                   ///< mean force of the equilibrium that it starts from
+  double expected_force_ = 0;                                ///< mean force if nothing gives way
+  double force_ = 0, k0_ = 0;                                ///< scales
+  double shift_ = 0;                                         ///< λ
+  double indefinite_ = 0;                                    ///< a λ that was too little
+  double best_ = std::numeric_limits<double>::infinity();    ///< least imbalance, over the mean force, halved since
+  double lowest_ = std::numeric_limits<double>::infinity();  ///< Φ then
+  int renewals_ = 0;                                         ///< of multipliers since then
+  int loose_ = 0;                                            ///< steps to states that cannot be rigid
+  bool measured_ = false;
+};
+
+}  // namespace
+
+MinimiseSummary follow_equilibrium(Packing& packing, double density, double distance, PackingEnergy& energy,
+                                   const MinimiseOptions& options, std::stop_token stop) {
+  return Multipliers(packing, distance, energy, options, std::move(stop)).follow(density);
+}
+
+MinimiseSummary relax_to_equilibrium(Packing& packing, double force, double distance, PackingEnergy& energy,
+                                     const MinimiseOptions& options, std::stop_token stop) {
+  return Multipliers(packing, distance, energy, options, std::move(stop)).relax(force);
+}
+
+}  // namespace isojam

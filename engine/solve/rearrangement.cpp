@@ -1,0 +1,59 @@
+#include "engine/solve/rearrangement.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+namespace isojam {
+
+namespace {
+
+/// Touching pairs, by their keys, ascending.
+auto touching_pairs(const Packing& packing) {
+  std::vector<decltype(canonical_key(NeighbourPair{}))> keys;
+  for (const Contact& contact : PackingEnergy().contacts(packing)) keys.push_back(canonical_key(contact.pair));
+  return keys;
+}
+
+/// |dx|² + R²|dθ|² of a particle beside the affine strain.
+double squared_displacement(const Pose& before, const Pose& after, double stretch, double radius) {
+  const Eigen::Vector3d dx = after.position - stretch * before.position;
+  const Eigen::Quaterniond turn = after.orientation * before.orientation.conjugate();
+  const double angle = 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+  return dx.squaredNorm() + std::pow(radius * angle, 2);
+}
+
+}  // namespace
+
+double distance_to_jamming(const JamStep& step) {
+  return 6 * step.energy_per_particle * step.density * step.density / step.pressure;
+}
+
+Rearrangement rearrangement(const Packing& before, const JamStep& step_before, const Packing& after,
+                            const JamStep& step_after) {
+  assert(before.size() == after.size());
+  Rearrangement found;
+  const double distance = distance_to_jamming(step_before);
+  const double ratio = 1 - (step_before.density - step_after.density) / distance;
+  found.energy_ratio = step_after.energy_per_particle / (step_before.energy_per_particle * std::pow(ratio, 6));
+  const auto old_pairs = touching_pairs(before), new_pairs = touching_pairs(after);
+  std::vector<decltype(canonical_key(NeighbourPair{}))> both;
+  std::set_intersection(old_pairs.begin(), old_pairs.end(), new_pairs.begin(), new_pairs.end(),
+                        std::back_inserter(both));
+  found.contacts_lost = static_cast<int>(old_pairs.size() - both.size());
+  found.contacts_gained = static_cast<int>(new_pairs.size() - both.size());
+  const double stretch = after.cell.side() / before.cell.side(), radius = after.solid->gyration_radius();
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < after.poses.size(); ++i) {
+    const double u2 = squared_displacement(before.poses[i], after.poses[i], stretch, radius);
+    sum += u2;
+    squares += u2 * u2;
+  }
+  if (squares > 0) found.particles_moved = sum * sum / squares;
+  return found;
+}
+
+}  // namespace isojam
