@@ -12,9 +12,9 @@ struct PairHessian {
 
 /// The energy E = V²/4 of one pair with its derivatives, as in PairHessian; Y·V_p.
 struct PairEnergy {
-  double energy = 0;
-  Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();
   PairHessian hessian;
+  Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();
+  double energy = 0;
 };
 
 /// The energy of A and B, B's centre at r = x_B − x_A, in double-double; both placed so.

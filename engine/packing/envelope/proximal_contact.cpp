@@ -35,11 +35,12 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 
 /// A trial ghost; all in the lab frame.
 struct Ghost {
-  Vector6d shift = Vector6d::Zero();
   PairEnergy pair;                       ///< of A and the ghost
-  Matrix6d turn = Matrix6d::Identity();  ///< ∂w/∂(x, R·θ) of the ghost
+  Vector6d shift = Vector6d::Zero();     ///< w
   Vector6d gradient = Vector6d::Zero();  ///< of F by (x, R·θ) of the ghost
-  double value = 0;                      ///< F
+  /// ∂w/∂(R·θ) of the ghost, rotational part of w; its translational part is the ghost's.
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  double value = 0;  ///< F
 };
 
 class Proximal {
@@ -77,9 +78,9 @@ class Proximal {
     for (int c = 0; c < 3; ++c) r.set(c, short_sum(r_[c], shift[c]));
     ghost.pair = pair_energy(a_, placed, r);
     // q → exp(dθ) q changes its vector part v by ½ (q₀ dθ + dθ×v).
-    ghost.turn.bottomRightCorner<3, 3>() =
-        std::sqrt(1 - half.squaredNorm()) * Eigen::Matrix3d::Identity() - cross_matrix(half);
-    ghost.gradient = ghost.pair.gradient_b + ghost.turn.transpose() * (stiffness_ * shift - multiplier_);
+    ghost.turn = std::sqrt(1 - half.squaredNorm()) * Eigen::Matrix3d::Identity() - cross_matrix(half);
+    const Vector6d spring = stiffness_ * shift - multiplier_;
+    ghost.gradient = ghost.pair.gradient_b + joined(spring.head<3>(), ghost.turn.transpose() * spring.tail<3>());
     ghost.value = ghost.pair.energy + (stiffness_ / 2 * shift - multiplier_).dot(shift);
     return ghost;
   }
@@ -96,28 +97,39 @@ class Proximal {
 
   /// Second derivatives of F by (x, R·θ) of the ghost, to first order in w.
   Matrix6d matrix(const Ghost& ghost) const {
-    return ghost.pair.hessian.bb + stiffness_ * ghost.turn.transpose() * ghost.turn;
+    Matrix6d m = ghost.pair.hessian.bb;
+    m.diagonal().head<3>().array() += stiffness_;
+    m.bottomRightCorner<3, 3>() += stiffness_ * ghost.turn.transpose() * ghost.turn;
+    return m;
   }
 
   /// Newton's step by (x, R·θ) of the ghost; where the matrix is not positive definite, Levenberg's and Marquardt's.
   Vector6d newton(const Ghost& here) const {
     const Matrix6d h = matrix(here);
     Eigen::LLT<Matrix6d> factor(h);
-    for (double shift = stiffness_ / 4; factor.info() != Eigen::Success && std::isfinite(shift); shift *= 4)
+    double shift = stiffness_ / 4;
+    while (factor.info() != Eigen::Success && std::isfinite(shift)) {
       factor.compute(h + shift * Matrix6d::Identity());
+      shift *= 4;
+    }
     const Vector6d step = -factor.solve(here.gradient);
     const double length = std::max(step.head<3>().norm(), step.tail<3>().norm());
     return std::min(1.0, longest_step * a_.solid().inradius() / length) * step;
   }
 
+  /// ∇_w e.
+  static Vector6d wrench(const Ghost& ghost) {
+    const Vector6d& gradient = ghost.pair.gradient_b;
+    return joined(gradient.head<3>(), ghost.turn.transpose().inverse() * gradient.tail<3>());
+  }
+
   /// Slope of F along a change of w.
   double slope(const Ghost& ghost, const Vector6d& along) const {
-    return ghost.pair.gradient_b.dot(ghost.turn.inverse() * along) +
-           (stiffness_ * ghost.shift - multiplier_).dot(along);
+    return (wrench(ghost) + stiffness_ * ghost.shift - multiplier_).dot(along);
   }
 
   Ghost step(const Ghost& here) {
-    const Vector6d along = here.turn * newton(here);
+    const Vector6d local = newton(here), along = joined(local.head<3>(), here.turn * local.tail<3>());
     Ghost next = at(here.shift + along);
     const double from = slope(here, along);
     double to = slope(next, along);
@@ -145,13 +157,13 @@ class Proximal {
     contact.value = ghost.value;
     contact.energy = pair.energy;
     contact.touching = pair.energy > 0;
-    contact.wrench = to_body(b_, ghost.turn.transpose().inverse() * pair.gradient_b);
+    contact.wrench = to_body(b_, wrench(ghost));
     contact.gradient_a = pair.gradient_a;
     contact.gradient_b = pair.gradient_b;
     // About B's centre.
     contact.gradient_b.tail<3>() += ghost.shift.head<3>().cross(pair.gradient_b.head<3>()) / radius_;
     contact.ghost = pair.hessian;
-    contact.compliance = matrix(ghost).inverse();
+    contact.compliance = matrix(ghost).llt().solve(Matrix6d::Identity());
     contact.iterations = iterations_;
     contact.converged = converged;
     return contact;

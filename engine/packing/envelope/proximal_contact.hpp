@@ -27,15 +27,15 @@ struct ProximalTerms {
 /// The envelope of one contact in one pose, and how it changes with the poses of both bodies: per particle (x, R·θ),
 /// lab frame, as in Evaluation::gradient.
 struct ProximalContact {
+  PairHessian ghost;                       ///< second derivatives of e by A and the ghost
+  Matrix6d compliance = Matrix6d::Zero();  ///< (H_ww + ρ)⁻¹, lab frame
+  Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();  ///< of Φ
   Vector6d shift = Vector6d::Zero();                                      ///< w at the minimum
   Vector6d wrench = Vector6d::Zero();                                     ///< ∇_w e = μ − ρ w there
   double value = 0;                                                       ///< Φ, Y·V_p
   double energy = 0;                                                      ///< e at the ghost
-  Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();  ///< of Φ
-  PairHessian ghost;                       ///< second derivatives of e by A and the ghost
-  Matrix6d compliance = Matrix6d::Zero();  ///< (H_ww + ρ)⁻¹, lab frame
-  int iterations = 0;                      ///< overlaps with Hessian that it took
-  bool touching = false;                   ///< A and the ghost
+  int iterations = 0;                                                     ///< overlaps with Hessian that it took
+  bool touching = false;                                                  ///< A and the ghost
   bool converged = true;
 
   /// Second derivatives of Φ: the Schur complement of H_ww + ρ in those of e, to first order in w.

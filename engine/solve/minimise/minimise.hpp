@@ -11,15 +11,14 @@
 
 namespace isojam {
 
-/// Method of minimisation. multipliers follows an equilibrium through a strain step (solve/multipliers/), which jam() does
-/// near jamming; where there is none to follow, and wherever minimise() is called, it is newton. The others are there to
-/// be compared with: near jamming they do not converge.
+/// Method of minimisation. multipliers follows an equilibrium through a strain step (solve/multipliers/), which jam()
+/// does near jamming; where there is none to follow, and wherever minimise() is called, it is newton. The others are
+/// there to be compared with: near jamming they do not converge.
 enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
-inline constexpr std::array enum_names<Method>{EnumName{Method::conjugate_gradient, "conjugate_gradient"},
-                                               EnumName{Method::fire, "fire"}, EnumName{Method::lbfgs, "lbfgs"},
-                                               EnumName{Method::newton, "newton"},
-                                               EnumName{Method::multipliers, "multipliers"}};
+inline constexpr std::array enum_names<Method>{
+    EnumName{Method::conjugate_gradient, "conjugate_gradient"}, EnumName{Method::fire, "fire"},
+    EnumName{Method::lbfgs, "lbfgs"}, EnumName{Method::newton, "newton"}, EnumName{Method::multipliers, "multipliers"}};
 
 struct MinimiseOptions {
   Method method = Method::multipliers;

@@ -246,7 +246,8 @@ class Multipliers {
   void advance() {
     const BlockMatrix matrix = curvature(here_.value);
     ++summary_.work.hessians;
-    for (double growth = 2; !verdict(); growth *= 2) {
+    double growth = 2;
+    while (!verdict()) {
       while (!factorised(matrix)) {
         if (verdict()) return;
       }
@@ -260,6 +261,7 @@ class Multipliers {
                                 summary_.work);
       if (acceptable(here_.value, there.value, promised)) return accept(std::move(there), promised, relaxed);
       shift_ *= growth;
+      growth *= 2;
     }
   }
 

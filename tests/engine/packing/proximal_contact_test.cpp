@@ -134,7 +134,9 @@ TEST_P(ProximalContactOf, DerivativesAgreeWithDifferences) {
   double worst_gradient = 0, worst_curvature = 0, worst_change = 0;
   int compared = 0;
   for (int k = 0; k < 60; ++k) {
-    const auto [pair, terms] = random_case(GetParam(), random);
+    const Case made = random_case(GetParam(), random);
+    const Pair& pair = made.pair;
+    const ProximalTerms& terms = made.terms;
     const ProximalContact here = envelope(pair, terms);
     if (!here.touching) continue;
     ++compared;

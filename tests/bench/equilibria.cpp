@@ -1,0 +1,210 @@
+// What it costs to follow equilibria towards jamming, printed as tables:
+//
+//   equilibria states N SEEDS [newton]   every expansion step of 35 % and one of 3 % from the same state, of the four
+//   solids of
+//                                        the paper; with `newton` by Newton's method too, and whether the energies
+//                                        agree
+//   equilibria law N...                  whole replicates of octahedra to Δφ = .005: the law of cost against N
+//
+// One core, from φ = .05; seeds 1 … SEEDS.
+
+#include <oneapi/tbb/global_control.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "engine/solve/jam.hpp"
+#include "engine/solve/multipliers/multipliers.hpp"
+#include "engine/solve/rearrangement.hpp"
+
+namespace isojam::bench {
+namespace {
+
+constexpr double final_distance = 0.005, large_step = 0.35, small_step = 0.03;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double distance_of(const Packing& packing, const Evaluation& value) {
+  return 6 * value.energy / packing.size() * packing.density() * packing.density() / value.pressure;
+}
+
+Packing placed(SolidKind kind, int n, int seed, const JamOptions& options) {
+  RandomStream random{static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(kind),
+                      static_cast<std::uint64_t>(n)};
+  return random_packing(platonic(kind), n, options.initial_density, random);
+}
+
+/// Costs of the steps of one kind, one entry for each.
+struct Costs {
+  std::vector<double> factorisations, local, envelopes, overlaps, seconds;
+  int failed = 0;
+
+  void add(const MinimiseSummary& summary, double time) {
+    factorisations.push_back(static_cast<double>(summary.work.factorisations));
+    local.push_back(static_cast<double>(summary.work.local_factorisations));
+    envelopes.push_back(static_cast<double>(summary.work.envelopes));
+    overlaps.push_back(static_cast<double>(summary.work.envelope_overlaps));
+    seconds.push_back(time);
+    failed += !is_equilibrium(summary);
+  }
+  void add(const Costs& more) {
+    const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(factorisations, more.factorisations), append(local, more.local), append(envelopes, more.envelopes);
+    append(overlaps, more.overlaps), append(seconds, more.seconds);
+    failed += more.failed;
+  }
+  void print(const char* what) const {
+    double worst = 0, sum = 0;
+    for (const double count : factorisations) worst = std::max(worst, count);
+    for (const double time : seconds) sum += time;
+    std::printf("  %-28s %4zu %8.0f %8.0f %8.0f %8.0f %10.0f %9.3f %9.1f %5d\n", what, factorisations.size(),
+                median(factorisations), worst, median(local), median(envelopes), median(overlaps), median(seconds), sum,
+                failed);
+    std::fflush(stdout);
+  }
+};
+
+struct Comparison {
+  Costs large, small, newton;
+  int compared = 0, same = 0;
+};
+
+MinimiseSummary timed_follow(const Packing& from, double distance, double ratio, Costs& costs) {
+  Packing packing = from;
+  PackingEnergy energy;
+  const double begin = now();
+  const MinimiseSummary summary =
+      follow_equilibrium(packing, packing.density() - ratio * distance, distance, energy, {});
+  costs.add(summary, now() - begin);
+  return summary;
+}
+
+void compare(const Packing& state, bool with_newton, Comparison& found) {
+  const Evaluation value = PackingEnergy().evaluate(state, Precision::double_double);
+  const double distance = distance_of(state, value);
+  timed_follow(state, distance, small_step, found.small);
+  const MinimiseSummary followed = timed_follow(state, distance, large_step, found.large);
+  if (!with_newton) return;
+  Packing packing = strained_to(state, state.density() - large_step * distance);
+  PackingEnergy energy;
+  MinimiseOptions options;
+  options.method = Method::newton;
+  const double begin = now();
+  const MinimiseSummary summary = minimise(packing, energy, options);
+  found.newton.add(summary, now() - begin);
+  if (!is_equilibrium(summary) || !is_equilibrium(followed)) return;
+  ++found.compared;
+  found.same += std::abs(followed.energy / summary.energy - 1) < 1e-6;
+}
+
+/// Expands by the default protocol to Δφ < .13 and on, and tries every state on the way.
+void states_of(SolidKind kind, int n, int seed, bool with_newton, Comparison& found) {
+  JamOptions options;
+  options.final_distance = final_distance;
+  JamProgress progress = begin_jam(placed(kind, n, seed, options), options);
+  std::size_t seen = 0;
+  while (!progress.ended()) {
+    advance(progress, options);
+    const std::vector<Packing>& states = progress.result.states;
+    if (states.size() > seen && distance_to_jamming(progress.result.path.back()) < 0.13 &&
+        distance_to_jamming(progress.result.path.back()) > final_distance)
+      compare(states.back(), with_newton, found);
+    seen = states.size();
+  }
+}
+
+void states(int n, int seeds, bool with_newton) {
+  std::printf("N = %d, seeds 1 … %d\n  %-28s %4s %8s %8s %8s %8s %10s %9s %9s %5s\n", n, seeds, "step", "n", "factor.",
+              "most", "local", "sweeps", "overlaps", "s", "s in all", "fail");
+  Comparison all;
+  for (const SolidKind kind :
+       {SolidKind::tetrahedron, SolidKind::octahedron, SolidKind::dodecahedron, SolidKind::icosahedron}) {
+    Comparison found;
+    for (int seed = 1; seed <= seeds; ++seed) states_of(kind, n, seed, with_newton, found);
+    const std::string name(to_string(kind));
+    found.large.print((name + ", 35 %").c_str());
+    found.small.print((name + ", 3 %").c_str());
+    if (with_newton) {
+      found.newton.print((name + ", 35 %, newton").c_str());
+      std::printf("  same energy to 1e-6: %d of %d\n", found.same, found.compared);
+    }
+    all.large.add(found.large), all.small.add(found.small), all.newton.add(found.newton);
+    all.same += found.same, all.compared += found.compared;
+  }
+  all.large.print("all, 35 %");
+  all.small.print("all, 3 %");
+  if (!with_newton) return;
+  all.newton.print("all, 35 %, newton");
+  std::printf("  same energy to 1e-6: %d of %d\n", all.same, all.compared);
+}
+
+double peak_gib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / (1024 * 1024);
+}
+
+void law(const std::vector<int>& sizes) {
+  std::printf("%6s %10s %7s %8s %8s %10s %10s %9s  %s\n", "N", "φ_J", "states", "factor.", "local", "expand s",
+              "in all s", "peak GiB", "ended");
+  std::vector<double> n, seconds;
+  for (const int size : sizes) {
+    JamOptions options;
+    options.final_distance = final_distance;
+    JamProgress progress = begin_jam(placed(SolidKind::octahedron, size, 1, options), options);
+    const double begin = now();
+    double expanding = 0;
+    while (!progress.ended()) {
+      const double before = now();
+      const bool expands = progress.stage == JamStage::expansion;
+      advance(progress, options);
+      if (expands) expanding += now() - before;
+    }
+    const JamResult& result = progress.result;
+    std::printf("%6d %10.5f %7zu %8ld %8ld %10.1f %10.1f %9.2f  %s\n", size, result.phi_j ? result.phi_j->density : 0,
+                result.states.size(), result.work.factorisations, result.work.local_factorisations, expanding,
+                now() - begin, peak_gib(), to_string(result.status).data());
+    std::fflush(stdout);
+    if (!n.empty())
+      std::printf("%6s exponent from N = %.0f: %.2f\n", "", n.back(),
+                  std::log(expanding / seconds.back()) / std::log(size / n.back()));
+    n.push_back(size);
+    seconds.push_back(expanding);
+  }
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  const auto number = [&](std::size_t k) { return std::atoi(arguments[k].c_str()); };
+  if (arguments.size() >= 3 && arguments[0] == "states") {
+    states(number(1), number(2), arguments.size() > 3 && arguments[3] == "newton");
+    return 0;
+  }
+  if (arguments.size() >= 2 && arguments[0] == "law") {
+    std::vector<int> sizes;
+    for (std::size_t k = 1; k < arguments.size(); ++k) sizes.push_back(number(k));
+    law(sizes);
+    return 0;
+  }
+  std::fprintf(stderr, "usage: equilibria states N SEEDS [newton] | equilibria law N...\n");
+  return 2;
+}
+
+}  // namespace
+}  // namespace isojam::bench
+
+int main(int count, char** values) { return isojam::bench::run({values + 1, values + count}); }
