@@ -169,13 +169,14 @@ class StrainStep {
     if (++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
     progress_.packing = std::move(packing);
     progress_.lost = result_.state_steps.back();
+    progress_.step_fraction /= 2;  // slower from here, or the same may happen again
   }
 
   /// Strains what the packing has become up again, to an equilibrium from which the expansion can go on. Energies of
   /// the branch that was lost say nothing about φ_J of the new one.
   void rise() {
     const JamStep& before = result_.path[static_cast<std::size_t>(progress_.lost)];
-    const double distance = distance_to_jamming(before), strain = options_.step_fraction * distance;
+    const double distance = distance_to_jamming(before), strain = progress_.step_fraction * distance;
     Packing next = strained_to(progress_.packing, progress_.packing.density() + strain);
     if (next.density() > options_.max_density) return end_expansion(JamStatus::goal_not_reached);
     const double force = mean_force_at(before.pressure, before.density);

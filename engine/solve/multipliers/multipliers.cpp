@@ -227,8 +227,9 @@ class Multipliers {
 
   /// Whether the last renewals of the multipliers have led nowhere: near a saddle they can go round for ever.
   bool stalled(double wrong) {
-    const bool lower = here_.value.value < (1 - least_fall) * lowest_;
-    if (wrong < best_ / 2 || lower) best_ = wrong, lowest_ = here_.value.value, renewals_ = 0;
+    const double value = here_.value.value;
+    const bool lower = !std::isfinite(lowest_) || lowest_ - value > least_fall * std::abs(lowest_);
+    if (wrong < best_ / 2 || lower) best_ = wrong, lowest_ = value, renewals_ = 0;
     return renewals_ > most_renewals && wrong < stalled_below;
   }
 

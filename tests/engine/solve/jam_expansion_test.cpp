@@ -1,0 +1,131 @@
+// Facts proved here, of expansions that meet with what they did not expect:
+//   a step that failed is tried again at half its length, whatever bounded it, until the retries are spent;
+//   no two steps of an expansion start from the same state and aim at the same density;
+//   a packing that comes apart in a step is compressed again and expanded on the branch that it is on then, whose
+//   states alone give φ_J; a run goes on from anywhere on that way with the same bits.
+
+#include <set>
+
+#include "engine/solve/jam.hpp"
+#include "tests/engine/solve/jam_support.hpp"
+#include "tests/engine/solve/solve_support.hpp"
+
+namespace isojam {
+namespace {
+
+/// An expansion whose last state says that jamming is `distance` below its density.
+JamProgress expanding(const Packing& packing, double distance, const JamOptions& options) {
+  JamProgress progress = begin_jam(packing, options);
+  progress.stage = JamStage::expansion;
+  JamStep state;
+  state.stage = JamStage::expansion;
+  state.density = packing.density();
+  state.energy_per_particle = 1e-8;
+  state.pressure = 6 * state.energy_per_particle * state.density * state.density / distance;
+  progress.result.path.push_back(state);
+  progress.result.states.push_back(packing);
+  progress.result.state_steps.push_back(0);
+  return progress;
+}
+
+TEST(JamTest, AFailedExpansionStepIsTriedAgainAtHalfItsLength) {
+  RandomStream random{91};
+  const Packing packing = small_packing(SolidKind::dodecahedron, 0.72, 91);
+  int by_fraction = 0, by_length = 0, by_goal = 0;
+  for (int sample = 0; sample < 200; ++sample) {
+    const double distance = decade(random, -3, -0.5);
+    JamOptions options;
+    options.step_fraction = uniform(random, 0.02, 0.98);
+    options.longest_step = decade(random, -3, -0.5);
+    options.final_distance = distance * uniform(random, 0.01, 0.99);
+    options.minimise.max_evaluations = 1;  // no step succeeds
+    SCOPED_TRACE("distance " + std::to_string(distance) + ", step_fraction " + std::to_string(options.step_fraction) +
+                 ", longest_step " + std::to_string(options.longest_step) + ", final_distance " +
+                 std::to_string(options.final_distance));
+    const JamResult result = jam(expanding(packing, distance, options), options);
+    ASSERT_EQ(result.status, JamStatus::not_jammed) << to_string(result.status);
+    ASSERT_EQ(result.states.size(), 1U);
+    ASSERT_EQ(result.path.size(), 6U) << "a step and four retries";
+    const double fraction = options.step_fraction * distance, goal = distance - 0.95 * options.final_distance;
+    double expected = std::min({fraction, options.longest_step, goal});
+    ++(expected == fraction ? by_fraction : expected == goal ? by_goal : by_length);
+    for (std::size_t k = 1; k < result.path.size(); ++k, expected /= 2) {
+      const double step = packing.density() - result.path[k].density;
+      ASSERT_NEAR(step / expected, 1, 1e-8) << "attempt " << k << ", step " << step;
+    }
+  }
+  std::printf("bounded by the fraction %d, by longest_step %d, by final_distance %d times\n", by_fraction, by_length,
+              by_goal);
+  EXPECT_GE(std::min({by_fraction, by_length, by_goal}), 20) << "samples that do not reach every bound";
+}
+
+TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
+  JamOptions options = lax();
+  options.fit_window = 0.1;
+  const JamResult before = jam(start_of(small, 71, options), options);
+  ASSERT_EQ(before.status, JamStatus::jammed);
+  // Told that jamming is four times as far as it is, the expansion goes beyond it.
+  const JamStep& last = before.path[static_cast<std::size_t>(before.state_steps.back())];
+  const double distance = 6 * last.energy_per_particle * last.density * last.density / last.pressure;
+  JamProgress progress = expanding(before.states.back(), 4 * distance, options);
+  progress.result.path[0].summary.reason = StopReason::residual_reached;
+  options.step_fraction = progress.step_fraction = 0.4;
+  options.longest_step = 1;
+  std::vector<JamProgress> along;
+  const JamResult result = jam(progress, options, {}, [&](const JamProgress& reached) { along.push_back(reached); });
+  for (const JamStep& step : result.path)
+    std::printf("φ %.5f, E/N %.2e, %s\n", step.density, step.energy_per_particle,
+                to_string(step.summary.reason).data());
+  ASSERT_GE(result.path.size(), 4U);
+  EXPECT_EQ(result.path[1].summary.reason, StopReason::unjammed);
+  EXPECT_GT(result.path[2].density, result.path[1].density) << "strained up again";
+  EXPECT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
+  ASSERT_GE(result.states.size(), 2U);
+  EXPECT_GT(result.state_steps.front(), 1) << "a state of the branch that ended is kept";
+  ASSERT_TRUE(result.phi_j);
+  EXPECT_NEAR(result.phi_j->density, before.phi_j->density, 0.03);
+  ASSERT_FALSE(along.empty());
+  EXPECT_EQ(along.front().lost, 0);
+  EXPECT_EQ(along.back().lost, -1);
+  // On the way up too a run is the value that it goes on from.
+  for (const JamProgress& reached : along) {
+    const JamResult rest = jam(reached, options);
+    ASSERT_EQ(rest.states.size(), result.states.size());
+    for (std::size_t s = 0; s < rest.states.size(); ++s) EXPECT_TRUE(same_bits(rest.states[s], result.states[s])) << s;
+  }
+}
+
+TEST(JamTest, NoExpansionStepIsMadeTwice) {
+  JamOptions options = lax();
+  options.minimise.method = Method::newton;
+  JamProgress progress = begin_jam(start_of(small, 71, options), options);
+  while (progress.result.states.size() < 3 && !progress.ended()) advance(progress, options);
+  ASSERT_FALSE(progress.ended()) << to_string(progress.result.status);
+  // From here no step reaches its residual, and it is the goal that bounds the first.
+  options.minimise.max_evaluations = 5;
+  const JamStep state = progress.result.path.back();
+  options.final_distance = 6 * state.energy_per_particle * state.density * state.density / state.pressure / 1.02;
+  std::vector<JamProgress> along;
+  const JamResult result = jam(progress, options, {}, [&](const JamProgress& reached) { along.push_back(reached); });
+  EXPECT_EQ(result.status, JamStatus::goal_not_reached) << to_string(result.status);
+  ASSERT_EQ(result.states.size(), 3U);
+  std::set<double> targets;
+  for (std::size_t k = progress.result.path.size(); k < result.path.size(); ++k) {
+    const JamStep& step = result.path[k];
+    std::printf("Δφ %.4e, %ld evaluations, %s\n", state.density - step.density, step.summary.evaluations,
+                to_string(step.summary.reason).data());
+    EXPECT_TRUE(targets.insert(step.density).second) << "the same step to φ " << step.density << " again";
+  }
+  EXPECT_EQ(targets.size(), 5U) << "a step and four retries";
+  // Between two attempts too a run is the value that it goes on from.
+  for (const JamProgress& reached : along) {
+    const JamResult rest = jam(reached, options);
+    EXPECT_EQ(rest.evaluations, result.evaluations);
+    ASSERT_EQ(rest.path.size(), result.path.size());
+    EXPECT_EQ(rest.path.back().density, result.path.back().density);
+    EXPECT_EQ(rest.path.back().summary.energy, result.path.back().summary.energy);
+  }
+}
+
+}  // namespace
+}  // namespace isojam
