@@ -167,17 +167,21 @@ class Vtp(check.RoundTrip):
         self.assertGreater(marked_in_all, 0)
 
     def check_partners(self, picture, state, marked, cutoff, clusters):
-        """Each marked face has another against it: in the same cluster, antiparallel, centre near the other's plane."""
+        """Each marked face has another against it: in the same cluster, antiparallel, and four of five with its centre
+        near the other's plane: classes go by angles, and faces of a pair that touches elsewhere align by chance."""
         normals = numpy.array([picture.normals(i)[f] for i, f in marked])
         middles = numpy.array([picture.corners[i][picture.faces[i][f]].mean(axis=0) for i, f in marked])
         inradius = ((middles[0] - picture.centres[marked[0][0]]) @ normals[0])
+        beside = 0
         for m, (i, _) in enumerate(marked):
             across = middles - middles[m]
             across -= state.side * numpy.round(across / state.side)
             angles = numpy.arctan2(numpy.linalg.norm(numpy.cross(normals, normals[m]), axis=1), -normals @ normals[m])
-            fits = (angles <= cutoff) & (numpy.abs(across @ normals[m]) < inradius / 4) & (marked[:, 0] != i)
-            partners = set(clusters[marked[fits][:, 0]])
-            self.assertIn(clusters[i], partners, f"{self.at}: face {m} of those marked")
+            aligned = (angles <= cutoff) & (marked[:, 0] != i)
+            against = aligned & (numpy.abs(across @ normals[m]) < inradius / 4)
+            self.assertIn(clusters[i], clusters[marked[aligned][:, 0]], f"{self.at}: face {m} of those marked")
+            beside += clusters[i] not in clusters[marked[against][:, 0]]
+        self.assertLessEqual(beside, 0.2 * len(marked), f"{self.at}: of {len(marked)} marked")
 
     def test_collections(self):
         for stem, states, _, whole in self.cases():
