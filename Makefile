@@ -1,4 +1,4 @@
-# Verbs: run test build bench paper test-asan fuzz test-slurm lint format clean. On Debian 12 each first installs the
+# Verbs: run test build bench equilibria paper test-asan fuzz test-slurm lint format clean. On Debian 12 each first installs the
 # packages it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
@@ -49,7 +49,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test test-asan fuzz test-slurm bench paper lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench equilibria paper lint format clean
 .DEFAULT_GOAL := build
 
 build:
@@ -94,6 +94,15 @@ bench:
 	$(CONFIGURE) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
 	cmake --build $(BUILD) -j $(JOBS) --target isojam_bench
 	$(BUILD)/isojam_bench --ratios $(BUILD)/ratios.json
+
+# What following equilibria towards jamming costs: the tables of docs/equilibria.md.
+equilibria:
+	$(call install,$(TEST_PACKAGES))
+	$(CONFIGURE) -DISOJAM_TESTS=ON
+	cmake --build $(BUILD) -j $(JOBS) --target isojam_equilibria
+	$(BUILD)/isojam_equilibria states 100 4
+	$(BUILD)/isojam_equilibria states 400 1
+	$(BUILD)/isojam_equilibria law 100 400
 
 # The whole suite under the address and undefined-behaviour sanitizers, assertions on, in a directory of its own.
 test-asan:

@@ -46,10 +46,6 @@ Pose normalised(const Pose& pose) {
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// The pose with its centre at x + dx and turned by the quaternion 1 + turn: so that a small turn is added to q and not
 /// multiplied away.
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Quaterniond& turn) {

@@ -1,10 +1,10 @@
 // What it costs to follow equilibria towards jamming, printed as tables:
 //
-//   equilibria states N SEEDS [newton]   every expansion step of 35 % and one of 3 % from the same state, of the four
-//   solids of
+//   isojam_equilibria states N SEEDS [newton]   every expansion step of 35 % and one of 3 % from the same state, of the
+//   four solids of
 //                                        the paper; with `newton` by Newton's method too, and whether the energies
 //                                        agree
-//   equilibria law N...                  whole replicates of octahedra to Δφ = .005: the law of cost against N
+//   isojam_equilibria law N...                  whole replicates of octahedra to Δφ = .005: the law of cost against N
 //
 // One core, from φ = .05; seeds 1 … SEEDS.
 
@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -187,24 +188,37 @@ void law(const std::vector<int>& sizes) {
   }
 }
 
+/// A number of particles or seeds; 0 if it is none.
+int number(const std::string& text) {
+  const int value = std::atoi(text.c_str());
+  return std::to_string(value) == text ? value : 0;
+}
+
 int run(const std::vector<std::string>& arguments) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  const auto number = [&](std::size_t k) { return std::atoi(arguments[k].c_str()); };
-  if (arguments.size() >= 3 && arguments[0] == "states") {
-    states(number(1), number(2), arguments.size() > 3 && arguments[3] == "newton");
-    return 0;
+  std::vector<int> numbers;
+  const bool newton = arguments.size() == 4 && arguments[3] == "newton";
+  for (std::size_t k = 1; k < arguments.size() - newton; ++k) numbers.push_back(number(arguments[k]));
+  const bool valid = !numbers.empty() && *std::min_element(numbers.begin(), numbers.end()) > 0;
+  if (valid && arguments[0] == "states" && numbers.size() == 2) {
+    states(numbers[0], numbers[1], newton);
+  } else if (valid && arguments[0] == "law") {
+    law(numbers);
+  } else {
+    std::fprintf(stderr, "usage: isojam_equilibria states N SEEDS [newton] | isojam_equilibria law N...\n");
+    return 2;
   }
-  if (arguments.size() >= 2 && arguments[0] == "law") {
-    std::vector<int> sizes;
-    for (std::size_t k = 1; k < arguments.size(); ++k) sizes.push_back(number(k));
-    law(sizes);
-    return 0;
-  }
-  std::fprintf(stderr, "usage: equilibria states N SEEDS [newton] | equilibria law N...\n");
-  return 2;
+  return 0;
 }
 
 }  // namespace
 }  // namespace isojam::bench
 
-int main(int count, char** values) { return isojam::bench::run({values + 1, values + count}); }
+int main(int count, char** values) {
+  try {
+    return isojam::bench::run({values + 1, values + count});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}

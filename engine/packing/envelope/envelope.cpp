@@ -92,38 +92,40 @@ std::vector<std::size_t> EnvelopeEnergy::near_pairs(const Packing& packing,
   return found;
 }
 
+template <class Find>
+EnvelopeEvaluation EnvelopeEnergy::evaluate_pairs(const Packing& packing, const std::vector<std::size_t>& near,
+                                                  const Find& find) {
+  std::vector<EnvelopeContact> contacts(near.size());
+  for_each_slot(near.size(), [&](std::size_t slot) {
+    EnvelopeContact& out = contacts[slot];
+    out.pair = list_.pairs()[near[slot]];
+    const DoubleDoubleVector r = displacement_double_double(packing, out.pair);
+    out.displacement = r.high;
+    find(slot, r, out);
+  });
+  return summed(std::move(contacts), packing.size());
+}
+
 EnvelopeEvaluation EnvelopeEnergy::evaluate(const Packing& packing, std::span<const ContactForce> forces,
                                             double stiffness, std::span<const char> only) {
   place(packing);
   const std::vector<const ContactForce*> force_of = by_pair(list_.pairs(), forces);
   const std::vector<std::size_t> near = near_pairs(packing, force_of, only);
-  std::vector<EnvelopeContact> contacts(near.size());
-  for_each_slot(near.size(), [&](std::size_t slot) {
-    EnvelopeContact& out = contacts[slot];
-    out.pair = list_.pairs()[near[slot]];
-    const DoubleDoubleVector r = displacement_double_double(packing, out.pair);
-    out.displacement = r.high;
+  return evaluate_pairs(packing, near, [&](std::size_t slot, const DoubleDoubleVector& r, EnvelopeContact& out) {
     Vector6d start = Vector6d::Zero();
     if (const ContactForce* force = force_of[near[slot]]) out.multiplier = force->multiplier, start = force->shift;
     out.at = proximal_contact(placed_[out.pair.a], packing.poses[out.pair.b], r, {out.multiplier, stiffness}, start);
   });
-  return summed(std::move(contacts), packing.size());
 }
 
 EnvelopeEvaluation EnvelopeEnergy::unshifted(const Packing& packing, double stiffness) {
   place(packing);
   const std::vector<const ContactForce*> none(list_.pairs().size(), nullptr);
-  const std::vector<std::size_t> near = near_pairs(packing, none, {});
-  std::vector<EnvelopeContact> contacts(near.size());
-  for_each_slot(near.size(), [&](std::size_t slot) {
-    EnvelopeContact& out = contacts[slot];
-    out.pair = list_.pairs()[near[slot]];
-    const DoubleDoubleVector r = displacement_double_double(packing, out.pair);
-    out.displacement = r.high;
-    out.at = unshifted_contact(placed_[out.pair.a], packing.poses[out.pair.b], r, stiffness);
-    out.multiplier = out.at.wrench;
-  });
-  return summed(std::move(contacts), packing.size());
+  return evaluate_pairs(packing, near_pairs(packing, none, {}),
+                        [&](std::size_t, const DoubleDoubleVector& r, EnvelopeContact& out) {
+                          out.at = unshifted_contact(placed_[out.pair.a], packing.poses[out.pair.b], r, stiffness);
+                          out.multiplier = out.at.wrench;
+                        });
 }
 
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation) {

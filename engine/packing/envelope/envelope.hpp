@@ -53,6 +53,8 @@ class EnvelopeEnergy {
   void place(const Packing& packing);
   std::vector<std::size_t> near_pairs(const Packing& packing, const std::vector<const ContactForce*>& force_of,
                                       std::span<const char> only);
+  template <class Find>
+  EnvelopeEvaluation evaluate_pairs(const Packing& packing, const std::vector<std::size_t>& near, const Find& find);
 
   NeighbourList list_;
   std::vector<PlacedSolid> placed_;
