@@ -137,7 +137,8 @@ class StrainStep {
     if (!is_state(step.summary)) return failed(first);
     if (!first) {
       progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
-      result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
+      if (last_state().energy_per_particle > 0)
+        result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
     }
     keep(std::move(next));
     if (distance_to_jamming(result_.path.back()) <= options_.final_distance) end_expansion(JamStatus::jammed);

@@ -14,10 +14,10 @@ namespace {
 struct CpuLaw {
   double at_100, power;
 };
-constexpr std::array<CpuLaw, all_solids.size()> cpu_laws{{{12, 2.3}, {9, 2.3}, {6.5, 2.3}, {4.7, 2.2}, {4, 2.3}}};
+constexpr std::array<CpuLaw, all_solids.size()> cpu_laws{{{11, 2}, {3.5, 2}, {3.5, 2}, {3, 2}, {3.2, 2}}};
 
 /// Share of consolidation in the time of a replicate at the step of that size.
-constexpr double consolidation_share = 0.65, measured_step = 0.02;
+constexpr double consolidation_share = 0.4, measured_step = 0.02;
 
 /// Packings of an expansion, and strain steps in all.
 constexpr double states = 9, steps_of_path = 50;
@@ -25,8 +25,8 @@ constexpr double states = 9, steps_of_path = 50;
 constexpr double packing_text = 335, step_text = 400, state_text = 1500, record_text = 4000;
 
 /// Of the program at work on N particles, apart from the factorisation: packings of the expansion, passed between
-/// stages by value, overlaps and Hessians.
-constexpr double particle_bytes = 90e3;
+/// stages by value, overlaps and Hessians, contacts with forces of their own.
+constexpr double particle_bytes = 130e3;
 /// Of the factors of the Hessian and their update matrices, which fill in faster than N grows.
 constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
 

@@ -88,6 +88,9 @@ TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
                                                         {"/stage", "retreat"},
                                                         {"/status", 7},
                                                         {"/halvings", -1},
+                                                        {"/lost", -2},
+                                                        {"/lost", 1000},
+                                                        {"/path/0/rearrangement", Json::object()},
                                                         {"/evaluations", 0.5},
                                                         {"/pairs/listed", nullptr},
                                                         {"/work/hessians", -1},
@@ -109,6 +112,22 @@ TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
     bad.erase(item.key());
     EXPECT_THROW(read_checkpoint({bad, "c"}, spec), InputError) << "without " << item.key();
   }
+}
+
+TEST(Checkpoint, KnowsTheBranchThatWasLostAndHowStatesDiffer) {
+  const auto spec = tiny_spec();
+  auto checkpoint = with_a_state(spec);
+  checkpoint.progress.lost = 1;
+  checkpoint.progress.result.path.back().rearrangement = Rearrangement{0.25, 7, 3, 12.5};
+  const auto again = read_checkpoint({*make_checkpoint(spec, checkpoint), "c"}, spec).progress;
+  EXPECT_EQ(again.lost, 1);
+  EXPECT_FALSE(again.result.path.front().rearrangement);
+  ASSERT_TRUE(again.result.path.back().rearrangement);
+  const auto& read = *again.result.path.back().rearrangement;
+  EXPECT_EQ(read.energy_ratio, 0.25);
+  EXPECT_EQ(read.contacts_lost, 7);
+  EXPECT_EQ(read.contacts_gained, 3);
+  EXPECT_EQ(read.particles_moved, 12.5);
 }
 
 TEST(Checkpoint, ResidualsMayBeInfiniteAndNothingElse) {
