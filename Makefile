@@ -1,5 +1,5 @@
-# Verbs: run test build bench equilibria paper test-asan fuzz test-slurm lint format clean. On Debian 12 each first installs the
-# packages it needs and lacks.
+# Verbs: run test build bench equilibria paper test-asan fuzz test-slurm lint format clean. On Debian 12 each first
+# installs the packages it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
 JOBS ?= $(shell nproc)

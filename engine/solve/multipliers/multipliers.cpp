@@ -29,8 +29,7 @@
 //   multipliers Φ is minimised until its forces balance better than μ is known, |∇Φ| < ½ max |∇e − μ|; then μ ← ∇e, so
 //               that no contact is shifted in the end and Φ is the energy (Hestenes 1969, Powell 1969).
 //   descent     Levenberg's and Marquardt's steps on Φ. Where contacts come and go the model of a step is wrong for a
-//   few
-//               pairs; then their particles are relaxed by themselves before the state is judged
+//               few pairs; then their particles are relaxed by themselves before the state is judged
 //               (local_relaxation.hpp), which is cheap and leaves next to no step to be rejected.
 //   finish      Once forces and multipliers agree to some 3 %, lifted steps (lifted_step.hpp), which converge
 //               quadratically. The residual of the energy itself, in double-double, decides.
@@ -38,15 +37,13 @@
 // The path of equilibria is smooth between folds, where a packing gives way and its energy falls, now and then by
 // orders of magnitude. Scales follow the forces then.
 //
-// Constants were measured on 78 states of 100 tetrahedra, octahedra, dodecahedra and icosahedra, Δφ .12 to .005,
-// expanded by 35 %: the median of factorisations is 29, and over a factor of two in any of them it
-// changes by less than a fifth.
+// docs/equilibria.md has the figures that `make equilibria` prints.
 
 namespace isojam {
 
 namespace {
 
-/// ρ/k₀. Below 100 the descent wanders, above 600 it stumbles over what flat contacts are.
+/// ρ/k₀: far above the stiffness of corners and crossed edges, which is k₀, and far below the .1 Y·V_p^(1/3) of faces.
 constexpr double stiffening = 300;
 
 constexpr double first_shift = 1, least_shift = 1e-7, most_shift = 1e12;  ///< λ/k₀
