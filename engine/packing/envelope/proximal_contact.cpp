@@ -33,6 +33,14 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return m;
 }
 
+/// L Lᵀ of a symmetric matrix, made positive definite by as much of the identity as it takes, in units of `scale`.
+Eigen::LLT<Matrix6d> factorised(const Matrix6d& matrix, double scale) {
+  Eigen::LLT<Matrix6d> factor(matrix);
+  for (double shift = scale / 4; factor.info() != Eigen::Success && std::isfinite(shift); shift *= 4)
+    factor.compute(matrix + shift * Matrix6d::Identity());
+  return factor;
+}
+
 /// A trial ghost; all in the lab frame.
 struct Ghost {
   PairEnergy pair;                       ///< of A and the ghost
@@ -105,14 +113,7 @@ class Proximal {
 
   /// Newton's step by (x, R·θ) of the ghost; where the matrix is not positive definite, Levenberg's and Marquardt's.
   Vector6d newton(const Ghost& here) const {
-    const Matrix6d h = matrix(here);
-    Eigen::LLT<Matrix6d> factor(h);
-    double shift = stiffness_ / 4;
-    while (factor.info() != Eigen::Success && std::isfinite(shift)) {
-      factor.compute(h + shift * Matrix6d::Identity());
-      shift *= 4;
-    }
-    const Vector6d step = -factor.solve(here.gradient);
+    const Vector6d step = -factorised(matrix(here), stiffness_).solve(here.gradient);
     const double length = std::max(step.head<3>().norm(), step.tail<3>().norm());
     return std::min(1.0, longest_step * a_.solid().inradius() / length) * step;
   }
@@ -163,7 +164,7 @@ class Proximal {
     // About B's centre.
     contact.gradient_b.tail<3>() += ghost.shift.head<3>().cross(pair.gradient_b.head<3>()) / radius_;
     contact.ghost = pair.hessian;
-    contact.compliance = matrix(ghost).llt().solve(Matrix6d::Identity());
+    contact.root = factorised(matrix(ghost), stiffness_).matrixL();
     contact.iterations = iterations_;
     contact.converged = converged;
     return contact;
@@ -177,27 +178,37 @@ class Proximal {
   int iterations_ = 0;
 };
 
+/// Schur complement of L Lᵀ in the second derivatives by A and the ghost. As squares of L⁻¹ times them and not by the
+/// inverse: of a flat contact they are of order .1 and ρ may be 1e-9, so that entries of the inverse times them would
+/// cancel to what is left but for 1e-16·.1/ρ, which couples stiff and soft directions and turns up as negative
+/// curvature.
+PairHessian complement(const PairHessian& h, const Matrix6d& root) {
+  const auto lower = root.triangularView<Eigen::Lower>();
+  const Matrix6d a = lower.solve(h.ab.transpose()), b = lower.solve(h.bb);
+  PairHessian left = h;
+  left.aa -= a.transpose() * a;
+  left.ab -= a.transpose() * b;
+  left.bb -= b.transpose() * b;
+  return left;
+}
+
 }  // namespace
 
-PairHessian ProximalContact::curvature() const {
-  PairHessian h = ghost;
-  const Matrix6d a = compliance * ghost.ab.transpose(), b = compliance * ghost.bb;
-  h.aa -= ghost.ab * a;
-  h.ab -= ghost.ab * b;
-  h.bb -= ghost.bb * b;
-  h.aa = (h.aa + h.aa.transpose()).eval() / 2;
-  h.bb = (h.bb + h.bb.transpose()).eval() / 2;
-  return h;
+PairHessian ProximalContact::curvature() const { return complement(ghost, root); }
+
+PairHessian ProximalContact::curvature(double stiffness) const {
+  return complement(ghost, factorised(ghost.bb + stiffness * Matrix6d::Identity(), stiffness).matrixL());
 }
 
 double ProximalContact::predicted(const Vector6d& a, const Vector6d& b) const {
-  const Vector6d pull = ghost.ab.transpose() * a + ghost.bb * b;
+  const Vector6d pull = root.triangularView<Eigen::Lower>().solve(ghost.ab.transpose() * a + ghost.bb * b);
   return value + gradient_a.dot(a) + gradient_b.dot(b) +
-         (a.dot(ghost.aa * a) + 2 * a.dot(ghost.ab * b) + b.dot(ghost.bb * b) - pull.dot(compliance * pull)) / 2;
+         (a.dot(ghost.aa * a) + 2 * a.dot(ghost.ab * b) + b.dot(ghost.bb * b) - pull.squaredNorm()) / 2;
 }
 
 Vector6d ProximalContact::shift_change(const Vector6d& a, const Vector6d& b) const {
-  return -compliance * (ghost.ab.transpose() * a + ghost.bb * b);
+  const auto lower = root.triangularView<Eigen::Lower>();
+  return -lower.transpose().solve(lower.solve(ghost.ab.transpose() * a + ghost.bb * b));
 }
 
 ProximalContact proximal_contact(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r,

@@ -27,8 +27,8 @@ struct ProximalTerms {
 /// The envelope of one contact in one pose, and how it changes with the poses of both bodies: per particle (x, R·θ),
 /// lab frame, as in Evaluation::gradient.
 struct ProximalContact {
-  PairHessian ghost;                       ///< second derivatives of e by A and the ghost
-  Matrix6d compliance = Matrix6d::Zero();  ///< (H_ww + ρ)⁻¹, lab frame
+  PairHessian ghost;                     ///< second derivatives of e by A and the ghost
+  Matrix6d root = Matrix6d::Identity();  ///< L of H_ww + ρ = L Lᵀ, lab frame
   Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();  ///< of Φ
   Vector6d shift = Vector6d::Zero();                                      ///< w at the minimum
   Vector6d wrench = Vector6d::Zero();                                     ///< ∇_w e = μ − ρ w there
@@ -40,6 +40,8 @@ struct ProximalContact {
 
   /// Second derivatives of Φ: the Schur complement of H_ww + ρ in those of e, to first order in w.
   PairHessian curvature() const;
+  /// The same for another stiffness ρ and w = 0.
+  PairHessian curvature(double stiffness) const;
   /// Φ after steps of A and B (x, R·θ) by its series to second order.
   double predicted(const Vector6d& a, const Vector6d& b) const;
   /// Change of w in the lab frame by steps of A and B, to first order.

@@ -1,11 +1,27 @@
 #include "engine/solve/multipliers/lifted_step.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "engine/solve/minimise/descent.hpp"
 
 namespace isojam {
 
-std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double shift, double longest,
+namespace {
+
+/// What rounding can make of an eigenvalue that is zero.
+double resolved(const BlockMatrix& matrix) {
+  double largest = 0;
+  for (const Matrix6d& block : matrix.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
+  return 64 * std::numeric_limits<double>::epsilon() * largest;
+}
+
+}  // namespace
+
+std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stiffness, double shift, double longest,
                                          EnvelopeEvaluator& evaluator, BlockCholesky& factor, MinimiseWork& work) {
+  std::vector<PairHessian> curvatures;
+  curvatures.reserve(state.value.contacts.size());
   BlockMatrix hessian;
   hessian.diagonal.assign(state.packing.poses.size(), Matrix6d::Zero());
   Eigen::VectorXd gradient = state.value.gradient;
@@ -14,20 +30,21 @@ std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double shif
   };
   for (const EnvelopeContact& contact : state.value.contacts) {
     if (!contact.at.touching) continue;
-    const PairHessian& h = contact.at.ghost;
+    const PairHessian& h = curvatures.emplace_back(contact.at.curvature(stiffness));
     const Vector6d w = shift_of(contact);
     hessian.add_pair(contact.pair.a, contact.pair.b, h.aa, h.ab, h.bb);
     gradient.segment<6>(6 * contact.pair.a) -= h.ab * w;
     gradient.segment<6>(6 * contact.pair.b) -= h.bb * w;
   }
   ++work.factorisations;
-  if (!factor.factorise(hessian, shift)) return std::nullopt;
+  if (!factor.factorise(hessian, std::max(shift, resolved(hessian)))) return std::nullopt;
   const Eigen::VectorXd step = -factor.solve(gradient);
   if (!(largest_displacement(step) <= longest)) return std::nullopt;
   std::vector<ContactForce> forces;
+  auto curvature = curvatures.begin();
   for (const EnvelopeContact& contact : state.value.contacts) {
     if (!contact.at.touching) continue;
-    const PairHessian& h = contact.at.ghost;
+    const PairHessian& h = *curvature++;
     const Vector6d of_a = step.segment<6>(6 * contact.pair.a);
     const Vector6d of_ghost = step.segment<6>(6 * contact.pair.b) - shift_of(contact);
     const Vector6d change = h.ab.transpose() * of_a + h.bb * of_ghost;

@@ -62,7 +62,7 @@ constexpr double balance_before_renewal = 0.5;
 /// Lifted steps begin when ∇Φ and the error of μ are this part of the mean force; after each attempt that fails, at a
 /// tenth of it. Below the second the rest is left to Newton's method on the energy, of so many evaluations.
 constexpr double finish_from = 0.03, finish_to = 1e-7;
-constexpr double lifted_shift = 1e-7;  ///< λ/k₀
+constexpr double lifted_stiffening = 1e8, lifted_shift = 1e-7;  ///< ρ/k₀, λ/k₀
 constexpr long last_evaluations = 500;
 
 /// The energy's own residual is worth asking for below this imbalance.
@@ -79,6 +79,9 @@ constexpr double stalled_below = 0.03;  ///< of the mean force
 /// Forces that differ from the expected by more than this factor make new scales; fallen to the second they are those
 /// of a packing that is not jammed.
 constexpr double off_scale = 3, unjammed_force = 1e-9;
+/// The energy per particle of one, over force times φ − φ_J: nearer than this asks for, energies that are lower than
+/// any limit in Y·V_p are those of packings that are jammed.
+constexpr double unjammed_energy = 1e-6;
 
 /// Steps, one after the other, to states with fewer contacts than rigidity takes, before the packing counts as
 /// unjammed. Newton's method then has the last word.
@@ -128,9 +131,13 @@ class Multipliers {
  private:
   MinimiseSummary run() {
     summary_.reason = descend();
+    if (is_equilibrium(summary_)) return summary_;
     packing_ = std::move(here_.packing);
-    if (summary_.reason == StopReason::line_search_failed || summary_.reason == StopReason::unjammed) polish();
-    if (!measured_) measure();
+    if (summary_.reason == StopReason::line_search_failed || summary_.reason == StopReason::unjammed) {
+      polish();
+    } else {
+      measure();
+    }
     return summary_;
   }
 
@@ -281,23 +288,31 @@ class Multipliers {
     ++summary_.iterations;
   }
 
-  /// Lifted steps as long as each halves what is wrong. The reason to stop if the state is an equilibrium then.
+  /// Lifted steps as long as each halves what is wrong, and then the residual. The reason to stop if the state is an
+  /// equilibrium then.
   std::optional<StopReason> finish() {
     const auto wrong = [](const EnvelopeEvaluation& value) {
       return std::max(largest_displacement(value.gradient), value.multiplier_error);
     };
+    double residual = std::numeric_limits<double>::infinity();
     while (!verdict()) {
       ++summary_.work.hessians;
-      auto there = lifted_step(here_, lifted_shift * k0_, longest_step * packing_.solid->inradius(), evaluator_,
-                               factor_, summary_.work);
-      if (!there || !(wrong(there->value) < wrong(here_.value) / 2)) break;
+      auto there = lifted_step(here_, lifted_stiffening * k0_, lifted_shift * k0_,
+                               longest_step * packing_.solid->inradius(), evaluator_, factor_, summary_.work);
+      if (!there) break;
+      const bool better = wrong(there->value) < wrong(here_.value) / 2;
+      const bool balanced = wrong(there->value) < nearly_balanced * there->value.mean_force;
+      if (!better && !balanced) break;
+      if (balanced) {
+        packing_ = there->packing;
+        measure();
+        if (summary_.residual <= options_.residual) return StopReason::residual_reached;
+        if (summary_.residual <= summary_.residual_floor) return StopReason::precision_floor;
+        if (!better && !(summary_.residual < residual / 2)) break;
+        residual = summary_.residual;
+      }
       here_ = std::move(*there);
       ++summary_.iterations;
-      if (wrong(here_.value) > nearly_balanced * here_.value.mean_force) continue;
-      packing_ = here_.packing;
-      measure();
-      if (summary_.residual <= options_.residual) return StopReason::residual_reached;
-      if (summary_.residual <= summary_.residual_floor) return StopReason::precision_floor;
     }
     return std::nullopt;
   }
@@ -311,7 +326,6 @@ class Multipliers {
     summary_.residual = value.residual;
     summary_.residual_floor = value.residual_floor;
     summary_.precision = Precision::double_double;
-    measured_ = true;
   }
 
   /// Newton's method on the energy for what lifted steps leave.
@@ -319,6 +333,7 @@ class Multipliers {
     MinimiseOptions options = options_;
     options.method = Method::newton;
     options.max_evaluations = std::min(last_evaluations, options_.max_evaluations);
+    options.unjammed_energy = std::min(options_.unjammed_energy, unjammed_energy * expected_force_ * distance_);
     const MinimiseSummary rest = minimise(packing_, energy_, options, stop_);
     MinimiseSummary sum = rest;
     // What Newton's method could not balance either is what it was found to be.
@@ -327,7 +342,6 @@ class Multipliers {
     sum.iterations += summary_.iterations;
     sum.work += summary_.work;
     summary_ = sum;
-    measured_ = true;
   }
 
   Packing& packing_;
@@ -348,7 +362,6 @@ class Multipliers {
   double lowest_ = std::numeric_limits<double>::infinity();  ///< Φ then
   int renewals_ = 0;                                         ///< of multipliers since then
   int loose_ = 0;                                            ///< steps to states that cannot be rigid
-  bool measured_ = false;
 };
 
 }  // namespace

@@ -229,7 +229,7 @@ TEST_P(Multipliers, LiftedStepsConvergeQuadratically) {
   for (int k = 0; k < 4; ++k) {
     wrong.push_back(std::max(largest_displacement(state.value.gradient), state.value.multiplier_error) /
                     state.value.mean_force);
-    auto next = lifted_step(state, 1e-7 * k0, 0.01, prepared.evaluator, factor, prepared.work);
+    auto next = lifted_step(state, 1e8 * k0, 1e-7 * k0, 0.01, prepared.evaluator, factor, prepared.work);
     ASSERT_TRUE(next);
     state = std::move(*next);
   }
