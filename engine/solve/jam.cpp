@@ -133,7 +133,7 @@ class StrainStep {
     const bool first = result_.states.empty();
     const JamStep& step = first ? relax(next) : strained_down(next);
     if (must_end(step)) return;
-    if (step.summary.reason == StopReason::unjammed && follows()) return lose(std::move(next));
+    if (follows() && gives_way(step.summary.reason)) return lose(std::move(next));
     if (!is_state(step.summary)) return failed(first);
     if (!first) {
       progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
@@ -165,7 +165,11 @@ class StrainStep {
     return append(next, follow_equilibrium(next, density, distance(), energy_, options_.minimise, stop_));
   }
 
-  /// The branch has come to its end: the packing is not jammed at a density at which it was expected to be.
+  /// Whether a packing that followed an equilibrium has come apart, or slides farther than is worth following.
+  static bool gives_way(StopReason reason) { return reason == StopReason::unjammed || reason == StopReason::budget; }
+
+  /// The branch has come to its end: the packing is not jammed at a density at which it was expected to be, or nowhere
+  /// near.
   void lose(Packing packing) {
     if (++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
     progress_.packing = std::move(packing);

@@ -87,8 +87,8 @@ constexpr double unjammed_energy = 1e-6;
 /// unjammed. Newton's method then has the last word.
 constexpr int most_loose = 10;
 
-/// Far more than any state needs but those at the end of their branch.
-constexpr long most_factorisations = 1000;
+/// Far more than any state needs but those at the end of their branch, which slide a long way.
+constexpr long most_factorisations = 600, most_envelopes = 3000;
 
 /// Maxwell's count: even if every contact were of two faces, three constraints, there are fewer than the particles that
 /// have contacts have degrees of freedom.
@@ -204,8 +204,9 @@ class Multipliers {
       return StopReason::unjammed;
     if (stop_.stop_requested()) return StopReason::interrupted;
     if (shift_ > most_shift * k0_) return StopReason::line_search_failed;
-    const bool spent = summary_.evaluations + summary_.work.envelopes >= options_.max_evaluations;
-    if (spent || summary_.work.factorisations >= most_factorisations) return StopReason::budget;
+    const long most = std::min(most_envelopes, options_.max_evaluations - summary_.evaluations);
+    if (summary_.work.envelopes >= most || summary_.work.factorisations >= most_factorisations)
+      return StopReason::budget;
     return std::nullopt;
   }
 
