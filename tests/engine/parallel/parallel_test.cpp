@@ -17,6 +17,7 @@
 #include <chrono>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 #include "engine/random/stream.hpp"
 
@@ -154,29 +155,45 @@ TEST_P(OnThreads, WhatACallThrowsComesOut) {
   });
 }
 
-TEST_P(OnThreads, WhoWaitsStartsNothingFromOutside) {
-  const std::vector<int> parents(8, -1);
-  with_threads([&parents] {
-    static thread_local bool inside = false;
-    std::atomic<int> nested = 0;
-    const auto part = [](std::size_t) { work_for(std::chrono::microseconds(20)); };
+/// How often a thread that was in `call` began another of a loop around it.
+template <class Call>
+int begun_while_waiting(const Call& call) {
+  static thread_local bool inside = false;
+  std::atomic<int> nested = 0;
+  for (int round = 0; round < 25; ++round) {
     tbb::parallel_for(
-        0, 60,
-        [&](int k) {
+        0, 12,
+        [&](int) {
           if (inside) ++nested;
           inside = true;
-          if (k % 2 == 0) {
-            for_each_index(30, part);
-          } else {
-            for_each_in_forest(parents, [&](int) {
-              for_each_index_within(4, part);
-              return true;
-            });
-          }
+          call();
           inside = false;
         },
         tbb::simple_partitioner());
-    EXPECT_EQ(nested, 0);
+  }
+  return nested;
+}
+
+TEST_P(OnThreads, WhoWaitsStartsNothingFromOutside) {
+  if (GetParam() == 1) return;  // who waits for nobody
+  with_threads([] {
+    // Asleep, so that the others come and take their parts, and whoever is first has to wait for them.
+    const auto part = [](std::size_t) { std::this_thread::sleep_for(std::chrono::microseconds(200)); };
+    EXPECT_EQ(begun_while_waiting([&] { for_each_index(6, part); }), 0);
+    EXPECT_EQ(begun_while_waiting([&] {
+                for_each_in_forest(std::vector<int>(6, -1), [&](int k) {
+                  part(static_cast<std::size_t>(k));
+                  return true;
+                });
+              }),
+              0);
+    EXPECT_EQ(begun_while_waiting([&] {
+                for_each_in_forest(std::vector<int>{-1}, [&](int) {
+                  for_each_index_within(6, part);
+                  return true;
+                });
+              }),
+              0);
   });
 }
 
