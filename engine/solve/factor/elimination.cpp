@@ -101,24 +101,24 @@ std::vector<int> postorder(const std::vector<Step>& steps) {
 
 }  // namespace
 
-Elimination plan_elimination(const BlockMatrix& matrix, const std::vector<int>& node_of) {
-  std::vector<Step> steps = single_steps(matrix, inverse(node_of));
+Elimination plan_elimination(const BlockMatrix& matrix, const std::vector<int>& order) {
+  std::vector<Step> steps = single_steps(matrix, inverse(order));
   merge(steps);
-  const std::vector<int> order = postorder(steps);
+  const std::vector<int> left = postorder(steps);
   Elimination plan;
-  std::vector<int> place_of(node_of.size()), supernode_of(steps.size());
-  for (const int k : order) {
+  std::vector<int> place_of(order.size()), supernode_of(steps.size());
+  for (const int k : left) {
     Step& step = steps[k];
     std::sort(step.own.begin(), step.own.end());
     supernode_of[k] = static_cast<int>(plan.supernodes.size());
     plan.supernodes.push_back({static_cast<int>(plan.node_of.size()), static_cast<int>(step.own.size()), {}, {}});
     for (const int place : step.own) {
       place_of[place] = static_cast<int>(plan.node_of.size());
-      plan.node_of.push_back(node_of[place]);
+      plan.node_of.push_back(order[place]);
     }
     for (const int child : step.children) plan.supernodes.back().children.push_back(supernode_of[child]);
   }
-  for (const int k : order) {
+  for (const int k : left) {
     std::vector<int>& rows = plan.supernodes[supernode_of[k]].rows;
     for (const int place : steps[k].rows) rows.push_back(place_of[place]);
     std::sort(rows.begin(), rows.end());
