@@ -11,7 +11,7 @@ EXAMPLE ?= examples/01-four-solids
 RESULTS  = $(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.json)
 
 # ---- Packages, one list per need ----------------------------------------------------------------------------
-PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev \
+PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev libmetis-dev \
                     nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
@@ -20,7 +20,7 @@ TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijso
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
 FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) clang-14 libclang-rt-14-dev llvm-14
-BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev
+BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev libsuitesparse-dev libopenblas-serial-dev
 SLURM_PACKAGES   := slurm-wlm munge python3
 
 # $(call install,packages): the network is touched only if one of them is missing.

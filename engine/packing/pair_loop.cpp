@@ -1,14 +1,11 @@
 #include "engine/packing/pair_loop.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
-
 #include <algorithm>
 #include <cassert>
 #include <memory>
 #include <vector>
+
+#include "engine/parallel/parallel.hpp"
 
 namespace isojam {
 
@@ -60,10 +57,7 @@ void for_each_block(std::size_t blocks, const Run& run) {
   if (blocks < 2) {
     for (std::size_t block = 0; block < blocks; ++block) run(block);
   } else {
-    // Isolated, so that a thread waiting here for the last pairs does not start another replicate meanwhile; and in a
-    // context of its own, for whoever cancels the one it is called from would make it skip blocks without a word.
-    tbb::task_group_context own(tbb::task_group_context::isolated);
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, blocks, run, own); });
+    for_each_index(blocks, std::cref(run));
   }
 }
 

@@ -1,5 +1,5 @@
 // Of one packing: evaluation on one core and on two, and as N grows, with the memory it holds; Hessian; factorisation
-// beside Eigen's SimplicialLDLT.
+// beside Eigen's SimplicialLDLT and CHOLMOD, and on two cores.
 
 #include <benchmark/benchmark.h>
 #include <malloc.h>
@@ -9,6 +9,7 @@
 
 #include "engine/packing/energy.hpp"
 #include "engine/solve/factor/shift_invert.hpp"
+#include "tests/bench/peers.hpp"
 #include "tests/bench/states.hpp"
 
 namespace isojam::bench {
@@ -84,16 +85,18 @@ System system_of(int n) {
   return system;
 }
 
-void block_cholesky(benchmark::State& state, int n) {
+void block_cholesky(benchmark::State& state, int n, std::size_t threads) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
   const System system = system_of(n);
   BlockCholesky factor;
-  bool done = true;
+  bool done = factor.factorise(system.matrix, system.shift);  // the symbolic part, and memory
   for (auto _ : state) done = factor.factorise(system.matrix, system.shift) && done;
   if (!done) state.SkipWithError("not positive definite");
 }
 
 /// As a minimiser meets it whose contacts come and go: the symbolic part is done every time.
 void block_cholesky_afresh(benchmark::State& state, int n) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   const System system = system_of(n);
   bool done = true;
   for (auto _ : state) done = BlockCholesky().factorise(system.matrix, system.shift) && done;
@@ -105,9 +108,24 @@ void simplicial_ldlt(benchmark::State& state, int n) {
   const System system = system_of(n);
   const Eigen::SparseMatrix<double> matrix = lower_half(system.matrix, system.shift);
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
-  factor.analyzePattern(matrix);
+  factor.compute(matrix);
   for (auto _ : state) factor.factorize(matrix);
   if (factor.info() != Eigen::Success) state.SkipWithError("failed");
+}
+
+/// Another peer, in the order it likes best, its symbolic part kept; one core. The label says on which BLAS.
+void cholmod(benchmark::State& state, int n) {
+  const System system = system_of(n);
+  CholmodFactor factor(lower_half(system.matrix, system.shift));
+  bool done = factor.factorise();
+  for (auto _ : state) done = factor.factorise() && done;
+  BlockCholesky ours;
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(6 * n, -1, 1);
+  done = done && ours.factorise(system.matrix, system.shift);
+  if (!done) return state.SkipWithError("not positive definite");
+  const Eigen::VectorXd x = ours.solve(b);
+  if (!((factor.solve(b) - x).norm() < 1e-10 * x.norm())) state.SkipWithError("another solution");
+  state.SetLabel(blas_in_use());
 }
 
 void block_cholesky_solve(benchmark::State& state, int n) {
@@ -145,10 +163,18 @@ bool register_all() {
     add("factorise/simplicial_ldlt" + case_of(n), simplicial_ldlt, n);
     add("factor_solve/simplicial_ldlt" + case_of(n), simplicial_ldlt_solve, n);
   }
-  for (const int n : {100, 400, 1000}) {
-    add("factorise/block_cholesky" + case_of(n), block_cholesky, n);
+  for (const int n : {100, 400, 800, 1000}) {
+    add("factorise/cholmod" + case_of(n), cholmod, n);
+    add("factorise/block_cholesky" + case_of(n), block_cholesky, n, 1);
     add("factorise/block_cholesky_afresh" + case_of(n), block_cholesky_afresh, n);
     add("factor_solve/block_cholesky" + case_of(n), block_cholesky_solve, n);
+  }
+  // By the clock: the ratio of the two is what a second core brings.
+  for (const int n : {400, 1000, 4000}) {
+    for (const std::size_t threads : {1, 2})
+      add("factorise/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads") + case_of(n), block_cholesky,
+          n, threads)
+          ->UseRealTime();
   }
   return true;
 }

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <string>
 
 #include "tests/bench/pair_set.hpp"
 
 namespace isojam::bench {
 
-/// What a user could take instead of the contact loop.
+// What a user could take instead of the contact loop, and of the block factorisation.
 
 /// voro++: A's cell, cut once per particle, is copied and cut by B's planes; then volume, centroid and neighbours.
 class VoroCells {
@@ -29,6 +31,28 @@ class VoroCells {
 
 /// CGAL: intersection of the half-spaces of both, predicates exact and constructions in double.
 double cgal_overlap(const PairSet& set, std::size_t k);
+
+/// CHOLMOD: supernodal, in the order that it finds best of minimum degree and METIS's, its symbolic part kept; one
+/// thread.
+class CholmodFactor {
+ public:
+  explicit CholmodFactor(const Eigen::SparseMatrix<double>& lower_half);
+  ~CholmodFactor();
+  CholmodFactor(const CholmodFactor&) = delete;
+  CholmodFactor& operator=(const CholmodFactor&) = delete;
+
+  /// False if the matrix is not positive definite.
+  bool factorise();
+  Eigen::VectorXd solve(const Eigen::VectorXd& b);
+
+ private:
+  struct Workspace;
+  Eigen::SparseMatrix<double> lower_half_;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+/// The BLAS under CHOLMOD: its version, the kernels that it chose for this machine, its threads.
+std::string blas_in_use();
 
 /// The greatest difference of a peer's volumes from the contact loop's over the first `pairs` pairs, relative.
 template <class Volume>

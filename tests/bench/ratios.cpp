@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "engine/geometry/convex_solid.hpp"
 
@@ -29,11 +30,20 @@ void claim_factors(std::vector<Claim>& claims) {
     claims.push_back({Kind::faster, "factorise/block_cholesky/" + n, "factorise/simplicial_ldlt/" + n, 5});
     claims.push_back({Kind::faster, "factor_solve/block_cholesky/" + n, "factor_solve/simplicial_ldlt/" + n, 0});
   }
+  constexpr std::array<std::pair<const char*, double>, 3> faster_than_cholmod{{{"100", 3}, {"400", 1.5}, {"800", 1}}};
+  for (const auto& [n, faster] : faster_than_cholmod) {
+    const std::string size = std::string("/N=") + n;
+    claims.push_back({Kind::faster, "factorise/block_cholesky" + size, "factorise/cholmod" + size, faster});
+  }
+  claims.push_back({Kind::faster, "factorise/block_cholesky/N=1000", "factorise/cholmod/N=1000", 0});
 }
 
 void claim_scaling(std::vector<Claim>& claims) {
   claims.push_back({Kind::costs, "evaluate/double_double/N=100", "evaluate/1_thread/N=100", 1.3});
   claims.push_back({Kind::faster, "evaluate/2_threads/N=400", "evaluate/1_thread/N=400", 1.7});
+  claims.push_back({Kind::faster, "factorise/2_threads/N=400", "factorise/1_thread/N=400", 0});
+  claims.push_back({Kind::faster, "factorise/2_threads/N=1000", "factorise/1_thread/N=1000", 1.6});
+  claims.push_back({Kind::faster, "factorise/2_threads/N=4000", "factorise/1_thread/N=4000", 0});
   claims.push_back({Kind::faster, "sweep/2_threads/N=40", "sweep/1_thread/N=40", 1.9});
   // Linear in N: a particle costs the same in a packing ten or a hundred times as large, but for caches that no longer
   // hold everything.

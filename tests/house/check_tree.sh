@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # usage: check_tree.sh ROOT
 # Proves, line by line, of the tree at ROOT:
-#   1. engine/ includes only engine/, the standard library, Eigen, Spectra and Boost.Math: nothing of tasks/, no JSON,
-#      no formatting or command-line library, no file, clock, stream or environment; nor does it name these by
-#      way of a header that happens to bring them.
+#   1. engine/ includes only engine/, the standard library, Eigen, Spectra, Boost.Math and METIS: nothing of tasks/,
+#      no JSON, no formatting or command-line library, no file, clock, stream or environment; nor does it name these
+#      by way of a header that happens to bring them.
 #   2. inside engine/ and inside tasks/, includes never point upwards in the order of rooms below, and every source but
 #      tasks/main.cpp stands in one of them.
-#   3. oneTBB (also by way of <execution>) enters engine/packing/pair_loop.cpp and tasks/run/graph.cpp, nothing else;
-#      CLI11 enters tasks/commands/options.cpp and tasks/main.cpp.
+#   3. oneTBB (also by way of <execution>) enters engine/parallel/parallel.cpp and tasks/run/graph.cpp, nothing else;
+#      CLI11 enters tasks/commands/options.cpp and tasks/main.cpp; METIS enters engine/solve/factor/ordering.cpp.
 #   4. no source of engine/, tasks/ or tests/ is longer than 400 lines.
 #   5. nothing stands at the top that is not agreed on, build directories and results apart, which git ignores.
 # Prints one line per breach, `file:line: why: text`, and exits 1 if there is one.
@@ -16,10 +16,11 @@ export LC_ALL=C
 cd "${1:?usage: check_tree.sh ROOT}"
 
 readonly max_lines=400
-readonly engine_rooms='names random geometry packing solve analysis vibration rigidity'
+readonly engine_rooms='names random parallel geometry packing solve analysis vibration rigidity'
 readonly tasks_rooms='system json measure manifest replicate store tables run page report export chart commands'
-readonly tbb_sources=' engine/packing/pair_loop.cpp tasks/run/graph.cpp '
+readonly tbb_sources=' engine/parallel/parallel.cpp tasks/run/graph.cpp '
 readonly cli_sources=' tasks/commands/options.cpp tasks/main.cpp '
+readonly metis_source='engine/solve/factor/ordering.cpp'
 readonly banned_headers=' filesystem chrono ctime fstream iostream istream ostream sstream syncstream cstdio iomanip execution '
 readonly system_headers=' quadmath.h immintrin.h '
 readonly banned_names='std::(chrono|filesystem|cout|cerr|clog|random_device)\b|\b(std::)?(getenv|fopen|printf|clock_gettime)\('
@@ -53,7 +54,7 @@ check_engine_include() {  # file line header
     \"engine/*) check_order "$@" ;;
     \"*) breach "$1" "$2" 'engine/ includes what is not engine/' "$3" ;;
     '<Eigen/'* | '<Spectra/'* | '<boost/math/'*) ;;
-    '<tbb/'* | '<oneapi/'*) ;;  # rule 3
+    '<tbb/'* | '<oneapi/'* | '<metis.h>') ;;  # rule 3
     *[/.]*) [[ $system_headers == *" ${3:1:-1} "* ]] || breach "$1" "$2" 'engine/ includes what is not engine/' "$3" ;;
     *) [[ $banned_headers != *" ${3:1:-1} "* ]] || breach "$1" "$2" 'engine/ touches files, clock or streams' "$3" ;;
   esac
@@ -67,6 +68,8 @@ check_include() {  # file line header
       [[ $tbb_sources == *" $1 "* ]] || breach "$1" "$2" 'oneTBB outside its two sources' "$3" ;;
     [\<\"]CLI/*)
       [[ $cli_sources == *" $1 "* ]] || breach "$1" "$2" 'CLI11 outside its two sources' "$3" ;;
+    [\<\"]metis.h[\>\"])
+      [[ $1 == "$metis_source" ]] || breach "$1" "$2" 'METIS outside its source' "$3" ;;
   esac
 }
 

@@ -9,9 +9,11 @@ trap 'rm -rf "$tree"' EXIT
 
 good_tree() {
   rm -rf "${tree:?}"/*
-  mkdir -p "$tree"/engine/{random,geometry,packing,solve,analysis} "$tree"/tasks/{system,json,store,run,commands} "$tree/tests"
+  mkdir -p "$tree"/engine/{random,parallel,geometry,packing,solve/factor,analysis} "$tree"/tasks/{system,json,store,run,commands} "$tree/tests"
   printf '#pragma once\n#include <Eigen/Core>\n#include <vector>\n' >"$tree/engine/geometry/pose.hpp"
-  printf '#include <tbb/parallel_for.h>\n#include "engine/geometry/pose.hpp"\n' >"$tree/engine/packing/pair_loop.cpp"
+  printf '#include <tbb/parallel_for.h>\n#include "engine/random/stream.hpp"\n' >"$tree/engine/parallel/parallel.cpp"
+  printf '#include "engine/parallel/parallel.hpp"\n#include "engine/geometry/pose.hpp"\n' >"$tree/engine/packing/pair_loop.cpp"
+  printf '#include <metis.h>\n' >"$tree/engine/solve/factor/ordering.cpp"
   printf '#include "engine/packing/energy.hpp"\n// #include <chrono>\n' >"$tree/engine/solve/jam.cpp"
   printf '#include <oneapi/tbb/flow_graph.h>\n#include <chrono>\n#include "engine/solve/jam.hpp"\n' >"$tree/tasks/run/graph.cpp"
   printf '#include <CLI/CLI.hpp>\n#include "tasks/commands/command.hpp"\n' >"$tree/tasks/main.cpp"
@@ -64,6 +66,7 @@ reject engine/solve/jam.cpp '#include HEADER' 'include that cannot be read'
 
 upwards='include points upwards'
 reject engine/random/stream.hpp '#include "engine/geometry/pose.hpp"' "$upwards"
+reject engine/parallel/parallel.cpp '#include "engine/packing/packing.hpp"' "$upwards"
 reject engine/geometry/overlap.cpp '#include "engine/packing/packing.hpp"' "$upwards"
 reject engine/packing/energy.cpp '#include "engine/solve/jam.hpp"' "$upwards"
 reject engine/solve/minimise/lbfgs.cpp '#include "engine/analysis/contacts.hpp"' "$upwards"
@@ -76,7 +79,8 @@ reject tasks/json/json.cpp '#include "tasks/odds/ends.hpp"' 'room of tasks/ with
 reject engine/extra/thing.cpp '#include "engine/geometry/pose.hpp"' 'room of engine/ without a place'
 
 tbb='oneTBB outside its two sources'
-reject engine/packing/pair_loop.hpp '#include <tbb/parallel_for.h>' "$tbb"
+reject engine/parallel/parallel.hpp '#include <tbb/parallel_for.h>' "$tbb"
+reject engine/packing/pair_loop.cpp '#include <tbb/parallel_for.h>' "$tbb"
 reject engine/packing/energy.cpp '#include <tbb/parallel_for.h>' "$tbb"
 reject engine/solve/jam.cpp '#include <oneapi/tbb/task_arena.h>' "$tbb"
 reject engine/solve/jam.cpp '#include "tbb/task_arena.h"' "$tbb"
@@ -84,6 +88,8 @@ reject tasks/run/graph.hpp '#include <oneapi/tbb/flow_graph.h>' "$tbb"
 reject tasks/store/store.cpp '#include <tbb/global_control.h>' "$tbb"
 reject tasks/store/store.cpp '#include <execution>' "$tbb"
 
+reject engine/solve/factor/elimination.cpp '#include <metis.h>' 'METIS outside its source'
+reject tasks/run/graph.cpp '#include <metis.h>' 'METIS outside its source'
 reject tasks/commands/run.cpp '#include <CLI/App.hpp>' 'CLI11 outside its two sources'
 
 reject ratios.json '{}' 'not at the top'

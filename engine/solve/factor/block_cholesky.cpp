@@ -2,29 +2,24 @@
 
 #include <algorithm>
 
-#include "engine/solve/factor/panels.hpp"
+#include "engine/parallel/parallel.hpp"
 
 namespace isojam {
 
 namespace {
 
-constexpr int per_panel = panels::height / 6;  ///< particles
-
-int panels_of(int particles) { return (particles + per_panel - 1) / per_panel; }
-
-/// Where a row and a column of 6×6 blocks meet in panels of `width` columns.
-std::ptrdiff_t block_at(int row, int column, int width) {
-  return panels::size(row / per_panel, width) + std::ptrdiff_t{6} * panels::height * column + 6 * (row % per_panel);
-}
+/// From so many multiplications on, a third of a millisecond, the rows of a front are shared out.
+constexpr double work_of_shared_front = 5e6;
 
 using Block6 = Eigen::Map<Matrix6d, Eigen::Unaligned, Eigen::OuterStride<panels::height>>;
 
-/// Makes room for `size` entries of any value. Eigen frees what a vector had before it asks for more, and frees it
-/// again if it gets none, unless the vector is empty.
-void reallocate(Eigen::VectorXd& vector, std::ptrdiff_t size) {
-  if (vector.size() == size) return;
+/// Makes room for `size` entries of any value, and for some more, so that patterns that change a little find their room
+/// made. Eigen frees what a vector had before it asks for more, and frees it again if it gets none, unless the vector
+/// is empty.
+void reserve(Eigen::VectorXd& vector, std::ptrdiff_t size) {
+  if (vector.size() >= size) return;
   vector = Eigen::VectorXd();
-  vector.resize(size);
+  vector.resize(size + size / 8);
 }
 
 /// to += from, for 6 rows and `columns` columns of panels.
@@ -34,17 +29,13 @@ void add_columns(const double* from, int columns, double* to) {
   }
 }
 
+void set_zero(double* begin, double* end, panels::Threads threads) {
+  constexpr std::ptrdiff_t at_once = 1 << 15;
+  panels::for_each(static_cast<int>((end - begin + at_once - 1) / at_once), threads,
+                   [=](int k) { std::fill(begin + at_once * k, std::min(end, begin + at_once * (k + 1)), 0.0); });
+}
+
 }  // namespace
-
-/// Place among the columns, then the rows of the front.
-std::ptrdiff_t BlockCholesky::Front::at(int place, int column) const {
-  return place < node.columns ? factor + block_at(place, column, width())
-                              : below + block_at(place - node.columns, column, width());
-}
-
-std::ptrdiff_t BlockCholesky::Front::update_at(int row, int column) const {
-  return update + panels::packed_size(row / per_panel) + block_at(row % per_panel, column, 0);
-}
 
 bool BlockCholesky::has_pattern_of(const BlockMatrix& matrix) const {
   return size_ == matrix.size() &&
@@ -53,110 +44,28 @@ bool BlockCholesky::has_pattern_of(const BlockMatrix& matrix) const {
 }
 
 void BlockCholesky::analyse(const BlockMatrix& matrix) {
-  size_ = matrix.size();
+  size_ = -1;  // should memory be out
+  plan_ = plan_fronts(matrix);
   pattern_.clear();
   for (const BlockMatrix::Block& block : matrix.off_diagonal) pattern_.emplace_back(block.row, block.column);
-  Elimination plan = plan_elimination(matrix);
-  node_of_ = std::move(plan.node_of);
-  fronts_.clear();
-  for (Supernode& node : plan.supernodes) {
-    fronts_.emplace_back();
-    fronts_.back().node = std::move(node);
-  }
-  lay_out_fronts();
-  lay_out_updates();
-  place_blocks(matrix);
-  place_children();
+  reserve(factor_, plan_.factor_size);
+  reserve(reciprocals_, std::ptrdiff_t{6} * matrix.size());
+  reserve(updates_, plan_.updates_size);
+  size_ = matrix.size();
 }
 
-void BlockCholesky::lay_out_fronts() {
-  std::ptrdiff_t end = 0;
-  for (Front& front : fronts_) {
-    front.panels = panels_of(static_cast<int>(front.node.rows.size()));
-    front.factor = end;
-    front.below = end + panels::size(panels_of(front.node.columns), front.width());
-    end = front.below + panels::size(front.panels, front.width());
+void BlockCholesky::assemble(const Front& front, const BlockMatrix& matrix, double shift, panels::Threads threads) {
+  set_zero(factor_.data() + front.factor, factor_.data() + front.factor_end(), threads);
+  for (int c = 0; c < front.node.columns; ++c) {
+    Block6 to(factor_.data() + front.at(c, c));
+    to = matrix.diagonal[plan_.node_of[front.node.first + c]];
+    to.diagonal().array() += shift;
   }
-  reallocate(factor_, end);
-  reallocate(reciprocals_, std::ptrdiff_t{6} * size_);
-}
-
-/// An update lives from its own front to its parent's. Each takes the lowest gap that fits, so that what is in use
-/// stays together in the cache.
-void BlockCholesky::lay_out_updates() {
-  std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> live;  // begin and end, ascending
-  std::ptrdiff_t size = 0;
-  for (Front& front : fronts_) {
-    const std::ptrdiff_t needed = panels::packed_size(front.panels);
-    std::ptrdiff_t begin = 0;
-    auto gap = live.begin();
-    for (; gap != live.end() && gap->first - begin < needed; ++gap) begin = gap->second;
-    front.update = begin;
-    if (needed > 0) live.insert(gap, {begin, begin + needed});
-    size = std::max(size, begin + needed);
-    for (const int child : front.node.children)
-      std::erase_if(live, [&](const auto& span) { return span.first == fronts_[child].update; });
-  }
-  reallocate(updates_, size);
-}
-
-namespace {
-
-/// Which of its columns, then rows, place k of the elimination order is in a supernode.
-int place_in(const Supernode& node, int k) {
-  if (k < node.first + node.columns) return k - node.first;
-  return node.columns + static_cast<int>(std::lower_bound(node.rows.begin(), node.rows.end(), k) - node.rows.begin());
-}
-
-}  // namespace
-
-void BlockCholesky::place_blocks(const BlockMatrix& matrix) {
-  std::vector<int> front_of(node_of_.size()), place_of(node_of_.size());
-  diagonal_.resize(node_of_.size());
-  for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    const Supernode& node = fronts_[f].node;
-    for (int c = 0; c < node.columns; ++c) {
-      front_of[node.first + c] = static_cast<int>(f);
-      place_of[node_of_[node.first + c]] = node.first + c;
-      diagonal_[node_of_[node.first + c]] = {fronts_[f].at(c, c), false};
-    }
-  }
-  off_diagonal_.clear();
-  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
-    const int row = place_of[block.row], column = place_of[block.column];
-    const Front& front = fronts_[front_of[std::min(row, column)]];
-    // A block is stored as (row, column); the lower half wants (later, earlier).
-    off_diagonal_.push_back(
-        {front.at(place_in(front.node, std::max(row, column)), std::min(row, column) - front.node.first),
-         row < column});
-  }
-}
-
-void BlockCholesky::place_children() {
-  for (Front& front : fronts_) {
-    for (const int child : front.node.children) {
-      Handover handover{child, {}, {}};
-      for (const int row : fronts_[child].node.rows) {
-        const int place = place_in(front.node, row), k = static_cast<int>(handover.places.size());
-        const bool continues = k > 0 && place == handover.places.back() + 1 && place != front.node.columns;
-        if (!continues) handover.runs.push_back(k);
-        handover.places.push_back(place);
-      }
-      front.handovers.push_back(std::move(handover));
-    }
-  }
-}
-
-void BlockCholesky::assemble(const BlockMatrix& matrix) {
-  factor_.setZero();
-  for (int i = 0; i < size_; ++i) {
-    Block6 to(factor_.data() + diagonal_[i].at);
-    to = matrix.diagonal[i];
-  }
-  for (std::size_t k = 0; k < off_diagonal_.size(); ++k) {
-    const Matrix6d& value = matrix.off_diagonal[k].value;
-    Block6 to(factor_.data() + off_diagonal_[k].at);
-    if (off_diagonal_[k].transposed) {
+  for (int b = front.first_block; b < front.last_block; ++b) {
+    const BlockPlace& place = plan_.blocks[b];
+    const Matrix6d& value = matrix.off_diagonal[place.block].value;
+    Block6 to(factor_.data() + place.at);
+    if (place.transposed) {
       to = value.transpose();
     } else {
       to = value;
@@ -164,52 +73,71 @@ void BlockCholesky::assemble(const BlockMatrix& matrix) {
   }
 }
 
-void BlockCholesky::add_shift(double shift) {
-  for (const Target& target : diagonal_) {
-    for (int i = 0; i < 6; ++i) factor_[target.at + i * (panels::height + 1)] += shift;
+/// Adds runs first … last − 1 of a row of a child's update to the front.
+void BlockCholesky::take_over(const Front& front, const Handover& handover, int row, int first, int last) {
+  const int columns = front.node.columns, count = static_cast<int>(handover.places.size());
+  const int runs = static_cast<int>(handover.runs.size());
+  const double* const from = updates_.data() + plan_.fronts[handover.child].update_at(row, 0);
+  const int to_row = handover.places[row];
+  for (int r = first; r < last && handover.runs[r] <= row; ++r) {
+    const int begin = handover.runs[r], place = handover.places[begin];
+    const int end = std::min(row + 1, r + 1 < runs ? handover.runs[r + 1] : count);
+    double* const to = place < columns ? factor_.data() + front.at(to_row, place)
+                                       : updates_.data() + front.update_at(to_row - columns, place - columns);
+    add_columns(from + std::ptrdiff_t{6} * panels::height * begin, 6 * (end - begin), to);
   }
 }
 
-void BlockCholesky::gather_updates(const Front& front) {
-  std::fill_n(updates_.data() + front.update, panels::packed_size(front.panels), 0.0);
-  const int columns = front.node.columns;
+/// Child after child, so that every entry is summed in one order, whoever sums it.
+void BlockCholesky::gather_columns(const Front& front, panels::Threads threads) {
   for (const Handover& handover : front.handovers) {
-    const Front& child = fronts_[handover.child];
-    const int count = static_cast<int>(handover.places.size());
-    for (int i = 0; i < count; ++i) {
-      const double* const from = updates_.data() + child.update_at(i, 0);
-      const int row = handover.places[i];
-      for (std::size_t r = 0; r < handover.runs.size() && handover.runs[r] <= i; ++r) {
-        const int begin = handover.runs[r], place = handover.places[begin];
-        const int end = std::min(i + 1, r + 1 < handover.runs.size() ? handover.runs[r + 1] : count);
-        double* const to = place < columns ? factor_.data() + front.at(row, place)
-                                           : updates_.data() + front.update_at(row - columns, place - columns);
-        add_columns(from + std::ptrdiff_t{6} * panels::height * begin, 6 * (end - begin), to);
-      }
-    }
+    panels::for_each(static_cast<int>(handover.places.size()), threads,
+                     [&](int row) { take_over(front, handover, row, 0, handover.runs_of_columns); });
   }
+}
+
+void BlockCholesky::gather_update(const Front& front, panels::Threads threads) {
+  for (const Handover& handover : front.handovers) {
+    const int runs = static_cast<int>(handover.runs.size());
+    if (runs == handover.runs_of_columns) continue;
+    const int first = handover.runs[handover.runs_of_columns];
+    panels::for_each(static_cast<int>(handover.places.size()) - first, threads,
+                     [&](int row) { take_over(front, handover, first + row, handover.runs_of_columns, runs); });
+  }
+}
+
+bool BlockCholesky::eliminate(const Front& front, const BlockMatrix& matrix, double shift) {
+  const auto threads =
+      plan_.ranges.size() > 1 && front.work() >= work_of_shared_front ? panels::Threads::all : panels::Threads::one;
+  assemble(front, matrix, shift, threads);
+  gather_columns(front, threads);
+  double* const below = factor_.data() + front.below;
+  if (!panels::factorise(factor_.data() + front.factor, front.width(),
+                         reciprocals_.data() + std::ptrdiff_t{6} * front.node.first, below, front.panels, threads)) {
+    return false;
+  }
+  // After the product, which then need not be added to anything.
+  panels::minus_square(below, front.width(), front.panels, updates_.data() + front.update, threads);
+  gather_update(front, threads);
+  return true;
 }
 
 bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
   if (!has_pattern_of(matrix)) analyse(matrix);
-  assemble(matrix);
-  add_shift(shift);
-  for (const Front& front : fronts_) {
-    gather_updates(front);
-    double* const below = factor_.data() + front.below;
-    if (!panels::factorise(factor_.data() + front.factor, front.width(),
-                           reciprocals_.data() + std::ptrdiff_t{6} * front.node.first, below, front.panels)) {
-      return false;
+  const auto eliminate_range = [&](int r) {
+    for (int f = plan_.ranges[r].first; f < plan_.ranges[r].last; ++f) {
+      if (!eliminate(plan_.fronts[f], matrix, shift)) return false;
     }
-    panels::subtract_square(below, front.width(), front.panels, updates_.data() + front.update);
-  }
-  return true;
+    return true;
+  };
+  if (plan_.ranges.size() > 1) return for_each_in_forest(plan_.parents, eliminate_range);
+  return plan_.ranges.empty() || eliminate_range(0);
 }
 
 Eigen::VectorXd BlockCholesky::solve(const Eigen::Ref<const Eigen::VectorXd>& b) const {
   Eigen::VectorXd x(b.size()), below(b.size() + 6);
-  for (int k = 0; k < size_; ++k) x.segment<6>(6 * k) = b.segment<6>(6 * node_of_[k]);
-  for (const Front& front : fronts_) {
+  for (int k = 0; k < size_; ++k) x.segment<6>(6 * k) = b.segment<6>(6 * plan_.node_of[k]);
+  for (const Front& front : plan_.fronts) {
     double* const own = x.data() + std::ptrdiff_t{6} * front.node.first;
     const std::vector<int>& rows = front.node.rows;
     panels::solve_forward(factor_.data() + front.factor, front.width(),
@@ -219,7 +147,7 @@ Eigen::VectorXd BlockCholesky::solve(const Eigen::Ref<const Eigen::VectorXd>& b)
     for (int r = 0; r < static_cast<int>(rows.size()); ++r) x.segment<6>(6 * rows[r]) += below.segment<6>(6 * r);
   }
   // NOLINTNEXTLINE(modernize-loop-convert): clang 14 does not compile the views of g++ 12
-  for (auto at = fronts_.rbegin(); at != fronts_.rend(); ++at) {
+  for (auto at = plan_.fronts.rbegin(); at != plan_.fronts.rend(); ++at) {
     const Front& front = *at;
     double* const own = x.data() + std::ptrdiff_t{6} * front.node.first;
     const std::vector<int>& rows = front.node.rows;
@@ -230,7 +158,7 @@ Eigen::VectorXd BlockCholesky::solve(const Eigen::Ref<const Eigen::VectorXd>& b)
                            reciprocals_.data() + std::ptrdiff_t{6} * front.node.first, own);
   }
   Eigen::VectorXd result(b.size());
-  for (int k = 0; k < size_; ++k) result.segment<6>(6 * node_of_[k]) = x.segment<6>(6 * k);
+  for (int k = 0; k < size_; ++k) result.segment<6>(6 * plan_.node_of[k]) = x.segment<6>(6 * k);
   return result;
 }
 

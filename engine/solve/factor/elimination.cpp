@@ -1,28 +1,10 @@
 #include "engine/solve/factor/elimination.hpp"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 #include <algorithm>
-#include <numeric>
 
 namespace isojam {
 
 namespace {
-
-/// Fill-reducing order of the graph of particles: particle at each place.
-std::vector<int> minimum_degree_order(const BlockMatrix& matrix) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < matrix.size(); ++i) entries.emplace_back(i, i, 1.0);
-  for (const BlockMatrix::Block& block : matrix.off_diagonal) {
-    entries.emplace_back(block.row, block.column, 1.0);
-    entries.emplace_back(block.column, block.row, 1.0);
-  }
-  Eigen::SparseMatrix<double> graph(matrix.size(), matrix.size());
-  graph.setFromTriplets(entries.begin(), entries.end());
-  Eigen::AMDOrdering<int>::PermutationType order;
-  Eigen::AMDOrdering<int>()(graph, order);
-  return {order.indices().begin(), order.indices().end()};
-}
 
 std::vector<int> inverse(const std::vector<int>& permutation) {
   std::vector<int> result(permutation.size());
@@ -58,17 +40,16 @@ std::vector<Step> single_steps(const BlockMatrix& matrix, const std::vector<int>
   return steps;
 }
 
-/// Time of eliminating `columns` particles that couple to `rows` later ones, in products of two 6×6 blocks.
+/// Ways to choose three of n.
+double choose_three(double n) { return n * (n - 1) * (n - 2) / 6; }
+
+/// Time of eliminating `columns` particles that couple to `rows` later ones, in products of two 6×6 blocks: each column
+/// of h rows takes (h + 1)(h + 2)/2.
 double cost(std::size_t columns, std::size_t rows) {
-  const auto r = static_cast<double>(rows);
+  const auto c = static_cast<double>(columns), r = static_cast<double>(rows);
   constexpr double hand_up = 1.5;  // a block handed up to the parent
   constexpr double overhead = 40;
-  double products = 0;
-  for (std::size_t k = 0; k < columns; ++k) {
-    const double h = r + static_cast<double>(k);
-    products += (h + 1) * (h + 2) / 2;
-  }
-  return products + hand_up * r * (r + 1) / 2 + overhead;
+  return choose_three(r + c + 2) - choose_three(r + 2) + hand_up * r * (r + 1) / 2 + overhead;
 }
 
 /// Merges steps into their parents where that takes less time than the two apart.
@@ -120,25 +101,24 @@ std::vector<int> postorder(const std::vector<Step>& steps) {
 
 }  // namespace
 
-Elimination plan_elimination(const BlockMatrix& matrix) {
-  const std::vector<int> node_of = minimum_degree_order(matrix);
-  std::vector<Step> steps = single_steps(matrix, inverse(node_of));
+Elimination plan_elimination(const BlockMatrix& matrix, const std::vector<int>& order) {
+  std::vector<Step> steps = single_steps(matrix, inverse(order));
   merge(steps);
-  const std::vector<int> order = postorder(steps);
+  const std::vector<int> left = postorder(steps);
   Elimination plan;
-  std::vector<int> place_of(node_of.size()), supernode_of(steps.size());
-  for (const int k : order) {
+  std::vector<int> place_of(order.size()), supernode_of(steps.size());
+  for (const int k : left) {
     Step& step = steps[k];
     std::sort(step.own.begin(), step.own.end());
     supernode_of[k] = static_cast<int>(plan.supernodes.size());
     plan.supernodes.push_back({static_cast<int>(plan.node_of.size()), static_cast<int>(step.own.size()), {}, {}});
     for (const int place : step.own) {
       place_of[place] = static_cast<int>(plan.node_of.size());
-      plan.node_of.push_back(node_of[place]);
+      plan.node_of.push_back(order[place]);
     }
     for (const int child : step.children) plan.supernodes.back().children.push_back(supernode_of[child]);
   }
-  for (const int k : order) {
+  for (const int k : left) {
     std::vector<int>& rows = plan.supernodes[supernode_of[k]].rows;
     for (const int place : steps[k].rows) rows.push_back(place_of[place]);
     std::sort(rows.begin(), rows.end());

@@ -19,7 +19,8 @@ struct Elimination {
   std::vector<Supernode> supernodes;  ///< children before parents, in order of `first`
 };
 
-/// Plans the elimination for the pattern of `matrix`; a function of the pattern alone.
-Elimination plan_elimination(const BlockMatrix& matrix);
+/// Plans the elimination for the pattern of `matrix` in about this order of its particles; a function of the pattern
+/// and the order alone.
+Elimination plan_elimination(const BlockMatrix& matrix, const std::vector<int>& order);
 
 }  // namespace isojam

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/solve/factor/ordering.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 
 namespace isojam {
@@ -56,7 +57,7 @@ std::vector<std::set<int>> filled_in(const BlockMatrix& matrix, const std::vecto
 
 TEST(Elimination, TakesEveryParticleOnce) {
   for (const BlockMatrix& matrix : graphs()) {
-    const Elimination plan = plan_elimination(matrix);
+    const Elimination plan = plan_elimination(matrix, fill_reducing_order(matrix));
     std::vector<int> sorted = plan.node_of;
     std::sort(sorted.begin(), sorted.end());
     ASSERT_EQ(sorted.size(), matrix.diagonal.size());
@@ -81,7 +82,7 @@ TEST(Elimination, TakesEveryParticleOnce) {
 
 TEST(Elimination, HoldsWhatFillsIn) {
   for (const BlockMatrix& matrix : graphs()) {
-    const Elimination plan = plan_elimination(matrix);
+    const Elimination plan = plan_elimination(matrix, fill_reducing_order(matrix));
     const std::vector<std::set<int>> later = filled_in(matrix, plan.node_of);
     for (const Supernode& node : plan.supernodes) {
       EXPECT_TRUE(std::is_sorted(node.rows.begin(), node.rows.end()));
@@ -104,7 +105,7 @@ TEST(Elimination, HoldsWhatFillsIn) {
 TEST(Elimination, TakesInFewZeros) {
   for (const SolidKind kind : all_solids) {
     const BlockMatrix matrix = PackingEnergy().hessian(small_packing(kind, 0.6, 3, 150));
-    const Elimination plan = plan_elimination(matrix);
+    const Elimination plan = plan_elimination(matrix, fill_reducing_order(matrix));
     std::size_t needed = 0, held = 0;
     for (const std::set<int>& rows : filled_in(matrix, plan.node_of)) needed += rows.size();
     for (const Supernode& node : plan.supernodes)
@@ -117,9 +118,9 @@ TEST(Elimination, TakesInFewZeros) {
 
 TEST(Elimination, IsAFunctionOfThePattern) {
   for (BlockMatrix matrix : graphs()) {
-    const Elimination plan = plan_elimination(matrix);
+    const Elimination plan = plan_elimination(matrix, fill_reducing_order(matrix));
     for (BlockMatrix::Block& block : matrix.off_diagonal) block.value.setConstant(3);
-    EXPECT_EQ(plan_elimination(matrix).node_of, plan.node_of);
+    EXPECT_EQ(plan_elimination(matrix, fill_reducing_order(matrix)).node_of, plan.node_of);
   }
 }
 
