@@ -10,8 +10,8 @@ namespace isojam {
 /// Purpose of a stream of random bits; part of its key.
 enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2 };
 
-/// A reproducible stream of random bits, a function of its key alone: (manifest seed, sweep point, replicate,
-/// purpose). The 64-bit Mersenne twister and std::seed_seq are fixed bit by bit by the C++ standard; the
+/// A reproducible stream of random bits, a function of its key alone, such as (manifest seed, solid and particles,
+/// replicate, purpose). The 64-bit Mersenne twister and std::seed_seq are fixed bit by bit by the C++ standard; the
 /// distributions of the standard library are not, so the mapping to uniforms is our own.
 class RandomStream {
  public:

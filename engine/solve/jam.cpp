@@ -171,6 +171,7 @@ class StrainStep {
   /// The branch has come to its end: the packing is not jammed at a density at which it was expected to be, or nowhere
   /// near.
   void lose(Packing packing) {
+    result_.path.back().lost = true;
     if (++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
     progress_.packing = std::move(packing);
     progress_.lost = result_.state_steps.back();

@@ -69,6 +69,8 @@ struct JamStep {
   MinimiseSummary summary;
   int descents = 0;                            ///< saddles that the state was followed down from before it was kept
   std::optional<Rearrangement> rearrangement;  ///< since the state before; of states that followed one
+  /// Of an expansion step: the branch of equilibria came to its end in it, and the packing lost all contact forces.
+  bool lost = false;
 };
 
 enum class JamStatus {

@@ -8,6 +8,7 @@
 #include "tasks/commands/command.hpp"
 #include "tasks/json/place.hpp"
 #include "tasks/json/sealed.hpp"
+#include "tasks/manifest/base.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/standard_streams.hpp"
 #include "tasks/tables/table_of.hpp"
@@ -28,7 +29,7 @@ struct Arguments {
   std::string output;  ///< tables.json to write; empty: none
   TableFormat format = TableFormat::text;
   bool series = false;  ///< quantities against Δφ instead of those nearest jamming; JSON has both
-  std::optional<std::vector<Flag>> exclude;  ///< nullopt: as the manifests say
+  TableChoices choices;
 };
 
 std::string formatted(const Table& table, TableFormat format, View view) {
@@ -66,7 +67,12 @@ std::optional<std::string> read_exclude(const std::string& text, std::optional<s
 /// Reads only, but for the output asked for.
 ExitCode aggregate_directories(const Arguments& arguments, Console& console) {
   const Warn warn = [&](const std::string& message) { console.warn(message); };
-  const auto table = table_of(arguments.directories, warn, arguments.exclude);
+  const auto table = table_of(arguments.directories, warn, arguments.choices);
+  // A base of the command line that no row has is a typing error; a manifest's may be of rows that are yet to come.
+  if (const auto problem = arguments.choices.base ? misplaced_base(table) : std::nullopt) {
+    console.error(*problem);
+    return ExitCode::usage;
+  }
   if (!arguments.output.empty()) write_output(arguments.output, sealed(to_json(table)));
   print(formatted(table, arguments.format, arguments.series ? View::series : View::nearest));
   return ExitCode::done;
@@ -82,9 +88,16 @@ void add_aggregate(CLI::App& app, Session& session) {
   options.text("-o,--output", arguments->output, "Write the table as JSON to this file as well", "FILE");
   options.choice("--format", arguments->format, "Format on stdout");
   options.parsed(
-      "--exclude", [arguments](const std::string& text) { return read_exclude(text, arguments->exclude); }, [] {},
+      "--exclude", [arguments](const std::string& text) { return read_exclude(text, arguments->choices.exclude); },
+      [] {},
       "Leave replicates with these flags, between commas, out of the means, or none (default: as the manifest says)",
       "FLAGS");
+  options.parsed(
+      "--base", [arguments](const std::string& text) { return parse_base(text, arguments->choices.base.emplace()); },
+      [] {},
+      "Give the differences of rows from the one with these swept values, as step_fraction=0.35, several between "
+      "commas, or none (default: as the manifest says)",
+      "PARAMETER=VALUE");
   options.flag("--series", arguments->series, "Quantities against the distance above jamming (JSON has both)");
 }
 

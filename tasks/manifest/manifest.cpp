@@ -13,6 +13,7 @@
 #include "tasks/json/options.hpp"
 #include "tasks/json/parse.hpp"
 #include "tasks/json/sealed.hpp"
+#include "tasks/manifest/base.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/system/file.hpp"
@@ -29,8 +30,9 @@ constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
 constexpr std::size_t longest_name = 64;
 
-constexpr std::array<std::string_view, 12> keys{"$schema",  "name",      "checksum", "seed",  "sweep",     "replicates",
-                                                "protocol", "minimiser", "measure",  "modes", "keep_path", "exclude"};
+constexpr std::array<std::string_view, 13> keys{"$schema",    "name",     "checksum",  "seed",    "sweep",
+                                                "replicates", "protocol", "minimiser", "measure", "modes",
+                                                "keep_path",  "exclude",  "base"};
 constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 
 /// Where a parameter belongs that stands at the wrong place.
@@ -252,6 +254,7 @@ void check_particles(const JsonPlace& root, const Manifest& manifest, const std:
 /// What holds between values that are each allowed.
 void check_together(const JsonPlace& root, const Manifest& manifest) {
   root.attempt([&] { check_goal(root, manifest); });
+  root.read_if_any("base", [&](const JsonPlace& place) { check_base(place, manifest.base, manifest.swept); });
   // Combinations beyond count are not made.
   if (!root.attempt([&] { check_count(root, manifest); })) return;
   const auto sets = option_sets(manifest);
@@ -281,6 +284,10 @@ void read_values(const JsonPlace& root, Manifest& manifest) {
   root.read("replicates", [&](const JsonPlace& place) { manifest.replicates = read_replicates(place); });
   root.read_if_any("keep_path", [&](const JsonPlace& place) { manifest.keep_path = place.boolean(); });
   root.read_if_any("exclude", [&](const JsonPlace& place) { manifest.exclude = read_exclude(place); });
+  root.read_if_any("base", [&](const JsonPlace& place) {
+    refuse_renamed(place);
+    manifest.base = read_base(place);
+  });
   root.read_if_any(
       "modes", [&](const JsonPlace& place) { manifest.measuring.modes = static_cast<int>(place.integer(mode_range)); });
 }
@@ -350,6 +357,7 @@ Json to_json(const Manifest& manifest) {
   json["modes"] = manifest.measuring.modes;
   json["keep_path"] = manifest.keep_path;
   json["exclude"] = option_json(manifest.exclude);
+  if (!manifest.base.empty()) json["base"] = manifest.base;
   return json;
 }
 
@@ -358,6 +366,7 @@ Json identity(const Manifest& manifest) {
   json.erase("replicates");
   json.erase("keep_path");
   json.erase("exclude");
+  json.erase("base");
   return json;
 }
 

@@ -49,6 +49,8 @@ struct Manifest {
   MeasureOptions measuring;
   bool keep_path = false;  ///< keep the packings of every state of an expansion, not only the one nearest jamming
   std::vector<Flag> exclude = usually_excluded();  ///< replicates so flagged count in no mean and towards no goal
+  /// Swept parameters and their values: the row that others are compared with; see base.hpp. Empty: none.
+  Json base = Json::object();
 };
 
 /// One combination of the swept parameters: the whole options, and what distinguishes them from other combinations.
@@ -70,8 +72,7 @@ Manifest read_manifest(const std::string& file);
 Json to_json(const Manifest& manifest);
 
 /// The canonical form of everything that a replicate's result depends on; the number of replicates is left out, so that
-/// it may be raised later, and what is kept beside the record or excluded from
-/// means.
+/// it may be raised later, and what is kept beside the record, excluded from means, or compared.
 Json identity(const Manifest& manifest);
 std::string digest(const Manifest& manifest);
 

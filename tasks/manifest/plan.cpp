@@ -85,8 +85,8 @@ std::optional<Plan::Place> Plan::place_of(std::string_view name) const {
 std::string replicate_name(const ReplicateSpec& spec) { return fmt::format("{}-r{:04}", prefix(spec), spec.replicate); }
 
 RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose) {
-  return RandomStream{spec.seed, hash_of(point_text(spec)), static_cast<std::uint64_t>(spec.replicate),
-                      static_cast<std::uint64_t>(purpose)};
+  return RandomStream{spec.seed, hash_of(point_text(spec.solid, spec.particles, Json::object())),
+                      static_cast<std::uint64_t>(spec.replicate), static_cast<std::uint64_t>(purpose)};
 }
 
 Json to_json(const ReplicateSpec& spec) {

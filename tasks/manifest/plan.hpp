@@ -61,8 +61,9 @@ class Plan {
 /// point in the place of its parameters where they would take too long.
 std::string replicate_name(const ReplicateSpec& spec);
 
-/// Stream of (manifest seed, sweep point, replicate, purpose): the same alone, in a sweep and with any number of
-/// threads.
+/// Stream of (manifest seed, solid, particles, replicate, purpose): the same alone, in a sweep and with any number of
+/// threads. The other swept values are no part of it: replicates of one number begin alike at each of them, so that
+/// what these change is not hidden by the spread between packings.
 RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose);
 
 /// The specification as it stands in a record.

@@ -30,6 +30,7 @@ Json step_json(const JamStep& step) {
   json["pressure"] = step.pressure;
   json["descents"] = step.descents;
   if (step.rearrangement) json["rearrangement"] = to_json(*step.rearrangement);
+  if (step.lost) json["lost"] = true;
   json["stopped"] = to_string(summary.reason);
   json["energy"] = summary.energy;
   json["residual"] = residual_json(summary.residual);
@@ -67,6 +68,7 @@ JamStep read_step(const JsonPlace& place) {
   step.pressure = place.at("pressure").number(any_number);
   step.descents = static_cast<int>(place.at("descents").integer({0, 1e9}));
   if (place.has("rearrangement")) step.rearrangement = read_rearrangement(place.at("rearrangement"));
+  step.lost = place.has("lost") && place.at("lost").boolean();
   auto& summary = step.summary;
   summary.reason = place.at("stopped").choice<StopReason>();
   summary.energy = place.at("energy").number(any_number);

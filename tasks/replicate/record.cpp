@@ -37,6 +37,7 @@ Json step_record(const JamStep& step, const JamResult& jam) {
   json["iterations"] = step.summary.iterations;
   json["descents"] = step.descents;
   if (step.rearrangement) json["rearrangement"] = to_json(*step.rearrangement);
+  if (step.lost) json["lost"] = true;
   return json;
 }
 

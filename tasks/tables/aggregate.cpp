@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tasks/json/input_error.hpp"
+#include "tasks/manifest/base.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/replicate/summary.hpp"
@@ -84,6 +85,14 @@ Aggregation::Kept Aggregation::kept(const RecordSummary& record) const {
   return kept;
 }
 
+Values Aggregation::own_values(const Kept& kept) {
+  Values values = no_values();
+  for (const auto& cell : kept.cells) {
+    if (cell.place == 0) values[cell.quantity] = cell.value;
+  }
+  return values;
+}
+
 void Aggregation::add(const RecordSummary& record) {
   auto& point = points_[{record.solid, record.particles, record.parameters}];
   builds_.insert(record.build);
@@ -140,15 +149,46 @@ Row Aggregation::row(const PointKey& key, const Point& point, const std::optiona
   return row;
 }
 
+std::optional<Differences> Aggregation::differences(const PointKey& key, const Point& point) const {
+  const auto& [solid, particles, parameters] = key;
+  auto others = parameters;
+  for (const auto& item : base_.items()) {
+    // Of records that were pooled, some may be of a sweep over other parameters.
+    if (!parameters.contains(item.key())) return std::nullopt;
+    others[item.key()] = item.value();
+  }
+  if (others == parameters) return std::nullopt;
+  Differences differences;
+  const auto base = points_.find({solid, particles, others});
+  if (base == points_.end()) return differences;
+  std::vector<std::vector<double>> samples(all_quantities().size());
+  for (const auto& [name, replicate] : point.replicates) {
+    const auto other = base->second.replicates.find(name);
+    if (other == base->second.replicates.end() || !replicate.counts() || !other->second.counts()) continue;
+    ++differences.pairs;
+    const auto values = own_values(replicate), base_values = own_values(other->second);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (values[i] && base_values[i]) samples[i].push_back(*values[i] - *base_values[i]);
+    }
+  }
+  const auto text = fmt::format("{} less {}", point_text(solid, particles, parameters), base_text(base_));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    differences.estimates[i] = estimate(samples[i], hash_of(text + std::string(all_quantities()[i].name)));
+  return differences;
+}
+
 Table Aggregation::table(const std::optional<Replicates>& rule) const {
-  Table table{{}, exclude_, builds_};
-  for (const auto& [key, point] : points_) table.rows.push_back(row(key, point, rule));
+  Table table{{}, exclude_, base_, builds_};
+  for (const auto& [key, point] : points_) {
+    table.rows.push_back(row(key, point, rule));
+    table.rows.back().differences = differences(key, point);
+  }
   return table;
 }
 
 Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule,
-                std::vector<Flag> exclude) {
-  Aggregation aggregation(std::move(exclude));
+                std::vector<Flag> exclude, Json base) {
+  Aggregation aggregation(std::move(exclude), std::move(base));
   for (const auto& record : records) aggregation.add(record);
   return aggregation.table(rule);
 }

@@ -27,7 +27,7 @@ Cells begin_of(const TableLine& line, const std::vector<std::string>& parameters
   for (const auto& name : parameters) cells.push_back(parameter_text(row, name));
   for (const int count : {row.replicates, row.failed, row.flagged, row.excluded})
     cells.push_back(std::to_string(count));
-  cells.emplace_back(line.of_all ? "all" : "kept");
+  cells.emplace_back(to_string(line.over));
   if (line.delta_phi) cells.push_back(number(line.delta_phi));
   return cells;
 }
@@ -40,6 +40,19 @@ Cells cells_of(const Estimate& estimate) {
   const auto high = [](const auto& x) { return number(x ? std::optional(x->high) : std::nullopt); };
   return {number(estimate.mean),      low(estimate.ci95),        high(estimate.ci95),       number(estimate.sd),
           std::to_string(estimate.n), low(estimate.bootstrap95), high(estimate.bootstrap95)};
+}
+
+/// Those of a row together, nearest jamming with its differences from the base.
+std::vector<TableLine> csv_lines(const Table& table, View view) {
+  std::vector<TableLine> lines;
+  const auto plain = lines_of(table, view);
+  for (std::size_t k = 0; k < plain.size(); ++k) {
+    const Row& row = *plain[k].row;
+    lines.push_back(plain[k]);
+    const bool last = k + 1 == plain.size() || plain[k + 1].row != &row;
+    if (last && view == View::nearest && row.differences) lines.push_back(difference_line(row));
+  }
+  return lines;
 }
 
 void append(Cells& cells, const Cells& more) { cells.insert(cells.end(), more.begin(), more.end()); }
@@ -72,7 +85,7 @@ std::string line_of(Cells cells) {
 
 std::string to_csv(const Table& table, View view) {
   const auto parameters = parameter_names(table);
-  const auto lines = lines_of(table, view);
+  const auto lines = csv_lines(table, view);
   const auto quantities = quantities_in(lines, true);
   auto head = head_of(parameters, view);
   for (const auto i : quantities) {
@@ -83,7 +96,7 @@ std::string to_csv(const Table& table, View view) {
   for (const TableLine& line : lines) {
     auto cells = begin_of(line, parameters);
     for (const auto i : quantities) append(cells, cells_of((*line.estimates)[i]));
-    cells.push_back(number(line.row->residual));
+    cells.push_back(line.over == Over::difference ? "" : number(line.row->residual));
     text += line_of(cells);
   }
   return text;
@@ -91,7 +104,7 @@ std::string to_csv(const Table& table, View view) {
 
 std::string to_long_csv(const Table& table, View view) {
   const auto parameters = parameter_names(table);
-  const auto lines = lines_of(table, view);
+  const auto lines = csv_lines(table, view);
   auto head = head_of(parameters, view);
   head.emplace_back("quantity");
   append(head, {parts.begin(), parts.end()});

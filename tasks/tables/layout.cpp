@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -111,6 +112,8 @@ std::string symbol(std::string_view text, std::string_view latex, Format format)
   return format == Format::text ? std::string(text) : fmt::format("${}$", latex);
 }
 
+std::string_view plus_minus(Format format) { return format == Format::text ? " ± " : " $\\pm$ "; }
+
 /// The replicates behind a line are counted in the first table only.
 bool counts_replicates(const Group& group, View view) { return group.name == main_group && view == View::nearest; }
 
@@ -130,17 +133,17 @@ Cells cells_of(const TableLine& line, const Group& group, const std::vector<std:
   const Row& row = *line.row;
   const std::string indent = format == Format::text ? "  " : "\\quad ";
   // What a second line has in common with the first is not said again.
-  const auto once = [&](const std::string& text) { return line.of_all ? "" : text; };
-  Cells cells{line.of_all ? indent + "all" : std::string(to_string(row.solid)), once(std::to_string(row.particles))};
+  const bool of_all = line.over == Over::all;
+  const auto once = [&](const std::string& text) { return of_all ? "" : text; };
+  Cells cells{of_all ? indent + "all" : std::string(to_string(row.solid)), once(std::to_string(row.particles))};
   for (const auto& name : parameters) cells.push_back(once(spelt(parameter_text(row, name), format)));
   if (view == View::series) cells.push_back(once(fmt::format("{:g}", *line.delta_phi)));
   if (counts_replicates(group, view)) {
     for (const int count : {row.replicates, row.failed, row.flagged, row.excluded})
       cells.push_back(once(std::to_string(count)));
   }
-  const std::string_view plus_minus = format == Format::text ? " ± " : " $\\pm$ ";
   for (const auto i : group.quantities)
-    cells.push_back(estimate_text((*line.estimates)[i], plus_minus, line.counted()));
+    cells.push_back(estimate_text((*line.estimates)[i], plus_minus(format), line.counted()));
   if (counts_replicates(group, view)) cells.push_back(once(residual_text(row)));
   return cells;
 }
@@ -162,16 +165,47 @@ std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
   return lines;
 }
 
+/// What lines begin with that tell of rows as a whole: their sweep points.
+Cells point_head(const std::vector<std::string>& parameters, Format format) {
+  Cells head{"solid", symbol("N", "N", format)};
+  for (const auto& name : parameters) head.push_back(spelt(parameter_head(name), format));
+  return head;
+}
+
+Cells point_cells(const Row& row, const std::vector<std::string>& parameters, Format format) {
+  Cells cells{std::string(to_string(row.solid)), std::to_string(row.particles)};
+  for (const auto& name : parameters) cells.push_back(spelt(parameter_text(row, name), format));
+  return cells;
+}
+
+/// The quantities whose differences people are shown; JSON and CSV have all.
+constexpr std::array compared_quantities{"phi_j", "Z", "Z_ff", "C"};
+
+/// How rows differ from their base; the head alone if none is compared.
+std::vector<Cells> difference_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
+  std::vector<Cells> lines{point_head(parameters, format)};
+  lines[0].emplace_back("pairs");
+  for (const auto* name : compared_quantities) lines[0].push_back(symbol(name, quantity(name).latex, format));
+  for (const auto& row : table.rows) {
+    if (!row.differences) continue;
+    auto cells = point_cells(row, parameters, format);
+    cells.push_back(std::to_string(row.differences->pairs));
+    for (const auto* name : compared_quantities)
+      cells.push_back(
+          estimate_text(row.differences->estimates[*quantity_index(name)], plus_minus(format), row.differences->pairs));
+    lines.push_back(std::move(cells));
+  }
+  return lines;
+}
+
 /// How far the rows came towards the goal; the head alone if they had none.
 std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
-  std::vector<Cells> lines{{"solid", symbol("N", "N", format)}};
-  for (const auto& name : parameters) lines[0].push_back(spelt(parameter_head(name), format));
+  std::vector<Cells> lines{point_head(parameters, format)};
   lines[0].insert(lines[0].end(), {"quantity", "half width", "aim", "replicates used", "met"});
   for (const auto& row : table.rows) {
     if (!row.goal) continue;
     const auto& goal = *row.goal;
-    Cells cells{std::string(to_string(row.solid)), std::to_string(row.particles)};
-    for (const auto& name : parameters) cells.push_back(spelt(parameter_text(row, name), format));
+    auto cells = point_cells(row, parameters, format);
     cells.push_back(spelt(goal.goal.quantity, format));
     cells.push_back(goal.half_width ? fmt::format("{:.3g}", *goal.half_width) : "-");
     cells.push_back(fmt::format("{:.3g}", goal.goal.half_width));
@@ -183,10 +217,19 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
 }
 
 struct LaidOut {
-  std::string_view title;
+  std::string title;
   bool of_replicates;        ///< rather than of the solids
   std::vector<Cells> lines;  ///< head first
 };
+
+/// What stands below the main table where there is any of it.
+void add_below(std::vector<LaidOut>& tables, const Table& table, const std::vector<std::string>& parameters,
+               Format format) {
+  auto goals = goal_lines(table, parameters, format);
+  if (goals.size() > 1) tables.push_back({"goal", true, std::move(goals)});
+  auto differences = difference_lines(table, parameters, format);
+  if (differences.size() > 1) tables.push_back({difference_title(table), true, std::move(differences)});
+}
 
 /// The tables of all groups.
 std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
@@ -196,9 +239,8 @@ std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
   for (const Group& group : groups_in(lines, view)) {
     std::vector<Cells> cells{head_of(group, parameters, view, format)};
     for (const TableLine& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
-    tables.push_back({group.name, true, std::move(cells)});
-    const auto goals = goal_lines(table, parameters, format);
-    if (group.name == main_group && view == View::nearest && goals.size() > 1) tables.push_back({"goal", true, goals});
+    tables.push_back({std::string(group.name), true, std::move(cells)});
+    if (counts_replicates(group, view)) add_below(tables, table, parameters, format);
     if (group.name == contact_group && view == View::nearest)
       tables.push_back({"critical angles, degrees", false, critical_angle_lines(table, format)});
   }

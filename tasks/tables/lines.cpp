@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "tasks/manifest/base.hpp"
 #include "tasks/manifest/fields.hpp"
 
 namespace isojam {
@@ -42,11 +43,19 @@ std::string exclusion_text(const Table& table) {
   return names.empty() ? "" : "without replicates flagged " + joined(names, ", ");
 }
 
+std::string difference_title(const Table& table) {
+  return table.base.empty() ? "" : "differences from " + base_text(table.base);
+}
+
+TableLine difference_line(const Row& row) {
+  return {&row, std::nullopt, &row.differences->estimates, Over::difference};
+}
+
 std::vector<TableLine> lines_of(const Table& table, View view) {
   std::vector<TableLine> lines;
   const auto add = [&](const Row& row, std::optional<double> delta_phi, const auto& place) {
-    lines.push_back({&row, delta_phi, &place.estimates, false});
-    if (row.excluded > 0) lines.push_back({&row, delta_phi, &place.all, true});
+    lines.push_back({&row, delta_phi, &place.estimates, Over::kept});
+    if (row.excluded > 0) lines.push_back({&row, delta_phi, &place.all, Over::all});
   };
   for (const auto& row : table.rows) {
     if (view == View::nearest) add(row, std::nullopt, row);

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <map>
 #include <optional>
+#include <set>
 
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/options.hpp"
+#include "tasks/manifest/base.hpp"
 #include "tasks/replicate/summary.hpp"
 #include "tasks/store/recorded.hpp"
 #include "tasks/store/store.hpp"
@@ -35,17 +38,40 @@ std::optional<Replicates> common_rule(const std::vector<std::optional<Manifest>>
   return manifests.empty() ? std::nullopt : std::optional(manifests.front()->replicates);
 }
 
-std::vector<Flag> common_exclusions(const std::vector<std::string>& directories,
-                                    const std::vector<std::optional<Manifest>>& manifests) {
-  const auto of = [&](std::size_t k) { return manifests[k] ? manifests[k]->exclude : usually_excluded(); };
+/// What all manifests say; `usual` is said where there is none. `json` gives the text of a choice.
+template <class Choice, class ToJson>
+Choice common_choice(const std::vector<std::string>& directories, const std::vector<std::optional<Manifest>>& manifests,
+                     Choice Manifest::*choice, const std::string& key, const Choice& usual, const ToJson& json) {
+  const auto of = [&](std::size_t k) -> const Choice& { return manifests[k] ? (*manifests[k]).*choice : usual; };
   for (std::size_t k = 1; k < manifests.size(); ++k) {
     if (of(k) == of(0)) continue;
-    throw InputError(
-        {manifest_path(directories[k]), "/exclude",
-         fmt::format("is {}, and {} of {}", option_json(of(k)).dump(), option_json(of(0)).dump(), directories[0]),
-         "directories that exclude the same, or a choice by --exclude", ""});
+    throw InputError({manifest_path(directories[k]), "/" + key,
+                      fmt::format("is {}, and {} of {}", json(of(k)), json(of(0)), directories[0]),
+                      fmt::format("directories of which it is the same, or a choice by --{}", key), ""});
   }
-  return manifests.empty() ? usually_excluded() : of(0);
+  return manifests.empty() ? usual : of(0);
+}
+
+std::vector<Flag> common_exclusions(const std::vector<std::string>& directories,
+                                    const std::vector<std::optional<Manifest>>& manifests) {
+  return common_choice(directories, manifests, &Manifest::exclude, "exclude", usually_excluded(),
+                       [](const std::vector<Flag>& flags) { return option_json(flags).dump(); });
+}
+
+Json common_base(const std::vector<std::string>& directories, const std::vector<std::optional<Manifest>>& manifests) {
+  return common_choice(directories, manifests, &Manifest::base, "base", Json(Json::object()),
+                       [](const Json& base) { return base.empty() ? "not given" : base.dump(); });
+}
+
+/// The parameters of rows, and the values that these have.
+std::vector<SweptField> swept_in(const Table& table) {
+  std::map<std::string, std::set<Json>> values;
+  for (const auto& row : table.rows) {
+    for (const auto& item : row.parameters.items()) values[item.key()].insert(item.value());
+  }
+  std::vector<SweptField> swept;
+  for (const auto& [name, list] : values) swept.push_back({name, {list.begin(), list.end()}});
+  return swept;
 }
 
 Table told(Table table, const Warn& warn) {
@@ -57,18 +83,27 @@ Table told(Table table, const Warn& warn) {
 
 }  // namespace
 
-Table table_of(const std::vector<std::string>& directories, const Warn& warn,
-               const std::optional<std::vector<Flag>>& exclude) {
+Table table_of(const std::vector<std::string>& directories, const Warn& warn, const TableChoices& choices) {
   const auto manifests = manifests_of(directories);
-  Aggregation aggregation(exclude ? *exclude : common_exclusions(directories, manifests));
+  Aggregation aggregation(choices.exclude ? *choices.exclude : common_exclusions(directories, manifests),
+                          choices.base ? *choices.base : common_base(directories, manifests));
   for (const auto& directory : directories)
     for_each_record(directory, warn, [&](const RecordedReplicate& held) { aggregation.add(held.summary); });
   return told(aggregation.table(common_rule(manifests)), warn);
 }
 
+std::optional<std::string> misplaced_base(const Table& table) {
+  try {
+    check_base({table.base, "--base"}, table.base, swept_in(table));
+  } catch (const InputError& error) {
+    return one_line(error.details());
+  }
+  return std::nullopt;
+}
+
 Table table_of(const std::string& directory, const Manifest& manifest, const Warn& warn,
                const std::function<void(const RecordedReplicate&)>& seen) {
-  Aggregation aggregation(manifest.exclude);
+  Aggregation aggregation(manifest.exclude, manifest.base);
   for_each_record(directory, manifest, warn, [&](const RecordedReplicate& held) {
     aggregation.add(held.summary);
     seen(held);

@@ -56,6 +56,16 @@ Json to_json(const SeriesPoint& point, bool with_all) {
   return json;
 }
 
+Json to_json(const Differences& differences) {
+  Json json;
+  json["pairs"] = differences.pairs;
+  const auto quantities = all_quantities();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (differences.estimates[i].n > 0) json[std::string(quantities[i].name)] = to_json(differences.estimates[i]);
+  }
+  return json;
+}
+
 Json to_json(const GoalOutcome& outcome) {
   Json json;
   json["quantity"] = outcome.goal.quantity;
@@ -93,6 +103,7 @@ Json to_json(const Row& row) {
   if (row.goal) entry["goal"] = to_json(*row.goal);
   put_estimates(entry, row.estimates);
   if (row.excluded > 0) put_estimates(entry["all"], row.all);
+  if (row.differences) entry["differences"] = to_json(*row.differences);
   entry["critical_angles"] = critical_angle_record(row.solid);
   entry["residual"] = row.residual ? Json(*row.residual) : Json(nullptr);
   entry["series"] = Json::array();
@@ -105,6 +116,7 @@ Json to_json(const Table& table) {
   json["schema"] = table_schema;
   json["builds"] = table.builds;
   json["exclude"] = option_json(table.exclude);
+  if (!table.base.empty()) json["base"] = table.base;
   json["rows"] = Json::array();
   for (const auto& row : table.rows) json["rows"].push_back(to_json(row));
   return json;

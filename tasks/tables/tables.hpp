@@ -17,12 +17,13 @@ Json to_json(const Row& row);
 enum class View : std::uint8_t { nearest, series };
 
 /// The tables as text for people: one for each group of columns that has values, aligned; mean ± half width of the 95 %
-/// interval, (n) where fewer replicates have the value than count. Above each stands what is excluded.
+/// interval, (n) where fewer replicates have the value than count. Above each stands what is excluded. Below the first
+/// stand the goal and, with a base, the differences of rows from it.
 std::string to_text(const Table& table, View view = View::nearest);
 
-/// One line per row or point of a series, and one of all replicates where some are excluded: `over` says "kept" or
-/// "all". For each quantity that some line has: mean, ci95 low and high, sd, n, bootstrap95 low and high. Empty: no
-/// value.
+/// One line per row or point of a series, one of all replicates where some are excluded, and of a row one of its
+/// differences from the base: `over` says "kept", "all" or "difference". For each quantity that some line has: mean,
+/// ci95 low and high, sd, n, bootstrap95 low and high. Empty: no value.
 std::string to_csv(const Table& table, View view = View::nearest);
 /// The same with a line for each of these quantities, named in a column of its own.
 std::string to_long_csv(const Table& table, View view = View::nearest);

@@ -87,6 +87,7 @@ TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
   ASSERT_FALSE(along.empty());
   EXPECT_EQ(along.front().lost, 0);
   EXPECT_EQ(along.back().lost, -1);
+  for (std::size_t k = 0; k < result.path.size(); ++k) EXPECT_EQ(result.path[k].lost, k == 1) << "step " << k;
   // On the way up too a run is the value that it goes on from.
   for (const JamProgress& reached : along) {
     const JamResult rest = jam(reached, options);

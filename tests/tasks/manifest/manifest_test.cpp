@@ -3,8 +3,9 @@
 // - what is left out takes the defaults of the engine's structs;
 // - every parameter can be set and swept at the ends of its range, and not beyond them;
 // - the canonical form is a fixed point of parsing, and the order of lists and keys does not matter to it;
-// - the digest moves with every parameter and does not move with `replicates` and `exclude`;
-// - the flags excluded are those given, in one order, or the usual ones.
+// - the digest moves with every parameter and does not move with `replicates`, `exclude` and `base`;
+// - the flags excluded are those given, in one order, or the usual ones;
+// - the base is that which is given, in one order and of canonical values, or none.
 
 #include "tasks/manifest/manifest.hpp"
 
@@ -154,6 +155,11 @@ TEST(Manifest, DigestMovesWithEveryParameterButReplicates) {
   more["replicates"] = 1000;
   more["exclude"] = {"not_stable"};
   EXPECT_EQ(digest(parse(more)), base);
+  auto swept = good_manifest();
+  swept["sweep"]["step_fraction"] = {0.2, 0.35};
+  auto compared = swept;
+  compared["base"] = {{"step_fraction", 0.2}};
+  EXPECT_EQ(digest(parse(compared)), digest(parse(swept)));
 
   std::vector<std::pair<std::string, Json>> changes{{"/seed", 8},
                                                     {"/name", "other"},
@@ -179,6 +185,21 @@ TEST(Manifest, ExcludesWhatItSaysOrTheUsual) {
   manifest["exclude"] = {"not_stable", "goal_not_reached", "crystalline"};
   EXPECT_EQ(parse(manifest).exclude, (std::vector{Flag::crystalline, Flag::goal_not_reached, Flag::not_stable}));
   EXPECT_EQ(parse(to_json(parse(manifest))).exclude, parse(manifest).exclude);
+}
+
+TEST(Manifest, HasTheBaseThatItNames) {
+  EXPECT_EQ(parse(good_manifest()).base, Json::object());
+  EXPECT_FALSE(to_json(parse(good_manifest())).contains("base"));
+  auto manifest = good_manifest();
+  manifest["sweep"]["step_fraction"] = {0.2, 0.35};
+  manifest["sweep"]["max_steps"] = {300, 400};
+  manifest["sweep"]["method"] = {"newton", "multipliers"};
+  manifest["base"] = Json::parse(R"({"step_fraction":3.5e-1,"method":"newton","max_steps":400})");
+  const auto parsed = parse(manifest);
+  EXPECT_EQ(parsed.base.dump(), R"({"max_steps":400,"method":"newton","step_fraction":0.35})");
+  EXPECT_EQ(parse(to_json(parsed)).base.dump(), parsed.base.dump());
+  manifest["base"] = Json::parse(R"({"method":"newton"})");
+  EXPECT_EQ(parse(manifest).base.dump(), R"({"method":"newton"})");
 }
 
 TEST(Manifest, TooFewParticlesNamesTheLeastNumberThatWouldDo) {

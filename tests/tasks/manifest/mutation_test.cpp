@@ -119,6 +119,7 @@ Json rich_manifest() {
   manifest["replicates"] = {{"min", 4}, {"max", 40}, {"quantity", "Z"}, {"half_width", 0.1}};
   manifest["keep_path"] = true;
   manifest["exclude"] = {"crystalline", "not_stable"};
+  manifest["base"] = {{"target_energy", 1e-5}};
   return manifest;
 }
 

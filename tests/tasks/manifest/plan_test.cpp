@@ -2,7 +2,10 @@
 // - the plan is the product of the swept lists, in canonical order, each replicate once and under a name of its own,
 //   which says what varies, can be that of a file, and leads back to the replicate;
 // - a replicate's random numbers do not depend on what else is swept over, nor on its place in the sweep;
-// - they differ between replicates, points, seeds and purposes.
+// - replicates of one number begin alike at every swept value of protocol and minimiser: the same poses, in a cell of
+//   the initial density;
+// - random numbers differ between numbers of replicates, solids, particles, seeds and purposes, and are those of the
+//   solid and particles alone.
 
 #include "tasks/manifest/plan.hpp"
 
@@ -10,7 +13,10 @@
 
 #include <map>
 #include <set>
+#include <tuple>
 
+#include "tasks/manifest/fields.hpp"
+#include "tasks/replicate/replicate.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -108,20 +114,87 @@ TEST(Plan, AReplicateDrawsTheSameBitsInEverySweep) {
   }
 }
 
-TEST(Plan, StreamsDiffer) {
+/// What of a specification the random numbers depend on.
+using Origin = std::tuple<std::uint64_t, SolidKind, int, int>;
+Origin origin_of(const ReplicateSpec& spec) { return {spec.seed, spec.solid, spec.particles, spec.replicate}; }
+
+TEST(Plan, StreamsDifferByOriginAndPurposeAlone) {
+  std::map<std::pair<Origin, Purpose>, std::set<std::vector<std::uint64_t>>> drawn;
   std::set<std::vector<std::uint64_t>> seen;
-  std::size_t drawn = 0;
   for (const int seed : {7, 8}) {
     auto manifest = large_sweep();
     manifest["seed"] = seed;
     for (const auto& spec : plan_of(manifest)) {
       for (const auto purpose : {Purpose::placement, Purpose::bootstrap}) {
-        seen.insert(first_bits(spec, purpose));
-        ++drawn;
+        const auto bits = first_bits(spec, purpose);
+        drawn[{origin_of(spec), purpose}].insert(bits);
+        seen.insert(bits);
       }
     }
   }
-  EXPECT_EQ(seen.size(), drawn);
+  EXPECT_EQ(drawn.size(), 2U * 3 * 2 * 3 * 2);
+  for (const auto& [key, bits] : drawn) EXPECT_EQ(bits.size(), 1U) << "one of a number at every swept parameter";
+  EXPECT_EQ(seen.size(), drawn.size());
+}
+
+Packing start_of(const ReplicateSpec& spec) { return engine_stages().begin(spec).progress.packing; }
+
+/// A value of the field other than its default.
+Json another_value(const Field& field) {
+  const auto usual = field_value(field, {});
+  if (usual.is_boolean()) return !usual.get<bool>();
+  if (usual.is_string()) return "lbfgs";
+  if (usual.is_number_integer()) return usual.get<long>() + 1;
+  return usual.get<double>() / 2 + 1e-9;
+}
+
+TEST(Plan, ReplicatesOfOneNumberBeginAlikeAtEveryValueOfAnyParameter) {
+  const auto alone = plan_of(test::good_manifest());
+  // Two values of each parameter, one after another: the product of all would be half a million.
+  for (const auto& field : all_fields()) {
+    const std::string name(field.name);
+    const bool strained = name == "initial_density";
+    auto manifest = test::good_manifest();
+    manifest["sweep"][name] = Json{field_value(field, {}), another_value(field)};
+    const auto plan = plan_of(manifest);
+    ASSERT_EQ(plan.size(), 4U) << name;
+    for (const auto& spec : plan) {
+      const auto start = start_of(spec), expected = start_of(alone.at(static_cast<std::size_t>(spec.replicate)));
+      ASSERT_EQ(start.size(), expected.size());
+      const double stretch = start.cell.side() / expected.cell.side();
+      EXPECT_TRUE(strained || stretch == 1) << name;
+      for (std::size_t i = 0; i < start.poses.size(); ++i) {
+        const auto& pose = start.poses[i];
+        EXPECT_LE((pose.position - stretch * expected.poses[i].position).norm(), strained ? 1e-12 : 0) << name;
+        EXPECT_EQ(pose.orientation.coeffs(), expected.poses[i].orientation.coeffs()) << name;
+      }
+    }
+  }
+}
+
+TEST(Plan, StartsOfOtherOriginsDiffer) {
+  auto manifest = test::good_manifest();
+  manifest["sweep"]["solid"] = {"dodecahedron", "octahedron"};
+  manifest["sweep"]["particles"] = {64, 65};
+  manifest["sweep"]["residual"] = {1e-6, 1e-5};
+  std::map<std::vector<double>, Origin> seen;
+  for (const int seed : {7, 8}) {
+    manifest["seed"] = seed;
+    for (const auto& spec : plan_of(manifest)) {
+      const Eigen::Vector4d turn = start_of(spec).poses.front().orientation.coeffs();
+      const auto [place, added] = seen.try_emplace({turn.data(), turn.data() + 4}, origin_of(spec));
+      EXPECT_EQ(place->second, origin_of(spec));
+    }
+  }
+  EXPECT_EQ(seen.size(), 2U * 2 * 2 * 2);
+}
+
+/// The first bits of a replicate of which nothing but solid and particles is swept, as every version has drawn them.
+TEST(Plan, TheBitsOfPlainSweepsAreWhatTheyWere) {
+  const auto spec = plan_of(test::good_manifest()).at(1);
+  RandomStream stream{7, hash_of(R"({"solid":"dodecahedron","particles":64})"), 1,
+                      static_cast<std::uint64_t>(Purpose::placement)};
+  for (const auto bits : first_bits(spec)) EXPECT_EQ(bits, stream.bits());
 }
 
 }  // namespace

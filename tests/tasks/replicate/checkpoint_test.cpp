@@ -91,6 +91,7 @@ TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
                                                         {"/lost", -2},
                                                         {"/lost", 1000},
                                                         {"/path/0/rearrangement", Json::object()},
+                                                        {"/path/0/lost", "yes"},
                                                         {"/evaluations", 0.5},
                                                         {"/pairs/listed", nullptr},
                                                         {"/work/hessians", -1},
@@ -118,9 +119,11 @@ TEST(Checkpoint, KnowsTheBranchThatWasLostAndHowStatesDiffer) {
   const auto spec = tiny_spec();
   auto checkpoint = with_a_state(spec);
   checkpoint.progress.lost = 1;
+  checkpoint.progress.result.path[2].lost = true;
   checkpoint.progress.result.path.back().rearrangement = Rearrangement{0.25, 7, 3, 12.5};
   const auto again = read_checkpoint({*make_checkpoint(spec, checkpoint), "c"}, spec).progress;
   EXPECT_EQ(again.lost, 1);
+  for (std::size_t k = 0; k < again.result.path.size(); ++k) EXPECT_EQ(again.result.path[k].lost, k == 2) << k;
   EXPECT_FALSE(again.result.path.front().rearrangement);
   ASSERT_TRUE(again.result.path.back().rearrangement);
   const auto& read = *again.result.path.back().rearrangement;

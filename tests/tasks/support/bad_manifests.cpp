@@ -79,6 +79,14 @@ std::vector<BadManifest> malformed() {
       set("misspelt flag", "/exclude", {"cristalline"}, "did you mean \"crystalline\"?", "/exclude/0"),
       set("flags are no list", "/exclude", "crystalline", "a list"),
       set("a flag given twice", "/exclude", {"not_stable", "not_stable"}, "given twice", "/exclude/1"),
+      set("misspelt parameter of the base", "/base/step_fracton", 0.35, "did you mean \"step_fraction\"?"),
+      set("a base of an earlier version", "/base/approach", 0.35, "the key has a new name, \"step_fraction\""),
+      set("a solid as the base", "/base/solid", "cube", "unknown key; allowed: \"initial_density\""),
+      set("a base beyond the range", "/base/step_fraction", 1.5, "a number in (0, 1)"),
+      set("a base of the wrong type", "/base/step_fraction", {0.35}, "of the wrong type"),
+      set("a base of an unknown method", "/base/method", "newtom", "did you mean \"newton\"?"),
+      set("a base that names nothing", "/base", Json::object(), "one or more swept parameters"),
+      set("a base that is a list", "/base", {"step_fraction"}, "an object with the keys"),
       set("no modes", "/modes", 0, "out of range"),
       set("modes are no number", "/modes", "all", "integer"),
       set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
@@ -118,6 +126,11 @@ std::vector<BadManifest> inconsistent() {
   auto both = good_manifest();
   both["sweep"]["target_energy"] = {1e-5};
   both["protocol"]["target_energy"] = 1e-5;
+  auto beside = good_manifest();
+  beside["sweep"]["step_fraction"] = {0.35, 0.2};
+  auto unswept = beside;
+  beside["base"] = {{"step_fraction", 0.3}};
+  unswept["base"] = {{"step_fraction", 0.35}, {"longest_step", 0.05}};
   auto many = good_manifest();
   many["replicates"] = 1000000;
   for (int n = 1; n <= 101; ++n) many["sweep"]["max_steps"].push_back(n);
@@ -135,6 +148,12 @@ std::vector<BadManifest> inconsistent() {
       {"a goal that is not measured",
        with("/replicates", {{"min", 2}, {"max", 4}, {"quantity", "omega_l"}, {"half_width", 1}}),
        "/replicates/quantity", "\"modes\" in /measure", false},
+      {"a base that is not swept over", beside.dump(), "/base/step_fraction",
+       "0.3 is not among the swept values; allowed: 0.2, 0.35", false},
+      {"a base of a parameter that is not swept", unswept.dump(), "/base/longest_step",
+       "the parameter is not swept; allowed: \"step_fraction\"", false},
+      {"a base where nothing is swept", with("/base", {{"method", "newton"}}), "/base/method",
+       "no base where nothing but solid and particles is swept", false},
       {"a million replicates", many.dump(), "/sweep", "at most 1000000", false},
       {"one beyond 2^53", with("/seed", 9007199254740993), "/seed", "out of range", false},
   };

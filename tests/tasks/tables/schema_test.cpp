@@ -62,11 +62,13 @@ TEST(ManifestSchema, SaysWhatTheProgramSays) {
     const Json reference{{"$ref", "#/definitions/" + name}};
     EXPECT_EQ(properties.at(std::string(to_string(field.group))).at("properties").at(name), reference) << name;
     EXPECT_EQ(properties.at("sweep").at("properties").at(name).at("items"), reference) << name;
+    EXPECT_EQ(properties.at("base").at("properties").at(name), reference) << name;
     ++described;
   }
   EXPECT_EQ(properties.at("protocol").at("properties").size() + properties.at("minimiser").at("properties").size(),
             described);
   EXPECT_EQ(properties.at("sweep").at("properties").size(), described + 2);
+  EXPECT_EQ(properties.at("base").at("properties").size(), described);
   Json solids = Json::array(), measures = Json::array(), all = Json::array();
   for (const auto kind : all_solids) solids.push_back(to_string(kind));
   EXPECT_EQ(schema.at("definitions").at("solid").at("enum"), solids);
@@ -95,6 +97,8 @@ TEST(ManifestSchema, AcceptsWhatTheProgramAccepts) {
   sequential["replicates"] = {{"min", 4}, {"max", 40}, {"quantity", "phi_j"}, {"half_width", 0.003}};
   sequential["keep_path"] = true;
   sequential["exclude"] = {"not_stable"};
+  sequential["sweep"]["step_fraction"] = {0.2, 0.35};
+  sequential["base"] = {{"step_fraction", 0.2}};
   for (const auto& manifest : {test::good_manifest(), test::tiny_manifest(), swept, sequential}) {
     EXPECT_EQ(violations("manifest", manifest), "") << manifest;
     const auto canonical = to_json(parse_manifest(manifest.dump(), "manifest"));
@@ -244,6 +248,7 @@ TEST(TableSchema, NamesEveryQuantity) {
     const std::string name(quantity.name);
     EXPECT_TRUE(row.at("properties").contains(name)) << name;
     EXPECT_TRUE(row.at("properties").at("all").at("properties").contains(name)) << name;
+    EXPECT_TRUE(row.at("properties").at("differences").at("properties").contains(name)) << name;
     EXPECT_EQ(series.contains(name), quantity.of == Quantity::Of::state) << name;
     EXPECT_EQ(series.at("all").at("properties").contains(name), quantity.of == Quantity::Of::state) << name;
   }
@@ -258,6 +263,16 @@ TEST(TableSchema, AcceptsTables) {
     auto damaged = table;
     damaged["rows"][0].erase("failed");
     EXPECT_NE(violations("tables", damaged), "");
+  }
+  const Json base{{"target_energy", 1e-6}};
+  const auto table = to_json(aggregate(summaries, {}, usually_excluded(), base));
+  EXPECT_EQ(violations("tables", table), "") << table.dump(1);
+  EXPECT_EQ(table.at("base"), base);
+  ASSERT_TRUE(table.at("rows").at(1).contains("differences"));
+  for (const std::string pointer : {"/base", "/rows/1/differences/pairs", "/rows/1/differences/phi_j"}) {
+    auto damaged = table;
+    damaged[Json::json_pointer(pointer)] = "x";
+    EXPECT_NE(violations("tables", damaged), "") << pointer;
   }
 }
 

@@ -1,0 +1,130 @@
+#include "tasks/manifest/base.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "tasks/manifest/fields.hpp"
+
+namespace isojam {
+namespace {
+
+std::vector<std::string_view> field_names() {
+  std::vector<std::string_view> names;
+  for (const auto& field : all_fields()) names.push_back(field.name);
+  return names;
+}
+
+Json read_value(const JsonPlace& place, const Field& field) {
+  JamOptions options;
+  read_field(place, field, options);
+  return field_value(field, options);
+}
+
+/// By name, as the parameters of a sweep point are.
+Json object_of(const std::map<std::string, Json>& values) {
+  Json base = Json::object();
+  for (const auto& [name, value] : values) base[name] = value;
+  return base;
+}
+
+void check_value(const JsonPlace& place, const Json& value, const SweptField& swept) {
+  if (std::find(swept.values.begin(), swept.values.end(), value) != swept.values.end()) return;
+  std::string allowed;
+  for (const auto& each : swept.values) allowed += (allowed.empty() ? "" : ", ") + each.dump();
+  place.refuse(fmt::format("{} is not among the swept values", value.dump()), allowed);
+}
+
+void check_parameter(const JsonPlace& place, const std::string& name, const Json& value,
+                     const std::vector<SweptField>& swept) {
+  const auto found = std::find_if(swept.begin(), swept.end(), [&](const SweptField& s) { return s.name == name; });
+  if (found != swept.end()) return check_value(place, value, *found);
+  std::vector<std::string_view> names;
+  for (const auto& each : swept) names.push_back(each.name);
+  place.refuse("the parameter is not swept",
+               names.empty() ? "no base where nothing but solid and particles is swept" : quoted_list(names),
+               nearest_name(name, names));
+}
+
+/// The value of a parameter in a word of a command line.
+Json value_of(const std::string& word, const Field& field) {
+  JamOptions options;
+  if (std::holds_alternative<Method*>(field.slot(options))) return word;
+  auto value = Json::parse(word, nullptr, false);
+  return value.is_discarded() ? Json(word) : value;
+}
+
+std::string unknown_parameter(const std::string& name) {
+  const auto names = field_names();
+  const auto now = new_name(name);
+  const auto nearest = now.empty() ? nearest_name(name, names) : std::string(now);
+  return fmt::format("no parameter is called \"{}\"; {}", name,
+                     nearest.empty() ? "allowed: none, or values of " + quoted_list(names)
+                                     : fmt::format("did you mean \"{}\"?", nearest));
+}
+
+/// Takes in one "parameter=value", or says what is wrong.
+std::optional<std::string> parse_part(const std::string& part, std::map<std::string, Json>& values) {
+  const auto equals = part.find('=');
+  if (equals == std::string::npos)
+    return fmt::format("\"{}\" names no value; allowed: none, or parameter=value between commas", part);
+  const auto name = part.substr(0, equals);
+  const auto* field = find_field(name);
+  if (!field) return unknown_parameter(name);
+  const auto value = value_of(part.substr(equals + 1), *field);
+  try {
+    if (!values.emplace(name, read_value({value, name}, *field)).second)
+      return fmt::format("\"{}\" is given twice", name);
+  } catch (const InputError& error) {
+    return one_line(error.details());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Json read_base(const JsonPlace& place) {
+  const auto names = field_names();
+  place.expect_keys(names);
+  if (place.value().empty()) place.refuse("no parameter is named", "one or more swept parameters, each with a value");
+  std::map<std::string, Json> values;
+  for (const auto name : names) {
+    const std::string key(name);
+    place.read_if_any(key, [&](const JsonPlace& value) { values[key] = read_value(value, *find_field(key)); });
+  }
+  return object_of(values);
+}
+
+void check_base(const JsonPlace& place, const Json& base, const std::vector<SweptField>& swept) {
+  for (const auto& item : base.items()) {
+    const auto& name = item.key();
+    place.read(name, [&](const JsonPlace& value) { check_parameter(value, name, item.value(), swept); });
+  }
+}
+
+std::optional<std::string> parse_base(const std::string& text, Json& base) {
+  std::map<std::string, Json> values;
+  for (std::size_t from = 0; text != "none" && from <= text.size();) {
+    const auto to = std::min(text.find(',', from), text.size());
+    if (auto problem = parse_part(text.substr(from, to - from), values)) return problem;
+    from = to + 1;
+  }
+  base = object_of(values);
+  return std::nullopt;
+}
+
+std::string base_text(const Json& base) {
+  std::string text;
+  for (const auto& item : base.items()) {
+    const auto& value = item.value();
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", item.key(),
+                        value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return text;
+}
+
+}  // namespace isojam
