@@ -16,6 +16,9 @@ namespace {
 /// How often an expansion step that failed is tried again at half its length.
 constexpr int max_halvings = 4;
 
+/// Evaluations of a strain step on the way up in hasty consolidation.
+constexpr long hasty_evaluations = 50;
+
 /// Equilibria are followed from φ − φ_J below this. Farther off all contacts are soft, and Newton's method needs no
 /// help.
 constexpr double followed_within = 1;
@@ -50,6 +53,8 @@ class StrainStep {
       options.residual = std::max(options.residual, options_.consolidation_residual);
       options.unjammed_energy = std::max(options.unjammed_energy, options_.consolidation_energy);
       options.max_evaluations = options_.consolidation_evaluations;
+      if (options_.consolidation == Consolidation::hasty)
+        options.max_evaluations = std::min(options.max_evaluations, hasty_evaluations);
       options.method = Method::lbfgs;
     }
     return append(packing, minimise(packing, energy_, options, stop_));

@@ -14,6 +14,15 @@
 
 namespace isojam {
 
+/// How well states are relaxed on the way up, which tetrahedra remember: docs/protocol.md has φ_J by either.
+enum class Consolidation {
+  relaxed,  ///< until forces balance, or consolidation_evaluations are spent: near the limit of any relaxation
+  hasty     ///< at most 50 evaluations a strain step, as fast as the paper's φ_J of tetrahedra suggests
+};
+template <>
+inline constexpr std::array enum_names<Consolidation>{EnumName{Consolidation::relaxed, "relaxed"},
+                                                      EnumName{Consolidation::hasty, "hasty"}};
+
 /// Jamming protocol of Smith, Fisher, Alam 2011 (and 2010): consolidate in small isotropic strain steps, then expand
 /// towards φ_J, minimising after each. Energies in Y·V_p.
 struct JamOptions {
@@ -42,7 +51,8 @@ struct JamOptions {
   /// minimised fully.
   double consolidation_residual = 1e-3;
   double consolidation_energy = 1e-14;
-  int consolidation_evaluations = 500;
+  int consolidation_evaluations = 2000;
+  Consolidation consolidation = Consolidation::relaxed;
   MinimiseOptions minimise;
 };
 

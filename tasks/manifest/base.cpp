@@ -53,7 +53,8 @@ void check_parameter(const JsonPlace& place, const std::string& name, const Json
 /// The value of a parameter in a word of a command line.
 Json value_of(const std::string& word, const Field& field) {
   JamOptions options;
-  if (std::holds_alternative<Method*>(field.slot(options))) return word;
+  const Slot slot = field.slot(options);
+  if (std::holds_alternative<Method*>(slot) || std::holds_alternative<Consolidation*>(slot)) return word;
   auto value = Json::parse(word, nullptr, false);
   return value.is_discarded() ? Json(word) : value;
 }

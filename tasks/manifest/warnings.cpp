@@ -145,7 +145,8 @@ void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warn
                              "count as unjammed",
                              options.minimise.unjammed_energy, name, options.final_distance, last));
   }
-  if (solid.kind == SolidKind::tetrahedron && options.consolidation_evaluations < relaxed_evaluations) {
+  if (solid.kind == SolidKind::tetrahedron && options.consolidation == Consolidation::relaxed &&
+      options.consolidation_evaluations < relaxed_evaluations) {
     warnings.add("consolidation_evaluations", name,
                  fmt::format("{} are too few for tetrahedra, which then jam at lower densities: {} or more",
                              options.consolidation_evaluations, relaxed_evaluations));

@@ -70,9 +70,11 @@ constexpr double nearly_balanced = 1e-3;
 
 constexpr double longest_step = 0.1, longest_tangent = 0.4;  ///< inradii
 
-/// Renewals of the multipliers, none of which halves what is wrong or lowers Φ by this part, before the rest is left to
+/// Renewals of the multipliers, none of which halves what is wrong or lowers Φ by this part: before they go only part
+/// of the way, since they can go round for ever between the two sides of a kink, and before the rest is left to
 /// Newton's method.
-constexpr int most_renewals = 10;
+constexpr int damped_after = 3, most_renewals = 15;
+constexpr double damped_part = 0.5;
 constexpr double least_fall = 1e-4;
 constexpr double stalled_below = 0.03;  ///< of the mean force
 
@@ -235,7 +237,7 @@ class Multipliers {
     const double value = here_.value.value;
     const bool lower = !std::isfinite(lowest_) || lowest_ - value > least_fall * std::abs(lowest_);
     if (wrong < best_ / 2 || lower) best_ = wrong, lowest_ = value, renewals_ = 0;
-    return renewals_ > most_renewals && wrong < stalled_below;
+    return renewals_ > most_renewals;
   }
 
   void renew_multipliers() {
@@ -244,7 +246,9 @@ class Multipliers {
     if (!(force > force_ / off_scale && force < off_scale * force_))
       set_scales(force, distance_ * std::pow(force / first_force_, 0.2));
     std::vector<ContactForce> forces = forces_of(here_.value);
-    for (std::size_t k = 0; k < forces.size(); ++k) forces[k].multiplier = here_.value.contacts[k].at.wrench;
+    const double part = renewals_ > damped_after ? damped_part : 1;
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      forces[k].multiplier += part * (here_.value.contacts[k].at.wrench - forces[k].multiplier);
     here_ = evaluator_.at(std::move(here_.packing), forces);
   }
 

@@ -86,6 +86,8 @@ TEST(Warnings, MinimisersMustGetThere) {
   EXPECT_EQ(of_minimiser({{"method", "fire"}, {"residual", 1e-3}}), Lines{});
   EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}}), Lines{"/protocol/consolidation_evaluations"});
   EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}}}, {"protocol", {{"consolidation_evaluations", 100}}}}), Lines{});
+  // Who says hasty means it.
+  EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}, {"consolidation", "hasty"}}), Lines{});
 }
 
 }  // namespace
