@@ -56,4 +56,29 @@ Rearrangement rearrangement(const Packing& before, const JamStep& step_before, c
   return found;
 }
 
+bool gave_way(const JamStep& step) {
+  return step.lost || (step.rearrangement && step.rearrangement->energy_ratio < gave_way_below);
+}
+
+Rearrangements rearrangements(std::span<const JamStep> path) {
+  Rearrangements found;
+  double moved = 0, lost = 0, gained = 0;
+  int arrived = 0;
+  for (const JamStep& step : path) {
+    found.steps += step.rearrangement || step.lost;
+    found.gave_way += gave_way(step);
+    if (!gave_way(step) || !step.rearrangement) continue;
+    ++arrived;
+    moved += step.rearrangement->particles_moved;
+    lost += step.rearrangement->contacts_lost;
+    gained += step.rearrangement->contacts_gained;
+  }
+  if (arrived > 0) {
+    found.particles_moved = moved / arrived;
+    found.contacts_lost = lost / arrived;
+    found.contacts_gained = gained / arrived;
+  }
+  return found;
+}
+
 }  // namespace isojam

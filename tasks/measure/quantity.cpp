@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tasks/measure/measure.hpp"
+#include "tasks/measure/rearrangements.hpp"
 
 namespace isojam {
 namespace {
@@ -19,6 +20,7 @@ std::vector<Quantity> in_order_of_tables() {
       list.push_back(quantity);
     }
   }
+  for (const Quantity& quantity : rearrangement_quantities()) list.push_back(quantity);
   std::map<std::string_view, std::size_t> last;
   for (std::size_t k = 0; k < list.size(); ++k) last[list[k].group] = k;
   std::stable_sort(list.begin(), list.end(),

@@ -24,14 +24,15 @@ struct Quantity {
   std::string_view unit;     ///< "1" for pure numbers
   std::string_view latex;
   Of of = Of::state;
-  std::optional<Measure> measure = std::nullopt;  ///< that gives it; all_quantities() fills it in. φ_J needs none
+  /// That gives it; all_quantities() fills it in. What the expansion itself tells needs none.
+  std::optional<Measure> measure = std::nullopt;
 };
 
 inline constexpr std::string_view main_group = "jamming", contact_group = "other cut-offs", mode_group = "modes",
                                   exponent_group = "exponents";
 
-/// Every quantity, in the order of tables: φ_J, then those of each measure in turn; a group that several measures share
-/// stands where the last of them leaves it.
+/// Every quantity, in the order of tables: φ_J, those of each measure in turn, those of rearrangements; a group that
+/// several measures share stands where the last of them leaves it.
 std::span<const Quantity> all_quantities();
 
 /// The index in all_quantities(); nullopt if there is none of that name.

@@ -6,6 +6,7 @@
 
 #include "tasks/json/hash.hpp"
 #include "tasks/measure/quantity.hpp"
+#include "tasks/measure/rearrangements.hpp"
 #include "tasks/replicate/companion.hpp"
 #include "tasks/replicate/packing_json.hpp"
 #include "tasks/system/version.hpp"
@@ -89,8 +90,9 @@ Owner owner(const Outcome& outcome, const std::string& result_digest) {
 void put_nothing(Json& record, const std::vector<Measure>& measures) {
   std::vector<std::string> keys{"phi_j", "nearest"};
   for (const auto& quantity : all_quantities()) {
-    if (quantity.of != Quantity::Of::replicate || !quantity.measure) continue;
-    if (std::find(measures.begin(), measures.end(), *quantity.measure) == measures.end()) continue;
+    if (quantity.of != Quantity::Of::replicate) continue;
+    const auto& measure = quantity.measure;
+    if (measure && std::find(measures.begin(), measures.end(), *measure) == measures.end()) continue;
     keys.emplace_back(quantity.pointer.substr(1, quantity.pointer.find('/', 1) - 1));
   }
   for (const auto& key : keys) put_absent(record, key, no_result);
@@ -180,6 +182,7 @@ Json make_record(const Outcome& outcome) {
     put_jamming_point(json, jam);
     json["nearest"] = state_record(outcome, *nearest_state(jam));
     for (const auto& [what, measurement] : outcome.measured) json.update(measurement.replicate);
+    put_rearrangements(json, jam.path);
   }
   json["states"] = Json::array();
   for (std::size_t i = 0; i < jam.states.size(); ++i) json["states"].push_back(state_record(outcome, i));

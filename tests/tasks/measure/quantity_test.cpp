@@ -1,8 +1,7 @@
 // Facts proved here, of the table of quantities:
 // - names and places are distinct, pointers are pointers, and every text is there;
-// - φ_J comes first and is of no measure; every other quantity is of the measure whose source tells it; a group stands
-// in
-//   one piece, the main one first;
+// - φ_J comes first; it and those of rearrangements are of no measure, every other quantity is of the measure whose
+//   source tells it; a group stands in one piece, the main one first;
 // - a quantity that is written is found where it says, with integers as integers, and null beside its reason.
 
 #include "tasks/measure/quantity.hpp"
@@ -13,6 +12,7 @@
 #include <string>
 
 #include "tasks/measure/measure.hpp"
+#include "tasks/measure/rearrangements.hpp"
 
 namespace isojam {
 namespace {
@@ -32,7 +32,8 @@ TEST(Quantities, AreToldOnce) {
 TEST(Quantities, BelongToTheirMeasures) {
   EXPECT_EQ(all_quantities().front().name, "phi_j");
   EXPECT_FALSE(all_quantities().front().measure);
-  std::size_t told = 1;
+  std::size_t told = 1 + rearrangement_quantities().size();
+  for (const auto& row : rearrangement_quantities()) EXPECT_FALSE(quantity(row.name).measure) << row.name;
   for (const Measure measure : all_measures) {
     for (const auto& row : definition_of(measure).quantities) {
       ++told;

@@ -4,6 +4,7 @@
 // - of the bad corpus the schema refuses all that it can express;
 // - the schema of tables knows every quantity, and those that name flags know every flag;
 // - records and tables conform, failed and flagged ones too; a damaged one does not;
+// - a record tells in how many steps the packing gave way, and tables take it from there;
 // - failed records have the keys of others, null with a reason; earlier ones without them conform and are read.
 
 #include <gtest/gtest.h>
@@ -184,7 +185,8 @@ TEST(RecordSchema, RefusesDamagedRecords) {
   for (const auto& item : record.items()) {
     auto damaged = record;
     damaged.erase(item.key());
-    EXPECT_NE(violations("replicate", damaged), "") << "without " << item.key();
+    const bool earlier_lack_it = item.key() == "rearrangements";
+    EXPECT_EQ(violations("replicate", damaged).empty(), earlier_lack_it) << "without " << item.key();
   }
   for (const std::string pointer :
        {"/status", "/phi_j/phi_j", "/states/0/phi", "/path/0/stage", "/timing/wall_seconds"}) {
@@ -226,7 +228,8 @@ TEST(RecordSchema, FailedRecordsHaveTheKeysOfOthers) {
     earlier.erase(item.key());
     earlier.erase(item.key() + "_reason");
   }
-  EXPECT_EQ(absent, (std::vector<std::string>{"flags", "phi_j", "nearest", "mode_scaling", "moduli_scaling"}));
+  EXPECT_EQ(absent, (std::vector<std::string>{"flags", "phi_j", "nearest", "mode_scaling", "moduli_scaling",
+                                              "rearrangements"}));
   EXPECT_EQ(violations("replicate", earlier), "");
   for (const auto& record : {failed, earlier}) {
     const auto summary = summarise_record(record, "made up");
@@ -238,6 +241,42 @@ TEST(RecordSchema, FailedRecordsHaveTheKeysOfOthers) {
     both[key] = value;
     EXPECT_NE(violations("replicate", both), "") << key;
   }
+}
+
+TEST(RecordSchema, TellsHowOftenThePackingGaveWay) {
+  auto outcome = test::made_up_outcome(Plan(parse_manifest(test::good_manifest().dump(), "good")).at(0, 0));
+  auto& path = outcome.jam.path;
+  path.at(1).rearrangement = Rearrangement{0.25, 7, 3, 4.5};
+  path.at(2).rearrangement = Rearrangement{0.875, 40, 2, 30};
+  path.push_back(path.back());  // no state, as the end of a branch is none
+  path.back().lost = true;
+  const auto record = test::record_on_disk(outcome);
+  EXPECT_EQ(violations("replicate", record), "");
+  EXPECT_EQ(record.at("rearrangements").dump(),
+            R"({"count":2,"steps":3,"particles_moved":4.5,"contacts_lost":7.0,"contacts_gained":3.0})");
+  EXPECT_FALSE(record.at("path").at(1).contains("lost"));
+  EXPECT_EQ(record.at("path").at(4).at("lost"), true);
+  auto damaged = record;
+  damaged["path"][1]["lost"] = false;
+  EXPECT_NE(violations("replicate", damaged), "");
+  path.at(1).rearrangement.reset();
+  const auto without = test::record_on_disk(outcome);
+  EXPECT_EQ(violations("replicate", without), "");
+  EXPECT_TRUE(without.at("rearrangements").at("particles_moved").is_null());
+
+  std::vector<RecordSummary> summaries{summarise_record(record, "one"), summarise_record(without, "another")};
+  summaries[1].replicate = 1;
+  const auto table = aggregate(summaries);
+  const auto of = [&](const std::string& name) { return table.rows.at(0).estimates[*quantity_index(name)]; };
+  EXPECT_EQ(of("rearrangements").mean, 1.5);
+  EXPECT_EQ(of("expansion_steps").mean, 2.5);
+  EXPECT_EQ(of("contacts_lost").mean, 7);
+  EXPECT_EQ(of("contacts_lost").n, 1) << "the other has none that led on";
+  EXPECT_NE(to_text(table).find("\nrearrangements, without replicates flagged"), std::string::npos) << to_text(table);
+  auto earlier = record;
+  earlier.erase("rearrangements");
+  EXPECT_EQ(violations("replicate", earlier), "");
+  EXPECT_FALSE(summarise_record(earlier, "earlier").values[*quantity_index("rearrangements")]);
 }
 
 TEST(TableSchema, NamesEveryQuantity) {

@@ -1,0 +1,74 @@
+// Facts proved here, of paths that are made up:
+// - a packing gave way in a step that left it less than half of the energy that a smooth path lets expect, and in one
+//   that ended its branch; in no other;
+// - steps are those from one equilibrium to the next, or to the end of a branch: neither consolidation, nor the first
+//   state, nor steps that failed, nor those by which a packing is strained up again;
+// - means are over the steps that gave way and led to another equilibrium, and absent without one.
+
+#include "engine/solve/rearrangement.hpp"
+
+#include <gtest/gtest.h>
+
+namespace isojam {
+namespace {
+
+JamStep followed(double energy_ratio, int lost = 0, int gained = 0, double moved = 0) {
+  JamStep step;
+  step.stage = JamStage::expansion;
+  step.rearrangement = Rearrangement{energy_ratio, lost, gained, moved};
+  return step;
+}
+
+JamStep without_state(JamStage stage, bool lost = false) {
+  JamStep step;
+  step.stage = stage;
+  step.lost = lost;
+  return step;
+}
+
+TEST(GaveWay, BelowHalfOfTheEnergyExpected) {
+  EXPECT_TRUE(gave_way(followed(0.499)));
+  EXPECT_TRUE(gave_way(followed(0)));
+  EXPECT_TRUE(gave_way(followed(-1e-9))) << "an energy lost to rounding";
+  EXPECT_FALSE(gave_way(followed(0.5)));
+  EXPECT_FALSE(gave_way(followed(1)));
+  EXPECT_FALSE(gave_way(followed(3))) << "a jump to a stiffer branch loses nothing";
+  EXPECT_TRUE(gave_way(without_state(JamStage::expansion, true)));
+  EXPECT_FALSE(gave_way(without_state(JamStage::expansion)));
+  EXPECT_FALSE(gave_way(without_state(JamStage::consolidation)));
+}
+
+TEST(Rearrangements, AreCountedOverTheStepsThatWereFollowed) {
+  const std::vector<JamStep> path{without_state(JamStage::consolidation),
+                                  without_state(JamStage::consolidation),
+                                  without_state(JamStage::expansion),  // the first state
+                                  followed(0.9, 40, 2, 30),
+                                  followed(0.3, 7, 3, 4.5),
+                                  without_state(JamStage::expansion),  // failed
+                                  followed(0.7, 11, 1, 20),
+                                  without_state(JamStage::expansion, true),
+                                  without_state(JamStage::expansion),  // strained up again
+                                  without_state(JamStage::expansion),
+                                  followed(0.1, 2, 0, 1.5)};
+  const auto found = rearrangements(path);
+  EXPECT_EQ(found.steps, 5);
+  EXPECT_EQ(found.gave_way, 3);
+  EXPECT_EQ(found.particles_moved, 3);
+  EXPECT_EQ(found.contacts_lost, 4.5);
+  EXPECT_EQ(found.contacts_gained, 1.5);
+}
+
+TEST(Rearrangements, HaveNoMeansWhereThereAreNone) {
+  for (const auto& path :
+       {std::vector<JamStep>{}, {followed(0.9, 5, 1, 3)}, {without_state(JamStage::expansion, true)}}) {
+    const auto found = rearrangements(path);
+    EXPECT_EQ(found.steps, static_cast<int>(path.size()));
+    EXPECT_EQ(found.gave_way, !path.empty() && path[0].lost ? 1 : 0);
+    EXPECT_FALSE(found.particles_moved);
+    EXPECT_FALSE(found.contacts_lost);
+    EXPECT_FALSE(found.contacts_gained);
+  }
+}
+
+}  // namespace
+}  // namespace isojam
