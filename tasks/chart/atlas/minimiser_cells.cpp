@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/solve/jam.hpp"
+#include "engine/solve/multipliers/multipliers.hpp"
 #include "engine/vibration/stability.hpp"
 #include "tasks/chart/atlas/atlas.hpp"
 #include "tasks/chart/atlas/cells.hpp"
@@ -17,6 +18,9 @@ namespace {
 /// The same for every method: Newton's needs at most some 600 down to Δφ = 2e-3. More would not bring the others there:
 /// their residual is of order 1 from Δφ = .02 on.
 constexpr long budget = 1000;
+
+/// Of multipliers, whose evaluations are of the envelope: no step needs as many.
+constexpr long follow_budget = 3000;
 
 constexpr double residual = 1e-6;
 
@@ -54,7 +58,7 @@ double residual_of(const Packing& packing) {
 /// it has not come to an end.
 AtlasRow judged_end(AtlasRow row, const MinimiseSummary& summary, const Packing& packing, StopReason wanted) {
   const double left = residual_of(packing);
-  row.figure = fmt::format("residual {:.0e} after {} evaluations", left, summary.evaluations);
+  row.figure = fmt::format("residual {:.0e} after {} evaluations", left, summary.evaluations + summary.work.envelopes);
   row.reason = to_string(summary.reason);
   // A residual measured in doubles agrees with this one to its floor.
   const bool balanced = left <= 1.1 * residual;
@@ -79,10 +83,26 @@ void append_starts(const std::string& regime, const std::string& setting, const 
   }
 }
 
+/// The equilibrium that it was strained from, followed.
+void append_followed(const std::string& regime, const std::string& setting, const Packing& from, double distance,
+                     double density, AtlasRows& rows) {
+  if (rows.over()) return;
+  MinimiseOptions options = minimiser("", Method::multipliers).options;
+  options.max_evaluations = follow_budget;
+  Packing packing = from;
+  PackingEnergy energy;
+  const MinimiseSummary summary = follow_equilibrium(packing, density, distance, energy, options, rows.stop());
+  rows.add(
+      judged_end({regime, setting, "multipliers", true, {}, {}, {}}, summary, packing, StopReason::residual_reached));
+}
+
 void append_distances(const AtlasStates& states, AtlasRows& rows) {
   for (const double distance : {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005}) {
-    append_starts("strained to Δφ", fmt::format("{:.0e}", distance),
-                  strained_to(states.above(distance), states.phi_j() + distance), StopReason::residual_reached, rows);
+    const std::string regime = "strained to Δφ", setting = fmt::format("{:.0e}", distance);
+    const Packing& from = states.above(distance);
+    const double density = states.phi_j() + distance;
+    append_followed(regime, setting, from, states.distance_of(from), density, rows);
+    append_starts(regime, setting, strained_to(from, density), StopReason::residual_reached, rows);
   }
 }
 

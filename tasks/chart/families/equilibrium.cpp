@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/analysis/contacts.hpp"
+#include "engine/solve/multipliers/multipliers.hpp"
 #include "tasks/chart/families/comparisons.hpp"
 
 namespace isojam {
@@ -25,7 +26,8 @@ std::vector<Ladder> ladders(const ChartConfig& config) {
   std::sort(tolerances.rbegin(), tolerances.rend());
   std::sort(changes.rbegin(), changes.rend());
   std::vector<Ladder> all;
-  for (const Method method : {Method::newton, Method::lbfgs, Method::fire, Method::conjugate_gradient}) {
+  for (const Method method :
+       {Method::multipliers, Method::newton, Method::lbfgs, Method::fire, Method::conjugate_gradient}) {
     Ladder& ladder = all.emplace_back();
     for (const double tolerance : tolerances) {
       MinimiseOptions options{.method = method, .residual = tolerance, .max_evaluations = config.max_evaluations};
@@ -67,14 +69,19 @@ void describe(const Packing& packing, EndState& state) {
   state.classes_known = decided(analysis.face_face) && decided(analysis.edge_face);
 }
 
-EndState minimised(const Packing& start, const MinimiseOptions& options, const Measuring& measuring) {
+EndState minimised(const StrainStart& start, const MinimiseOptions& options, const Measuring& measuring) {
   EndState state;
-  Packing packing = start;
+  Packing packing = start.equilibrium;
   state.seconds = timed(measuring, [&] {
     const Deadline deadline(measuring.config.point_seconds, measuring.stop);
-    packing = start;
     PackingEnergy energy;
-    state.summary = minimise(packing, energy, options, deadline.token());
+    if (options.method == Method::multipliers) {
+      packing = start.equilibrium;
+      state.summary = follow_equilibrium(packing, start.density, start.distance, energy, options, deadline.token());
+    } else {
+      packing = start.strained();
+      state.summary = minimise(packing, energy, options, deadline.token());
+    }
   });
   describe(packing, state);
   return state;
@@ -98,7 +105,7 @@ ChartPoint point_of(const Variant& variant, SolidKind solid, double distance, co
     if (key.second != distance) continue;
     seconds.insert(seconds.end(), state.seconds.begin(), state.seconds.end());
     residuals.push_back(state.summary.residual);
-    evaluations.push_back(static_cast<double>(state.summary.evaluations));
+    evaluations.push_back(static_cast<double>(state.summary.evaluations + state.summary.work.envelopes));
     ++reasons[std::string(to_string(state.summary.reason))];
     point.failed |= !state.reached();
     z.push_back(state.numbers.Z);
@@ -164,8 +171,11 @@ class Minimisers {
 
   void run() {
     for (const SolidKind solid : config_.solids) {
-      reference_ = all_states(solid, {"newton", "reference", {.residual = 1e-9}});
-      for (const Ladder& ladder : ladders(config_)) climb(solid, ladder);
+      // What follows an equilibrium may go down another branch than what starts from the strained packing, which is no
+      // error of either: each has a reference of its own.
+      const EndStates followed = reference(solid, Method::multipliers), minimised = reference(solid, Method::newton);
+      for (const Ladder& ladder : ladders(config_))
+        climb(solid, ladder, ladder.front().options.method == Method::multipliers ? followed : minimised);
     }
   }
 
@@ -187,14 +197,18 @@ class Minimisers {
     return states;
   }
 
-  void climb(SolidKind solid, const Ladder& ladder) {
+  EndStates reference(SolidKind solid, Method method) {
+    return all_states(solid, {std::string(to_string(method)), "reference", {.method = method, .residual = 1e-9}});
+  }
+
+  void climb(SolidKind solid, const Ladder& ladder, const EndStates& reference) {
     std::vector<double> missed;
     EndStates carried;
     for (const Variant& variant : ladder) {
       EndStates states = all_states(solid, variant, missed);
       if (measuring_.over()) return;
       for (const double distance : config_.distances) {
-        const ChartPoint point = point_of(variant, solid, distance, states, reference_);
+        const ChartPoint point = point_of(variant, solid, distance, states, reference);
         if (!point.seconds) continue;
         if (point.failed) missed.push_back(distance);
         equilibrium_.points.push_back(point);
@@ -202,7 +216,7 @@ class Minimisers {
       if (states.empty()) return;
       // A method that missed a tolerance ends in the same state for every smaller one.
       for (const auto& [key, state] : carried) states.try_emplace(key, state);
-      bias_.points.push_back(bias_of(variant, solid, states, reference_, config_));
+      bias_.points.push_back(bias_of(variant, solid, states, reference, config_));
       carried = std::move(states);
     }
   }
@@ -211,7 +225,6 @@ class Minimisers {
   const Measuring& measuring_;
   const ChartConfig& config_;
   ChartFamily &equilibrium_, &bias_;
-  EndStates reference_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@ std::vector<JammedSolid> jam_all(const Measuring& measuring) {
   const ChartConfig& config = measuring.config;
   JamOptions options;
   options.minimise.method = Method::newton;
+  options.consolidation_evaluations = 500;  // the way up is not what is compared
   options.final_distance = 0.8 * *std::min_element(config.distances.begin(), config.distances.end());
   std::vector<JammedSolid> all;
   for (const SolidKind solid : config.solids) {
@@ -27,22 +28,23 @@ std::vector<JammedSolid> jam_all(const Measuring& measuring) {
   return all;
 }
 
-std::optional<Packing> start_at(const JammedSolid& jammed, double distance) {
+std::optional<StrainStart> start_at(const JammedSolid& jammed, double distance) {
   constexpr double least_step = 1.1;  // of the distance: nearer states are nearly where they are to go
   const Packing* above = nullptr;
   for (const Packing& state : jammed.states) {
     if (state.density() - jammed.phi_j >= least_step * distance) above = &state;
   }
   if (above == nullptr) return std::nullopt;
-  return strained_to(*above, jammed.phi_j + distance);
+  return StrainStart{*above, above->density() - jammed.phi_j, jammed.phi_j + distance};
 }
 
 std::optional<Packing> equilibrium_at(const JammedSolid& jammed, double distance, const Measuring& measuring) {
-  std::optional<Packing> packing = start_at(jammed, distance);
-  if (!packing) return std::nullopt;
+  const auto start = start_at(jammed, distance);
+  if (!start) return std::nullopt;
+  Packing packing = start->strained();
   const MinimiseOptions options{.residual = 1e-9};
   PackingEnergy energy;
-  if (!is_equilibrium(minimise(*packing, energy, options, measuring.stop))) return std::nullopt;
+  if (!is_equilibrium(minimise(packing, energy, options, measuring.stop))) return std::nullopt;
   return packing;
 }
 

@@ -11,7 +11,7 @@
 
 namespace isojam {
 
-/// A packing jammed once by the default protocol, from whose expansion the starts of all comparisons are taken.
+/// A packing jammed once, by Newton's method, from whose expansion the starts of all comparisons are taken.
 struct JammedSolid {
   SolidKind solid = SolidKind::octahedron;
   int number = 0;  ///< of the packing
@@ -22,9 +22,18 @@ struct JammedSolid {
 /// As many packings of every solid as the configuration asks for, those that jammed; fewer after a stop request.
 std::vector<JammedSolid> jam_all(const Measuring& measuring);
 
-/// A state of the expansion strained affinely down to φ_J + distance, over a step such as the expansion makes: not in
-/// equilibrium. nullopt if the expansion began nearer to jamming.
-std::optional<Packing> start_at(const JammedSolid& jammed, double distance);
+/// A strain step such as the expansion makes.
+struct StrainStart {
+  Packing equilibrium;  ///< a state of the expansion
+  double distance = 0;  ///< φ − φ_J of it
+  double density = 0;   ///< to which it is strained
+
+  /// Strained affinely: not in equilibrium.
+  Packing strained() const { return strained_to(equilibrium, density); }
+};
+
+/// From a state of the expansion down to φ_J + distance. nullopt if the expansion began nearer to jamming.
+std::optional<StrainStart> start_at(const JammedSolid& jammed, double distance);
 
 /// The equilibrium that minimise() finds from there by its default method, to a residual of 1e-9 or as near as can be
 /// told; nullopt if it finds none.
