@@ -138,13 +138,19 @@ class StrainStep {
     const bool first = result_.states.empty();
     const JamStep& step = first ? relax(next) : strained_down(next);
     if (must_end(step)) return;
-    if (follows() && gives_way(step.summary.reason)) return lose(std::move(next));
-    if (!is_state(step.summary)) return failed(first);
-    if (!first) {
-      progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
-      if (last_state().energy_per_particle > 0)
-        result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
+    const bool ends_branch = follows() && gives_way(step.summary.reason);
+    if (!ends_branch && !is_state(step.summary)) return failed(first);
+    if (!first && !ends_branch && last_state().energy_per_particle > 0)
+      result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
+    const double strain = progress_.packing.density() - next.density();
+    if ((ends_branch || gave_way(result_.path.back())) && strain > options_.event_resolution * distance() &&
+        options_.event_resolution > 0) {
+      result_.path.back().rearrangement.reset();  // of a step that is not made
+      progress_.step_fraction = strain / distance() / 2;
+      return;
     }
+    if (ends_branch) return lose(std::move(next));
+    if (!first) progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
     keep(std::move(next));
     if (distance_to_jamming(result_.path.back()) <= options_.final_distance) end_expansion(JamStatus::jammed);
   }

@@ -43,6 +43,9 @@ struct JamOptions {
   /// these it was; the fraction that this makes grows back where a step succeeds.
   double step_fraction = 0.35;
   double longest_step = 0.05;
+  /// A step in which the packing gives way (rearrangement.hpp), or comes apart, is tried again at half its length until
+  /// it is no longer than this fraction of φ − φ_J: so closely is the density of such an event known. 0: no step is.
+  double event_resolution = 0;
   double final_distance = 0.004;  ///< expansion ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this give φ_J
   int max_steps = 400;            ///< strain steps in all

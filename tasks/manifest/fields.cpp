@@ -43,6 +43,7 @@ constexpr std::array fields{
     field<&P::max_density>("max_density", positive_to(2)),
     field<&P::step_fraction>("step_fraction", {0, 1, true, true}),
     field<&P::longest_step>("longest_step", positive_to(1)),
+    field<&P::event_resolution>("event_resolution", {0, 1}),
     field<&P::final_distance>("final_distance", positive_to(1)),
     field<&P::fit_window>("fit_window", positive_to(1)),
     field<&P::max_steps>("max_steps", {1, 1e6}),

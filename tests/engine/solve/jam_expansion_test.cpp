@@ -1,12 +1,15 @@
 // Facts proved here, of expansions that meet with what they did not expect:
 //   a step that failed is tried again at half its length, whatever bounded it, until the retries are spent;
+//   where it is asked for, a step in which the packing gives way is halved until it is as short as that;
 //   no two steps of an expansion start from the same state and aim at the same density;
 //   a packing that comes apart in a step is compressed again and expanded on the branch that it is on then, whose
 //   states alone give φ_J; a run goes on from anywhere on that way with the same bits.
 
+#include <cmath>
 #include <set>
 
 #include "engine/solve/jam.hpp"
+#include "engine/solve/rearrangement.hpp"
 #include "tests/engine/solve/jam_support.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 
@@ -94,6 +97,40 @@ TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
     ASSERT_EQ(rest.states.size(), result.states.size());
     for (std::size_t s = 0; s < rest.states.size(); ++s) EXPECT_TRUE(same_bits(rest.states[s], result.states[s])) << s;
   }
+}
+
+TEST(JamTest, EventsAreLocatedWhereThatIsAskedFor) {
+  JamOptions options = lax();
+  options.fit_window = 0.1;
+  const JamResult before = jam(start_of(small, 71, options), options);
+  ASSERT_EQ(before.status, JamStatus::jammed);
+  // Told that jamming is four times as far as it is, every step but a short one looks as if the packing gave way.
+  const JamStep& last = before.path[static_cast<std::size_t>(before.state_steps.back())];
+  const double distance = 24 * last.energy_per_particle * last.density * last.density / last.pressure;
+  JamProgress progress = expanding(before.states.back(), distance, options);
+  progress.result.path[0].summary.reason = StopReason::residual_reached;
+  progress.result.path[0].energy_per_particle = last.energy_per_particle;
+  progress.result.path[0].pressure = last.pressure / 4;
+  options.step_fraction = progress.step_fraction = 0.4;
+  options.longest_step = 1;
+  options.event_resolution = 0.06;
+  const JamResult result = jam(progress, options);
+  const double from = before.states.back().density();
+  ASSERT_GE(result.path.size(), 5U);
+  ASSERT_GE(result.states.size(), 2U);
+  const auto kept = static_cast<std::size_t>(result.state_steps[1]);
+  for (std::size_t k = 1; k <= kept; ++k) {
+    const JamStep& step = result.path[k];
+    const double strain = (from - step.density) / distance;
+    std::printf("step of %.3f Δφ, E/N %.2e, %s%s\n", strain, step.energy_per_particle,
+                to_string(step.summary.reason).data(), k == kept ? ", kept" : "");
+    EXPECT_NEAR(strain, 0.4 / std::pow(2, k - 1), 1e-6) << "the same step at half its length";
+    EXPECT_EQ(k == kept, strain <= options.event_resolution) << "step " << k;
+    EXPECT_EQ(k == kept, step.rearrangement.has_value()) << "step " << k;
+    EXPECT_FALSE(step.lost) << "step " << k;
+  }
+  EXPECT_TRUE(gave_way(result.path[kept]));
+  EXPECT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
 }
 
 TEST(JamTest, NoExpansionStepIsMadeTwice) {

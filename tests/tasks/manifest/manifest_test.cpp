@@ -53,6 +53,7 @@ Json number_of(const Field& field, double x) { return is_integer(field) ? Json(s
 Json another_value(const Field& field) {
   const auto usual = field_value(field, {});
   if (usual.is_boolean()) return !usual.get<bool>();
+  if (usual == "relaxed") return "hasty";
   if (usual.is_string()) return usual == "lbfgs" ? "conjugate_gradient" : "lbfgs";
   return is_integer(field) ? Json(usual.get<long>() + 1) : Json(usual.get<double>() / 2 + 1e-9);
 }

@@ -39,6 +39,8 @@ Json expected_definition(const Field& field) {
     json["type"] = "boolean";
   } else if (std::holds_alternative<Method*>(slot)) {
     for (const auto name : all_names<Method>) json["enum"].push_back(name);
+  } else if (std::holds_alternative<Consolidation*>(slot)) {
+    for (const auto name : all_names<Consolidation>) json["enum"].push_back(name);
   } else {
     json["type"] = std::holds_alternative<double*>(slot) ? "number" : "integer";
     json[field.range.low_excluded ? "exclusiveMinimum" : "minimum"] = field.range.low;
