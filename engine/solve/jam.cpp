@@ -138,7 +138,7 @@ class StrainStep {
     const bool first = result_.states.empty();
     const JamStep& step = first ? relax(next) : strained_down(next);
     if (must_end(step)) return;
-    const bool ends_branch = follows() && gives_way(step.summary.reason);
+    const bool ends_branch = follows() && gives_way();
     if (!ends_branch && !is_state(step.summary)) return failed(first);
     if (!first && !ends_branch && last_state().energy_per_particle > 0)
       result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
@@ -176,8 +176,14 @@ class StrainStep {
     return append(next, follow_equilibrium(next, density, distance(), energy_, options_.minimise, stop_));
   }
 
-  /// Whether a packing that followed an equilibrium has come apart, or slides farther than is worth following.
-  static bool gives_way(StopReason reason) { return reason == StopReason::unjammed || reason == StopReason::budget; }
+  /// Whether the packing that the last step led to has come apart, or slides farther than is worth following, even in
+  /// half the step in which it did so first.
+  bool gives_way() const {
+    const auto ended = [&](std::size_t back, StopReason reason) {
+      return result_.path.size() >= back && result_.path[result_.path.size() - back].summary.reason == reason;
+    };
+    return ended(1, StopReason::unjammed) || (ended(1, StopReason::budget) && ended(2, StopReason::budget));
+  }
 
   /// The branch has come to its end: the packing is not jammed at a density at which it was expected to be, or nowhere
   /// near.
