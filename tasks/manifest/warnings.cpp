@@ -32,8 +32,7 @@ constexpr double scatter = 0.03;
 constexpr long spent_in_vain = 60000;
 constexpr double near_jamming = 0.01, residual_left = 3e-4;
 
-/// Tetrahedra that are relaxed less on the way up jam at lower densities: .628, .632, .641, .643 (± .006) after 50,
-/// 100, 500 and 2000 evaluations a strain step. The other solids do not.
+/// Tetrahedra that are relaxed less on the way up jam at lower densities: docs/protocol.md.
 constexpr int relaxed_evaluations = 500;
 
 class Warnings {
