@@ -56,9 +56,7 @@ Stages quiet_stages() {
 /// What the made-up stages do to a replicate.
 enum class Fate { good, begin_throws, jam_throws, jam_ends_early, contacts_throw, contacts_throw_int };
 
-Fate fate_of(const ReplicateSpec& spec) {
-  return static_cast<Fate>(hash_of(replicate_name(spec)) % 6);
-}
+Fate fate_of(const ReplicateSpec& spec) { return static_cast<Fate>(hash_of(replicate_name(spec)) % 6); }
 
 Stages fateful_stages() {
   auto stages = quiet_stages();
