@@ -138,6 +138,11 @@ class StrainStep {
     const bool first = result_.states.empty();
     const JamStep& step = first ? relax(next) : strained_down(next);
     if (must_end(step)) return;
+    if (first && gave_way_at_the_top(step)) {
+      progress_.stage = JamStage::consolidation;
+      progress_.packing = std::move(next);
+      return;
+    }
     const bool ends_branch = follows() && gives_way();
     if (!ends_branch && !is_state(step.summary)) return failed(first);
     if (!first && !ends_branch && last_state().energy_per_particle > 0)
@@ -153,6 +158,13 @@ class StrainStep {
     if (!first) progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
     keep(std::move(next));
     if (distance_to_jamming(result_.path.back()) <= options_.final_distance) end_expansion(JamStatus::jammed);
+  }
+
+  /// Whether what consolidation passed for a packing at the target energy was not yet in balance, and lost most of that
+  /// energy on the way to it.
+  bool gave_way_at_the_top(const JamStep& step) const {
+    return !options_.target_before_relaxation && step.energy_per_particle < options_.target_energy / 2 &&
+           (is_state(step.summary) || step.summary.reason == StopReason::unjammed);
   }
 
   void keep(Packing state) {

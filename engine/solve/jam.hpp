@@ -31,7 +31,8 @@ struct JamOptions {
   /// the same scatter (octahedra .684, .684, .684 with standard deviations .004, .005, .003): the longest costs least.
   double consolidation_step = 0.02;
   double target_energy = 3.2e-5;  ///< E/N at which consolidation ends (the paper's)
-  /// Reading of the paper's target. false: consolidation ends at the minimised state with E/N ≥ target_energy. true:
+  /// Reading of the paper's target. false: consolidation ends at the minimised state with E/N ≥ target_energy, and goes
+  /// on if full minimisation leaves it with less than half of that. true:
   /// each strain step is as large as keeps the unrelaxed E/N below target_energy, and consolidation ends when
   /// minimisation no longer removes the energy.
   bool target_before_relaxation = false;

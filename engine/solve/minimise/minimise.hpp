@@ -30,7 +30,7 @@ struct MinimiseOptions {
   double energy_change = 0;
   /// Energy per particle (Y·V_p) below which a state that is still losing energy counts as unjammed. A state with
   /// balanced forces is never called unjammed, however low its energy.
-  double unjammed_energy = 1e-28;
+  double unjammed_energy = 1e-20;
   long max_evaluations = 20000;
   int history = 20;  ///< pairs that L-BFGS keeps
 };

@@ -74,7 +74,7 @@ TEST(Work, FactorsAreUpdatedWhereThatIsCheaper) {
   EXPECT_GT(work.factor_updates, 0);
   EXPECT_GE(work.factorisations, summary.iterations);
   EXPECT_LE(work.factorisations + work.factor_updates, StepModel::most_rounds * summary.evaluations);
-  EXPECT_LT(2 * work.factorisations, 3 * summary.evaluations) << "as many as if nothing were ever updated";
+  EXPECT_GT(10 * work.factor_updates, work.factorisations) << "hardly anything is ever updated";
 }
 
 TEST(Work, BalanceCostsNothingMore) {

@@ -143,6 +143,7 @@ Packing start_of(const ReplicateSpec& spec) { return engine_stages().begin(spec)
 Json another_value(const Field& field) {
   const auto usual = field_value(field, {});
   if (usual.is_boolean()) return !usual.get<bool>();
+  if (usual == "relaxed") return "hasty";
   if (usual.is_string()) return "lbfgs";
   if (usual.is_number_integer()) return usual.get<long>() + 1;
   return usual.get<double>() / 2 + 1e-9;

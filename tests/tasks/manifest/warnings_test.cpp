@@ -74,7 +74,8 @@ TEST(Warnings, EnergiesMustLeaveRoomForAnExpansion) {
   EXPECT_EQ(of_protocol({{"target_energy", 1e-16}, {"consolidation_energy", 0}}), each);
   EXPECT_EQ(of_protocol({{"target_energy", 1e-9}}), Lines{});
   EXPECT_EQ(of_protocol({{"consolidation_energy", 1e-4}}), Lines{"/protocol/consolidation_energy"});
-  EXPECT_EQ(of_minimiser({{"unjammed_energy", 1e-12}}), Lines(5, "/minimiser/unjammed_energy"));
+  EXPECT_EQ(of_minimiser({{"method", "newton"}, {"unjammed_energy", 1e-12}}), Lines(5, "/minimiser/unjammed_energy"));
+  EXPECT_EQ(of_minimiser({{"unjammed_energy", 1e-12}}), Lines{});
 }
 
 TEST(Warnings, MinimisersMustGetThere) {
