@@ -32,9 +32,8 @@ struct JamOptions {
   double consolidation_step = 0.02;
   double target_energy = 3.2e-5;  ///< E/N at which consolidation ends (the paper's)
   /// Reading of the paper's target. false: consolidation ends at the minimised state with E/N ≥ target_energy, and goes
-  /// on if full minimisation leaves it with less than half of that. true:
-  /// each strain step is as large as keeps the unrelaxed E/N below target_energy, and consolidation ends when
-  /// minimisation no longer removes the energy.
+  /// on if full minimisation leaves it with less than half of that. true: each strain step is as large as keeps the
+  /// unrelaxed E/N below target_energy, and consolidation ends when minimisation no longer removes the energy.
   bool target_before_relaxation = false;
   /// Density that is not exceeded; the cell must be legal up to here. Crystals can pass .9 before they reach the target
   /// energy.
@@ -83,7 +82,8 @@ struct JamStep {
   MinimiseSummary summary;
   int descents = 0;                            ///< saddles that the state was followed down from before it was kept
   std::optional<Rearrangement> rearrangement;  ///< since the state before; of states that followed one
-  /// Of an expansion step: the branch of equilibria came to its end in it, and the packing lost all contact forces.
+  /// Of an expansion step: the branch of equilibria came to its end in it. The packing lost all contact forces, or slid
+  /// without end.
   bool lost = false;
 };
 
@@ -129,7 +129,8 @@ struct JamProgress {
   double step_fraction = 0;  ///< of the distance φ − φ_J, for the next expansion step; see JamOptions::step_fraction
   int halvings = 0;          ///< expansion steps that failed
   /// Index in the path of the last equilibrium of a branch that came to its end: the packing lost all contact forces in
-  /// the strain step from there, `packing` is what it became, and the next steps strain it up again. −1: none did.
+  /// the strain step from there, or slid without end; `packing` is what it became, and the next steps strain it up
+  /// again. −1: none did.
   int lost = -1;
   JamResult result;  ///< so far; not_called while steps remain
 

@@ -1,10 +1,10 @@
 // What it costs to follow equilibria towards jamming, printed as tables:
 //
-//   isojam_equilibria states N SEEDS [newton]   every expansion step of 35 % and one of 3 % from the same state, of the
-//   four solids of
-//                                        the paper; with `newton` by Newton's method too, and whether the energies
-//                                        agree
-//   isojam_equilibria law N...                  whole replicates of octahedra to Δφ = .005: the law of cost against N
+//   isojam_equilibria states N SEEDS [newton]
+//     every expansion step of 35 % and one of 3 % from the same state, of the four solids of the paper; with `newton`
+//     by Newton's method too, and whether the energies agree
+//   isojam_equilibria law N...
+//     whole replicates of octahedra to Δφ = .005: the law of cost against N
 //
 // One core, from φ = .05; seeds 1 … SEEDS.
 

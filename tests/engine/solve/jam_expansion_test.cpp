@@ -1,6 +1,8 @@
 // Facts proved here, of expansions that meet with what they did not expect:
 //   a step that failed is tried again at half its length, whatever bounded it, until the retries are spent;
 //   where it is asked for, a step in which the packing gives way is halved until it is as short as that;
+//   a step that slides without end is halved once, and then its branch has ended;
+//   a packing that full minimisation takes most of the target energy from is consolidated further;
 //   no two steps of an expansion start from the same state and aim at the same density;
 //   a packing that comes apart in a step is compressed again and expanded on the branch that it is on then, whose
 //   states alone give φ_J; a run goes on from anywhere on that way with the same bits.
@@ -28,6 +30,27 @@ JamProgress expanding(const Packing& packing, double distance, const JamOptions&
   progress.result.path.push_back(state);
   progress.result.states.push_back(packing);
   progress.result.state_steps.push_back(0);
+  return progress;
+}
+
+/// The expansion of a few dodecahedra.
+JamResult expanded(JamOptions& options) {
+  options = lax();
+  options.fit_window = 0.1;
+  return jam(start_of(small, 71, options), options);
+}
+
+/// An expansion that goes on from the last state of another, told that jamming is `factor` times as far as it is, in
+/// steps of .4 of that.
+JamProgress misled(const JamResult& before, double factor, JamOptions& options) {
+  const JamStep& last = before.path[static_cast<std::size_t>(before.state_steps.back())];
+  JamProgress progress = expanding(before.states.back(), factor * distance_to_jamming(last), options);
+  JamStep& told = progress.result.path[0];
+  told.summary.reason = StopReason::residual_reached;
+  told.energy_per_particle = last.energy_per_particle;
+  told.pressure = last.pressure / factor;
+  options.step_fraction = progress.step_fraction = 0.4;
+  options.longest_step = 1;
   return progress;
 }
 
@@ -63,17 +86,10 @@ TEST(JamTest, AFailedExpansionStepIsTriedAgainAtHalfItsLength) {
 }
 
 TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
-  JamOptions options = lax();
-  options.fit_window = 0.1;
-  const JamResult before = jam(start_of(small, 71, options), options);
+  JamOptions options;
+  const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
-  // Told that jamming is four times as far as it is, the expansion goes beyond it.
-  const JamStep& last = before.path[static_cast<std::size_t>(before.state_steps.back())];
-  const double distance = 6 * last.energy_per_particle * last.density * last.density / last.pressure;
-  JamProgress progress = expanding(before.states.back(), 4 * distance, options);
-  progress.result.path[0].summary.reason = StopReason::residual_reached;
-  options.step_fraction = progress.step_fraction = 0.4;
-  options.longest_step = 1;
+  const JamProgress progress = misled(before, 4, options);  // and so goes beyond jamming
   std::vector<JamProgress> along;
   const JamResult result = jam(progress, options, {}, [&](const JamProgress& reached) { along.push_back(reached); });
   for (const JamStep& step : result.path)
@@ -100,22 +116,13 @@ TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
 }
 
 TEST(JamTest, EventsAreLocatedWhereThatIsAskedFor) {
-  JamOptions options = lax();
-  options.fit_window = 0.1;
-  const JamResult before = jam(start_of(small, 71, options), options);
+  JamOptions options;
+  const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
-  // Told that jamming is four times as far as it is, every step but a short one looks as if the packing gave way.
-  const JamStep& last = before.path[static_cast<std::size_t>(before.state_steps.back())];
-  const double distance = 24 * last.energy_per_particle * last.density * last.density / last.pressure;
-  JamProgress progress = expanding(before.states.back(), distance, options);
-  progress.result.path[0].summary.reason = StopReason::residual_reached;
-  progress.result.path[0].energy_per_particle = last.energy_per_particle;
-  progress.result.path[0].pressure = last.pressure / 4;
-  options.step_fraction = progress.step_fraction = 0.4;
-  options.longest_step = 1;
+  const JamProgress progress = misled(before, 4, options);  // and so every step but a short one looks like an event
   options.event_resolution = 0.06;
   const JamResult result = jam(progress, options);
-  const double from = before.states.back().density();
+  const double from = before.states.back().density(), distance = distance_to_jamming(progress.result.path[0]);
   ASSERT_GE(result.path.size(), 5U);
   ASSERT_GE(result.states.size(), 2U);
   const auto kept = static_cast<std::size_t>(result.state_steps[1]);
@@ -131,6 +138,54 @@ TEST(JamTest, EventsAreLocatedWhereThatIsAskedFor) {
   }
   EXPECT_TRUE(gave_way(result.path[kept]));
   EXPECT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
+}
+
+TEST(JamTest, ASlideIsHalvedOnceAndThenEndsItsBranch) {
+  JamOptions options;
+  const JamResult before = expanded(options);
+  ASSERT_EQ(before.status, JamStatus::jammed);
+  JamProgress progress = misled(before, 1, options);
+  const JamOptions usual = options;
+  options.minimise.max_evaluations = 3;  // no step is followed to its end
+  const double from = progress.packing.density();
+  advance(progress, options);
+  const JamStep first = progress.result.path.back();
+  EXPECT_EQ(first.summary.reason, StopReason::budget) << to_string(first.summary.reason);
+  EXPECT_FALSE(first.lost);
+  EXPECT_EQ(progress.lost, -1);
+  advance(progress, options);
+  const JamStep second = progress.result.path.back();
+  EXPECT_EQ(second.summary.reason, StopReason::budget) << to_string(second.summary.reason);
+  EXPECT_NEAR((from - second.density) / (from - first.density), 0.5, 1e-9);
+  EXPECT_TRUE(second.lost);
+  EXPECT_EQ(progress.lost, 0);
+  EXPECT_EQ(progress.packing.density(), second.density);
+  ASSERT_FALSE(progress.ended());
+  // From there it is strained up again.
+  advance(progress, usual);
+  EXPECT_GT(progress.result.path.back().density, second.density);
+}
+
+TEST(JamTest, WhatLosesItsEnergyInFullMinimisationIsConsolidatedFurther) {
+  const JamOptions options = lax();
+  JamProgress progress = begin_jam(start_of(small, 71, options), options);
+  progress.stage = JamStage::expansion;  // as if this loose packing had been taken for one at the target
+  const double from = progress.packing.density();
+  JamProgress other = progress;
+  advance(progress, options);
+  ASSERT_FALSE(progress.ended()) << to_string(progress.result.status);
+  EXPECT_EQ(progress.stage, JamStage::consolidation);
+  EXPECT_TRUE(progress.result.states.empty());
+  EXPECT_EQ(progress.packing.density(), from);
+  const JamResult result = jam(progress, options);
+  EXPECT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
+  const JamStep& top = result.path[static_cast<std::size_t>(result.state_steps.front())];
+  EXPECT_GE(top.energy_per_particle, options.target_energy / 2);
+  // The other reading ends where there is next to no energy.
+  JamOptions gentle = options;
+  gentle.target_before_relaxation = true;
+  advance(other, gentle);
+  EXPECT_TRUE(other.ended());
 }
 
 TEST(JamTest, NoExpansionStepIsMadeTwice) {
