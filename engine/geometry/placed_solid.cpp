@@ -4,31 +4,31 @@ namespace isojam {
 
 namespace {
 
-struct Arrays {
-  double *x, *y, *z;
-};
-
-void turn(const Eigen::Matrix3d& q, const double* x, const double* y, const double* z, int n, Arrays turned) {
-  const double q00 = q(0, 0), q01 = q(0, 1), q02 = q(0, 2);
-  const double q10 = q(1, 0), q11 = q(1, 1), q12 = q(1, 2);
-  const double q20 = q(2, 0), q21 = q(2, 1), q22 = q(2, 2);
-  for (int k = 0; k < (n + 3) / 4 * 4; ++k) {
-    turned.x[k] = q00 * x[k] + q01 * y[k] + q02 * z[k];
-    turned.y[k] = q10 * x[k] + q11 * y[k] + q12 * z[k];
-    turned.z[k] = q20 * x[k] + q21 * y[k] + q22 * z[k];
-  }
-}
+constexpr int block = PlacedSolid::block;
 
 struct ConstArrays {
   const double *x, *y, *z;
 };
 
-/// One component of the vectors (x + x_low, …), turned in double-double.
+/// The n vectors v, turned, in blocks.
+void turn(const Eigen::Matrix3d& q, ConstArrays v, int n, double* turned) {
+  const double q00 = q(0, 0), q01 = q(0, 1), q02 = q(0, 2);
+  const double q10 = q(1, 0), q11 = q(1, 1), q12 = q(1, 2);
+  const double q20 = q(2, 0), q21 = q(2, 1), q22 = q(2, 2);
+  for (int first = 0; first < n; first += 4, turned += block) {
+    const double *x = v.x + first, *y = v.y + first, *z = v.z + first;
+    for (int k = 0; k < 4; ++k) turned[k] = q00 * x[k] + q01 * y[k] + q02 * z[k];
+    for (int k = 0; k < 4; ++k) turned[4 + k] = q10 * x[k] + q11 * y[k] + q12 * z[k];
+    for (int k = 0; k < 4; ++k) turned[8 + k] = q20 * x[k] + q21 * y[k] + q22 * z[k];
+  }
+}
+
+/// One component of four vectors (x + x_low, …), turned in double-double.
 void turn_row(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c, ConstArrays v, ConstArrays v_low,
-              int n, double* turned, double* turned_low) {
+              double* turned, double* turned_low) {
   const double *x = v.x, *y = v.y, *z = v.z, *x_low = v_low.x, *y_low = v_low.y, *z_low = v_low.z;
 #pragma GCC ivdep  // too many arrays for the compiler to check that they are distinct
-  for (int k = 0; k < (n + 3) / 4 * 4; ++k) {
+  for (int k = 0; k < 4; ++k) {
     const DoubleDouble ax = two_product(a.high, x[k]), by = two_product(b.high, y[k]), cz = two_product(c.high, z[k]);
     const DoubleDouble two = two_sum(ax.high, by.high), three = two_sum(two.high, cz.high);
     const double first_order =
@@ -39,36 +39,51 @@ void turn_row(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& 
   }
 }
 
-void turn(const DoubleDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, Arrays turned, Arrays turned_low) {
-  turn_row(q(0, 0), q(0, 1), q(0, 2), v, v_low, n, turned.x, turned_low.x);
-  turn_row(q(1, 0), q(1, 1), q(1, 2), v, v_low, n, turned.y, turned_low.y);
-  turn_row(q(2, 0), q(2, 1), q(2, 2), v, v_low, n, turned.z, turned_low.z);
+void turn(const DoubleDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, double* turned, double* turned_low) {
+  for (int first = 0; first < n; first += 4, turned += block, turned_low += block) {
+    const ConstArrays high{v.x + first, v.y + first, v.z + first};
+    const ConstArrays low{v_low.x + first, v_low.y + first, v_low.z + first};
+    for (int row = 0; row < 3; ++row)
+      turn_row(q(row, 0), q(row, 1), q(row, 2), high, low, turned + 4 * row, turned_low + 4 * row);
+  }
 }
-void set_row(const Eigen::Vector3d& v, double* row) { row[0] = v.x(), row[1] = v.y(), row[2] = v.z(), row[3] = 0; }
+
+/// Doubles of one kind of vectors.
+std::ptrdiff_t room(int n) { return std::ptrdiff_t{block} * ((n + 3) / 4); }
 
 }  // namespace
 
-PlacedSolid::PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation)
-    : solid_(&solid), rotation_(rotation) {
+void PlacedSolids::resize(const ConvexSolid& solid, std::size_t count, bool low) {
   const SolidArrays& body = solid.arrays();
-  turn(rotation, body.x, body.y, body.z, body.vertices, {x_, y_, z_});
-  turn(rotation, body.nx, body.ny, body.nz, body.faces, {normals_[0], normals_[1], normals_[2]});
-  copy_rows();
+  constexpr std::ptrdiff_t matrix = 9, line = sizeof(Line) / sizeof(double);
+  has_low_ = low || (has_low_ && solid_ == &solid);  // whoever asks now and then does not pay for it every time
+  solid_ = &solid;
+  count_ = count;
+  stride_ = static_cast<std::size_t>((room(body.vertices) + room(body.faces) + matrix + line - 1) / line);
+  to_normals_ = room(body.vertices);
+  to_low_ = line * static_cast<std::ptrdiff_t>(stride_ * count);
+  lines_.resize(stride_ * count * (has_low_ ? 2 : 1));
 }
 
-PlacedSolid::PlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation)
-    : solid_(&solid), rotation_(rotation.high), rotation_low_(rotation.low) {
-  const SolidArrays& body = solid.arrays();
-  turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, {x_, y_, z_},
-       {x_low_, y_low_, z_low_});
-  turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces,
-       {normals_[0], normals_[1], normals_[2]}, {nx_low_, ny_low_, nz_low_});
-  copy_rows();
+void PlacedSolids::place(std::size_t k, const Eigen::Matrix3d& rotation) {
+  const SolidArrays& body = solid_->arrays();
+  double* at = &lines_[k * stride_].value[0];
+  turn(rotation, {body.x, body.y, body.z}, body.vertices, at);
+  at += room(body.vertices);
+  turn(rotation, {body.nx, body.ny, body.nz}, body.faces, at);
+  at += room(body.faces);
+  Eigen::Map<Eigen::Matrix3d>{at} = rotation;
 }
 
-void PlacedSolid::copy_rows() {
-  for (int v = 0; v < vertices(); ++v) set_row(vertex(v), rows_[v]);
-  for (int f = 0; f < faces(); ++f) set_row(normal(f), normal_rows_[f]);
+void PlacedSolids::place(std::size_t k, const DoubleDoubleMatrix& rotation) {
+  const SolidArrays& body = solid_->arrays();
+  double *at = &lines_[k * stride_].value[0], *low = at + to_low_;
+  turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, at, low);
+  at += room(body.vertices), low += room(body.vertices);
+  turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, at, low);
+  at += room(body.faces), low += room(body.faces);
+  Eigen::Map<Eigen::Matrix3d>{at} = rotation.high;
+  Eigen::Map<Eigen::Matrix3d>{low} = rotation.low;
 }
 
 }  // namespace isojam

@@ -1,59 +1,108 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/pose.hpp"
 
 namespace isojam {
 
-/// A solid turned into the lab frame, about its own centre: computed once per particle and used by all its pairs.
-/// Arrays are padded as in SolidArrays. A kernel touches the first rows of each: some 600 (tetrahedron) to 2000 bytes
-/// (icosahedron), so that a packing of hundreds stays in a core's cache.
+/// A solid turned into the lab frame, about its own centre: a view of memory that PlacedSolids owns. Vectors come in
+/// blocks of four, x of all four, then y, then z, padded as in SolidArrays; nothing is there twice. 320 bytes
+/// (tetrahedron) to 896 (dodecahedron, icosahedron), and as many of low parts that nothing but double-double reads.
 class PlacedSolid {
  public:
-  PlacedSolid() = default;
-  /// Keeps a pointer to the solid, which must outlive this. `rotation`: body frame → lab frame.
-  PlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation);
-  /// Places the solid in double-double: vertices and normals have low parts.
-  PlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation);
+  static constexpr int block = 12;  ///< doubles
 
   const ConvexSolid& solid() const { return *solid_; }
-  const Eigen::Matrix3d& rotation() const { return rotation_; }
   int vertices() const { return solid_->arrays().vertices; }
   int faces() const { return solid_->arrays().faces; }
+  Eigen::Matrix3d rotation() const { return Eigen::Map<const Eigen::Matrix3d>(rotation_row()); }
 
-  const double* x() const { return x_; }  ///< vertices
-  const double* y() const { return y_; }
-  const double* z() const { return z_; }
-  const double* row(int v) const { return rows_[v]; }                ///< (x, y, z, 0) of a vertex
-  const double* normal_row(int f) const { return normal_rows_[f]; }  ///< (x, y, z, 0) of a normal
-  const double* nx() const { return normals_[0]; }                   ///< outward unit face normals
-  const double* ny() const { return normals_[1]; }
-  const double* nz() const { return normals_[2]; }
-  const double* offset() const { return solid_->arrays().offset; }  ///< of the face planes from the centre
+  const double* vertex_block(int k) const { return vertices_ + block * k; }  ///< of vertices 4k … 4k + 3
+  const double* normal_block(int k) const { return normals_ + block * k; }   ///< of outward unit face normals
+  const double* offset() const { return solid_->arrays().offset; }           ///< of the face planes from the centre
+  /// Components of one vector, x at [0], y at [4], z at [8].
+  const double* vertex_at(int v) const { return vertices_ + at(v); }
+  const double* normal_at(int f) const { return normals_ + at(f); }
 
-  Eigen::Vector3d vertex(int v) const { return {x_[v], y_[v], z_[v]}; }
-  Eigen::Vector3d normal(int f) const { return {nx()[f], ny()[f], nz()[f]}; }
+  Eigen::Vector3d vertex(int v) const { return vector(vertex_at(v)); }
+  Eigen::Vector3d normal(int f) const { return vector(normal_at(f)); }
 
   /// Vectors with low parts, of solids placed in double-double only.
-  DoubleDoubleVector vertex_double_double(int v) const { return {vertex(v), {x_low_[v], y_low_[v], z_low_[v]}}; }
-  DoubleDoubleVector normal_double_double(int f) const { return {normal(f), {nx_low_[f], ny_low_[f], nz_low_[f]}}; }
+  DoubleDoubleVector vertex_double_double(int v) const { return {vertex(v), vector(vertex_at(v) + to_low_)}; }
+  DoubleDoubleVector normal_double_double(int f) const { return {normal(f), vector(normal_at(f) + to_low_)}; }
   DoubleDouble offset_double_double(int f) const { return {offset()[f], solid_->arrays().offset_low[f]}; }
-  DoubleDoubleMatrix rotation_double_double() const { return {rotation_, rotation_low_}; }
+  DoubleDoubleMatrix rotation_double_double() const {
+    return {rotation(), Eigen::Map<const Eigen::Matrix3d>(rotation_row() + to_low_)};
+  }
 
  private:
-  static constexpr int capacity = SolidArrays::capacity;
+  friend class PlacedSolids;
+  PlacedSolid(const ConvexSolid& solid, const double* vertices, const double* normals, std::ptrdiff_t to_low)
+      : solid_(&solid), vertices_(vertices), normals_(normals), to_low_(to_low) {}
+  const double* rotation_row() const { return normals_ + block * blocks(faces()); }
 
-  void copy_rows();
+  static int blocks(int n) { return (n + 3) / 4; }
+  static int at(int k) { return block * (k / 4) + k % 4; }
+  static Eigen::Vector3d vector(const double* p) { return {p[0], p[4], p[8]}; }
+
+  const ConvexSolid* solid_;
+  const double *vertices_, *normals_;
+  std::ptrdiff_t to_low_;  ///< from a component to its low part
+};
+
+/// The particles of a packing, placed. Where one is placed anew its views stay good; resize() ends all of them.
+class PlacedSolids {
+ public:
+  /// Makes room for `count` solids, none of them placed, with room for low parts if they are to be placed in
+  /// double-double. Keeps a pointer to the solid, which must outlive this.
+  void resize(const ConvexSolid& solid, std::size_t count, bool low);
+  std::size_t size() const { return count_; }
+  const ConvexSolid* solid() const { return solid_; }  ///< null before the first resize()
+
+  /// `rotation`: body frame → lab frame.
+  void place(std::size_t k, const Eigen::Matrix3d& rotation);
+  /// In double-double: vertices and normals have low parts.
+  void place(std::size_t k, const DoubleDoubleMatrix& rotation);
+
+  PlacedSolid operator[](std::size_t k) const {
+    const double* at = &lines_[k * stride_].value[0];
+    return {*solid_, at, at + to_normals_, to_low_};
+  }
+
+ private:
+  struct alignas(64) Line {
+    double value[8];
+  };
 
   const ConvexSolid* solid_ = nullptr;
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), rotation_low_ = Eigen::Matrix3d::Zero();
-  alignas(32) double rows_[capacity][4], normal_rows_[capacity][4];
-  alignas(32) double normals_[3][capacity];
-  alignas(32) double x_[capacity], y_[capacity], z_[capacity];
-  alignas(32) double nx_low_[capacity], ny_low_[capacity], nz_low_[capacity];
-  alignas(32) double x_low_[capacity], y_low_[capacity], z_low_[capacity];
+  std::size_t count_ = 0;
+  std::size_t stride_ = 0;  ///< lines of one solid
+  std::ptrdiff_t to_normals_ = 0, to_low_ = 0;
+  bool has_low_ = false;
+  std::vector<Line> lines_;  ///< of all solids, and after them of the low parts
+};
+
+/// A solid placed by itself.
+class LonePlacedSolid {
+ public:
+  LonePlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation) {
+    alone_.resize(solid, 1, false);
+    alone_.place(0, rotation);
+  }
+  LonePlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation) {
+    alone_.resize(solid, 1, true);
+    alone_.place(0, rotation);
+  }
+
+  PlacedSolid view() const { return alone_[0]; }
+  operator PlacedSolid() const { return view(); }  // NOLINT(google-explicit-constructor): to be handed to kernels
+
+ private:
+  PlacedSolids alone_;
 };
 
 }  // namespace isojam

@@ -83,6 +83,25 @@ bool is_finite(const Packing& packing) {
   });
 }
 
+/// Calls visit(place in the list, overlap, overlap with the gap closed), null where there is none, in order of the
+/// list.
+template <class Visit>
+void for_each_of_either(const TouchingPairs& now, const TouchingPairs& closed, const Visit& visit) {
+  for (std::size_t block = 0; block < now.blocks.size(); ++block) {
+    auto at = now.blocks[block].begin();
+    const auto end = now.blocks[block].end();
+    if (!closed.blocks.empty()) {
+      for (const PairOverlap& then : closed.blocks[block]) {
+        for (; at != end && at->pair < then.pair; ++at) visit(at->pair, &at->overlap, nullptr);
+        const bool both = at != end && at->pair == then.pair;
+        visit(then.pair, both ? &at->overlap : nullptr, &then.overlap);
+        if (both) ++at;
+      }
+    }
+    for (; at != end; ++at) visit(at->pair, &at->overlap, nullptr);
+  }
+}
+
 double largest_imbalance(const Eigen::VectorXd& gradient) {
   double largest = 0;
   for (Eigen::Index k = 0; k < gradient.size(); k += 3) largest = std::max(largest, gradient.segment<3>(k).norm());
@@ -98,9 +117,8 @@ void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   if (seen) return;
   seen_.clear();
   list_.refresh(packing);
-  overlaps_.resize(list_.pairs().size());
   place_all(packing, precision, placed_);
-  totals_ += overlap_pairs(packing, precision, placed_, list_.pairs(), list_.axes(), overlaps_);
+  totals_ += overlap_pairs(packing, precision, placed_, list_.pairs(), list_.axes(), touching_);
   seen_ = packing.poses;
   seen_side_ = packing.cell.side();
   seen_solid_ = packing.solid;
@@ -122,12 +140,16 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   const std::vector<double> zeros(packing.poses.size(), 0.0);
   Accumulator on_the_way{0, zeros, zeros};
   // The arithmetic of a contact is done in parallel; only the additions, whose order decides their rounding, are not.
-  terms_.resize(list_.pairs().size());
-  for_each_slot(list_.pairs().size(), [&](std::size_t k) {
-    if (overlaps_[k].touching()) terms_[k] = terms_of(packing, list_.pairs()[k], overlaps_[k]);
+  const std::vector<NeighbourPair>& pairs = list_.pairs();
+  terms_.resize(touching_.blocks.size());
+  for_each_block(terms_.size(), [&](std::size_t block) {
+    terms_[block].clear();
+    for (const PairOverlap& at : touching_.blocks[block])
+      terms_[block].push_back(terms_of(packing, pairs[at.pair], at.overlap));
   });
-  for (std::size_t k = 0; k < list_.pairs().size(); ++k) {
-    if (overlaps_[k].touching()) add_contact(list_.pairs()[k], terms_[k], result, on_the_way);
+  for (std::size_t block = 0; block < terms_.size(); ++block) {
+    for (std::size_t k = 0; k < terms_[block].size(); ++k)
+      add_contact(pairs[touching_.blocks[block][k].pair], terms_[block][k], result, on_the_way);
   }
   result.stress /= packing.cell.volume();
   result.pressure = -result.stress.trace() / 3;
@@ -141,35 +163,38 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
 
 SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_distance, Precision precision) {
   overlap_all(packing, precision);
-  hessians_.resize(list_.pairs().size());
-  pair_hessians(packing, precision, placed_, list_.pairs(), overlaps_, hessians_);
-  closed_.assign(list_.pairs().size(), Overlap{});
-  if (probe_distance > 0) probe_pairs(packing, placed_, list_.pairs(), list_.axes(), probe_distance, closed_);
+  const std::vector<NeighbourPair>& pairs = list_.pairs();
+  const std::vector<PairHessian> hessians = pair_hessians(packing, precision, placed_, pairs, touching_);
+  TouchingPairs closed;
+  if (probe_distance > 0) closed = probe_pairs(packing, placed_, pairs, list_.axes(), probe_distance);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
-  for (std::size_t k = 0; k < list_.pairs().size(); ++k) {
-    const NeighbourPair& pair = list_.pairs()[k];
-    if (!overlaps_[k].touching() && !closed_[k].touching()) continue;
-    result.pairs.push_back(incipient_contact(pair.a, pair.b, overlaps_[k], closed_[k], displacement(packing, pair),
-                                             probe_distance, packing.solid->gyration_radius()));
-    if (!overlaps_[k].touching()) continue;
-    result.hessian.add_pair(pair.a, pair.b, hessians_[k].aa, hessians_[k].ab, hessians_[k].bb);
-  }
+  std::size_t next = 0;
+  for_each_of_either(touching_, closed, [&](std::size_t k, const Overlap* now, const Overlap* then) {
+    const NeighbourPair& pair = pairs[k];
+    result.pairs.push_back(incipient_contact(pair.a, pair.b, now ? *now : Overlap{}, then ? *then : Overlap{},
+                                             displacement(packing, pair), probe_distance,
+                                             packing.solid->gyration_radius()));
+    if (!now) return;
+    const PairHessian& h = hessians[next++];
+    result.hessian.add_pair(pair.a, pair.b, h.aa, h.ab, h.bb);
+  });
   return result;
 }
 
 std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
   overlap_all(packing, Precision::working);
   std::vector<Contact> result;
-  for (std::size_t k = 0; k < list_.pairs().size(); ++k) {
-    if (!overlaps_[k].touching()) continue;
-    const NeighbourPair& pair = list_.pairs()[k];
-    const Eigen::Vector3d d = displacement(packing, pair);
-    const Eigen::Quaterniond &a = packing.poses[pair.a].orientation, &b = packing.poses[pair.b].orientation;
-    Contact contact{pair, d, relative_pose(a, b, d), overlaps_[k]};
-    contact.overlap.area = a.conjugate() * overlaps_[k].area;
-    contact.overlap.moment = a.conjugate() * overlaps_[k].moment;
-    result.push_back(contact);
+  for (const auto& block : touching_.blocks) {
+    for (const PairOverlap& at : block) {
+      const NeighbourPair& pair = list_.pairs()[at.pair];
+      const Eigen::Vector3d d = displacement(packing, pair);
+      const Eigen::Quaterniond &a = packing.poses[pair.a].orientation, &b = packing.poses[pair.b].orientation;
+      Contact contact{pair, d, relative_pose(a, b, d), at.overlap};
+      contact.overlap.area = a.conjugate() * at.overlap.area;
+      contact.overlap.moment = a.conjugate() * at.overlap.moment;
+      result.push_back(contact);
+    }
   }
   return result;
 }

@@ -82,12 +82,10 @@ class PackingEnergy {
   void overlap_all(const Packing& packing, Precision precision);
 
   NeighbourList list_;
-  std::vector<PlacedSolid> placed_;
-  std::vector<Overlap> overlaps_;  ///< lab frame
-  std::vector<Overlap> closed_;    ///< lab frame, with gaps closed by the probe distance
-  std::vector<ContactTerms> terms_;
-  std::vector<PairHessian> hessians_;
-  std::vector<Pose> seen_;  ///< of the packing that overlaps_ belong to
+  PlacedSolids placed_;
+  TouchingPairs touching_;
+  std::vector<std::vector<ContactTerms>> terms_;  ///< of touching_
+  std::vector<Pose> seen_;                        ///< of the packing that touching_ belong to
   double seen_side_ = 0;
   const ConvexSolid* seen_solid_ = nullptr;
   Precision seen_precision_ = Precision::working;

@@ -76,11 +76,6 @@ class CellGrid {
 
 }  // namespace
 
-Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair) {
-  return packing.poses[static_cast<std::size_t>(pair.b)].position -
-         packing.poses[static_cast<std::size_t>(pair.a)].position + packing.cell.side() * pair.shift.cast<double>();
-}
-
 DoubleDoubleVector displacement_double_double(const Packing& packing, const NeighbourPair& pair) {
   const Pose &a = packing.poses[static_cast<std::size_t>(pair.a)], &b = packing.poses[static_cast<std::size_t>(pair.b)];
   DoubleDoubleVector r;

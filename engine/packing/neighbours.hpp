@@ -21,7 +21,10 @@ inline auto canonical_key(const NeighbourPair& p) {
 }
 
 /// Displacement x_b − x_a + L·shift of a pair, from the high parts of positions.
-Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair);
+inline Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair) {
+  return packing.poses[static_cast<std::size_t>(pair.b)].position -
+         packing.poses[static_cast<std::size_t>(pair.a)].position + packing.cell.side() * pair.shift.cast<double>();
+}
 /// Displacement in double-double, from the low parts of positions too.
 DoubleDoubleVector displacement_double_double(const Packing& packing, const NeighbourPair& pair);
 

@@ -1,8 +1,9 @@
 #include "engine/packing/pair_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/parallel/parallel.hpp"
@@ -14,66 +15,104 @@ namespace {
 /// Pairs handled as one task: some 50 µs, far more than a task costs, few enough to share out.
 constexpr std::size_t grain = 128;
 
-void overlap_pair(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
-                  const NeighbourPair& pair, SeparatingAxis& axis, Overlap& out, PairCounts& counts) {
-  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
-  const Eigen::Vector3d r = displacement(packing, pair);
-  ++counts.listed;
-  out = {};
+/// A pair that may touch. Numbers one by one: vectors of two would be loaded before what was stored in two is there.
+struct NearPair {
+  std::size_t pair;
+  double x, y, z;  ///< x_B − x_A
+
+  Eigen::Vector3d r() const { return {x, y, z}; }
+};
+using NearPairs = std::array<NearPair, grain>;
+
+/// Of the pairs first … last − 1 those whose circumspheres meet. Neither here nor in the next pass can a branch predict
+/// what a pair will be: all are written, and those that stay move the end on.
+std::size_t within_reach(const Packing& packing, std::span<const NeighbourPair> pairs, std::size_t first,
+                         std::size_t last, NearPairs& near) {
   const double reach = 2 * packing.solid->circumradius();
-  if (r.squaredNorm() >= reach * reach) {
-    ++counts.out_of_reach;
-    return;
+  std::size_t count = 0;
+  for (std::size_t k = first; k < last; ++k) {
+    const Eigen::Vector3d r = displacement(packing, pairs[k]);
+    near[count] = {k, r.x(), r.y(), r.z()};
+    count += static_cast<std::size_t>(r.squaredNorm() < reach * reach);
   }
-  if (separates(a, b, r, axis)) {
-    ++counts.by_axis;
-    return;
-  }
-  ++counts.overlapped;
-  out = precision == Precision::double_double ? overlap(a, b, displacement_double_double(packing, pair), axis)
-                                              : overlap(a, b, r, axis);
-  if (out.path == OverlapPath::clip) ++counts.clipped;
-  if (out.touching()) ++counts.touching;
-  // No face separates: an edge pair does, and it is worth a search once.
-  if (!out.touching() && axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
+  return count;
 }
 
-void probe_pair(const Packing& packing, std::span<const PlacedSolid> placed, const NeighbourPair& pair,
-                const SeparatingAxis& axis, double probe_distance, Overlap& out) {
-  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
-  const Eigen::Vector3d r = displacement(packing, pair);
+/// Of these the ones that their axes do not separate.
+std::size_t not_separated(const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
+                          std::span<const SeparatingAxis> axes, std::size_t count, NearPairs& near) {
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t place = near[k].pair;
+    const Eigen::Vector3d r = near[k].r();
+    near[left] = near[k];
+    left += static_cast<std::size_t>(!separates(placed[pairs[place].a], placed[pairs[place].b], r, axes[place]));
+  }
+  return left;
+}
+
+Overlap overlap_of(const Packing& packing, Precision precision, const PlacedSolid& a, const PlacedSolid& b,
+                   const NeighbourPair& pair, const Eigen::Vector3d& r, SeparatingAxis& axis) {
+  if (precision == Precision::double_double) return overlap(a, b, displacement_double_double(packing, pair), axis);
+  return overlap(a, b, r, axis);
+}
+
+PairCounts overlap_block(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::size_t first,
+                         std::size_t last, std::vector<PairOverlap>& touching) {
+  NearPairs near;
+  const std::size_t reachable = within_reach(packing, pairs, first, last, near);
+  const std::size_t left = not_separated(placed, pairs, axes, reachable, near);
+  PairCounts counts;
+  counts.listed = static_cast<long>(last - first);
+  counts.out_of_reach = counts.listed - static_cast<long>(reachable);
+  counts.by_axis = static_cast<long>(reachable - left);
+  counts.overlapped = static_cast<long>(left);
+  touching.clear();
+  for (std::size_t k = 0; k < left; ++k) {
+    const NeighbourPair& pair = pairs[near[k].pair];
+    const PlacedSolid a = placed[pair.a], b = placed[pair.b];
+    SeparatingAxis& axis = axes[near[k].pair];
+    const Overlap found = overlap_of(packing, precision, a, b, pair, near[k].r(), axis);
+    counts.clipped += static_cast<long>(found.path == OverlapPath::clip);
+    if (found.touching()) {
+      touching.push_back({near[k].pair, found});
+    } else if (axis.kind == SeparatingAxis::Kind::none) {
+      // No face separates: an edge pair does, and it is worth a search once.
+      axis = best_axis(a, b, near[k].r());
+    }
+  }
+  counts.touching = static_cast<long>(touching.size());
+  return counts;
+}
+
+void probe_pair(const Packing& packing, const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
+                std::span<const SeparatingAxis> axes, std::size_t k, double probe_distance,
+                std::vector<PairOverlap>& touching) {
+  const Eigen::Vector3d r = displacement(packing, pairs[k]);
   const double length = r.norm(), reach = 2 * packing.solid->circumradius();
-  out = {};
   if (length - probe_distance >= reach || length <= probe_distance) return;
+  const PlacedSolid a = placed[pairs[k].a], b = placed[pairs[k].b];
   const Eigen::Vector3d closer = (1 - probe_distance / length) * r;
-  if (separates(a, b, closer, axis)) return;
+  if (separates(a, b, closer, axes[k])) return;
   SeparatingAxis unused;
-  out = overlap(a, b, closer, unused);
-}
-
-/// Runs `run(block)` for every block of `grain` pairs.
-template <class Run>
-void for_each_block(std::size_t blocks, const Run& run) {
-  if (blocks < 2) {
-    for (std::size_t block = 0; block < blocks; ++block) run(block);
-  } else {
-    for_each_index(blocks, std::cref(run));
-  }
+  const Overlap found = overlap(a, b, closer, unused);
+  if (found.touching()) touching.push_back({k, found});
 }
 
 std::size_t block_count(std::size_t pairs) { return (pairs + grain - 1) / grain; }
 
 /// Second derivatives of the energy, ½ (g gᵀ + V H(V)), g = ∇V; θ → R·θ in rows and columns.
-void pair_hessian(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
-                  const NeighbourPair& pair, PairHessian& out) {
-  const PlacedSolid &a = placed[pair.a], &b = placed[pair.b];
+PairHessian pair_hessian(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                         const NeighbourPair& pair) {
+  const PlacedSolid a = placed[pair.a], b = placed[pair.b];
   const Eigen::Vector3d r = displacement(packing, pair);
   SeparatingAxis unused;
   OverlapHessian h;
   const Overlap value = precision == Precision::double_double
                             ? overlap_with_hessian(a, b, displacement_double_double(packing, pair), unused, h)
                             : overlap_with_hessian(a, b, r, unused, h);
-  out = pair_energy(value, h, r, packing.solid->gyration_radius()).hessian;
+  return pair_energy(value, h, r, packing.solid->gyration_radius()).hessian;
 }
 
 }  // namespace
@@ -88,60 +127,71 @@ PairCounts& PairCounts::operator+=(const PairCounts& term) {
   return *this;
 }
 
+void for_each_block(std::size_t blocks, const std::function<void(std::size_t)>& run) {
+  if (blocks < 2) {
+    for (std::size_t block = 0; block < blocks; ++block) run(block);
+  } else {
+    for_each_index(blocks, run);
+  }
+}
+
 void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run) {
   for_each_block(block_count(slots), [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(slots, (block + 1) * grain); ++k) run(k);
   });
 }
 
-void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed) {
-  placed.resize(packing.poses.size());
+void place_all(const Packing& packing, Precision precision, PlacedSolids& placed) {
+  placed.resize(*packing.solid, packing.poses.size(), precision == Precision::double_double);
   for_each_slot(placed.size(), [&](std::size_t k) {
     const Pose& pose = packing.poses[k];
-    // In place of the old one, which owns nothing: a copy would cost as much again.
     if (precision == Precision::double_double) {
-      std::construct_at(&placed[k], *packing.solid, rotation_matrix(pose));
+      placed.place(k, rotation_matrix(pose));
     } else {
-      std::construct_at(&placed[k], *packing.solid, pose.orientation.toRotationMatrix());
+      placed.place(k, pose.orientation.toRotationMatrix());
     }
   });
 }
 
-PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
-                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out) {
-  assert(axes.size() == pairs.size() && out.size() == pairs.size());
-  const std::size_t n = pairs.size();
-  const std::size_t blocks = block_count(n);
+PairCounts overlap_pairs(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes,
+                         TouchingPairs& touching) {
+  assert(axes.size() == pairs.size());
+  const std::size_t n = pairs.size(), blocks = block_count(n);
   std::vector<PairCounts> counts(blocks);
+  touching.blocks.resize(blocks);
   for_each_block(blocks, [&](std::size_t block) {
-    for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
-      overlap_pair(packing, precision, placed, pairs[k], axes[k], out[k], counts[block]);
+    counts[block] = overlap_block(packing, precision, placed, pairs, axes, block * grain,
+                                  std::min(n, (block + 1) * grain), touching.blocks[block]);
   });
   PairCounts sum;
   for (const PairCounts& block : counts) sum += block;
   return sum;
 }
 
-void probe_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
-                 std::span<const SeparatingAxis> axes, double probe_distance, std::span<Overlap> out) {
-  assert(axes.size() == pairs.size() && out.size() == pairs.size());
+TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
+                          std::span<const SeparatingAxis> axes, double probe_distance) {
+  assert(axes.size() == pairs.size());
   const std::size_t n = pairs.size();
-  for_each_block(block_count(n), [&](std::size_t block) {
+  TouchingPairs touching;
+  touching.blocks.resize(block_count(n));
+  for_each_block(touching.blocks.size(), [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
-      probe_pair(packing, placed, pairs[k], axes[k], probe_distance, out[k]);
+      probe_pair(packing, placed, pairs, axes, k, probe_distance, touching.blocks[block]);
   });
+  return touching;
 }
 
-void pair_hessians(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
-                   std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps,
-                   std::span<PairHessian> out) {
-  assert(overlaps.size() == pairs.size() && out.size() == pairs.size());
-  const std::size_t n = pairs.size();
-  for_each_block(block_count(n), [&](std::size_t block) {
-    for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k) {
-      if (overlaps[k].touching()) pair_hessian(packing, precision, placed, pairs[k], out[k]);
-    }
+std::vector<PairHessian> pair_hessians(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                                       std::span<const NeighbourPair> pairs, const TouchingPairs& touching) {
+  std::vector<std::size_t> first{0};
+  for (const auto& block : touching.blocks) first.push_back(first.back() + block.size());
+  std::vector<PairHessian> hessians(first.back());
+  for_each_block(touching.blocks.size(), [&](std::size_t block) {
+    for (std::size_t k = 0; k < touching.blocks[block].size(); ++k)
+      hessians[first[block] + k] = pair_hessian(packing, precision, placed, pairs[touching.blocks[block][k].pair]);
   });
+  return hessians;
 }
 
 }  // namespace isojam

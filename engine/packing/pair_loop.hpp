@@ -30,27 +30,46 @@ enum class Precision {
   double_double  ///< low parts too: enough for a residual of 1e-9 at any distance from jamming
 };
 
+/// Calls run(block) for every block < blocks, each far more work than a task costs, parallel on oneTBB.
+void for_each_block(std::size_t blocks, const std::function<void(std::size_t)>& run);
+
 /// Calls run(k) for every k < slots, parallel on oneTBB where there are enough of them. It may write to slot k only, so
 /// that the result does not depend on the number of threads.
 void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run);
 
 /// Every particle's solid in its orientation, in the order of particles. `placed` is overwritten.
-void place_all(const Packing& packing, Precision precision, std::vector<PlacedSolid>& placed);
+void place_all(const Packing& packing, Precision precision, PlacedSolids& placed);
 
-/// Overlap of every listed pair into its own slot (lab frame), parallel over pairs on oneTBB where there are enough of
-/// them. `placed` as place_all left it for the same precision. Slots of pairs that do not touch are left with volume 0.
-/// axes[k] is read and updated: a cache that changes the cost and never the result. All spans have the size of `pairs`.
-PairCounts overlap_pairs(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
-                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, std::span<Overlap> out);
+/// Overlap of a listed pair, lab frame.
+struct PairOverlap {
+  std::size_t pair = 0;  ///< its place in the list
+  Overlap overlap;       ///< V > 0
+};
 
-/// Overlap of every listed pair as it would be with the gap closed, B's centre closer to A's by `probe_distance`
-/// (V_p^(1/3)); volume 0 where they would still be apart. `axes` as overlap_pairs left them.
-void probe_pairs(const Packing& packing, std::span<const PlacedSolid> placed, std::span<const NeighbourPair> pairs,
-                 std::span<const SeparatingAxis> axes, double probe_distance, std::span<Overlap> out);
+/// The pairs of a list that touch, in its order, in blocks that are made in parallel.
+struct TouchingPairs {
+  std::vector<std::vector<PairOverlap>> blocks;
 
-/// PairHessian of every touching pair into its own slot; the others are left alone. `overlaps` as overlap_pairs left
-/// them.
-void pair_hessians(const Packing& packing, Precision precision, std::span<const PlacedSolid> placed,
-                   std::span<const NeighbourPair> pairs, std::span<const Overlap> overlaps, std::span<PairHessian> out);
+  std::size_t size() const {
+    std::size_t sum = 0;
+    for (const auto& block : blocks) sum += block.size();
+    return sum;
+  }
+};
+
+/// Finds the touching pairs of a list, parallel over blocks of it on oneTBB where there are enough of them. `placed` as
+/// place_all left it for the same precision. axes[k], of pair k, is read and updated: a cache that changes the cost and
+/// never the result. `touching` is overwritten.
+PairCounts overlap_pairs(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                         std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, TouchingPairs& touching);
+
+/// The touching pairs of a list as they would be with gaps closed, B's centre closer to A's by `probe_distance`
+/// (V_p^(1/3)). `axes` as overlap_pairs left them.
+TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
+                          std::span<const SeparatingAxis> axes, double probe_distance);
+
+/// PairHessian of every touching pair, in their order.
+std::vector<PairHessian> pair_hessians(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                                       std::span<const NeighbourPair> pairs, const TouchingPairs& touching);
 
 }  // namespace isojam

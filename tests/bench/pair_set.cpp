@@ -27,7 +27,9 @@ PairSet random_pairs(SolidKind kind, bool touching) {
   const ConvexSolid& solid = platonic(kind);
   RandomStream random{17, static_cast<std::uint64_t>(kind)};
   PairSet set;
-  for (int k = 0; k < particles; ++k) set.placed.emplace_back(solid, random_orientation(random).toRotationMatrix());
+  set.placed.resize(solid, particles, false);
+  for (std::size_t k = 0; k < set.placed.size(); ++k)
+    set.placed.place(k, random_orientation(random).toRotationMatrix());
   while (set.size() < pairs) {
     const Eigen::Vector3d direction = random_orientation(random) * Eigen::Vector3d::UnitX();
     const double distance = 2 * (solid.inradius() + (solid.circumradius() - solid.inradius()) * random.uniform());

@@ -14,12 +14,12 @@ struct PairSet {
     Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< x_b − x_a
   };
 
-  std::vector<PlacedSolid> placed;
+  PlacedSolids placed;
   std::vector<Pair> pairs;
 
   std::size_t size() const { return pairs.size(); }
-  const PlacedSolid& a(std::size_t k) const { return placed[static_cast<std::size_t>(pairs[k].a)]; }
-  const PlacedSolid& b(std::size_t k) const { return placed[static_cast<std::size_t>(pairs[k].b)]; }
+  PlacedSolid a(std::size_t k) const { return placed[static_cast<std::size_t>(pairs[k].a)]; }
+  PlacedSolid b(std::size_t k) const { return placed[static_cast<std::size_t>(pairs[k].b)]; }
   const Eigen::Vector3d& r(std::size_t k) const { return pairs[k].r; }
 };
 

@@ -141,7 +141,8 @@ inline void place_corners(const Side& side, const EdgeRecord& edge, int planes, 
   const Lanes d = where_negative(Lanes::load(masks.own_end[enters + 2 * leaves]), Lanes::load(masks.whole), pierced);
   const Lanes exchanged = swapped_pairs(d), weight = exchanged / (exchanged - d);
   const auto vertex = [&](std::uint32_t v) {
-    return with_fourth(Lanes::load(side.body->row(static_cast<int>(v))) + side.shift, side.height[side.stride * v]);
+    const double* p = side.body->vertex_at(static_cast<int>(v));
+    return Lanes::of(p[0], p[4], p[8], side.height[side.stride * v]) + side.shift;
   };
   const Lanes p = vertex(edge.tail), q = vertex(edge.head);
   const Lanes from = fma(p, lane<0>(weight), q * lane<1>(weight)), to = fma(p, lane<2>(weight), q * lane<3>(weight));

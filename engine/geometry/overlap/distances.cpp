@@ -20,8 +20,8 @@ std::uint32_t within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_ot
   const Lanes x = Lanes::all(to_other.x()), y = Lanes::all(to_other.y()), z = Lanes::all(to_other.z());
   std::uint32_t below = 0;
   for (int v = 0; v < body.vertices(); v += 4) {
-    const Lanes along =
-        fma(x, Lanes::load(body.x() + v), fma(y, Lanes::load(body.y() + v), z * Lanes::load(body.z() + v)));
+    const double* p = body.vertex_block(v / 4);
+    const Lanes along = fma(x, Lanes::load(p), fma(y, Lanes::load(p + 4), z * Lanes::load(p + 8)));
     below |= sign_bits(along - least) << v;
   }
   return ~below & first_bits(body.vertices());
@@ -107,17 +107,18 @@ void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const
   const SolidArrays& solid = body.solid().arrays();
   with_counts(solid, other.faces(), [&](const auto& counts) {
     d.planes = 4 * counts.vectors;
-    const double *nx = other.nx(), *ny = other.ny(), *nz = other.nz();
+    const double* normals = other.normal_block(0);
     const auto affine = [=](int k, Lanes x, Lanes y, Lanes z, Lanes c) {
-      return fma(Lanes::load(nx + 4 * k), x, fma(Lanes::load(ny + 4 * k), y, fma(Lanes::load(nz + 4 * k), z, c)));
+      const double* n = normals + PlacedSolid::block * k;
+      return fma(Lanes::load(n), x, fma(Lanes::load(n + 4), y, fma(Lanes::load(n + 8), z, c)));
     };
     Lanes constant[capacity / 4];
     const Lanes x = Lanes::all(-to_other.x()), y = Lanes::all(-to_other.y()), z = Lanes::all(-to_other.z());
     repeat(counts.vectors,
            [&](int k) { constant[k] = affine(k, x, y, z, Lanes::all(0) - Lanes::load(other.offset() + 4 * k)); });
     const auto row = [&](int v, int k) {
-      const double* p = body.row(v);
-      const Lanes distance = affine(k, Lanes::all(p[0]), Lanes::all(p[1]), Lanes::all(p[2]), constant[k]);
+      const double* p = body.vertex_at(v);
+      const Lanes distance = affine(k, Lanes::all(p[0]), Lanes::all(p[4]), Lanes::all(p[8]), constant[k]);
       distance.store(d.of + 4 * (counts.vectors * v + k));
       return distance;
     };

@@ -110,7 +110,8 @@ class CrossHessian {
 
  private:
   static Lanes normal(const PlacedSolid& solid, std::uint32_t f) {
-    return Lanes::load(solid.normal_row(static_cast<int>(f)));
+    const double* n = solid.normal_at(static_cast<int>(f));
+    return Lanes::of(n[0], n[4], n[8], 0);
   }
   template <int k>
   void add_column(Lanes n, Lanes arm, Lanes factors, int first) {
@@ -189,7 +190,8 @@ Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const D
 }
 
 Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis) {
-  return overlap(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement, axis);
+  return overlap(LonePlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())), LonePlacedSolid(b, pose.rotation),
+                 pose.displacement, axis);
 }
 
 Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
@@ -200,8 +202,8 @@ Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const Relat
 Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis unused;
   OverlapHessian hessian;
-  overlap_with_hessian(PlacedSolid(a, Eigen::Matrix3d::Identity()), PlacedSolid(b, pose.rotation), pose.displacement,
-                       unused, hessian);
+  overlap_with_hessian(LonePlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())),
+                       LonePlacedSolid(b, pose.rotation), pose.displacement, unused, hessian);
   return hessian.ab;
 }
 

@@ -29,7 +29,8 @@ struct Extent {
   Lanes x, y, z;
 
   Lanes along(const PlacedSolid& solid, int v) const {
-    return fma(x, Lanes::load(solid.x() + v), fma(y, Lanes::load(solid.y() + v), z * Lanes::load(solid.z() + v)));
+    const double* p = solid.vertex_block(v / 4);
+    return fma(x, Lanes::load(p), fma(y, Lanes::load(p + 4), z * Lanes::load(p + 8)));
   }
   double highest(const PlacedSolid& solid) const {
     Lanes best = along(solid, 0);
@@ -43,14 +44,21 @@ struct Extent {
   }
 };
 
-/// (x, y, z, 0) of the axis. Which kind it is cannot be predicted: all are made, and one is picked.
+struct Vector {
+  double x, y, z;
+};
+inline Vector tail_to_head(const PlacedSolid& solid, const EdgeRecord& edge) {
+  const double *p = solid.vertex_at(edge.tail), *q = solid.vertex_at(edge.head);
+  return {q[0] - p[0], q[4] - p[4], q[8] - p[8]};
+}
+
+/// x of the axis at [0], y at [4], z at [8]. Which kind it is cannot be predicted: all are made, and one is picked.
 inline const double* pick_direction(const PlacedSolid& a, const PlacedSolid& b, const SeparatingAxis& axis,
                                     double* across) {
   const EdgeRecord &e = a.solid().arrays().record[axis.a], &f = b.solid().arrays().record[axis.b];
-  const Lanes p = Lanes::load(a.row(e.head)) - Lanes::load(a.row(e.tail));
-  const Lanes q = Lanes::load(b.row(f.head)) - Lanes::load(b.row(f.tail));
-  yzx(cross_zxy(p, q)).store(across);
-  const double* by_kind[] = {across, a.normal_row(axis.a), b.normal_row(axis.b), across};
+  const Vector p = tail_to_head(a, e), q = tail_to_head(b, f);
+  across[0] = p.y * q.z - p.z * q.y, across[4] = p.z * q.x - p.x * q.z, across[8] = p.x * q.y - p.y * q.x;
+  const double* by_kind[] = {across, a.normal_at(axis.a), b.normal_at(axis.b), across};
   return by_kind[static_cast<int>(axis.kind)];
 }
 
@@ -119,9 +127,9 @@ double gap_tolerance(const ConvexSolid& a, const ConvexSolid& b, const RelativeP
 
 bool separates(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const SeparatingAxis& axis) {
   if (axis.kind == SeparatingAxis::Kind::none) return false;
-  alignas(32) double across[4];
+  alignas(32) double across[PlacedSolid::block];
   const double* u = pick_direction(a, b, axis, across);
-  const double ux = u[0], uy = u[1], uz = u[2];
+  const double ux = u[0], uy = u[4], uz = u[8];
   const double along = ux * r.x() + uy * r.y() + uz * r.z();
   // From A to B. That of crossed edges may point either way.
   const double signs[] = {1, 1, -1, std::copysign(1.0, along)};

@@ -63,12 +63,12 @@ EnvelopeEvaluation summed(std::vector<EnvelopeContact> contacts, int particles) 
 void EnvelopeEnergy::place(const Packing& packing) {
   list_.refresh(packing);
   const std::size_t n = packing.poses.size();
-  const bool same = placed_.size() == n && !placed_.empty() && &placed_[0].solid() == packing.solid;
-  placed_.resize(n);
+  const bool same = placed_.size() == n && placed_.solid() == packing.solid;
+  placed_.resize(*packing.solid, n, true);
   poses_.resize(n);
   for_each_slot(n, [&](std::size_t k) {
     if (same && poses_[k] == packing.poses[k]) return;
-    std::construct_at(&placed_[k], *packing.solid, rotation_matrix(packing.poses[k]));
+    placed_.place(k, rotation_matrix(packing.poses[k]));
     poses_[k] = packing.poses[k];
   });
 }

@@ -57,7 +57,7 @@ class EnvelopeEnergy {
   EnvelopeEvaluation evaluate_pairs(const Packing& packing, const std::vector<std::size_t>& near, const Find& find);
 
   NeighbourList list_;
-  std::vector<PlacedSolid> placed_;
+  PlacedSolids placed_;
   std::vector<Pose> poses_;  ///< that placed_ were made of
 };
 

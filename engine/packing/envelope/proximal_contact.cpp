@@ -59,7 +59,9 @@ class Proximal {
         r_(r),
         stiffness_(terms.stiffness),
         radius_(a.solid().gyration_radius()),
-        multiplier_(to_lab(b, terms.multiplier)) {}
+        multiplier_(to_lab(b, terms.multiplier)) {
+    placed_.resize(a.solid(), 1, true);
+  }
 
   ProximalContact unshifted() { return result(at(Vector6d::Zero()), true); }
 
@@ -81,10 +83,10 @@ class Proximal {
     ghost.shift = shift;
     const Eigen::Vector3d half = shift.tail<3>() / (2 * radius_);
     const Pose pose = moved_by_half_turn(b_, Eigen::Vector3d::Zero(), half);
-    const PlacedSolid placed(a_.solid(), rotation_matrix(pose));
+    placed_.place(0, rotation_matrix(pose));
     DoubleDoubleVector r = r_;
     for (int c = 0; c < 3; ++c) r.set(c, short_sum(r_[c], shift[c]));
-    ghost.pair = pair_energy(a_, placed, r);
+    ghost.pair = pair_energy(a_, placed_[0], r);
     // q → exp(dθ) q changes its vector part v by ½ (q₀ dθ + dθ×v).
     ghost.turn = std::sqrt(1 - half.squaredNorm()) * Eigen::Matrix3d::Identity() - cross_matrix(half);
     const Vector6d spring = stiffness_ * shift - multiplier_;
@@ -175,6 +177,7 @@ class Proximal {
   const DoubleDoubleVector& r_;
   double stiffness_, radius_;
   Vector6d multiplier_;  // lab frame
+  PlacedSolids placed_;  // the ghost
   int iterations_ = 0;
 };
 

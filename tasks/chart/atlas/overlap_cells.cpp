@@ -30,13 +30,14 @@ struct Kernel {
 };
 
 VolumeAndArea in_double_doubles(const ConstructedPair& pair) {
-  const PlacedSolid a(platonic(pair.a), rotation_matrix(pair.at_a)), b(platonic(pair.b), rotation_matrix(pair.at_b));
+  const LonePlacedSolid a(platonic(pair.a), rotation_matrix(pair.at_a)),
+      b(platonic(pair.b), rotation_matrix(pair.at_b));
   SeparatingAxis unused;
   const Overlap found = overlap(a, b, DoubleDoubleVector{pair.at_b.position, pair.at_b.position_low}, unused);
   return {found.volume, found.area};
 }
 
-PlacedSolid placed(SolidKind kind, const Pose& pose) {
+LonePlacedSolid placed(SolidKind kind, const Pose& pose) {
   return {platonic(kind), pose.orientation.normalized().toRotationMatrix()};
 }
 

@@ -26,7 +26,7 @@ constexpr double worst_useful_error = 1e-2;
 struct PreparedPair {
   PairCase pair;
   Pose pose;  ///< of B; A stands at the origin
-  PlacedSolid a, b, double_double_a, double_double_b;
+  LonePlacedSolid a, b, double_double_a, double_double_b;
   DoubleDoubleVector displacement;
   QuadPose quad;
   oracle::ReferenceOverlap right;
@@ -42,10 +42,10 @@ PreparedPair prepared(const PairCase& pair) {
   displacement.high = pair.displacement;
   return {pair,
           pose,
-          PlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())),
-          PlacedSolid(b, turn.high),
-          PlacedSolid(a, DoubleDoubleMatrix{}),
-          PlacedSolid(b, turn),
+          LonePlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())),
+          LonePlacedSolid(b, turn.high),
+          LonePlacedSolid(a, DoubleDoubleMatrix{}),
+          LonePlacedSolid(b, turn),
           displacement,
           relative_pose(Pose{}, pose, quad_position(pose)),
           oracle::reference_overlap(pair)};

@@ -205,7 +205,8 @@ TEST_P(SolidConstants, ArePlacedInDoubleDoubles) {
   const ConvexSolid& solid = platonic(GetParam());
   for (int k = 0; k < cases / 10; ++k) {
     const Pose pose = random_pose(random);
-    const PlacedSolid placed(solid, rotation_matrix(pose));
+    const LonePlacedSolid alone(solid, rotation_matrix(pose));
+    const PlacedSolid placed = alone.view();
     const QuadMatrix turn = quad_rotation(pose);
     EXPECT_LE(size(widened(placed.rotation_double_double()) - turn), 4 * last_bits);
     for (int v = 0; v < placed.vertices(); ++v) {

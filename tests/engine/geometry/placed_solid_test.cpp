@@ -30,9 +30,12 @@ constexpr int cases = 10;  // per pair of solids
 
 struct Placed {
   explicit Placed(const Pair& pair)
-      : a(pair.solid_a(), pair.a.orientation.toRotationMatrix()),
-        b(pair.solid_b(), pair.b.orientation.toRotationMatrix()),
+      : alone_a(pair.solid_a(), pair.a.orientation.toRotationMatrix()),
+        alone_b(pair.solid_b(), pair.b.orientation.toRotationMatrix()),
+        a(alone_a.view()),
+        b(alone_b.view()),
         r(pair.displacement()) {}
+  LonePlacedSolid alone_a, alone_b;
   PlacedSolid a, b;
   Vector3d r;
 };
@@ -53,18 +56,17 @@ void for_each_near_pair(std::uint64_t seed, const Check& check) {
 TEST(PlacedSolidTest, IsTheSolidTurned) {
   for_each_near_pair(1, [](const Pair& pair) {
     const ConvexSolid& solid = pair.solid_a();
-    const PlacedSolid placed = Placed(pair).a;
+    const Placed both(pair);
+    const PlacedSolid placed = both.a;
     const Matrix3d q = pair.a.orientation.toRotationMatrix();
     const double tolerance = 4 * epsilon * solid.circumradius();
     for (int v = 0; v < placed.vertices(); ++v) {
-      const Vector3d row(placed.row(v)[0], placed.row(v)[1], placed.row(v)[2]);
       EXPECT_LE((placed.vertex(v) - q * solid.vertices()[v]).norm(), tolerance) << "vertex " << v;
-      EXPECT_EQ((row - placed.vertex(v)).norm() + std::abs(placed.row(v)[3]), 0) << "row " << v;
+      EXPECT_EQ(placed.vertex_block(v / 4)[4 + v % 4], placed.vertex(v).y()) << "vertex " << v;
     }
     for (int f = 0; f < placed.faces(); ++f) {
-      const double* normal = placed.normal_row(f);
       EXPECT_LE((placed.normal(f) - q * solid.faces()[f].normal).norm(), 4 * epsilon) << "face " << f;
-      EXPECT_EQ((Vector3d(normal[0], normal[1], normal[2]) - placed.normal(f)).norm() + std::abs(normal[3]), 0);
+      EXPECT_EQ(placed.normal_block(f / 4)[8 + f % 4], placed.normal(f).z()) << "face " << f;
       EXPECT_EQ(placed.offset()[f], solid.faces()[f].offset);
     }
   });

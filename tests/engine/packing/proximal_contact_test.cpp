@@ -29,7 +29,7 @@ struct Pair {
   double radius() const { return solid->gyration_radius(); }
 };
 
-PlacedSolid placed(const Pair& pair) { return {*pair.solid, rotation_matrix(pair.a)}; }
+LonePlacedSolid placed(const Pair& pair) { return {*pair.solid, rotation_matrix(pair.a)}; }
 
 DoubleDoubleVector displacement(const Pose& a, const Pose& b) {
   DoubleDoubleVector r;
@@ -66,7 +66,8 @@ Pair random_pair(SolidKind kind, double depth, RandomStream& random) {
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;
     pair.b.position = middle * axis;
-    (pair_energy(placed(pair), {*pair.solid, rotation_matrix(pair.b)}, displacement(pair.a, pair.b)).energy > 0
+    (pair_energy(placed(pair), LonePlacedSolid(*pair.solid, rotation_matrix(pair.b)), displacement(pair.a, pair.b))
+                 .energy > 0
          ? low
          : high) = middle;
   }
@@ -82,7 +83,9 @@ double minimand(const Pair& pair, const ProximalTerms& terms, const Vector6d& w)
   const Eigen::Quaterniond q = pair.b.orientation * turn;
   ghost = moved_by_half_turn(ghost, pair.b.orientation * Eigen::Vector3d(w.head<3>()),
                              (q * pair.b.orientation.conjugate()).vec());
-  const double e = pair_energy(placed(pair), {*pair.solid, rotation_matrix(ghost)}, displacement(pair.a, ghost)).energy;
+  const double e =
+      pair_energy(placed(pair), LonePlacedSolid(*pair.solid, rotation_matrix(ghost)), displacement(pair.a, ghost))
+          .energy;
   return e + terms.stiffness / 2 * w.squaredNorm() - terms.multiplier.dot(w);
 }
 
@@ -95,8 +98,9 @@ struct Case {
 Case random_case(SolidKind kind, RandomStream& random) {
   const double depth = std::pow(10, -1 - 3 * random.uniform());
   Case made{random_pair(kind, depth, random), {}};
-  const PairEnergy pair = pair_energy(placed(made.pair), {*made.pair.solid, rotation_matrix(made.pair.b)},
-                                      displacement(made.pair.a, made.pair.b));
+  const PairEnergy pair =
+      pair_energy(placed(made.pair), LonePlacedSolid(*made.pair.solid, rotation_matrix(made.pair.b)),
+                  displacement(made.pair.a, made.pair.b));
   const double force = std::max(pair.gradient_b.norm(), std::pow(depth, 5));
   made.terms.multiplier = to_body(made.pair.b, pair.gradient_b) + random_vector(random, force / 2);
   made.terms.stiffness = force / depth * std::pow(10, 2 * random.uniform());
@@ -217,7 +221,7 @@ TEST_P(ProximalContactOf, ItsOwnForceLeavesItUnshifted) {
   for (int k = 0; k < 30; ++k) {
     const auto [pair, terms] = random_case(GetParam(), random);
     const PairEnergy e =
-        pair_energy(placed(pair), {*pair.solid, rotation_matrix(pair.b)}, displacement(pair.a, pair.b));
+        pair_energy(placed(pair), LonePlacedSolid(*pair.solid, rotation_matrix(pair.b)), displacement(pair.a, pair.b));
     const ProximalContact direct =
         unshifted_contact(placed(pair), pair.b, displacement(pair.a, pair.b), terms.stiffness);
     EXPECT_EQ(direct.energy, e.energy);

@@ -46,7 +46,7 @@ DoubleDoubleVector displacement_double_double(const Pair& pair) {
   return narrowed(quad_position(pair.b) - quad_position(pair.a));
 }
 
-PlacedSolid placed(const ConvexSolid& solid, const Pose& pose) { return PlacedSolid(solid, rotation_matrix(pose)); }
+LonePlacedSolid placed(const ConvexSolid& solid, const Pose& pose) { return {solid, rotation_matrix(pose)}; }
 
 Overlap in_double_double(const Pair& pair, const ConvexSolid& a, const ConvexSolid& b) {
   SeparatingAxis axis;
