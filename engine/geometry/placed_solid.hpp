@@ -39,6 +39,9 @@ class PlacedSolid {
     return {rotation(), Eigen::Map<const Eigen::Matrix3d>(rotation_row() + to_low_)};
   }
 
+  /// From a component of a vector to its low part.
+  std::ptrdiff_t to_low() const { return to_low_; }
+
  private:
   friend class PlacedSolids;
   PlacedSolid(const ConvexSolid& solid, const double* vertices, const double* normals, std::ptrdiff_t to_low)
@@ -51,7 +54,7 @@ class PlacedSolid {
 
   const ConvexSolid* solid_;
   const double *vertices_, *normals_;
-  std::ptrdiff_t to_low_;  ///< from a component to its low part
+  std::ptrdiff_t to_low_;
 };
 
 /// The particles of a packing, placed. Where one is placed anew its views stay good; resize() ends all of them.

@@ -17,16 +17,17 @@ PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, co
   scale.tail<3>().setConstant(1 / gyration_radius);
   const Vector6d ga = joined(overlap.area, overlap.moment);
   const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
-  const auto block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second) -> Matrix6d {
-    return scale.asDiagonal() * ((g * k.transpose() + overlap.volume * second) / 2) * scale.asDiagonal();
+  const auto set_block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second, Matrix6d& block) {
+    for (int c = 0; c < 6; ++c)
+      block.col(c) = (scale.array() * ((g * k[c] + overlap.volume * second.col(c)) / 2).array() * scale[c]).matrix();
   };
   PairEnergy pair;
   pair.energy = overlap.volume * overlap.volume / 4;
   pair.gradient_a = overlap.volume / 2 * scale.cwiseProduct(ga);
   pair.gradient_b = overlap.volume / 2 * scale.cwiseProduct(gb);
-  pair.hessian.aa = block(ga, ga, hessian.aa);
-  pair.hessian.ab = block(ga, gb, hessian.ab);
-  pair.hessian.bb = block(gb, gb, hessian.bb);
+  set_block(ga, ga, hessian.aa, pair.hessian.aa);
+  set_block(ga, gb, hessian.ab, pair.hessian.ab);
+  set_block(gb, gb, hessian.bb, pair.hessian.bb);
   return pair;
 }
 

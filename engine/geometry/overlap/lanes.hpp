@@ -50,6 +50,24 @@ inline Lanes with_fourth(Lanes a, double x) { return {_mm256_blend_pd(a.v, _mm25
 inline unsigned sign_bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_pd(a.v)); }
 inline Lanes operator&(Lanes a, Lanes b) { return {_mm256_and_pd(a.v, b.v)}; }  ///< bit by bit
 inline Lanes operator|(Lanes a, Lanes b) { return {_mm256_or_pd(a.v, b.v)}; }
+/// Sets x, y, z to the first three components of four rows.
+inline void transpose(const double* p, const double* q, const double* r, const double* s, Lanes& x, Lanes& y,
+                      Lanes& z) {
+  const __m256d a = _mm256_loadu_pd(p), b = _mm256_loadu_pd(q), c = _mm256_loadu_pd(r), d = _mm256_loadu_pd(s);
+  const __m256d even = _mm256_unpacklo_pd(a, b), even_2 = _mm256_unpacklo_pd(c, d);
+  x = {_mm256_permute2f128_pd(even, even_2, 0x20)};
+  y = {_mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20)};
+  z = {_mm256_permute2f128_pd(even, even_2, 0x31)};
+}
+/// Sets the four rows (x, y, z, 0).
+inline void rows_of(Lanes x, Lanes y, Lanes z, Lanes* rows) {
+  const __m256d zero = _mm256_setzero_pd();
+  const __m256d even = _mm256_unpacklo_pd(x.v, y.v), odd = _mm256_unpackhi_pd(x.v, y.v);
+  const __m256d even_z = _mm256_unpacklo_pd(z.v, zero), odd_z = _mm256_unpackhi_pd(z.v, zero);
+  rows[0] = {_mm256_permute2f128_pd(even, even_z, 0x20)}, rows[1] = {_mm256_permute2f128_pd(odd, odd_z, 0x20)};
+  rows[2] = {_mm256_permute2f128_pd(even, even_z, 0x31)}, rows[3] = {_mm256_permute2f128_pd(odd, odd_z, 0x31)};
+}
+inline Lanes square_root(Lanes a) { return {_mm256_sqrt_pd(a.v)}; }
 inline Lanes yzx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11001001)}; }
 /// Lanes 1, 0, 3, 2.
 inline Lanes swapped_pairs(Lanes a) { return {_mm256_permute_pd(a.v, 0b0101)}; }
@@ -140,6 +158,16 @@ inline Lanes operator|(Lanes a, Lanes b) {
   return each([&](int k) {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a.v[k]) | std::bit_cast<std::uint64_t>(b.v[k]));
   });
+}
+inline void transpose(const double* p, const double* q, const double* r, const double* s, Lanes& x, Lanes& y,
+                      Lanes& z) {
+  x = Lanes::of(p[0], q[0], r[0], s[0]), y = Lanes::of(p[1], q[1], r[1], s[1]), z = Lanes::of(p[2], q[2], r[2], s[2]);
+}
+inline void rows_of(Lanes x, Lanes y, Lanes z, Lanes* rows) {
+  for (int k = 0; k < 4; ++k) rows[k] = Lanes::of(x.v[k], y.v[k], z.v[k], 0);
+}
+inline Lanes square_root(Lanes a) {
+  return each([&](int k) { return std::sqrt(a.v[k]); });
 }
 inline Lanes yzx(Lanes a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
 inline Lanes swapped_pairs(Lanes a) { return {{a.v[1], a.v[0], a.v[3], a.v[2]}}; }

@@ -5,6 +5,7 @@
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/contact_loop.hpp"
+#include "engine/geometry/overlap/cross_hessian.hpp"
 #include "engine/geometry/overlap/lanes.hpp"
 
 namespace isojam {
@@ -62,77 +63,10 @@ Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVe
 const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
 const Eigen::Vector3d& rounded(const DoubleDoubleVector& r) { return r.high; }
 
-/// |n×m| of face i of A and face j of B.
-double sine(const PlacedSolid& a, const PlacedSolid& b, int i, int j, const Eigen::Vector3d&) {
-  return a.normal(i).cross(b.normal(j)).norm();
-}
-
-/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
-double sine(const PlacedSolid& a, const PlacedSolid& b, int i, int j, const DoubleDoubleVector&) {
-  const DoubleDoubleVector n = a.normal_double_double(i), m = b.normal_double_double(j);
-  const double sign = n.high.dot(m.high) < 0 ? 1 : -1;
-  return n.high.cross((n.high + sign * m.high) + (n.low + sign * m.low)).norm();
-}
-
-/// The columns of H_AB, each in two halves of three rows: Σ ∫ u_A u_Bᵀ dl / |n_i×n_j|. On a segment of length l and
-/// direction d both u are linear, so that the integral is l ū_A ū_Bᵀ + l/12 (0, d×n_i) (0, d×n_j)ᵀ, ū at its middle.
-class CrossHessian {
- public:
-  CrossHessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r)
-      : a_(a), b_(b), half_(Lanes::of(r.x() / 2, r.y() / 2, r.z() / 2, 0)) {
-    for (Lanes& column : upper_) column = Lanes::all(0);
-    for (Lanes& column : lower_) column = Lanes::all(0);
-  }
-
-  /// `sine`: |n_i×n_j| of the planes that meet in the segment.
-  void add(const ContactLoop& loop, const ContactLoop::Segment& s, double sine) {
-    const Lanes v = without_fourth(Lanes::load(loop.corner[s.from])),
-                w = without_fourth(Lanes::load(loop.corner[s.to]));
-    const Lanes n = normal(a_, s.face_a), m = normal(b_, s.face_b);
-    const Lanes along = w - v, middle = Lanes::all(0.5) * (v + w);
-    if (!(sine > 0)) return;
-    const Lanes weight = Lanes::all(std::sqrt(sum(along * along).first()) / sine);
-    const Lanes arm_a = yzx(cross_zxy(middle + half_, n)), turn_a = yzx(cross_zxy(along, n));
-    const Lanes arm_b = weight * yzx(cross_zxy(middle - half_, m));
-    const Lanes turn_b = weight * Lanes::all(1.0 / 12) * yzx(cross_zxy(along, m)), push_b = weight * m;
-    add_column<0>(n, arm_a, push_b, 0), add_column<1>(n, arm_a, push_b, 0), add_column<2>(n, arm_a, push_b, 0);
-    add_column<0>(n, arm_a, arm_b, 3), add_column<1>(n, arm_a, arm_b, 3), add_column<2>(n, arm_a, arm_b, 3);
-    lower_[3] = fma(turn_a, lane<0>(turn_b), lower_[3]);
-    lower_[4] = fma(turn_a, lane<1>(turn_b), lower_[4]);
-    lower_[5] = fma(turn_a, lane<2>(turn_b), lower_[5]);
-  }
-
-  Matrix6d matrix() const {
-    Matrix6d h;
-    for (int c = 0; c < 6; ++c) h.col(c) = joined(vector_of(upper_[c]), vector_of(lower_[c]));
-    return h;
-  }
-
- private:
-  static Lanes normal(const PlacedSolid& solid, std::uint32_t f) {
-    const double* n = solid.normal_at(static_cast<int>(f));
-    return Lanes::of(n[0], n[4], n[8], 0);
-  }
-  template <int k>
-  void add_column(Lanes n, Lanes arm, Lanes factors, int first) {
-    upper_[first + k] = fma(n, lane<k>(factors), upper_[first + k]);
-    lower_[first + k] = fma(arm, lane<k>(factors), lower_[first + k]);
-  }
-
-  const PlacedSolid &a_, &b_;
-  Lanes half_;
-  Lanes upper_[6], lower_[6];
-};
-
-/// In doubles or in double-double, as r is.
-template <class Displacement>
-Matrix6d cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop) {
-  CrossHessian sum(a, b, rounded(r));
-  for (int k = 0; k < loop.segments; ++k) {
-    const ContactLoop::Segment& s = loop.segment[k];
-    sum.add(loop, s, sine(a, b, static_cast<int>(s.face_a), static_cast<int>(s.face_b), r));
-  }
-  return sum.matrix();
+void set_zero(OverlapHessian& hessian) {
+  hessian.aa.setZero();
+  hessian.ab.setZero();
+  hessian.bb.setZero();
 }
 
 /// In doubles or in double-double, as r is; `hessian` may be null.
@@ -141,22 +75,23 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
                    OverlapHessian* hessian) {
   ContactLoop loop;
   find_contact_loop(a, b, r, loop);
-  if (hessian) *hessian = {};
   Overlap result;
   if (loop.verdict == LoopVerdict::separated) {
     axis = loop.axis;
+    if (hessian) set_zero(*hessian);
     return result;
   }
   if (loop.verdict == LoopVerdict::closed) {
     integrate(loop, rounded(r), result);
     if (result.volume > 0) {  // or rounding ate a sliver
       if (!hessian) return result;
-      hessian->ab = cross_hessian(a, b, r, loop);
-      hessian->aa = overlap_own_hessian(hessian->ab, result.area, rounded(r));
-      hessian->bb = overlap_own_hessian(hessian->ab.transpose(), -result.area, -rounded(r));
+      set_cross_hessian(a, b, r, loop, hessian->ab);
+      set_own_hessian(hessian->ab, result.area, rounded(r), hessian->aa);
+      set_own_hessian(hessian->ab.transpose(), -result.area, -rounded(r), hessian->bb);
       return result;
     }
   }
+  if (hessian) set_zero(*hessian);
   result = clipped(a, b, r);
   result.area = a.rotation() * result.area;
   result.moment = a.rotation() * result.moment;
@@ -207,12 +142,14 @@ Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const
   return hessian.ab;
 }
 
-Matrix6d overlap_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r) {
-  Matrix6d own = -cross;
+void set_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r, Matrix6d& own) {
+  own = -cross;
   // θ×r = −[r]×θ: a turn of A about its centre carries B along.
-  own.rightCols<3>() += cross.leftCols<3>() * skew(r);
+  own.rightCols<3>().noalias() += cross.leftCols<3>() * skew(r);
   own.topRightCorner<3, 3>() -= skew(area);
-  return (own + own.transpose()) / 2;
+  for (int c = 0; c < 6; ++c) {
+    for (int row = 0; row <= c; ++row) own(row, c) = own(c, row) = (own(row, c) + own(c, row)) / 2;
+  }
 }
 
 }  // namespace isojam

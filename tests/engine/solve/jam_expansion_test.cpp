@@ -145,6 +145,7 @@ TEST(JamTest, ASlideIsHalvedOnceAndThenEndsItsBranch) {
   const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
   JamProgress progress = misled(before, 1, options);
+  options.final_distance = 0.001;  // it has farther to go
   const JamOptions usual = options;
   options.minimise.max_evaluations = 3;  // no step is followed to its end
   const double from = progress.packing.density();

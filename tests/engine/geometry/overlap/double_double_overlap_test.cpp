@@ -239,7 +239,8 @@ TEST_P(DoubleDoubleOverlap, HessiansAreDifferencesInQuadruplePrecision) {
       OverlapHessian hessian;
       overlap_with_hessian(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r, unused, hessian);
       const Matrix6d& cross = hessian.ab;
-      const Matrix6d own = overlap_own_hessian(cross, in_double_double(pair).area, r.high);
+      Matrix6d own;
+      set_own_hessian(cross, in_double_double(pair).area, r.high, own);
       // Turns do not commute: the derivative of M by turns of its own body has an antisymmetric part, which is no
       // curvature of V.
       const double h = 1e-8 * depth;

@@ -127,8 +127,10 @@ Matrix12d hessian(const Pair& pair) {
   const Overlap result = overlap(pair);
   const Matrix6d cross = overlap_cross_hessian(pair.solid_a(), pair.solid_b(), pose);
   Matrix12d h;
-  h << overlap_own_hessian(cross, result.area, pose.displacement), cross, cross.transpose(),
-      overlap_own_hessian(cross.transpose(), -result.area, -pose.displacement);
+  Matrix6d own_a, own_b;
+  set_own_hessian(cross, result.area, pose.displacement, own_a);
+  set_own_hessian(cross.transpose(), -result.area, -pose.displacement, own_b);
+  h << own_a, cross, cross.transpose(), own_b;
   Matrix12d frame = Matrix12d::Zero();
   for (int k = 0; k < 12; k += 3) frame.block<3, 3>(k, k) = pair.a.orientation.toRotationMatrix();
   return frame * h * frame.transpose();

@@ -1,0 +1,153 @@
+#include "engine/geometry/overlap/cross_hessian.hpp"
+
+#include <algorithm>
+
+#include "engine/geometry/overlap/lanes.hpp"
+
+// Twice over the segments. What belongs to one of them is found for four at a time, one in each lane; then they are
+// added up one after the other.
+
+namespace isojam {
+
+namespace {
+
+/// A vector for each of four segments.
+struct Four {
+  Lanes x, y, z;
+};
+
+Four operator+(const Four& a, const Four& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Four operator-(const Four& a, const Four& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Four operator*(Lanes s, const Four& a) { return {s * a.x, s * a.y, s * a.z}; }
+Four repeated(const Eigen::Vector3d& v) { return {Lanes::all(v.x()), Lanes::all(v.y()), Lanes::all(v.z())}; }
+Lanes dot(const Four& a, const Four& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Lanes length(const Four& a) { return square_root(dot(a, a)); }
+
+Four cross(const Four& a, const Four& b) {
+  return {fma_minus(a.y, b.z, a.z * b.y), fma_minus(a.z, b.x, a.x * b.z), fma_minus(a.x, b.y, a.y * b.x)};
+}
+
+/// Products rounded before they are subtracted: exactly 0 for parallel vectors.
+Four plain_cross(const Four& a, const Four& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Four segments of a loop; the last is repeated where there are fewer.
+struct Segments {
+  const ContactLoop::Segment* at[4];
+
+  Segments(const ContactLoop& loop, int first) {
+    for (int k = 0; k < 4; ++k) at[k] = &loop.segment[std::min(first + k, loop.segments - 1)];
+  }
+
+  Four corners(const ContactLoop& loop, std::uint32_t ContactLoop::Segment::*end) const {
+    Four corner;
+    transpose(loop.corner[at[0]->*end], loop.corner[at[1]->*end], loop.corner[at[2]->*end], loop.corner[at[3]->*end],
+              corner.x, corner.y, corner.z);
+    return corner;
+  }
+
+  Four normals(const PlacedSolid& solid, std::uint32_t ContactLoop::Segment::*face, std::ptrdiff_t to_part = 0) const {
+    const auto normal = [&](int k) { return solid.normal_at(static_cast<int>(at[k]->*face)) + to_part; };
+    const double *p = normal(0), *q = normal(1), *s = normal(2), *t = normal(3);
+    return {Lanes::of(p[0], q[0], s[0], t[0]), Lanes::of(p[4], q[4], s[4], t[4]), Lanes::of(p[8], q[8], s[8], t[8])};
+  }
+};
+
+/// |n×m|.
+Lanes sine(const PlacedSolid&, const PlacedSolid&, const Segments&, const Four& n, const Four& m,
+           const Eigen::Vector3d&) {
+  return length(plain_cross(n, m));
+}
+
+/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
+Lanes sine(const PlacedSolid& a, const PlacedSolid& b, const Segments& segments, const Four& n, const Four& m,
+           const DoubleDoubleVector&) {
+  const Lanes sign = where_negative(dot(n, m), Lanes::all(1), Lanes::all(-1));
+  const Four n_low = segments.normals(a, &ContactLoop::Segment::face_a, a.to_low());
+  const Four m_low = segments.normals(b, &ContactLoop::Segment::face_b, b.to_low());
+  return length(plain_cross(n, (n + sign * m) + (n_low + sign * m_low)));
+}
+
+const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
+const Eigen::Vector3d& rounded(const DoubleDoubleVector& r) { return r.high; }
+
+/// What four segments add to H_AB: rows of n_i, of its arm and of d×n_i; and in columns what they are multiplied by.
+struct Terms {
+  Lanes push[4], arm[4], turn[4];
+  alignas(32) double push_b[3][4], arm_b[3][4], turn_b[3][4];
+};
+
+void store(const Four& a, double (*rows)[4]) { a.x.store(rows[0]), a.y.store(rows[1]), a.z.store(rows[2]); }
+
+template <class Displacement>
+void terms_of(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop, int first,
+              Terms& terms) {
+  using Segment = ContactLoop::Segment;
+  const Segments segments(loop, first);
+  const Four v = segments.corners(loop, &Segment::from), w = segments.corners(loop, &Segment::to);
+  const Four n = segments.normals(a, &Segment::face_a), m = segments.normals(b, &Segment::face_b);
+  const Four along = w - v, middle = Lanes::all(0.5) * (v + w), half = repeated(Eigen::Vector3d(rounded(r) / 2));
+  const Lanes parallel = sine(a, b, segments, n, m, r), none = Lanes::all(0);
+  // Negative where sine > 0.
+  const Lanes weight = where_negative(none - parallel, length(along) / parallel, none);
+  rows_of(n.x, n.y, n.z, terms.push);
+  const Four arm = cross(middle + half, n), turn = cross(along, n);
+  rows_of(arm.x, arm.y, arm.z, terms.arm);
+  rows_of(turn.x, turn.y, turn.z, terms.turn);
+  store(weight * m, terms.push_b);
+  store(weight * cross(middle - half, m), terms.arm_b);
+  store(weight * Lanes::all(1.0 / 12) * cross(along, m), terms.turn_b);
+}
+
+/// The columns of H_AB, each in two halves of three rows.
+struct Columns {
+  Lanes upper[6], lower[6];
+
+  void add(const Terms& terms, int k) {
+    const auto factor = [k](const double(*rows)[4], int c) { return Lanes::all(rows[c][k]); };
+    const Lanes push = terms.push[k], arm = terms.arm[k], turn = terms.turn[k];
+    repeat(std::integral_constant<int, 3>{}, [&](int c) {
+      const Lanes push_b = factor(terms.push_b, c), arm_b = factor(terms.arm_b, c);
+      upper[c] = fma(push, push_b, upper[c]), lower[c] = fma(arm, push_b, lower[c]);
+      upper[3 + c] = fma(push, arm_b, upper[3 + c]);
+      lower[3 + c] = fma(turn, factor(terms.turn_b, c), fma(arm, arm_b, lower[3 + c]));
+    });
+  }
+
+  void store(Matrix6d& h) const {
+    // Four at a time, the fourth overwritten by the next, but for the last.
+    repeat(std::integral_constant<int, 5>{},
+           [&](int c) { upper[c].store(h.data() + 6 * c), lower[c].store(h.data() + 6 * c + 3); });
+    alignas(32) double last[4];
+    upper[5].store(h.data() + 30), lower[5].store(last);
+    std::copy_n(last, 3, h.data() + 33);
+  }
+};
+
+template <class Displacement>
+void sum_up(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop, Matrix6d& h) {
+  Columns sum;
+  for (Lanes& column : sum.upper) column = Lanes::all(0);
+  for (Lanes& column : sum.lower) column = Lanes::all(0);
+  Terms terms;
+  for (int first = 0; first < loop.segments; first += 4) {
+    terms_of(a, b, r, loop, first, terms);
+    for (int k = 0; k < std::min(4, loop.segments - first); ++k) sum.add(terms, k);
+  }
+  sum.store(h);
+}
+
+}  // namespace
+
+void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop,
+                       Matrix6d& h) {
+  sum_up(a, b, r, loop, h);
+}
+
+void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, const ContactLoop& loop,
+                       Matrix6d& h) {
+  sum_up(a, b, r, loop, h);
+}
+
+}  // namespace isojam
