@@ -36,8 +36,11 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 /// L Lᵀ of a symmetric matrix, made positive definite by as much of the identity as it takes, in units of `scale`.
 Eigen::LLT<Matrix6d> factorised(const Matrix6d& matrix, double scale) {
   Eigen::LLT<Matrix6d> factor(matrix);
-  for (double shift = scale / 4; factor.info() != Eigen::Success && std::isfinite(shift); shift *= 4)
+  double shift = scale / 4;
+  while (factor.info() != Eigen::Success && std::isfinite(shift)) {
     factor.compute(matrix + shift * Matrix6d::Identity());
+    shift *= 4;
+  }
   return factor;
 }
 

@@ -79,6 +79,17 @@ std::vector<BadManifest> malformed() {
       set("misspelt flag", "/exclude", {"cristalline"}, "did you mean \"crystalline\"?", "/exclude/0"),
       set("flags are no list", "/exclude", "crystalline", "a list"),
       set("a flag given twice", "/exclude", {"not_stable", "not_stable"}, "given twice", "/exclude/1"),
+      set("no modes", "/modes", 0, "out of range"),
+      set("modes are no number", "/modes", "all", "integer"),
+      set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
+      set("$schema is a number", "/$schema", 7, "a string"),
+      {"root is a list", "[1]", "", "an object with the keys", true},
+  };
+}
+
+/// What rows cannot be compared with.
+std::vector<BadManifest> malformed_base() {
+  return {
       set("misspelt parameter of the base", "/base/step_fracton", 0.35, "did you mean \"step_fraction\"?"),
       set("a base of an earlier version", "/base/approach", 0.35, "the key has a new name, \"step_fraction\""),
       set("a solid as the base", "/base/solid", "cube", "unknown key; allowed: \"initial_density\""),
@@ -87,11 +98,6 @@ std::vector<BadManifest> malformed() {
       set("a base of an unknown method", "/base/method", "newtom", "did you mean \"newton\"?"),
       set("a base that names nothing", "/base", Json::object(), "one or more swept parameters"),
       set("a base that is a list", "/base", {"step_fraction"}, "an object with the keys"),
-      set("no modes", "/modes", 0, "out of range"),
-      set("modes are no number", "/modes", "all", "integer"),
-      set("measure given twice", "/measure", {"contacts", "contacts"}, "given twice", "/measure/1"),
-      set("$schema is a number", "/$schema", 7, "a string"),
-      {"root is a list", "[1]", "", "an object with the keys", true},
   };
 }
 
@@ -199,7 +205,7 @@ Json good_manifest() {
 
 std::vector<BadManifest> bad_manifests() {
   auto all = malformed();
-  for (const auto& more : {malformed_sweep(), inconsistent(), unreadable()})
+  for (const auto& more : {malformed_base(), malformed_sweep(), inconsistent(), unreadable()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
