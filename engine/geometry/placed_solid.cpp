@@ -1,5 +1,7 @@
 #include "engine/geometry/placed_solid.hpp"
 
+#include <cassert>
+
 namespace isojam {
 
 namespace {
@@ -76,6 +78,7 @@ void PlacedSolids::place(std::size_t k, const Eigen::Matrix3d& rotation) {
 }
 
 void PlacedSolids::place(std::size_t k, const DoubleDoubleMatrix& rotation) {
+  assert(has_low_);
   const SolidArrays& body = solid_->arrays();
   double *at = &lines_[k * stride_].value[0], *low = at + to_low_;
   turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, at, low);

@@ -49,12 +49,6 @@ struct PairOverlap {
 /// The pairs of a list that touch, in its order, in blocks that are made in parallel.
 struct TouchingPairs {
   std::vector<std::vector<PairOverlap>> blocks;
-
-  std::size_t size() const {
-    std::size_t sum = 0;
-    for (const auto& block : blocks) sum += block.size();
-    return sum;
-  }
 };
 
 /// Finds the touching pairs of a list, parallel over blocks of it on oneTBB where there are enough of them. `placed` as

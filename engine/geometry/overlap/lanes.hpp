@@ -45,7 +45,6 @@ inline Lanes equal(Lanes a, Lanes b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_EQ_O
 /// Lanes 0 and 1 of a, 2 and 3 of b.
 inline Lanes halves(Lanes a, Lanes b) { return {_mm256_blend_pd(a.v, b.v, 0b1100)}; }
 inline Lanes without_fourth(Lanes a) { return {_mm256_blend_pd(a.v, _mm256_setzero_pd(), 0b1000)}; }
-inline Lanes with_fourth(Lanes a, double x) { return {_mm256_blend_pd(a.v, _mm256_set1_pd(x), 0b1000)}; }
 /// Bit k: the sign bit of lane k.
 inline unsigned sign_bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_pd(a.v)); }
 inline Lanes operator&(Lanes a, Lanes b) { return {_mm256_and_pd(a.v, b.v)}; }  ///< bit by bit
@@ -143,7 +142,6 @@ inline Lanes equal(Lanes a, Lanes b) {
 }
 inline Lanes halves(Lanes a, Lanes b) { return {{a.v[0], a.v[1], b.v[2], b.v[3]}}; }
 inline Lanes without_fourth(Lanes a) { return {{a.v[0], a.v[1], a.v[2], 0}}; }
-inline Lanes with_fourth(Lanes a, double x) { return {{a.v[0], a.v[1], a.v[2], x}}; }
 inline unsigned sign_bits(Lanes a) {
   unsigned bits = 0;
   for (int k = 0; k < 4; ++k) bits |= unsigned{std::signbit(a.v[k])} << k;
