@@ -70,7 +70,6 @@ TEST(LanesTest, SelectionsTakeTheLanesTheyName) {
     expect_lanes(where_negative(equal(a, halves(a, b)), Lanes::all(1), Lanes::all(0)), [](int k) { return k < 2; });
     expect_lanes(halves(a, b), [&](int k) { return k < 2 ? x[k] : y[k]; });
     expect_lanes(without_fourth(a), [&](int k) { return k < 3 ? x[k] : 0; });
-    expect_lanes(with_fourth(a, y[0]), [&](int k) { return k < 3 ? x[k] : y[0]; });
     expect_lanes(yzx(a), [&](int k) { return x[std::array{1, 2, 0, 3}[k]]; });
     expect_lanes(swapped_pairs(a), [&](int k) { return x[k ^ 1]; });
     expect_lanes(swapped_halves(a), [&](int k) { return x[k ^ 2]; });
