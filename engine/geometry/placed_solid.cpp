@@ -89,4 +89,14 @@ void PlacedSolids::place(std::size_t k, const DoubleDoubleMatrix& rotation) {
   Eigen::Map<Eigen::Matrix3d>{low} = rotation.low;
 }
 
+LonePlacedSolid::LonePlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation) {
+  alone_.resize(solid, 1, false);
+  alone_.place(0, rotation);
+}
+
+LonePlacedSolid::LonePlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation) {
+  alone_.resize(solid, 1, true);
+  alone_.place(0, rotation);
+}
+
 }  // namespace isojam

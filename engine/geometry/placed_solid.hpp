@@ -92,14 +92,8 @@ class PlacedSolids {
 /// A solid placed by itself.
 class LonePlacedSolid {
  public:
-  LonePlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation) {
-    alone_.resize(solid, 1, false);
-    alone_.place(0, rotation);
-  }
-  LonePlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation) {
-    alone_.resize(solid, 1, true);
-    alone_.place(0, rotation);
-  }
+  LonePlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation);
+  LonePlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation);
 
   PlacedSolid view() const { return alone_[0]; }
   operator PlacedSolid() const { return view(); }  // NOLINT(google-explicit-constructor): to be handed to kernels

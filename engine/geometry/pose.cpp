@@ -63,6 +63,11 @@ Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Quaterniond
 
 }  // namespace
 
+bool Pose::operator==(const Pose& other) const {
+  return position == other.position && orientation.coeffs() == other.orientation.coeffs() &&
+         position_low == other.position_low && orientation_low == other.orientation_low;
+}
+
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta) {
   const double angle = theta.norm();
   Eigen::Quaterniond turn;

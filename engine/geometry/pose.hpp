@@ -33,10 +33,7 @@ struct Pose {
   Eigen::Vector3d position_low = Eigen::Vector3d::Zero();
   Eigen::Vector4d orientation_low = Eigen::Vector4d::Zero();  ///< x, y, z, w, as in orientation.coeffs()
 
-  bool operator==(const Pose& other) const {
-    return position == other.position && orientation.coeffs() == other.orientation.coeffs() &&
-           position_low == other.position_low && orientation_low == other.orientation_low;
-  }
+  bool operator==(const Pose& other) const;
 
   DoubleDouble coordinate(int c) const { return {position[c], position_low[c]}; }
   DoubleDouble component(int c) const { return {orientation.coeffs()[c], orientation_low[c]}; }

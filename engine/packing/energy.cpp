@@ -182,6 +182,10 @@ SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_dis
   return result;
 }
 
+BlockMatrix PackingEnergy::hessian(const Packing& packing, Precision precision) {
+  return second_order(packing, 0, precision).hessian;
+}
+
 std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
   overlap_all(packing, Precision::working);
   std::vector<Contact> result;

@@ -69,9 +69,7 @@ class PackingEnergy {
   /// Analytic Hessian; where two images of a particle touch another, their blocks are summed. Incipient contacts are
   /// those that touch once their centres are closer by `probe_distance` (V_p^(1/3)); with 0, the contacts alone.
   SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working);
-  BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working) {
-    return second_order(packing, 0, precision).hessian;
-  }
+  BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working);
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
 

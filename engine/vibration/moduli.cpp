@@ -1,11 +1,11 @@
 #include "engine/vibration/moduli.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 
 #include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "engine/vibration/pinned_matrix.hpp"
 
@@ -106,9 +106,9 @@ double ElasticTensor::bulk_modulus() const { return bulk(relaxed, pressure); }
 std::array<double, 5> ElasticTensor::shear_moduli() const {
   const Eigen::Matrix<double, 6, 5> basis = traceless_basis();
   const Eigen::Matrix<double, 5, 5> traceless = basis.transpose() * relaxed * basis / 2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 5, 5>> solver(traceless, Eigen::EigenvaluesOnly);
+  const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(traceless);
   std::array<double, 5> moduli{};
-  for (int k = 0; k < 5; ++k) moduli[static_cast<std::size_t>(k)] = solver.eigenvalues()[k];
+  for (int k = 0; k < 5; ++k) moduli[static_cast<std::size_t>(k)] = eigenvalues[k];
   return moduli;
 }
 

@@ -1,6 +1,5 @@
 #include "engine/vibration/spectrum.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -202,17 +201,16 @@ ModeSet dense_modes(const BlockMatrix& matrix) {
   MatrixXd rotated = dense_matrix(matrix);
   if (rotated.rows() <= 3 || !rotated.allFinite()) return modes;
   // In a basis whose first three vectors are the translations, the rest of D is a matrix of its own.
-  const Eigen::HouseholderQR<MatrixXd> basis(translations(matrix.size()));
+  const CompletedBasis basis(translations(matrix.size()));
   const Index rest = rotated.rows() - 3;
-  rotated.applyOnTheLeft(basis.householderQ().adjoint());
-  rotated.applyOnTheRight(basis.householderQ());
+  basis.enter(rotated);
   const SymmetricEigen found = symmetric_eigen(rotated.bottomRightCorner(rest, rest));
   if (found.values.size() == 0) return modes;
   modes.ended = ModeEnd::converged;
   modes.eigenvalues = found.values;
   modes.vectors = MatrixXd::Zero(rotated.rows(), rest);
   modes.vectors.bottomRows(rest) = found.vectors;
-  modes.vectors.applyOnTheLeft(basis.householderQ());
+  basis.leave(modes.vectors);
   judge(modes, matrix, modes.eigenvalues.cwiseAbs().maxCoeff());
   return modes;
 }

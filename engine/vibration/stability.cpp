@@ -1,12 +1,12 @@
 #include "engine/vibration/stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
+#include "engine/solve/factor/dense.hpp"
 #include "engine/solve/factor/shift_invert.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "engine/vibration/pinned_matrix.hpp"
@@ -75,8 +75,7 @@ std::vector<NearRattler> find_near_rattlers(const BlockMatrix& matrix, const Mod
   const std::vector<char> carries = carriers(lowest, tolerance, matrix.size());
   std::vector<NearRattler> found;
   for (int i = 0; i < matrix.size(); ++i) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> own(matrix.diagonal[i], Eigen::EigenvaluesOnly);
-    const double least_eigenvalue = own.eigenvalues()[0];
+    const double least_eigenvalue = symmetric_eigenvalues(matrix.diagonal[i])[0];
     const bool few = contacts[i] < 4;
     if (!few && least_eigenvalue > tolerance && !carries[i]) continue;
     using enum NearRattler::Reason;

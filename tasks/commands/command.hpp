@@ -11,7 +11,7 @@
 #include "tasks/system/console.hpp"
 #include "tasks/system/exit_codes.hpp"
 
-// CLI11 takes ten seconds to compile wherever it is included: it is seen by options.cpp and main.cpp alone.
+// CLI11 takes long to compile wherever it is included: it is seen by command_line.cpp alone.
 // NOLINTNEXTLINE(readability-identifier-naming): CLI11 is called so
 namespace CLI {
 class App;
@@ -92,5 +92,9 @@ void add_chart(CLI::App& app, Session& session);
 /// Every command, in the order of the help.
 inline constexpr std::array<AddCommand, 8> all_commands{add_run,   add_validate, add_aggregate, add_status,
                                                         add_rerun, add_export,   add_report,    add_chart};
+
+/// Takes in the words that the program was called with: `session` gets its work. Where there is none, since help was
+/// asked for or a word is wrong, it is printed, and this is what to exit with.
+std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& session);
 
 }  // namespace isojam

@@ -43,6 +43,10 @@ std::string pretty(const Json& value) {
   return out + '\n';
 }
 
+std::string compact(const Json& value) { return value.dump(); }
+
+Json parsed(std::string_view text) { return Json::parse(text); }
+
 void put_number(Json& object, const std::string& key, double value) {
   if (std::isfinite(value)) {
     object[key] = value;

@@ -17,6 +17,12 @@ using Json = nlohmann::ordered_json;
 /// exactly. The value must hold no NaN and no infinity.
 std::string pretty(const Json& value);
 
+/// The text of a value on one line.
+std::string compact(const Json& value);
+
+/// The value of a text. Throws Json::parse_error.
+Json parsed(std::string_view text);
+
 /// Sets object[key] to a number; one that JSON cannot hold becomes null, with the reason at key + "_reason".
 void put_number(Json& object, const std::string& key, double value);
 

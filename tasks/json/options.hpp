@@ -26,7 +26,7 @@ auto read_list(const JsonPlace& place, std::string_view allowed, Read read) {
       const auto entry = place.at(k);
       auto value = read(entry);
       if (std::find(values.begin(), values.end(), value) != values.end())
-        entry.refuse(fmt::format("{} is given twice", entry.value().dump()), "each value once");
+        entry.refuse(fmt::format("{} is given twice", compact(entry.value())), "each value once");
       values.push_back(std::move(value));
     });
   }

@@ -117,7 +117,7 @@ Json parse_json(std::string_view text, const std::string& file) {
   }
   Checker checker(text, file);
   Json::sax_parse(text, &checker);
-  return Json::parse(text);
+  return parsed(text);
 }
 
 Json read_json(const std::string& file) { return parse_json(read_text(file), file); }

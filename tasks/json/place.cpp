@@ -36,7 +36,7 @@ constexpr std::size_t longest_shown = 40;
 std::string shown(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "a list";
-  const auto text = value.dump();
+  const auto text = compact(value);
   return text.size() <= longest_shown ? text : fmt::format("a {}", value.type_name());
 }
 

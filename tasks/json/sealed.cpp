@@ -115,7 +115,7 @@ Json parse_sealed(std::string_view text, const std::string& file) {
   check_seal(text, file);
   check_depth(text, file);
   try {
-    return Json::parse(text);
+    return parsed(text);
   } catch (const Json::exception& error) {
     throw InputError({file, "", std::string("not valid JSON: ") + error.what(), "", ""});
   }

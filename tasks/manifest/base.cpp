@@ -35,8 +35,8 @@ Json object_of(const std::map<std::string, Json>& values) {
 void check_value(const JsonPlace& place, const Json& value, const SweptField& swept) {
   if (std::find(swept.values.begin(), swept.values.end(), value) != swept.values.end()) return;
   std::string allowed;
-  for (const auto& each : swept.values) allowed += (allowed.empty() ? "" : ", ") + each.dump();
-  place.refuse(fmt::format("{} is not among the swept values", value.dump()), allowed);
+  for (const auto& each : swept.values) allowed += (allowed.empty() ? "" : ", ") + compact(each);
+  place.refuse(fmt::format("{} is not among the swept values", compact(value)), allowed);
 }
 
 void check_parameter(const JsonPlace& place, const std::string& name, const Json& value,
@@ -123,7 +123,7 @@ std::string base_text(const Json& base) {
   for (const auto& item : base.items()) {
     const auto& value = item.value();
     text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", item.key(),
-                        value.is_string() ? value.get<std::string>() : value.dump());
+                        value.is_string() ? value.get<std::string>() : compact(value));
   }
   return text;
 }

@@ -14,7 +14,7 @@ constexpr std::size_t most_named = 5, longest_value = 40;
 /// A value as it stands in the file, or its beginning; names and numbers are ASCII.
 std::string shown(const Json& parent, const std::string& key) {
   if (!parent.contains(key)) return "not given";
-  const auto text = parent.at(key).dump();
+  const auto text = compact(parent.at(key));
   return text.size() <= longest_value ? text : text.substr(0, longest_value - 3) + "...";
 }
 

@@ -370,6 +370,6 @@ Json identity(const Manifest& manifest) {
   return json;
 }
 
-std::string digest(const Manifest& manifest) { return hex_hash(identity(manifest).dump()); }
+std::string digest(const Manifest& manifest) { return hex_hash(compact(identity(manifest))); }
 
 }  // namespace isojam

@@ -23,7 +23,7 @@ std::string prefix(const ReplicateSpec& spec) {
   for (const auto& item : spec.parameters.items()) {
     const auto& value = item.value();
     text += fmt::format("-{}{}{}", item.key(), value.is_number() ? "" : "_",
-                        value.is_string() ? value.get<std::string>() : value.dump());
+                        value.is_string() ? value.get<std::string>() : compact(value));
   }
   return text.size() <= longest_prefix ? text : fmt::format("{}-{}", size, hex_hash(point_text(spec)));
 }
@@ -35,7 +35,7 @@ std::string point_text(SolidKind solid, int particles, const Json& parameters) {
   point["solid"] = to_string(solid);
   point["particles"] = particles;
   for (const auto& item : parameters.items()) point[item.key()] = item.value();
-  return point.dump();
+  return compact(point);
 }
 
 std::string point_text(const ReplicateSpec& spec) { return point_text(spec.solid, spec.particles, spec.parameters); }

@@ -10,7 +10,7 @@
 namespace isojam {
 namespace {
 
-std::string number(const std::optional<double>& x) { return x ? Json(*x).dump() : ""; }
+std::string number(const std::optional<double>& x) { return x ? compact(Json(*x)) : ""; }
 
 /// What a line begins with.
 Cells head_of(const std::vector<std::string>& parameters, View view) {

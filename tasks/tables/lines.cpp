@@ -34,7 +34,7 @@ std::string parameter_head(const std::string& name) {
 std::string parameter_text(const Row& row, const std::string& name) {
   if (!row.parameters.contains(name)) return "";
   const auto& value = row.parameters.at(name);
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>() : compact(value);
 }
 
 std::string exclusion_text(const Table& table) {

@@ -55,12 +55,12 @@ Choice common_choice(const std::vector<std::string>& directories, const std::vec
 std::vector<Flag> common_exclusions(const std::vector<std::string>& directories,
                                     const std::vector<std::optional<Manifest>>& manifests) {
   return common_choice(directories, manifests, &Manifest::exclude, "exclude", usually_excluded(),
-                       [](const std::vector<Flag>& flags) { return option_json(flags).dump(); });
+                       [](const std::vector<Flag>& flags) { return compact(option_json(flags)); });
 }
 
 Json common_base(const std::vector<std::string>& directories, const std::vector<std::optional<Manifest>>& manifests) {
   return common_choice(directories, manifests, &Manifest::base, "base", Json(Json::object()),
-                       [](const Json& base) { return base.empty() ? "not given" : base.dump(); });
+                       [](const Json& base) { return base.empty() ? "not given" : compact(base); });
 }
 
 /// The parameters of rows, and the values that these have.

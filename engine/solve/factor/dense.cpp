@@ -24,6 +24,22 @@ MatrixXd orthonormal(const MatrixXd& columns) {
   return Eigen::HouseholderQR<MatrixXd>(columns).householderQ() * MatrixXd::Identity(columns.rows(), columns.cols());
 }
 
+struct CompletedBasis::Reflections {
+  Eigen::HouseholderQR<MatrixXd> qr;
+};
+
+CompletedBasis::CompletedBasis(const MatrixXd& columns)
+    : reflections_(std::make_unique<const Reflections>(Eigen::HouseholderQR<MatrixXd>(columns))) {}
+
+CompletedBasis::~CompletedBasis() = default;
+
+void CompletedBasis::enter(MatrixXd& matrix) const {
+  matrix.applyOnTheLeft(reflections_->qr.householderQ().adjoint());
+  matrix.applyOnTheRight(reflections_->qr.householderQ());
+}
+
+void CompletedBasis::leave(MatrixXd& columns) const { columns.applyOnTheLeft(reflections_->qr.householderQ()); }
+
 MatrixXd triangular_factor(const MatrixXd& matrix) {
   return Eigen::HouseholderQR<MatrixXd>(matrix).matrixQR().topRows(matrix.cols()).triangularView<Eigen::Upper>();
 }

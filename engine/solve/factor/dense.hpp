@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
 namespace isojam {
 
@@ -17,6 +18,22 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
 /// An orthonormal basis of the span of independent columns, by Householder reflections; as many columns.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
+
+/// An orthogonal basis of all space, of which the first vectors span independent columns.
+class CompletedBasis {
+ public:
+  explicit CompletedBasis(const Eigen::MatrixXd& columns);
+  ~CompletedBasis();
+
+  /// A becomes QᵀAQ: A in this basis.
+  void enter(Eigen::MatrixXd& matrix) const;
+  /// Columns in this basis become Q·columns.
+  void leave(Eigen::MatrixXd& columns) const;
+
+ private:
+  struct Reflections;
+  std::unique_ptr<const Reflections> reflections_;
+};
 
 /// R of the Householder QR of a matrix with no more columns than rows: columns × columns.
 Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& matrix);

@@ -1,0 +1,158 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "tasks/commands/command.hpp"
+#include "tasks/json/place.hpp"
+#include "tasks/system/standard_streams.hpp"
+#include "tasks/system/version.hpp"
+
+namespace isojam {
+
+namespace {
+
+constexpr auto exit_codes =
+    "Exit codes: 0 all done; 1 some replicates failed, or the machine lacked something, or output could not be "
+    "written; 2 usage, or a path on the command line that cannot be read or written; 65 bad manifest or record, or a "
+    "directory of another manifest; 75 interrupted, the same command continues.";
+
+void add_console_options(Options options, ConsoleOptions& console) {
+  options.flag("--quiet", console.quiet, "Errors only on stderr");
+  options.flag("-v,--verbose", console.verbose, "A line for each replicate");
+  options.choice("--color", console.colour, "Colour on stderr");
+}
+
+void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
+  for (const auto* option : app.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+    for (const auto& name : option->get_snames()) names.push_back("-" + name);
+  }
+}
+
+/// What is wrong with the first command or option that is none; empty if all are known.
+std::string unknown_word(const CLI::App& app) {
+  const auto given = app.get_subcommands();
+  for (const auto& word : app.remaining(true)) {
+    const bool option = word.size() > 1 && word[0] == '-';
+    std::vector<std::string> names;
+    if (option) {
+      add_option_names(app, names);
+      for (const auto* command : given) add_option_names(*command, names);
+    } else if (given.empty()) {
+      for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    } else {
+      continue;
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const auto unknown = word.substr(0, option ? word.find('=') : std::string::npos);
+    const auto suggestion = nearest_name(unknown, known);
+    return (option ? "unknown option \"" : "unknown command \"") + unknown + "\"; " +
+           (suggestion.empty() ? "allowed: " + quoted_list(known) : "did you mean \"" + suggestion + "\"?");
+  }
+  return "";
+}
+
+/// What is wrong with the text of a number that must be positive and finite; empty if nothing is.
+std::string not_positive(const std::string& text) {
+  double value = 0;
+  const bool good = CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);
+  return good ? "" : "not a positive number: " + text;
+}
+
+}  // namespace
+
+void Options::text(const std::string& name, std::string& value, const std::string& description, const std::string& type,
+                   Need need) {
+  app_.add_option(name, value, description)->required(need == Need::required)->type_name(type);
+}
+
+void Options::texts(const std::string& name, std::vector<std::string>& values, const std::string& description,
+                    const std::string& type) {
+  app_.add_option(name, values, description)->required()->type_name(type);
+}
+
+void Options::flag(const std::string& name, bool& value, const std::string& description) {
+  app_.add_flag(name, value, description);
+}
+
+void Options::positive(const std::string& name, double& value, const std::string& description,
+                       const std::string& type) {
+  app_.add_option(name, value, description)->check(not_positive)->type_name(type);
+}
+
+void Options::parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
+                     std::function<void()> absent, const std::string& description, const std::string& type) {
+  const auto* option = app_.add_option_function<std::string>(
+                               name, [read](const std::string& text) { (void)read(text); }, description)
+                           ->check([read](const std::string& text) { return read(text).value_or(""); })
+                           ->type_name(type);
+  app_.parse_complete_callback([option, absent = std::move(absent)] {
+    if (option->count() == 0) absent();
+  });
+}
+
+void Options::one_of(const std::string& name, const std::vector<std::string>& choices,
+                     const std::function<void(const std::string&)>& take, const std::string& description, Need need) {
+  std::string list;
+  for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice;
+  app_.add_option_function<std::string>(name, take, description)
+      ->check(CLI::IsMember(std::set<std::string>(choices.begin(), choices.end())).description(""))
+      ->required(need == Need::required)
+      ->type_name(list);
+}
+
+void Options::exclusive(const std::string& one, const std::string& other) {
+  app_.get_option(one)->excludes(app_.get_option(other));
+}
+
+void Options::results_directory(std::string& directory) {
+  text("directory", directory, "Results directory", "DIR", Need::required);
+}
+
+void Options::threads(int& threads) {
+  app_.add_option("-j,--threads", threads, "Threads (default: as many as the machine gives)")
+      ->check(CLI::Range(1, 4096).description(""))
+      ->type_name("N");
+}
+
+Options add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
+                    std::function<ExitCode(Console&)> work) {
+  auto* command = app.add_subcommand(name, description);
+  command->callback([&session, work = std::move(work)] { session.work = work; });
+  return Options(*command);
+}
+
+std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& session) {
+  CLI::App app("isojam: jammed packings of soft frictionless Platonic solids, in batches", "isojam");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.set_version_flag("--version", "isojam " + std::string(version()) + " (" + std::string(git_hash()) + ")");
+  app.footer(exit_codes);
+  add_console_options(Options(app), session.console);
+  for (const AddCommand add : all_commands) add(app, session);
+  try {
+    app.parse(argc, argv);
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
+    return ExitCode::usage;
+  } catch (const CLI::ParseError& error) {
+    if (const auto unknown = error.get_exit_code() == 0 ? std::string() : unknown_word(app); !unknown.empty()) {
+      std::fprintf(stderr, "isojam: error: %s\n", printable(unknown).c_str());
+      return ExitCode::usage;
+    }
+    std::ostringstream out, err;
+    const bool asked = app.exit(error, out, err) == 0;
+    print(out.str());
+    if (!asked) std::fprintf(stderr, "isojam: error: %s", printable(err.str()).c_str());
+    return asked ? ExitCode::done : ExitCode::usage;
+  }
+  return std::nullopt;
+}
+
+}  // namespace isojam
