@@ -65,6 +65,8 @@ Packing moved(const Packing& packing, const Eigen::VectorXd& step) {
   Packing result = packing;
   const double radius = packing.solid->gyration_radius();
   for (int i = 0; i < packing.size(); ++i) {
+    // To the bit where it was: what is known of it stays good.
+    if (step.segment<6>(6 * i).isZero(0)) continue;
     Pose& pose = result.poses[static_cast<std::size_t>(i)];
     pose = moved(pose, step.segment<3>(6 * i), step.segment<3>(6 * i + 3) / radius);
   }

@@ -28,7 +28,8 @@ Packing random_packing(const ConvexSolid& solid, int n, double density, RandomSt
 /// The packing at another density: isotropic strain moves centres affinely and leaves orientations alone.
 Packing strained_to(const Packing& packing, double density);
 
-/// Moves every particle: step has 6N entries, per particle (dx, R·dθ), lab frame, R the radius of gyration.
+/// Moves every particle whose entries are not all zero: step has 6N, per particle (dx, R·dθ), lab frame, R the radius
+/// of gyration.
 Packing moved(const Packing& packing, const Eigen::VectorXd& step);
 
 }  // namespace isojam

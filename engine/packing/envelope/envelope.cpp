@@ -127,6 +127,29 @@ EnvelopeEvaluation EnvelopeEnergy::unshifted(const Packing& packing, double stif
                         });
 }
 
+EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only) {
+  std::vector<EnvelopeContact> contacts;
+  for (const EnvelopeContact& contact : whole.contacts) {
+    if (only[contact.pair.a] || only[contact.pair.b]) contacts.push_back(contact);
+  }
+  return summed(std::move(contacts), static_cast<int>(only.size()));
+}
+
+EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEvaluation& part,
+                             std::span<const char> only) {
+  std::vector<EnvelopeContact> contacts;
+  contacts.reserve(before.contacts.size());
+  auto moved = part.contacts.begin();
+  for (const EnvelopeContact& contact : before.contacts) {
+    if (only[contact.pair.a] || only[contact.pair.b]) continue;
+    while (moved != part.contacts.end() && canonical_key(moved->pair) < canonical_key(contact.pair))
+      contacts.push_back(*moved++);
+    contacts.push_back(contact);
+  }
+  contacts.insert(contacts.end(), moved, part.contacts.end());
+  return summed(std::move(contacts), static_cast<int>(only.size()));
+}
+
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation) {
   std::vector<PairHessian> terms(evaluation.contacts.size());
   for_each_slot(terms.size(), [&](std::size_t k) { terms[k] = evaluation.contacts[k].at.curvature(); });

@@ -61,6 +61,14 @@ class EnvelopeEnergy {
   std::vector<Pose> poses_;  ///< that placed_ were made of
 };
 
+/// What evaluate() with `only` gives of a packing that has been evaluated whole: the contacts of flagged particles.
+EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only);
+
+/// The evaluation of a packing of which none but flagged particles have moved since `before`: their contacts from
+/// `part`, the others as they were.
+EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEvaluation& part,
+                             std::span<const char> only);
+
 /// Second derivatives of Φ.
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation);
 

@@ -77,20 +77,6 @@ class Part {
   std::vector<int> place_, particles_;
 };
 
-/// Forces of the contacts that were not evaluated with a part, and of those that were.
-std::vector<ContactForce> merged(const std::vector<ContactForce>& all, const std::vector<ContactForce>& part,
-                                 const std::vector<char>& flags) {
-  std::vector<ContactForce> forces;
-  for (const ContactForce& force : all) {
-    if (!flags[force.pair.a] && !flags[force.pair.b]) forces.push_back(force);
-  }
-  const auto middle = static_cast<std::ptrdiff_t>(forces.size());
-  forces.insert(forces.end(), part.begin(), part.end());
-  std::inplace_merge(forces.begin(), forces.begin() + middle, forces.end(),
-                     [](const auto& p, const auto& q) { return canonical_key(p.pair) < canonical_key(q.pair); });
-  return forces;
-}
-
 }  // namespace
 
 std::vector<char> mispredicted(const EnvelopeState& here, const EnvelopeState& there, const Eigen::VectorXd& step,
@@ -111,8 +97,7 @@ bool relax_locally(const std::vector<char>& flags, double shift, double promised
   const Part part(flags);
   if (part.empty()) return false;
   const double longest = longest_step * state.packing.solid->inradius();
-  const std::vector<ContactForce> all = forces_of(state.value);
-  EnvelopeState here = evaluator.at(state.packing, all, flags);
+  EnvelopeState here{state.packing, part_of(state.value, flags)};
   BlockCholesky factor;
   bool moved_at_all = false;
   for (int k = 0; k < most_steps; ++k) {
@@ -138,8 +123,9 @@ bool relax_locally(const std::vector<char>& flags, double shift, double promised
       if (decrease < enough_after_failure * promised) break;
     }
   }
-  if (moved_at_all) state = evaluator.at(std::move(here.packing), merged(all, forces_of(here.value), flags));
-  return moved_at_all;
+  if (!moved_at_all) return false;
+  state = {std::move(here.packing), with_part(state.value, here.value, flags)};
+  return true;
 }
 
 }  // namespace isojam

@@ -2,7 +2,8 @@
 //   with the multipliers of the contacts as they are the envelope is the energy: value, gradient, contacts;
 //   its gradient agrees with differences of its value, and its curvature with differences of its gradient;
 //   it lies below the energy for any multipliers that leave the ghosts touching, and grows with the stiffness;
-//   contacts of flagged particles alone are those of the whole list that have a flagged particle;
+//   contacts of flagged particles alone are those of the whole list that have a flagged particle, and where none but
+//   these move, a whole is made up of theirs and of what did not move;
 //   what was evaluated before and how many threads there are changes no bit.
 
 #include "engine/packing/envelope/envelope.hpp"
@@ -126,6 +127,29 @@ TEST_P(EnvelopeOf, FlaggedParticlesHaveTheirContactsAndNoOther) {
   }
   EXPECT_EQ(next, part.contacts.size());
   EXPECT_GT(next, 0U);
+}
+
+TEST_P(EnvelopeOf, IsMadeUpOfWhatMovedAndWhatDidNot) {
+  RandomStream random{317, static_cast<std::uint64_t>(GetParam())};
+  EnvelopeEnergy envelope;
+  const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
+  const std::vector<ContactForce> forces = changed(exact, random);
+  const double stiffness = some_stiffness(exact);
+  const EnvelopeEvaluation before = envelope.evaluate(packing_, forces, stiffness);
+  std::vector<char> flags(static_cast<std::size_t>(packing_.size()), 0);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(6 * packing_.size());
+  for (const int p : {3, 17, 40, 41}) {
+    flags[static_cast<std::size_t>(p)] = 1;
+    for (double& entry : step.segment<6>(6 * p)) entry = 0.03 * random.normal();
+  }
+  EXPECT_TRUE(same_bits(part_of(before, flags), envelope.evaluate(packing_, forces, stiffness, flags)));
+  const Packing there = moved(packing_, step);
+  const EnvelopeEvaluation whole = envelope.evaluate(there, forces, stiffness);
+  const EnvelopeEvaluation made_up = with_part(before, envelope.evaluate(there, forces, stiffness, flags), flags);
+  EXPECT_TRUE(same_bits(made_up, whole)) << made_up.contacts.size() << " and " << whole.contacts.size() << " contacts";
+  EXPECT_EQ(made_up.mean_force, whole.mean_force);
+  EXPECT_EQ(made_up.touching, whole.touching);
+  EXPECT_FALSE(same_bits(made_up, before));
 }
 
 TEST_P(EnvelopeOf, IsTheSameBitsWhateverCameBefore) {
