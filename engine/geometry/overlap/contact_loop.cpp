@@ -99,15 +99,9 @@ Interval clip(Count vectors, const double* tail, const double* head) {
   return {greatest(enter), least(leave)};
 }
 
-/// An edge that passes through the other solid: 0..31 of A, 32.. of B; the planes where it enters and leaves; and bits
-/// of `ends` that say whether it does: 0 and 1 for entering, 2 and 3 for leaving.
-struct Crossing {
-  std::uint32_t edge, into, out_of, ends;
-};
-
 /// Of the edges `alive` (of B from bit 32 on). Returns the number of crossings found so far.
 template <class Count>
-int find_crossings(Count vectors, const Sides& sides, std::uint64_t alive, Crossing* crossing, int count) {
+int find_crossings(Count vectors, const Sides& sides, std::uint64_t alive, ContactLoop& loop, int count) {
   const Lanes untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
   for (; alive; alive &= alive - 1) {
     const auto at = static_cast<std::uint32_t>(std::countr_zero(alive));
@@ -115,8 +109,8 @@ int find_crossings(Count vectors, const Sides& sides, std::uint64_t alive, Cross
     const EdgeRecord& edge = side.edge[at % capacity];
     const Interval inside =
         clip(vectors, side.distance + 4 * vectors * edge.tail, side.distance + 4 * vectors * edge.head);
-    crossing[count] = {at, tag_of(inside.enter.first()), tag_of(inside.leave.first()),
-                       ~sign_bits(equal(halves(inside.enter, inside.leave), untouched))};
+    loop.crossing[count] = {at, tag_of(inside.enter.first()), tag_of(inside.leave.first()),
+                            ~sign_bits(equal(halves(inside.enter, inside.leave), untouched))};
     count += inside.enter.first() < inside.leave.first();
   }
   return count;
@@ -132,10 +126,10 @@ struct Masks {
 constexpr Masks masks;
 
 /// The two corners of an edge that passes through the other solid.
-inline void place_corners(const Side& side, const EdgeRecord& edge, int planes, const Crossing& c,
+inline void place_corners(const Side& side, const EdgeRecord& edge, int planes, const ContactLoop::Crossing& c,
                           double (*corner)[4]) {
   const double *tail = side.distance + planes * edge.tail, *head = side.distance + planes * edge.head;
-  const std::uint32_t enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+  const std::uint32_t enters = c.enters(), leaves = c.leaves();
   // Weights of tail and head at either end: products of distances, each right to its own last bits however small.
   const Lanes pierced = Lanes::of(tail[c.into], head[c.into], tail[c.out_of], head[c.out_of]);
   const Lanes d = where_negative(Lanes::load(masks.own_end[enters + 2 * leaves]), Lanes::load(masks.whole), pierced);
@@ -165,16 +159,15 @@ struct Piercings {
 
 /// `vectors[0]` of the planes that edges of A are clipped by, [1] of B.
 template <class Vectors>
-void place_spans(const Vectors& vectors, const Sides& sides, const Crossing* crossing, int spans, ContactLoop& loop,
-                 Piercings& piercings) {
+void place_spans(const Vectors& vectors, const Sides& sides, int spans, ContactLoop& loop, Piercings& piercings) {
   std::uint64_t edges = 0, faces[2] = {};
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(spans); ++k) {
-    const Crossing& c = crossing[k];
+    const ContactLoop::Crossing& c = loop.crossing[k];
     const std::uint32_t of_b = c.edge / capacity;
     const Side& side = sides.of[of_b];
     const EdgeRecord& edge = side.edge[c.edge % capacity];
     place_corners(side, edge, 4 * vectors(of_b), c, loop.corner + 2 * k);
-    const std::uint32_t enters = c.ends & 1, leaves = c.ends >> 3 & 1;
+    const std::uint32_t enters = c.enters(), leaves = c.leaves();
     const std::uint32_t leaving = edge.pairs[of_b], step = std::uint32_t{0x00010001} << 5 * of_b;
     piercings.add(std::rotl(leaving, 16) + step * c.into, 2 * k, enters);
     piercings.add(leaving + step * c.out_of, 2 * k + 1, leaves);
@@ -218,19 +211,17 @@ void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r,
   const Sides sides = choose_reference(a, b, r, loop);
   const std::uint64_t alive_a = loop.of_a.edges, alive_b = std::uint64_t{loop.of_b.edges} << capacity;
   const int vectors_a = loop.of_a.planes / 4, vectors_b = loop.of_b.planes / 4;
-  Crossing crossing[ContactLoop::max_spans + 1];
   Piercings piercings;
   if (vectors_a == vectors_b) {
     with_vectors(vectors_a, [&](auto vectors) {
       // One loop for both solids, so that its end is mispredicted once.
-      const int spans = find_crossings(vectors, sides, alive_a | alive_b, crossing, 0);
-      place_spans([=](std::uint32_t) { return vectors; }, sides, crossing, spans, loop, piercings);
+      const int spans = find_crossings(vectors, sides, alive_a | alive_b, loop, 0);
+      place_spans([=](std::uint32_t) { return vectors; }, sides, spans, loop, piercings);
     });
   } else {
-    const int of_a = find_crossings(vectors_a, sides, alive_a, crossing, 0);
-    const int spans = find_crossings(vectors_b, sides, alive_b, crossing, of_a);
-    place_spans([=](std::uint32_t of_b) { return of_b ? vectors_b : vectors_a; }, sides, crossing, spans, loop,
-                piercings);
+    const int of_a = find_crossings(vectors_a, sides, alive_a, loop, 0);
+    const int spans = find_crossings(vectors_b, sides, alive_b, loop, of_a);
+    place_spans([=](std::uint32_t of_b) { return of_b ? vectors_b : vectors_a; }, sides, spans, loop, piercings);
   }
   if (piercings.count == 0) {
     // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
@@ -258,6 +249,7 @@ bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
 /// Phase 1.
 void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   loop.axis = {};
+  loop.origin = r / 2;
   loop.spans = loop.segments = 0;
   loop.of_a.of = loop.tables, loop.of_b.of = loop.tables + Distances::size(a, b);
   tabulate_distances(a, b, r, loop.of_a);

@@ -35,6 +35,15 @@ struct ContactLoop {
     std::uint32_t from, to;        ///< corners
   };
 
+  /// An edge that passes through the other solid: 0..31 of A, 32.. of B; the planes where it enters and leaves; and
+  /// bits that say whether it does, or begins or ends inside: 0 and 1 for entering, 2 and 3 for leaving.
+  struct Crossing {
+    std::uint32_t edge, into, out_of, ends;
+
+    std::uint32_t enters() const { return ends & 1; }
+    std::uint32_t leaves() const { return ends >> 3 & 1; }
+  };
+
   LoopVerdict verdict = LoopVerdict::degenerate;
   SeparatingAxis axis;  ///< the face that separates, if one was found
   Eigen::Vector3d up;   ///< normal of the reference plane: of all face planes the one penetrated least
@@ -42,10 +51,12 @@ struct ContactLoop {
   std::uint32_t faces[2], edges[2];  ///< of A and of B, those of the intersection
   Distances of_a, of_b;              ///< of the vertices of A from the planes of B, and the other way round
   alignas(32) double tables[2 * Distances::max_size];  ///< the memory of both, without a gap
-  /// x, y, z from the middle between the centres (lab frame), and the height over the reference plane, negative inside:
+  Eigen::Vector3d origin;  ///< of corners, from A's centre: the middle between the centres, if nothing moved it
+  /// x, y, z from the origin (lab frame), and the height over the reference plane, negative inside:
   /// interpolated between tabulated distances, hence 0 on that plane and never a difference of larger numbers near it.
   alignas(32) double corner[max_corners][4];
-  std::uint16_t hub[2 * capacity];  ///< of each face of the intersection, by number, one of its corners
+  std::uint16_t hub[2 * capacity];   ///< of each face of the intersection, by number, one of its corners
+  Crossing crossing[max_spans + 1];  ///< of the spans
   Span span[max_spans];
   Segment segment[max_corners];
 };

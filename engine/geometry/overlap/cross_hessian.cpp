@@ -87,16 +87,17 @@ void terms_of(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r,
   const Segments segments(loop, first);
   const Four v = segments.corners(loop, &Segment::from), w = segments.corners(loop, &Segment::to);
   const Four n = segments.normals(a, &Segment::face_a), m = segments.normals(b, &Segment::face_b);
-  const Four along = w - v, middle = Lanes::all(0.5) * (v + w), half = repeated(Eigen::Vector3d(rounded(r) / 2));
+  const Four along = w - v, middle = Lanes::all(0.5) * (v + w), from_a = repeated(loop.origin);
+  const Four from_b = repeated(loop.origin - rounded(r));
   const Lanes parallel = sine(a, b, segments, n, m, r), none = Lanes::all(0);
   // Negative where sine > 0.
   const Lanes weight = where_negative(none - parallel, length(along) / parallel, none);
   rows_of(n.x, n.y, n.z, terms.push);
-  const Four arm = cross(middle + half, n), turn = cross(along, n);
+  const Four arm = cross(middle + from_a, n), turn = cross(along, n);
   rows_of(arm.x, arm.y, arm.z, terms.arm);
   rows_of(turn.x, turn.y, turn.z, terms.turn);
   store(weight * m, terms.push_b);
-  store(weight * cross(middle - half, m), terms.arm_b);
+  store(weight * cross(middle + from_b, m), terms.arm_b);
   store(weight * Lanes::all(1.0 / 12) * cross(along, m), terms.turn_b);
 }
 

@@ -7,6 +7,7 @@
 #include "engine/geometry/overlap/contact_loop.hpp"
 #include "engine/geometry/overlap/cross_hessian.hpp"
 #include "engine/geometry/overlap/lanes.hpp"
+#include "engine/geometry/overlap/small_corners.hpp"
 
 namespace isojam {
 
@@ -25,7 +26,7 @@ Eigen::Vector3d vector_of(Lanes a) {
   return {lane[0], lane[1], lane[2]};
 }
 
-void integrate(const ContactLoop& loop, const Eigen::Vector3d& r, Overlap& result) {
+void integrate(const ContactLoop& loop, Overlap& result) {
   const auto corner = [&](std::uint32_t k) { return Lanes::load(loop.corner[k]); };
   const auto hub = [&](std::uint32_t face) { return corner(loop.hub[face]); };
   Lanes twice_area = Lanes::all(0), moment = twice_area, prisms = twice_area;
@@ -46,7 +47,7 @@ void integrate(const ContactLoop& loop, const Eigen::Vector3d& r, Overlap& resul
   result.edges_a = loop.edges[0], result.edges_b = loop.edges[1];
   result.volume = loop.up.dot(vector_of(yzx(prisms))) / 6;
   result.area = vector_of(yzx(twice_area)) / 2;
-  result.moment = (r / 2).cross(result.area) - vector_of(moment) / 6;
+  result.moment = loop.origin.cross(result.area) - vector_of(moment) / 6;
 }
 
 Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
@@ -62,6 +63,15 @@ Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVe
 
 const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
 const Eigen::Vector3d& rounded(const DoubleDoubleVector& r) { return r.high; }
+
+/// Input in doubles does not carry corners any better than doubles.
+bool refined(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&, const Overlap&, ContactLoop&) {
+  return false;
+}
+bool refined(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, const Overlap& rough,
+             ContactLoop& loop) {
+  return refine_small_corners(a, b, r, rough.area, loop);
+}
 
 void set_zero(OverlapHessian& hessian) {
   hessian.aa.setZero();
@@ -82,7 +92,8 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
     return result;
   }
   if (loop.verdict == LoopVerdict::closed) {
-    integrate(loop, rounded(r), result);
+    integrate(loop, result);
+    if (refined(a, b, r, result, loop)) integrate(loop, result);
     if (result.volume > 0) {  // or rounding ate a sliver
       if (!hessian) return result;
       set_cross_hessian(a, b, r, loop, hessian->ab);

@@ -8,11 +8,9 @@
 
 namespace isojam {
 
-namespace {
-
-/// n·(y − to_other) − offset, with products of high parts exact and low parts to first order.
-double distance_double_double(const PlacedSolid& body, int vertex, const PlacedSolid& other, int plane,
-                              const DoubleDoubleVector& to_other) {
+/// Products of high parts are exact, low parts are there to first order.
+DoubleDouble distance_double_double(const PlacedSolid& body, int vertex, const PlacedSolid& other, int plane,
+                                    const DoubleDoubleVector& to_other) {
   const DoubleDoubleVector n = other.normal_double_double(plane), y = body.vertex_double_double(vertex);
   DoubleDouble sum = -other.offset_double_double(plane);
   for (int c = 0; c < 3; ++c) {
@@ -22,8 +20,10 @@ double distance_double_double(const PlacedSolid& body, int vertex, const PlacedS
     const double first_order = n.high[c] * (p.low + y.low[c] - to_other.low[c]) + n.low[c] * p.high;
     sum = {next.high, sum.low + (next.low + product.low + first_order)};
   }
-  return sum.high + sum.low;
+  return two_sum(sum.high, sum.low);
 }
+
+namespace {
 
 std::uint32_t columns_below(double near, const double* row, int columns) {
   std::uint32_t below = 0;
@@ -48,7 +48,7 @@ void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, 
     double* row = d.row(v);
     for (std::uint32_t small = columns_below(near, row, d.planes); small; small &= small - 1) {
       const int f = std::countr_zero(small);
-      const double distance = distance_double_double(body, v, other, f, to_other);
+      const double distance = distance_double_double(body, v, other, f, to_other).high;
       changed_side |= std::signbit(distance) != std::signbit(row[f]);
       d.nearest = std::min(d.nearest, std::abs(distance));
       row[f] = distance;

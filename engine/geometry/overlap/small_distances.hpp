@@ -9,6 +9,11 @@ namespace isojam {
 /// rounding of larger ones, gap_tolerance(), is below 1e-11 of themselves.
 double double_double_below(const ConvexSolid& a, const ConvexSolid& b);
 
+/// Distance of a vertex from a face plane of the other solid, n·(y − to_other) − offset, negative inside, to 1e-31.
+/// Both solids are placed in double-double.
+DoubleDouble distance_double_double(const PlacedSolid& body, int vertex, const PlacedSolid& other, int plane,
+                                    const DoubleDoubleVector& to_other);
+
 /// Takes the small distances of a table, as tabulate_distances() left it, again in double-double: each is right to its
 /// last bits however small it is. Both solids are placed in double-double.
 void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, const DoubleDoubleVector& to_other,

@@ -1,0 +1,88 @@
+#include "engine/geometry/overlap/small_corners.hpp"
+
+#include <algorithm>
+
+#include "engine/geometry/overlap/lanes.hpp"
+#include "engine/geometry/overlap/small_distances.hpp"
+
+// A corner lies between two vertices where the distances from a plane have it, p + t (q − p), t = d_p/(d_p − d_q). In
+// doubles it is off by some 1e-16, however small the contact: S by that times its width. Here distances, t and corners
+// are in double-double, and so are the differences of corners and their heights, rounded last. Heights are counted from
+// one of them too: where edges cross, the reference plane may be far away.
+
+namespace isojam {
+
+namespace {
+
+/// Of the inradius, for |S| over the width of the loop.
+constexpr double refined_below = 1e-2;
+
+DoubleDoubleVector operator+(const DoubleDoubleVector& p, const DoubleDoubleVector& q) {
+  DoubleDoubleVector sum;
+  for (int c = 0; c < 3; ++c) sum.set(c, p[c] + q[c]);
+  return sum;
+}
+
+DoubleDoubleVector operator-(const DoubleDoubleVector& p, const DoubleDoubleVector& q) { return p + -q; }
+
+DoubleDouble dot(const DoubleDoubleVector& p, const DoubleDoubleVector& q) {
+  return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+}
+
+/// The body on whose edge a corner lies, and the one whose plane is pierced there.
+struct Side {
+  const PlacedSolid *body, *other;
+  DoubleDoubleVector to_other, from_a;  ///< from the body's centre to the other's; from A's centre to the body's
+
+  DoubleDoubleVector at_vertex(int vertex) const { return body->vertex_double_double(vertex) + from_a; }
+
+  DoubleDoubleVector at_plane(const EdgeRecord& edge, int plane) const {
+    const DoubleDouble tail = distance_double_double(*body, edge.tail, *other, plane, to_other);
+    const DoubleDouble head = distance_double_double(*body, edge.head, *other, plane, to_other);
+    const DoubleDouble t = tail / (tail - head);
+    const DoubleDoubleVector p = body->vertex_double_double(edge.tail);
+    const DoubleDoubleVector along = body->vertex_double_double(edge.head) - p;
+    DoubleDoubleVector position;
+    for (int c = 0; c < 3; ++c) position.set(c, p[c] + t * along[c]);
+    return position + from_a;
+  }
+};
+
+/// Of the loop alone, without corners inside.
+double width(const ContactLoop& loop) {
+  const auto corner = [&](int k) { return Lanes::load(loop.corner[loop.segment[k].from]); };
+  const Lanes first = corner(0);
+  Lanes widest = Lanes::all(0);
+  for (int k = 1; k < loop.segments; ++k) widest = max(widest, absolute(corner(k) - first));
+  return greatest(without_fourth(widest)).first();
+}
+
+}  // namespace
+
+bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
+                          const Eigen::Vector3d& area, ContactLoop& loop) {
+  if (area.norm() >= refined_below * std::min(a.solid().inradius(), b.solid().inradius()) * width(loop)) return false;
+  const Side sides[2] = {{&a, &b, r, {}}, {&b, &a, -r, r}};
+  const DoubleDoubleVector up = loop.of_a.least_penetration < loop.of_b.least_penetration
+                                    ? b.normal_double_double(loop.of_a.least_penetrated)
+                                    : a.normal_double_double(loop.of_b.least_penetrated);
+  DoubleDoubleVector origin;
+  for (int k = 0; k < loop.spans; ++k) {
+    const ContactLoop::Crossing& crossing = loop.crossing[k];
+    const Side& side = sides[crossing.edge / SolidArrays::capacity];
+    const EdgeRecord& edge = side.body->solid().arrays().record[crossing.edge % SolidArrays::capacity];
+    const DoubleDoubleVector ends[2] = {
+        crossing.enters() ? side.at_plane(edge, static_cast<int>(crossing.into)) : side.at_vertex(edge.tail),
+        crossing.leaves() ? side.at_plane(edge, static_cast<int>(crossing.out_of)) : side.at_vertex(edge.head)};
+    if (k == 0) origin = ends[0];
+    for (int end = 0; end < 2; ++end) {
+      const DoubleDoubleVector corner = ends[end] - origin;
+      std::copy_n(corner.high.data(), 3, loop.corner[2 * k + end]);
+      loop.corner[2 * k + end][3] = dot(up, corner).high;
+    }
+  }
+  loop.origin = origin.high;
+  return true;
+}
+
+}  // namespace isojam
