@@ -52,14 +52,21 @@ CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISO
 .PHONY: build run test test-asan fuzz test-slurm bench equilibria paper lint format clean
 .DEFAULT_GOAL := build
 
-build:
+# Without what `isojam chart` alone needs.
+.PHONY: isojam
+isojam:
 	$(call install,$(PROGRAM_PACKAGES))
 	$(CONFIGURE_PROGRAM)
 	cmake --build $(BUILD) -j $(JOBS) --target isojam
 
-run: build
+build: isojam
+	cmake --build $(BUILD) -j $(JOBS) --target isojam-chart
+
+# The table first, then the rest of the program.
+run: isojam
 	$(BUILD)/isojam run $(EXAMPLE)/manifest.json
 	@$(BUILD)/isojam report results/$(RESULTS)
+	cmake --build $(BUILD) -j $(JOBS) --target isojam-chart
 
 # The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
 # interrupted goes on. A replicate that failed (exit 1) is counted on the page.

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-
 #include <optional>
+#include <string>
 
 namespace isojam {
 
@@ -16,6 +15,10 @@ struct ProcessId {
 
 /// This process.
 const ProcessId& this_process();
+
+/// Goes on as another program of the same directory as this one, with these words, of which the first is replaced by
+/// its path; ended by null. Throws FileError if it is not there or cannot be run.
+[[noreturn]] void become(const std::string& program, char** words);
 
 /// Whether it still runs; nullopt if it is one of another machine.
 std::optional<bool> is_alive(const ProcessId& process);

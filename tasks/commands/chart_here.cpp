@@ -1,0 +1,53 @@
+#include <filesystem>
+#include <system_error>
+
+#include "tasks/chart/results/data.hpp"
+#include "tasks/chart/run_chart.hpp"
+#include "tasks/commands/chart.hpp"
+#include "tasks/page/page.hpp"
+#include "tasks/system/atomic_file.hpp"
+#include "tasks/system/file.hpp"
+#include "tasks/system/interrupt.hpp"
+#include "tasks/system/standard_streams.hpp"
+
+namespace isojam {
+namespace {
+
+ChartConfig config_of(const ChartArguments& arguments) {
+  if (!arguments.config.empty()) return parse_chart_config(read_text(arguments.config), arguments.config);
+  return arguments.full ? full_chart_config() : ChartConfig();
+}
+
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw FileError(directory.string() + ": " + error.message());
+  check_writable(directory);
+}
+
+std::string written(const ChartConfig& config, const ChartResult& result, const std::filesystem::path& directory) {
+  const Json data = chart_data(config, result);
+  auto table = text_table(result);
+  write_atomically(directory / "data.json", pretty(data));
+  write_atomically(directory / "table.txt", table);
+  write_atomically(directory / "chart.html", assembled_page(chart_parts(), data));
+  return table;
+}
+
+}  // namespace
+
+ExitCode chart(const ChartArguments& arguments, const Session&, Console& console) {
+  const ChartConfig config = config_of(arguments);
+  const std::filesystem::path directory = arguments.directory;
+  make_directory(directory);
+  const InterruptWatcher watcher;
+  // Also between its parts, for who does not end in time after a signal is ended without another word.
+  const auto result = run_chart(config, watcher.token(), console,
+                                [&](const ChartResult& so_far) { written(config, so_far, directory); });
+  console.end();
+  const auto table = written(config, result, directory);
+  print(table);
+  return watcher.token().stop_requested() ? ExitCode::interrupted : ExitCode::done;
+}
+
+}  // namespace isojam
