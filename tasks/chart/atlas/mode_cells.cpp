@@ -59,7 +59,7 @@ void append_conditions(const AtlasStates& states, AtlasRows& rows) {
     if (rows.over()) return;
     const BlockMatrix matrix = PackingEnergy().hessian(state, Precision::double_double);
     const Eigen::VectorXd exact = dense_modes(matrix).eigenvalues;
-    const std::string setting = fmt::format("{:.0e}", exact.tail<1>()[0] / exact[0]);
+    const std::string setting = fmt::format("{:.1e}", exact.tail<1>()[0] / exact[0]);
     const AtlasRow row{"softest modes, condition number", setting, {}, false, {}, {}, {}};
     const auto named = [&row](const std::string& method, bool standard) {
       AtlasRow one = row;
