@@ -1,5 +1,5 @@
-# Verbs: run test build bench equilibria paper test-asan fuzz test-slurm lint format clean. On Debian 12 each first
-# installs the packages it needs and lacks.
+# Verbs: run test build bench bench-against equilibria paper test-asan fuzz test-slurm lint format clean. On Debian 12
+# each first installs the packages it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
 JOBS ?= $(shell nproc)
@@ -102,6 +102,20 @@ bench:
 	cmake --build $(BUILD) -j $(JOBS) --target isojam_bench
 	$(BUILD)/isojam_bench --ratios $(BUILD)/ratios.json
 
+# The benchmarks of FILTER of this tree and of that of the commit BEFORE, in turn: make bench-against BEFORE=HEAD~5
+FILTER ?= .
+.PHONY: bench-against
+bench-against:
+	@[ -n "$(BEFORE)" ] || { echo 'make bench-against BEFORE=COMMIT [FILTER=REGEX]' >&2; exit 2; }
+	$(call install,$(BENCH_PACKAGES))
+	$(CONFIGURE) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
+	cmake --build $(BUILD) -j $(JOBS) --target isojam_bench
+	rm -rf $(BUILD)-before && mkdir -p $(BUILD)-before/tree
+	git archive $(BEFORE) | tar -x -C $(BUILD)-before/tree
+	cmake -S $(BUILD)-before/tree -B $(BUILD)-before -G Ninja -DISOJAM_NATIVE=ON -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
+	cmake --build $(BUILD)-before -j $(JOBS) --target isojam_bench
+	/usr/bin/python3 -B tests/bench/against.py $(BUILD)-before/isojam_bench $(BUILD)/isojam_bench --filter '$(FILTER)'
+
 # What following equilibria towards jamming costs: the tables of docs/equilibria.md.
 equilibria:
 	$(call install,$(TEST_PACKAGES))
@@ -125,7 +139,7 @@ fuzz:
 	bash tests/fuzz/run.sh $(BUILD)-fuzz $(FUZZ_SECONDS)
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-fuzz $(BUILD)-lint
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-before $(BUILD)-fuzz $(BUILD)-lint
 
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.

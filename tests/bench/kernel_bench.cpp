@@ -1,6 +1,7 @@
 // Time of one pair: the contact loop on touching pairs, with and without second derivatives, beside the slow clip and
-// the peers on the same pairs; the cached axis on near misses. Solids are placed beforehand for all alike, as a packing
-// places them once per evaluation and not once per pair. Before a peer is timed its volumes are compared.
+// the peers on the same pairs; on the pairs of packings, in their order; the cached axis on near misses. Solids are
+// placed beforehand for all alike, as a packing places them once per evaluation and not once per pair. Before a peer is
+// timed its volumes are compared.
 
 #include <benchmark/benchmark.h>
 
@@ -45,6 +46,14 @@ void contact_loop(benchmark::State& state, SolidKind kind) {
   });
 }
 
+void in_packings(benchmark::State& state, SolidKind kind, int n) {
+  const PairSet& set = packing_pairs(kind, n);
+  time_pairs(state, set.size(), [&](std::size_t k) {
+    SeparatingAxis axis;
+    return overlap(set.a(k), set.b(k), set.r(k), axis).volume;
+  });
+}
+
 void with_hessian(benchmark::State& state, SolidKind kind) {
   const PairSet& set = touching_pairs(kind);
   time_pairs(state, set.size(), [&](std::size_t k) {
@@ -69,6 +78,11 @@ void voropp(benchmark::State& state, SolidKind kind) {
   VoroCells cells(set);
   const auto volume = [&](std::size_t k) { return cells.overlap(k); };
   require_equal_volumes("voro++", set, set.size(), 1e-9, volume);
+  const double worst = worst_area_difference(set, [&](std::size_t k) { return (cells.overlap(k), cells.area()); });
+  if (!(worst <= 1e-9)) {
+    std::cerr << "voro++ and the contact loop differ by " << worst << " of a vector area\n";
+    std::exit(EXIT_FAILURE);
+  }
   time_pairs(state, set.size(), volume);
 }
 
@@ -96,6 +110,12 @@ void register_for_all_solids(const std::string& family_and_method, void (*run)(b
 
 [[maybe_unused]] const bool registered = [] {
   register_for_all_solids("overlap/contact_loop", contact_loop);
+  for (const int n : {64, 1000, 10000}) {
+    for (const SolidKind kind : all_solids) {
+      const std::string name = "overlap/in_packings_N=" + std::to_string(n) + "/" + std::string(to_string(kind));
+      benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { in_packings(state, kind, n); });
+    }
+  }
   register_for_all_solids("overlap/with_hessian", with_hessian);
   register_for_all_solids("overlap/quadruple_clip", quadruple_clip);
   register_for_all_solids("overlap/voro++", voropp);

@@ -5,7 +5,9 @@
 #include <map>
 #include <tuple>
 
+#include "engine/packing/neighbours.hpp"
 #include "engine/random/stream.hpp"
+#include "tests/bench/states.hpp"
 
 namespace isojam::bench {
 
@@ -13,6 +15,8 @@ namespace {
 
 constexpr int particles = 100;
 constexpr std::size_t pairs = 4096;
+constexpr double least_volume = 1e-5, greatest_volume = 3e-2;
+constexpr int packed_particles = 10000;
 
 Eigen::Quaterniond random_orientation(RandomStream& random) {
   const double w = random.normal(), x = random.normal(), y = random.normal(), z = random.normal();
@@ -38,11 +42,34 @@ PairSet random_pairs(SolidKind kind, bool touching) {
     const std::size_t k = set.size() - 1;
     SeparatingAxis unused;
     const double volume = overlap(set.a(k), set.b(k), set.r(k), unused).volume;
-    if (touching ? volume < 1e-5 || volume > 3e-2 : volume > 0) set.pairs.pop_back();
+    if (touching ? volume < least_volume || volume > greatest_volume : volume > 0) set.pairs.pop_back();
   }
   std::sort(set.pairs.begin(), set.pairs.end(), [](const PairSet::Pair& p, const PairSet::Pair& q) {
     return std::tie(p.a, p.b, p.r.x()) < std::tie(q.a, q.b, q.r.x());
   });
+  return set;
+}
+
+PairSet pairs_of(const std::vector<Packing>& packings) {
+  const ConvexSolid& solid = *packings.front().solid;
+  const int n = packings.front().size();
+  PairSet set;
+  set.placed.resize(solid, packings.size() * static_cast<std::size_t>(n), false);
+  int first = 0;
+  for (const Packing& packing : packings) {
+    for (int k = 0; k < n; ++k) {
+      const Pose& pose = packing.poses[static_cast<std::size_t>(k)];
+      set.placed.place(static_cast<std::size_t>(first + k), rotation_matrix(pose).high);
+    }
+    for (const NeighbourPair& pair : find_neighbours(packing, 2 * solid.circumradius())) {
+      set.pairs.push_back({first + pair.a, first + pair.b, displacement(packing, pair)});
+      const std::size_t k = set.size() - 1;
+      SeparatingAxis unused;
+      const double volume = overlap(set.a(k), set.b(k), set.r(k), unused).volume;
+      if (volume < least_volume || volume > greatest_volume) set.pairs.pop_back();
+    }
+    first += n;
+  }
   return set;
 }
 
@@ -56,6 +83,14 @@ const PairSet& kept(SolidKind kind, bool touching) {
 }  // namespace
 
 const PairSet& touching_pairs(SolidKind kind) { return kept(kind, true); }
+
+const PairSet& packing_pairs(SolidKind kind, int n) {
+  static std::map<std::pair<SolidKind, int>, PairSet> sets;
+  const auto [slot, is_new] = sets.try_emplace({kind, n});
+  if (is_new) slot->second = pairs_of(relaxed(kind, n, packed_particles / n));
+  return slot->second;
+}
+
 const PairSet& separated_pairs(SolidKind kind) { return kept(kind, false); }
 
 }  // namespace isojam::bench

@@ -7,7 +7,7 @@
 
 namespace isojam::bench {
 
-/// Pairs as a packing has them: particles of one solid, each placed once, and pairs in the order of a neighbour list.
+/// Particles of one solid, each placed once, and pairs in the order of a neighbour list.
 struct PairSet {
   struct Pair {
     int a = 0, b = 0;
@@ -26,6 +26,10 @@ struct PairSet {
 /// Random orientations and directions, V/V_p in 1e-5 … 3e-2. So many different pairs that no branch predictor can
 /// learn them. Kept from one call to the next.
 const PairSet& touching_pairs(SolidKind kind);
+
+/// Those pairs of compressed packings of N particles that overlap by as much, packing after packing, in the order in
+/// which each evaluates them; 10⁴ particles in all.
+const PairSet& packing_pairs(SolidKind kind, int n);
 
 /// The same apart, though their circumspheres meet.
 const PairSet& separated_pairs(SolidKind kind);

@@ -9,6 +9,7 @@ struct VoroCells::Cells {
   std::vector<voro::voronoicell_neighbor> of_particle;
   voro::voronoicell_neighbor cut;
   std::vector<int> neighbours;
+  std::vector<double> areas;
 };
 
 namespace {
@@ -34,7 +35,7 @@ VoroCells::VoroCells(const PairSet& set) : set_(set), cells_(std::make_unique<Ce
 VoroCells::~VoroCells() = default;
 
 double VoroCells::overlap(std::size_t k) {
-  const PlacedSolid& b = set_.b(k);
+  const PlacedSolid a = set_.a(k), b = set_.b(k);
   const Eigen::Vector3d& r = set_.r(k);
   cells_->cut = cells_->of_particle[static_cast<std::size_t>(set_.pairs[k].a)];
   for (int f = 0; f < b.faces(); ++f) {
@@ -44,6 +45,12 @@ double VoroCells::overlap(std::size_t k) {
   double x = 0, y = 0, z = 0;
   cells_->cut.centroid(x, y, z);
   cells_->cut.neighbors(cells_->neighbours);
+  cells_->cut.face_areas(cells_->areas);
+  area_.setZero();
+  for (std::size_t f = 0; f < cells_->areas.size(); ++f) {
+    const int of_a = cells_->neighbours[f] - SolidArrays::capacity;
+    if (of_a >= 0) area_ += cells_->areas[f] * a.normal(of_a);
+  }
   return cells_->cut.volume();
 }
 

@@ -12,7 +12,8 @@ namespace isojam::bench {
 
 // What a user could take instead of the contact loop, and of the block factorisation.
 
-/// voro++: A's cell, cut once per particle, is copied and cut by B's planes; then volume, centroid and neighbours.
+/// voro++: A's cell, cut once per particle, is copied and cut by B's planes; then volume, centroid, neighbours and,
+/// from its areas of faces, S_A.
 class VoroCells {
  public:
   explicit VoroCells(const PairSet& set);
@@ -22,10 +23,13 @@ class VoroCells {
 
   /// Volume of A ∩ B of pair k.
   double overlap(std::size_t k);
+  /// S_A of the pair that overlap() was asked for last.
+  const Eigen::Vector3d& area() const { return area_; }
 
  private:
   struct Cells;
   const PairSet& set_;
+  Eigen::Vector3d area_ = Eigen::Vector3d::Zero();
   std::unique_ptr<Cells> cells_;
 };
 
@@ -63,6 +67,19 @@ double worst_difference(const PairSet& set, std::size_t pairs, const Volume& vol
     const double ours = overlap(set.a(k), set.b(k), set.r(k), unused).volume;
     const double difference = std::abs(volume(k) - ours) / ours;
     if (!(difference <= worst)) worst = difference;  // a NaN stays
+  }
+  return worst;
+}
+
+/// The same of S_A, over |S_A| of the contact loop, of all pairs.
+template <class Area>
+double worst_area_difference(const PairSet& set, const Area& area) {
+  double worst = 0;
+  for (std::size_t k = 0; k < set.size(); ++k) {
+    SeparatingAxis unused;
+    const Eigen::Vector3d ours = overlap(set.a(k), set.b(k), set.r(k), unused).area;
+    const double difference = (area(k) - ours).norm() / ours.norm();
+    if (!(difference <= worst)) worst = difference;
   }
   return worst;
 }
