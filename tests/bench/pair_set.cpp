@@ -59,7 +59,7 @@ PairSet pairs_of(const std::vector<Packing>& packings) {
   for (const Packing& packing : packings) {
     for (int k = 0; k < n; ++k) {
       const Pose& pose = packing.poses[static_cast<std::size_t>(k)];
-      set.placed.place(static_cast<std::size_t>(first + k), rotation_matrix(pose).high);
+      set.placed.place(static_cast<std::size_t>(first) + static_cast<std::size_t>(k), rotation_matrix(pose).high);
     }
     for (const NeighbourPair& pair : find_neighbours(packing, 2 * solid.circumradius())) {
       set.pairs.push_back({first + pair.a, first + pair.b, displacement(packing, pair)});

@@ -44,17 +44,17 @@ struct ContactLoop {
     std::uint32_t leaves() const { return ends >> 3 & 1; }
   };
 
+  alignas(32) double tables[2 * Distances::max_size];  ///< the memory of of_a and of_b, without a gap
+  /// x, y, z from the origin (lab frame), and the height over the reference plane, negative inside:
+  /// interpolated between tabulated distances, hence 0 on that plane and never a difference of larger numbers near it.
+  alignas(32) double corner[max_corners][4];
   LoopVerdict verdict = LoopVerdict::degenerate;
   SeparatingAxis axis;  ///< the face that separates, if one was found
   Eigen::Vector3d up;   ///< normal of the reference plane: of all face planes the one penetrated least
   int spans = 0, segments = 0;
   std::uint32_t faces[2], edges[2];  ///< of A and of B, those of the intersection
   Distances of_a, of_b;              ///< of the vertices of A from the planes of B, and the other way round
-  alignas(32) double tables[2 * Distances::max_size];  ///< the memory of both, without a gap
-  Eigen::Vector3d origin;  ///< of corners, from A's centre: the middle between the centres, if nothing moved it
-  /// x, y, z from the origin (lab frame), and the height over the reference plane, negative inside:
-  /// interpolated between tabulated distances, hence 0 on that plane and never a difference of larger numbers near it.
-  alignas(32) double corner[max_corners][4];
+  Eigen::Vector3d origin;            ///< from A's centre: the middle between the centres, if nothing moved it
   std::uint16_t hub[2 * capacity];   ///< of each face of the intersection, by number, one of its corners
   Crossing crossing[max_spans + 1];  ///< of the spans
   Span span[max_spans];

@@ -25,11 +25,11 @@ MatrixXd orthonormal(const MatrixXd& columns) {
 }
 
 struct CompletedBasis::Reflections {
+  explicit Reflections(const MatrixXd& columns) : qr(columns) {}
   Eigen::HouseholderQR<MatrixXd> qr;
 };
 
-CompletedBasis::CompletedBasis(const MatrixXd& columns)
-    : reflections_(std::make_unique<const Reflections>(Eigen::HouseholderQR<MatrixXd>(columns))) {}
+CompletedBasis::CompletedBasis(const MatrixXd& columns) : reflections_(std::make_unique<const Reflections>(columns)) {}
 
 CompletedBasis::~CompletedBasis() = default;
 

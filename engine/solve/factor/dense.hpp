@@ -24,6 +24,8 @@ class CompletedBasis {
  public:
   explicit CompletedBasis(const Eigen::MatrixXd& columns);
   ~CompletedBasis();
+  CompletedBasis(const CompletedBasis&) = delete;
+  CompletedBasis& operator=(const CompletedBasis&) = delete;
 
   /// A becomes QᵀAQ: A in this basis.
   void enter(Eigen::MatrixXd& matrix) const;
