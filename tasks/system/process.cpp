@@ -59,6 +59,7 @@ std::optional<bool> is_alive(const ProcessId& process) {
 void become(const std::string& program, char** words) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) throw FileError("/proc/self/exe: " + error.message());
   std::string path = (self.parent_path() / program).string();
   words[0] = path.data();
   execv(path.c_str(), words);

@@ -48,7 +48,7 @@ struct Overlap {
 /// In doubles rounding of the input moves faces by 1e-16: at a depth of 1e-13 V is off by 3e-3 of itself.
 /// If a face of A or B separates the solids, `axis` is set to it, for later use with separates().
 /// A DoubleDoubleVector r makes use of the low parts of A, B and r: V, S and M are then right to 1e-12 of themselves,
-/// and to a few 1e-16 in half of all pairs, however flat or small the contact; M over |S| times the inradius.
+/// half of them to 1e-13, and of contacts below V 1e-8 to 1e-15, however flat or small; M over |S| times the inradius.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis);
 

@@ -6,8 +6,8 @@
 //   without the low parts of positions, of orientations or of the solid they are wrong by 1e-8 and more at depth 1e-10,
 //   and so they are in plain double: every part is needed;
 //   exchange, common translation and common rotation change nothing beyond that;
-//   the cross and own Hessians are the differences of S and M taken in quadruple precision, to 1e-9;
-//   pairs of all depths agree with plain double where it suffices, depths of 1e-20 are resolved, and pairs that
+//   the cross and own Hessians are the differences of S and M taken in quadruple precision, to 1e-9, of these contacts
+//   too; pairs of all depths agree with plain double where it suffices, depths of 1e-20 are resolved, and pairs that
 //   coincide to their last bits take the slow path. A table of errors against depth goes to standard output.
 
 #include <gtest/gtest.h>
@@ -267,27 +267,36 @@ Matrix6d differences(const Pair& pair, bool of_a, double h) {
   return result;
 }
 
+/// `h`: the step of differences, far less than the contact is deep.
+void expect_hessians_are_differences(const Pair& pair, double h) {
+  SeparatingAxis unused;
+  OverlapHessian hessian;
+  const DoubleDoubleVector r = displacement_double_double(pair);
+  overlap_with_hessian(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r, unused, hessian);
+  // Turns do not commute: the derivative of M by turns of its own body has an antisymmetric part, which is no
+  // curvature of V.
+  const Matrix6d by_b = differences(pair, false, h), by_a = differences(pair, true, h);
+  EXPECT_LE((hessian.ab - by_b).norm(), 1e-9 * by_b.norm()) << "step " << h << ": " << describe(pair);
+  EXPECT_LE((hessian.aa - (by_a + by_a.transpose()) / 2).norm(), 1e-9 * by_a.norm())
+      << "step " << h << ": " << describe(pair);
+}
+
 TEST_P(DoubleDoubleOverlap, HessiansAreDifferencesInQuadruplePrecision) {
   RandomStream random{67, static_cast<std::uint64_t>(GetParam())};
   for (const double depth : {1e-2, 1e-4, 1e-6, 1e-8}) {
     for (int k = 0; k < 3; ++k) {
       const Pair pair = depth > 1e-3 ? random_contact(random, GetParam(), GetParam(), 1e-5, 3e-2)
                                      : face_contact(random, GetParam(), depth);
-      const DoubleDoubleVector r = displacement_double_double(pair);
-      SeparatingAxis unused;
-      OverlapHessian hessian;
-      overlap_with_hessian(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r, unused, hessian);
-      const Matrix6d& cross = hessian.ab;
-      Matrix6d own;
-      set_own_hessian(cross, in_double_double(pair).area, r.high, own);
-      // Turns do not commute: the derivative of M by turns of its own body has an antisymmetric part, which is no
-      // curvature of V.
-      const double h = 1e-8 * depth;
-      const Matrix6d by_b = differences(pair, false, h), by_a = differences(pair, true, h);
-      EXPECT_LE((cross - by_b).norm(), 1e-9 * by_b.norm()) << "depth " << depth << ": " << describe(pair);
-      EXPECT_LE((own - (by_a + by_a.transpose()) / 2).norm(), 1e-9 * by_a.norm())
-          << "depth " << depth << ": " << describe(pair);
+      expect_hessians_are_differences(pair, 1e-8 * depth);
     }
+  }
+}
+
+TEST_P(DoubleDoubleOverlap, HessiansOfPointedContactsAreDifferencesToo) {
+  RandomStream random{68, static_cast<std::uint64_t>(GetParam())};
+  for (const double volume : {1e-6, 1e-9, 1e-12, 1e-15}) {
+    for (const SolidKind other : all_solids)
+      expect_hessians_are_differences(pointed_contact(random, GetParam(), other, volume), 1e-7 * std::cbrt(volume));
   }
 }
 
