@@ -147,7 +147,6 @@ double height(const Plane& plane, const Loop& face, const Quad3& vertex, int v) 
 
 void flatten_edges(const std::vector<Edge>& edges, SolidArrays& flat) {
   flat.edges = static_cast<int>(edges.size());
-  for (int v = 0; v < SolidArrays::capacity; ++v) flat.around[v] = std::uint32_t{1} << v, flat.edges_at[v] = 0;
   for (int k = 0; k < SolidArrays::capacity; ++k) {
     const Edge& e = flat.edge[k] = edges[k < flat.edges ? k : 0];
     flat.tail[k] = static_cast<std::uint8_t>(e.tail), flat.head[k] = static_cast<std::uint8_t>(e.head);
@@ -156,11 +155,14 @@ void flatten_edges(const std::vector<Edge>& edges, SolidArrays& flat) {
                       flat.head[k],
                       static_cast<std::uint16_t>(left),
                       static_cast<std::uint16_t>(right),
+                      static_cast<std::uint16_t>(SolidArrays::at(flat.tail[k])),
+                      static_cast<std::uint16_t>(SolidArrays::at(flat.head[k])),
                       std::uint32_t{1} << left | std::uint32_t{1} << right,
                       {left << 5 | right << 21, right | left << 16}};
     if (k >= flat.edges) continue;
-    flat.around[e.tail] |= std::uint32_t{1} << e.head, flat.around[e.head] |= std::uint32_t{1} << e.tail;
-    flat.edges_at[e.tail] |= std::uint32_t{1} << k, flat.edges_at[e.head] |= std::uint32_t{1} << k;
+    const Parts edge{std::uint32_t{1} << e.tail | std::uint32_t{1} << e.head, std::uint32_t{1} << k,
+                     flat.record[k].faces};
+    flat.star[e.tail] |= edge, flat.star[e.head] |= edge;
   }
 }
 

@@ -40,9 +40,20 @@ struct Edge {
 /// leaves the other solid, one segment of the loop begins and another ends; their pairs, with 0 for the face pierced:
 struct EdgeRecord {
   std::uint16_t tail, head, left, right;
-  std::uint32_t faces;  ///< left and right, as bits
+  std::uint16_t tail_at, head_at;  ///< SolidArrays::at() of its ends
+  std::uint32_t faces;             ///< left and right, as bits
   /// Pairs, [0] as an edge of A: 32·left + 2^16·32·right; [1] as an edge of B: right + 2^16·left.
   std::uint32_t pairs[2];
+};
+
+/// Parts of a solid, as bits: edges, the vertices at their ends, faces. Four words, so that one operation joins them.
+struct alignas(16) Parts {
+  std::uint32_t vertices = 0, edges = 0, faces = 0, none = 0;
+
+  Parts& operator|=(const Parts& other) {
+    vertices |= other.vertices, edges |= other.edges, faces |= other.faces, none |= other.none;
+    return *this;
+  }
 };
 
 /// A solid as flat arrays for the kernels. Vertices and edges are padded with copies of the first, faces with
@@ -50,6 +61,10 @@ struct EdgeRecord {
 struct SolidArrays {
   static constexpr int capacity = 32;
   static constexpr double far = 1e300;
+  /// Vectors of placed solids come in blocks of four, x of all four, then y, then z. Where the k-th begins:
+  static constexpr int block = 12;  ///< doubles
+  static constexpr std::uint32_t at(std::uint32_t k) { return block * (k / 4) + k % 4; }
+
   int vertices = 0, faces = 0, edges = 0;
   alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
   alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
@@ -59,8 +74,7 @@ struct SolidArrays {
   Edge edge[capacity];
   EdgeRecord record[capacity];                              ///< of the edges, for the kernels
   alignas(32) std::uint8_t tail[capacity], head[capacity];  ///< of the edges
-  std::uint32_t around[capacity];                           ///< per vertex: itself and its neighbours
-  std::uint32_t edges_at[capacity];                         ///< per vertex: the edges that meet there
+  Parts star[capacity];                                     ///< per vertex: it, and what meets there
   /// Heights of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the
   /// face.
   alignas(32) double height[capacity][capacity];

@@ -14,7 +14,7 @@ namespace isojam {
 /// (tetrahedron) to 896 (dodecahedron, icosahedron), and as many of low parts that nothing but double-double reads.
 class PlacedSolid {
  public:
-  static constexpr int block = 12;  ///< doubles
+  static constexpr int block = SolidArrays::block;
 
   const ConvexSolid& solid() const { return *solid_; }
   int vertices() const { return solid_->arrays().vertices; }
@@ -49,7 +49,7 @@ class PlacedSolid {
   const double* rotation_row() const { return normals_ + block * blocks(faces()); }
 
   static int blocks(int n) { return (n + 3) / 4; }
-  static int at(int k) { return block * (k / 4) + k % 4; }
+  static std::size_t at(int k) { return SolidArrays::at(static_cast<std::uint32_t>(k)); }
   static Eigen::Vector3d vector(const double* p) { return {p[0], p[4], p[8]}; }
 
   const ConvexSolid* solid_;

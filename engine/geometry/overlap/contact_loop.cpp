@@ -1,5 +1,6 @@
 #include "engine/geometry/overlap/contact_loop.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -7,12 +8,12 @@
 
 #include "engine/geometry/overlap/small_distances.hpp"
 
-// Phase 1 (distances.cpp) tabulates the signed distances of either solid's vertices from the other's planes. Phase 2,
-// here, sees nothing but this table: every edge of one solid is clipped by the planes of the other. Where it enters or
-// leaves it pierces a face, and there the loop passes from one of the edge's two faces to the other: one segment of the
-// loop ends and the next begins. Segments are identified by their pair of faces, so the loop closes if and only if
-// every pair that begins also ends, once. No segment is ever found by intersecting two planes, which is ill-conditioned
-// when they are nearly parallel.
+// Phase 1 (distances.cpp) tabulates the signed distances of either solid's vertices from the other's planes; of solids
+// with many faces, those in the slab between their supports. Phase 2, here, sees nothing but this table: every edge of
+// one solid is clipped by the planes of the other. Where it enters or leaves it pierces a face, and there the loop
+// passes from one of the edge's two faces to the other: one segment of the loop ends and the next begins. Segments are
+// identified by their pair of faces, so the loop closes if and only if every pair that begins also ends, once. No
+// segment is ever found by intersecting two planes, which is ill-conditioned when they are nearly parallel.
 //
 // Contacts are so small that mispredicted branches would cost more than the arithmetic: what differs from pair to pair
 // is chosen by masks and selection, and only the lengths of loops remain unpredictable. Each loop does one thing, so
@@ -23,7 +24,7 @@ namespace isojam {
 namespace {
 
 constexpr int capacity = SolidArrays::capacity;
-constexpr std::uint32_t none = 2 * capacity;
+constexpr std::size_t none = 2 * capacity;
 
 /// A vertex on a plane, to within rounding, and not certainly outside of another one.
 bool has_vertex_on_plane(const Distances& d, double tolerance) {
@@ -43,37 +44,36 @@ bool has_vertex_on_plane(const Distances& d, double tolerance) {
 /// What a solid brings to the loop.
 struct Side {
   const EdgeRecord* edge;
-  const PlacedSolid* body;
+  const double* vertex;
   const double* distance;  ///< of its vertices from the other's planes,
   const double* height;    ///< and over the reference plane, with this step from vertex to vertex
-  std::uint32_t stride;
-  std::uint32_t reference;  ///< column of the reference plane in `distance`; none if it is the solid's own
-  Lanes shift;              ///< the solid's centre; height 0
+  std::size_t stride;
+  const std::uint8_t* face;  ///< that a column of distances belongs to
+  std::size_t reference;     ///< column of the reference plane in `distance`; none if it is the solid's own
+  Lanes shift;               ///< the solid's centre; height 0
 };
 
-struct Sides {
-  Side of[2];
-};
-
-/// Chooses the plane that heights are measured from.
-Sides choose_reference(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
-  const Distances &of_a = loop.of_a, &of_b = loop.of_b;
-  const SolidArrays &solid_a = a.solid().arrays(), &solid_b = b.solid().arrays();
-  const int plane_a = of_b.least_penetrated, plane_b = of_a.least_penetrated;
-  // Either way is as likely: indices instead of branches.
-  const int over_b = of_a.least_penetration < of_b.least_penetration;
+/// Chooses the plane that heights are measured from, and fills what the solids bring.
+void prepare(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop, Side* sides) {
   const PlacedSolid* solid[2] = {&a, &b};
-  const int plane[2] = {plane_a, plane_b};
-  loop.up = solid[over_b]->normal(plane[over_b]);
-  const double* height_a[2] = {solid_a.height[plane_a], of_a.of + plane_b};
-  const double* height_b[2] = {of_b.of + plane_a, solid_b.height[plane_b]};
-  const auto planes_a = static_cast<std::uint32_t>(of_a.planes), planes_b = static_cast<std::uint32_t>(of_b.planes);
-  const std::uint32_t stride_a[2] = {1, planes_a}, stride_b[2] = {planes_b, 1};
-  const std::uint32_t column_a[2] = {none, static_cast<std::uint32_t>(plane_b)};
-  const std::uint32_t column_b[2] = {static_cast<std::uint32_t>(plane_a), none};
+  const Distances* table[2] = {&loop.of_a, &loop.of_b};
   const Lanes half = Lanes::of(r.x() / 2, r.y() / 2, r.z() / 2, 0);
-  return {{{solid_a.record, &a, of_a.of, height_a[over_b], stride_a[over_b], column_a[over_b], Lanes::all(0) - half},
-           {solid_b.record, &b, of_b.of, height_b[over_b], stride_b[over_b], column_b[over_b], half}}};
+  sides[0].shift = Lanes::all(0) - half, sides[1].shift = half;
+  for (int s = 0; s < 2; ++s) {
+    sides[s].edge = solid[s]->solid().arrays().record;
+    sides[s].vertex = solid[s]->vertex_block(0);
+    sides[s].distance = table[s]->of;
+    sides[s].face = table[s]->face;
+  }
+  // Either way is as likely: indices instead of branches.
+  const int owner = loop.of_a.least_penetration < loop.of_b.least_penetration, other = 1 - owner;
+  const auto plane = static_cast<std::uint32_t>(table[other]->least_penetrated);
+  const int face = table[other]->face[plane];
+  loop.up = solid[owner]->normal(face);
+  sides[owner].height = solid[owner]->solid().arrays().height[face];
+  sides[owner].stride = 1, sides[owner].reference = none;
+  sides[other].height = table[other]->of + plane;
+  sides[other].stride = static_cast<std::uint32_t>(table[other]->planes), sides[other].reference = plane;
 }
 
 constexpr double at_tail = 0;
@@ -101,16 +101,17 @@ Interval clip(Count vectors, const double* tail, const double* head) {
 
 /// Of the edges `alive` (of B from bit 32 on). Returns the number of crossings found so far.
 template <class Count>
-int find_crossings(Count vectors, const Sides& sides, std::uint64_t alive, ContactLoop& loop, int count) {
+int find_crossings(Count vectors, const Side* sides, std::uint64_t alive, ContactLoop& loop, int count) {
   const Lanes untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
   for (; alive; alive &= alive - 1) {
     const auto at = static_cast<std::uint32_t>(std::countr_zero(alive));
-    const Side& side = sides.of[at / capacity];
+    const Side& side = sides[at / capacity];
     const EdgeRecord& edge = side.edge[at % capacity];
-    const Interval inside =
-        clip(vectors, side.distance + 4 * vectors * edge.tail, side.distance + 4 * vectors * edge.head);
-    loop.crossing[count] = {at, tag_of(inside.enter.first()), tag_of(inside.leave.first()),
-                            ~sign_bits(equal(halves(inside.enter, inside.leave), untouched))};
+    const auto planes = static_cast<std::size_t>(4 * vectors);
+    const Interval inside = clip(vectors, side.distance + planes * edge.tail, side.distance + planes * edge.head);
+    const auto byte = [](std::uint32_t value) { return static_cast<std::uint8_t>(value); };
+    loop.crossing[count] = {byte(at), byte(tag_of(inside.enter.first())), byte(tag_of(inside.leave.first())),
+                            byte(~sign_bits(equal(halves(inside.enter, inside.leave), untouched)))};
     count += inside.enter.first() < inside.leave.first();
   }
   return count;
@@ -126,7 +127,7 @@ struct Masks {
 constexpr Masks masks;
 
 /// The two corners of an edge that passes through the other solid.
-inline void place_corners(const Side& side, const EdgeRecord& edge, int planes, const ContactLoop::Crossing& c,
+inline void place_corners(const Side& side, const EdgeRecord& edge, std::size_t planes, const ContactLoop::Crossing& c,
                           double (*corner)[4]) {
   const double *tail = side.distance + planes * edge.tail, *head = side.distance + planes * edge.head;
   const std::uint32_t enters = c.enters(), leaves = c.leaves();
@@ -134,11 +135,11 @@ inline void place_corners(const Side& side, const EdgeRecord& edge, int planes, 
   const Lanes pierced = Lanes::of(tail[c.into], head[c.into], tail[c.out_of], head[c.out_of]);
   const Lanes d = where_negative(Lanes::load(masks.own_end[enters + 2 * leaves]), Lanes::load(masks.whole), pierced);
   const Lanes exchanged = swapped_pairs(d), weight = exchanged / (exchanged - d);
-  const auto vertex = [&](std::uint32_t v) {
-    const double* p = side.body->vertex_at(static_cast<int>(v));
+  const auto vertex = [&](std::size_t v, std::size_t at) {
+    const double* p = side.vertex + at;
     return Lanes::of(p[0], p[4], p[8], side.height[side.stride * v]) + side.shift;
   };
-  const Lanes p = vertex(edge.tail), q = vertex(edge.head);
+  const Lanes p = vertex(edge.tail, edge.tail_at), q = vertex(edge.head, edge.head_at);
   const Lanes from = fma(p, lane<0>(weight), q * lane<1>(weight)), to = fma(p, lane<2>(weight), q * lane<3>(weight));
   (from * Lanes::load(masks.height[enters & std::uint32_t{c.into == side.reference}])).store(corner[0]);
   (to * Lanes::load(masks.height[leaves & std::uint32_t{c.out_of == side.reference}])).store(corner[1]);
@@ -146,33 +147,36 @@ inline void place_corners(const Side& side, const EdgeRecord& edge, int planes, 
 
 /// Where an edge pierces a face: the pair of faces whose segment begins there, and the pair whose segment ends.
 struct Piercings {
-  std::uint32_t pairs[ContactLoop::max_corners + 1];  ///< begins + 2^16·ends
-  std::uint32_t corner[ContactLoop::max_corners + 1];
-  int count = 0;
+  struct At {
+    std::uint32_t pairs;  ///< begins + 2^16·ends
+    std::uint32_t corner;
+  };
+  At at[ContactLoop::max_corners + 1];
+  std::size_t count = 0;
 
-  void add(std::uint32_t begins_and_ends, std::uint32_t at, std::uint32_t real) {
-    pairs[count] = begins_and_ends;
-    corner[count] = at;
-    count += static_cast<int>(real);
+  void add(std::uint32_t begins_and_ends, std::uint32_t corner, std::uint32_t real) {
+    at[count] = {begins_and_ends, corner};
+    count += real;
   }
 };
 
 /// `vectors[0]` of the planes that edges of A are clipped by, [1] of B.
 template <class Vectors>
-void place_spans(const Vectors& vectors, const Sides& sides, int spans, ContactLoop& loop, Piercings& piercings) {
+void place_spans(const Vectors& vectors, const Side* sides, int spans, ContactLoop& loop, Piercings& piercings) {
   std::uint64_t edges = 0, faces[2] = {};
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(spans); ++k) {
-    const ContactLoop::Crossing& c = loop.crossing[k];
-    const std::uint32_t of_b = c.edge / capacity;
-    const Side& side = sides.of[of_b];
+    ContactLoop::Crossing& c = loop.crossing[k];
+    const std::uint32_t of_b = c.edge / std::uint32_t{capacity};
+    const Side& side = sides[of_b];
     const EdgeRecord& edge = side.edge[c.edge % capacity];
-    place_corners(side, edge, 4 * vectors(of_b), c, loop.corner + 2 * k);
+    place_corners(side, edge, static_cast<std::size_t>(4 * vectors(of_b)), c, loop.corner + 2 * k);
+    c.into = side.face[c.into], c.out_of = side.face[c.out_of];
     const std::uint32_t enters = c.enters(), leaves = c.leaves();
     const std::uint32_t leaving = edge.pairs[of_b], step = std::uint32_t{0x00010001} << 5 * of_b;
     piercings.add(std::rotl(leaving, 16) + step * c.into, 2 * k, enters);
     piercings.add(leaving + step * c.out_of, 2 * k + 1, leaves);
-    const std::uint32_t first = c.edge & capacity, left = first + edge.left, right = first + edge.right;
-    loop.span[k] = {left, right};
+    const std::uint32_t first = c.edge & std::uint32_t{capacity}, left = first + edge.left, right = first + edge.right;
+    loop.span[k] = {static_cast<std::uint8_t>(left), static_cast<std::uint8_t>(right)};
     loop.hub[left] = loop.hub[right] = static_cast<std::uint16_t>(2 * k);
     edges |= std::uint64_t{1} << c.edge;
     faces[of_b] |= edge.faces;
@@ -187,30 +191,35 @@ void place_spans(const Vectors& vectors, const Sides& sides, int spans, ContactL
 
 /// Joins every end to the beginning of the same pair of faces. False if the loop does not close.
 bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
-  std::uint8_t beginning[capacity * capacity];  // corner + 1; 0: none
+  alignas(32) std::uint8_t beginning[capacity * capacity];  // corner + 1; 0: none
   std::memset(beginning, 0, std::size_t{capacity} * static_cast<std::size_t>(faces_a));
-  for (int k = 0; k < piercings.count; ++k) {
-    const std::uint32_t pair = piercings.pairs[k] & 0xFFFF, corner = piercings.corner[k];
+  for (std::size_t k = 0; k < piercings.count; ++k) {
+    const std::uint32_t pair = piercings.at[k].pairs & 0xFFFF, corner = piercings.at[k].corner;
     beginning[pair] = static_cast<std::uint8_t>(corner + 1);
     loop.hub[pair / capacity] = loop.hub[capacity + pair % capacity] = static_cast<std::uint16_t>(corner);
   }
   bool open = false;
-  for (int k = 0; k < piercings.count; ++k) {
-    const std::uint32_t pair = piercings.pairs[k] >> 16;
+  for (std::size_t k = 0; k < piercings.count; ++k) {
+    const std::uint32_t pair = piercings.at[k].pairs >> 16;
     const std::uint32_t from = beginning[pair];
     beginning[pair] = 0;
     open |= from == 0;
-    loop.segment[k] = {pair / capacity, pair % capacity, (from - 1) % ContactLoop::max_corners, piercings.corner[k]};
+    // One store: four bytes would be stored in loops of their own, one after the other.
+    const std::uint32_t faces = pair % capacity | pair / capacity << 8;
+    const std::uint32_t corners = (from - 1) % ContactLoop::max_corners | piercings.at[k].corner << 8;
+    loop.segment[k] = std::bit_cast<ContactLoop::Segment>(faces | corners << 16);
   }
-  loop.segments = piercings.count;
+  loop.segments = static_cast<int>(piercings.count);
   return !open;
 }
 
 /// Phase 2.
 void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
-  const Sides sides = choose_reference(a, b, r, loop);
+  Side sides[2];
+  prepare(a, b, r, loop, sides);
   const std::uint64_t alive_a = loop.of_a.edges, alive_b = std::uint64_t{loop.of_b.edges} << capacity;
-  const int vectors_a = loop.of_a.planes / 4, vectors_b = loop.of_b.planes / 4;
+  const auto vectors_of = [](const Distances& d) { return static_cast<int>(static_cast<std::uint32_t>(d.planes) / 4); };
+  const int vectors_a = vectors_of(loop.of_a), vectors_b = vectors_of(loop.of_b);
   Piercings piercings;
   if (vectors_a == vectors_b) {
     with_vectors(vectors_a, [&](auto vectors) {
@@ -236,9 +245,9 @@ bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   using Kind = SeparatingAxis::Kind;
   SeparatingAxis axis;
   if (loop.of_a.least_penetration <= 0) {
-    axis = {Kind::face_b, 0, static_cast<std::uint8_t>(loop.of_a.least_penetrated)};
+    axis = {Kind::face_b, 0, static_cast<std::uint8_t>(loop.of_a.least_penetrated_face())};
   } else if (loop.of_b.least_penetration <= 0) {
-    axis = {Kind::face_a, static_cast<std::uint8_t>(loop.of_b.least_penetrated), 0};
+    axis = {Kind::face_a, static_cast<std::uint8_t>(loop.of_b.least_penetrated_face()), 0};
   } else {
     return false;
   }
@@ -246,12 +255,23 @@ bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   return true;
 }
 
+/// Finding the near ones of so many faces takes longer than taking all of them.
+constexpr int few_faces = 8;
+
 /// Phase 1.
 void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   loop.axis = {};
   loop.origin = r / 2;
   loop.spans = loop.segments = 0;
   loop.of_a.of = loop.tables, loop.of_b.of = loop.tables + Distances::size(a, b);
+  if (std::max(a.faces(), b.faces()) > few_faces) {
+    const Slab slab = slab_between(a, b, r);
+    if (slab.of_a.faces != 0) {
+      tabulate_near_distances(a, b, r, slab, loop.of_a);
+      tabulate_near_distances(b, a, -r, {slab.of_b, slab.of_a}, loop.of_b);
+      return;
+    }
+  }
   tabulate_distances(a, b, r, loop.of_a);
   tabulate_distances(b, a, -r, loop.of_b);
 }

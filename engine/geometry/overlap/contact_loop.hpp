@@ -27,21 +27,21 @@ struct ContactLoop {
 
   /// Part of an edge, tail → head, from corner 2k to 2k + 1 (k its index).
   struct Span {
-    std::uint32_t left, right;  ///< faces, by number
+    std::uint8_t left, right;  ///< faces, by number
   };
   /// Where face_a (left) crosses face_b (right), counter-clockwise seen from outside A.
   struct Segment {
-    std::uint32_t face_a, face_b;  ///< i and j, not face_of_b + j
-    std::uint32_t from, to;        ///< corners
+    std::uint8_t face_b, face_a;  ///< j and i, not face_of_b + j
+    std::uint8_t from, to;        ///< corners
   };
 
   /// An edge that passes through the other solid: 0..31 of A, 32.. of B; the planes where it enters and leaves; and
   /// bits that say whether it does, or begins or ends inside: 0 and 1 for entering, 2 and 3 for leaving.
   struct Crossing {
-    std::uint32_t edge, into, out_of, ends;
+    std::uint8_t edge, into, out_of, ends;
 
-    std::uint32_t enters() const { return ends & 1; }
-    std::uint32_t leaves() const { return ends >> 3 & 1; }
+    std::uint32_t enters() const { return ends & 1U; }
+    std::uint32_t leaves() const { return ends >> 3 & 1U; }
   };
 
   alignas(32) double tables[2 * Distances::max_size];  ///< the memory of of_a and of_b, without a gap

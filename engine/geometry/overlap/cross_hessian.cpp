@@ -40,14 +40,14 @@ struct Segments {
     for (int k = 0; k < 4; ++k) at[k] = &loop.segment[std::min(first + k, loop.segments - 1)];
   }
 
-  Four corners(const ContactLoop& loop, std::uint32_t ContactLoop::Segment::*end) const {
+  Four corners(const ContactLoop& loop, std::uint8_t ContactLoop::Segment::*end) const {
     Four corner;
     transpose(loop.corner[at[0]->*end], loop.corner[at[1]->*end], loop.corner[at[2]->*end], loop.corner[at[3]->*end],
               corner.x, corner.y, corner.z);
     return corner;
   }
 
-  Four normals(const PlacedSolid& solid, std::uint32_t ContactLoop::Segment::*face, std::ptrdiff_t to_part = 0) const {
+  Four normals(const PlacedSolid& solid, std::uint8_t ContactLoop::Segment::*face, std::ptrdiff_t to_part = 0) const {
     const auto normal = [&](int k) { return solid.normal_at(static_cast<int>(at[k]->*face)) + to_part; };
     const double *p = normal(0), *q = normal(1), *s = normal(2), *t = normal(3);
     return {Lanes::of(p[0], q[0], s[0], t[0]), Lanes::of(p[4], q[4], s[4], t[4]), Lanes::of(p[8], q[8], s[8], t[8])};

@@ -9,30 +9,47 @@
 
 namespace isojam {
 
+/// What of two solids lies, in part, between the supports of both along the line of centres. The intersection lies
+/// there too: no other edge reaches it, and no other face bounds it. Nothing if the solids are apart along that line.
+struct Slab {
+  Parts of_a, of_b;
+};
+
+/// B's centre at r from A's.
+Slab slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
+
 /// Signed distances (V_p^(1/3)) of the vertices of one solid from the planes of the other, > 0 outside. Vertices that
-/// lie certainly outside, with every edge that ends there, may have no row.
+/// lie certainly outside, with every edge that ends there, may have no row, and planes that bound nothing of the
+/// intersection no column.
 struct Distances {
   /// The largest table: three edges end at every vertex and surround every face, so that 32 edges allow 21 of each.
   static constexpr int max_size = 21 * 24;
 
-  int planes = 0;                ///< columns, padded to a multiple of 4 with planes that everything lies inside of
+  int planes = 0;                ///< columns, padded to a multiple of 4 with planes that change nothing
+  const std::uint8_t* face;      ///< of the other solid, by column
   std::uint32_t rows = 0;        ///< vertices that have a row
   std::uint32_t candidates = 0;  ///< edges with an end that is not certainly outside: both ends have rows
   std::uint32_t edges = 0;       ///< of these, the ones that no plane has both ends outside of
   double nearest = 0;            ///< least |distance| in the table
-  int least_penetrated = 0;      ///< the plane that the vertices reach behind least,
+  int least_penetrated = 0;      ///< column of the plane that the vertices reach behind least,
   double least_penetration = 0;  ///< and how deep; not positive if it separates. Its last bits are noise
   double* of = nullptr;          ///< vertices × planes
+  std::uint8_t near_face[SolidArrays::capacity];  ///< what `face` points to if there are not all of them
 
   static int size(const PlacedSolid& body, const PlacedSolid& other) {
     return body.vertices() * ((other.faces() + 3) / 4 * 4);
   }
   double* row(int v) const { return of + v * planes; }
+  int least_penetrated_face() const { return face[least_penetrated]; }
 };
 
 /// Fills the table, d.of, for `body`, the centre of `other` being at `to_other` from its own.
 void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
                         Distances& d);
+
+/// The same of what lies in the slab alone, `body` being A.
+void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
+                             const Slab& slab, Distances& d);
 
 /// Sets everything but the rows and the table anew, after entries of the table have been changed.
 void classify(const ConvexSolid& body, Distances& d);

@@ -48,7 +48,7 @@ struct Vector {
   double x, y, z;
 };
 inline Vector tail_to_head(const PlacedSolid& solid, const EdgeRecord& edge) {
-  const double *p = solid.vertex_at(edge.tail), *q = solid.vertex_at(edge.head);
+  const double *p = solid.vertex_block(0) + edge.tail_at, *q = solid.vertex_block(0) + edge.head_at;
   return {q[0] - p[0], q[4] - p[4], q[8] - p[8]};
 }
 

@@ -64,8 +64,8 @@ bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const Doub
   if (area.norm() >= refined_below * std::min(a.solid().inradius(), b.solid().inradius()) * width(loop)) return false;
   const Side sides[2] = {{&a, &b, r, {}}, {&b, &a, -r, r}};
   const DoubleDoubleVector up = loop.of_a.least_penetration < loop.of_b.least_penetration
-                                    ? b.normal_double_double(loop.of_a.least_penetrated)
-                                    : a.normal_double_double(loop.of_b.least_penetrated);
+                                    ? b.normal_double_double(loop.of_a.least_penetrated_face())
+                                    : a.normal_double_double(loop.of_b.least_penetrated_face());
   DoubleDoubleVector origin;
   for (int k = 0; k < loop.spans; ++k) {
     const ContactLoop::Crossing& crossing = loop.crossing[k];

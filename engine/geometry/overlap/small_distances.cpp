@@ -48,7 +48,7 @@ void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, 
     double* row = d.row(v);
     for (std::uint32_t small = columns_below(near, row, d.planes); small; small &= small - 1) {
       const int f = std::countr_zero(small);
-      const double distance = distance_double_double(body, v, other, f, to_other).high;
+      const double distance = distance_double_double(body, v, other, d.face[f], to_other).high;
       changed_side |= std::signbit(distance) != std::signbit(row[f]);
       d.nearest = std::min(d.nearest, std::abs(distance));
       row[f] = distance;

@@ -13,7 +13,6 @@ AtlasStates::AtlasStates(const std::stop_token& stop) {
   options.final_distance = 1.3e-3;
   options.consolidation_evaluations = 500;  // the way up is not what is looked at
   options.minimise.residual = 1e-9;
-  options.minimise.method = Method::newton;
   RandomStream random{1, static_cast<std::uint64_t>(SolidKind::octahedron)};
   const ConvexSolid& solid = platonic(SolidKind::octahedron);
   const int particles = least_particles(solid, options.max_density);

@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// 45 octahedra, the fewest that fit a legal cell, expanded to Δφ = 1.3e-3: condition numbers from 1e3 to 7e11.
+/// 45 octahedra, the fewest that fit a legal cell, expanded to Δφ = 1.3e-3: condition numbers from 1e3 to 6e12.
 class AtlasStates {
  public:
   /// Jams them. Throws std::runtime_error if they do not, which they do unless the protocol is broken.

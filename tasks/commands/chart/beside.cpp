@@ -1,4 +1,4 @@
-#include "tasks/commands/chart.hpp"
+#include "tasks/commands/chart/chart.hpp"
 #include "tasks/system/process.hpp"
 #include "tasks/system/standard_streams.hpp"
 

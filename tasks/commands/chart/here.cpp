@@ -3,7 +3,7 @@
 
 #include "tasks/chart/results/data.hpp"
 #include "tasks/chart/run_chart.hpp"
-#include "tasks/commands/chart.hpp"
+#include "tasks/commands/chart/chart.hpp"
 #include "tasks/page/page.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/file.hpp"

@@ -1,0 +1,152 @@
+// Facts proved here, for all pairs of solids, over contacts with volumes of five decades and pairs that just miss:
+//   every edge and every face of the intersection, as clipping finds it, is among the parts that the slab keeps, and
+//     where the slab is empty the solids are apart;
+//   what it keeps is the least that its definition allows: a part is left out exactly if all its vertices are outside
+//   of
+//     the slab by more than rounding;
+//   the distances of kept vertices from kept planes are those of the whole table, and a plane is there once at least.
+
+#include "engine/geometry/overlap/distances.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/geometry/overlap/clipped_overlap.hpp"
+#include "tests/engine/geometry/overlap/pairs.hpp"
+
+namespace isojam {
+namespace {
+
+using namespace testing_pairs;
+using Eigen::Vector3d;
+
+struct Placed {
+  LonePlacedSolid a, b;
+  Vector3d r;
+
+  explicit Placed(const Pair& pair)
+      : a(pair.solid_a(), rotation_matrix(pair.a)),
+        b(pair.solid_b(), rotation_matrix(pair.b)),
+        r(pair.displacement()) {}
+};
+
+/// Half of them contacts with volumes between 1e-6 and .1, half pairs whose circumspheres overlap or nearly do.
+template <class Check>
+void for_many_pairs(int cases, const Check& check) {
+  RandomStream random{19, 3};
+  for (const SolidKind a : all_solids) {
+    for (const SolidKind b : all_solids) {
+      const double radii = platonic(a).circumradius() + platonic(b).circumradius();
+      for (int k = 0; k < cases; ++k) {
+        const double greatest = std::pow(10, -1 - k / 2 % 5);
+        check(k % 2 ? random_pair(random, a, b, radii * (.5 + .6 * random.uniform()))
+                    : random_contact(random, a, b, greatest / 10, greatest));
+      }
+    }
+  }
+}
+
+TEST(Slab, KeepsWhatBoundsTheIntersection) {
+  int touching = 0, empty = 0, left_out = 0;
+  for_many_pairs(40, [&](const Pair& pair) {
+    const Placed placed(pair);
+    const Slab slab = slab_between(placed.a, placed.b, placed.r);
+    const Overlap clipped = clipped_overlap(pair.solid_a(), pair.solid_b(), pair.relative());
+    touching += clipped.touching();
+    empty += slab.of_a.faces == 0;
+    left_out += pair.solid_a().arrays().faces - std::popcount(slab.of_a.faces);
+    EXPECT_EQ(slab.of_a.faces == 0, slab.of_b.faces == 0) << describe(pair);
+    EXPECT_EQ(clipped.faces_a & ~slab.of_a.faces, 0U) << describe(pair);
+    EXPECT_EQ(clipped.faces_b & ~slab.of_b.faces, 0U) << describe(pair);
+    EXPECT_EQ(clipped.edges_a & ~slab.of_a.edges, 0U) << describe(pair);
+    EXPECT_EQ(clipped.edges_b & ~slab.of_b.edges, 0U) << describe(pair);
+  });
+  EXPECT_GT(touching, 400);
+  EXPECT_GT(empty, 40);
+  EXPECT_GT(left_out, 1000) << "nothing would be saved";
+}
+
+/// Vertices of a solid at `centre` whose place along u is above `bound`, below if `sign` is −1.
+std::uint32_t beyond(const PlacedSolid& solid, const Vector3d& centre, const Vector3d& u, double sign, double bound) {
+  std::uint32_t found = 0;
+  for (int v = 0; v < solid.vertices(); ++v)
+    found |= std::uint32_t{sign * u.dot(centre + solid.vertex(v)) >= sign * bound} << v;
+  return found;
+}
+
+/// Parts with one of the vertices.
+Parts parts_with(const ConvexSolid& solid, std::uint32_t vertices) {
+  Parts parts;
+  const auto has = [&](int v) { return (vertices >> v & 1) != 0; };
+  for (std::size_t e = 0; e < solid.edges().size(); ++e) {
+    const Edge& edge = solid.edges()[e];
+    if (!has(edge.tail) && !has(edge.head)) continue;
+    parts.edges |= std::uint32_t{1} << e;
+    parts.vertices |= std::uint32_t{1} << edge.tail | std::uint32_t{1} << edge.head;
+  }
+  for (std::size_t f = 0; f < solid.faces().size(); ++f) {
+    const auto& corners = solid.faces()[f].vertices;
+    if (std::any_of(corners.begin(), corners.end(), has)) parts.faces |= std::uint32_t{1} << f;
+  }
+  return parts;
+}
+
+void expect_equal(const Parts& found, const Parts& expected, const Pair& pair) {
+  EXPECT_EQ(found.vertices, expected.vertices) << describe(pair);
+  EXPECT_EQ(found.edges, expected.edges) << describe(pair);
+  EXPECT_EQ(found.faces, expected.faces) << describe(pair);
+}
+
+TEST(Slab, IsBetweenTheSupports) {
+  for_many_pairs(20, [](const Pair& pair) {
+    const Placed placed(pair);
+    const PlacedSolid a = placed.a, b = placed.b;
+    const Vector3d u = placed.r.normalized();
+    double top = -pair.reach(), bottom = 2 * pair.reach();
+    for (int v = 0; v < a.vertices(); ++v) top = std::max(top, u.dot(a.vertex(v)));
+    for (int v = 0; v < b.vertices(); ++v) bottom = std::min(bottom, u.dot(placed.r + b.vertex(v)));
+    const Slab slab = slab_between(a, b, placed.r);
+    const double slack = 1e-8 * pair.reach();
+    if (std::abs(top - bottom) < 2 * slack) return;
+    if (top < bottom) {
+      EXPECT_EQ(slab.of_a.faces, 0U) << describe(pair);
+      return;
+    }
+    if (beyond(a, Vector3d::Zero(), u, 1, bottom - slack) != beyond(a, Vector3d::Zero(), u, 1, bottom + slack) ||
+        beyond(b, placed.r, u, -1, top + slack) != beyond(b, placed.r, u, -1, top - slack))
+      return;
+    expect_equal(slab.of_a, parts_with(pair.solid_a(), beyond(a, Vector3d::Zero(), u, 1, bottom)), pair);
+    expect_equal(slab.of_b, parts_with(pair.solid_b(), beyond(b, placed.r, u, -1, top)), pair);
+  });
+}
+
+TEST(NearDistances, AreThoseOfTheWholeTable) {
+  for_many_pairs(10, [](const Pair& pair) {
+    const Placed placed(pair);
+    const PlacedSolid a = placed.a, b = placed.b;
+    const Slab slab = slab_between(a, b, placed.r);
+    if (slab.of_a.faces == 0) return;
+    alignas(32) double near_table[Distances::max_size];
+    Distances near;
+    near.of = near_table;
+    tabulate_near_distances(a, b, placed.r, slab, near);
+    EXPECT_EQ(near.rows, slab.of_a.vertices);
+    EXPECT_EQ(near.candidates, slab.of_a.edges);
+    std::uint32_t faces = 0;
+    for (int k = 0; k < near.planes; ++k) faces |= std::uint32_t{1} << near.face[k];
+    EXPECT_EQ(faces, slab.of_b.faces) << describe(pair);
+    for (std::uint32_t rows = near.rows; rows; rows &= rows - 1) {
+      const int v = std::countr_zero(rows);
+      for (int k = 0; k < near.planes; ++k) {
+        const double distance = b.normal(near.face[k]).dot(a.vertex(v) - placed.r) - b.offset()[near.face[k]];
+        EXPECT_NEAR(near.row(v)[k], distance, 16 * epsilon * pair.reach()) << describe(pair);
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace isojam
