@@ -68,6 +68,8 @@ inline void rows_of(Lanes x, Lanes y, Lanes z, Lanes* rows) {
 }
 inline Lanes square_root(Lanes a) { return {_mm256_sqrt_pd(a.v)}; }
 inline Lanes yzx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11001001)}; }
+/// Lanes 1, 2, 3, 0.
+inline Lanes yzwx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b00111001)}; }
 /// Lanes 1, 0, 3, 2.
 inline Lanes swapped_pairs(Lanes a) { return {_mm256_permute_pd(a.v, 0b0101)}; }
 /// Lanes 2, 3, 0, 1.
@@ -168,6 +170,7 @@ inline Lanes square_root(Lanes a) {
   return each([&](int k) { return std::sqrt(a.v[k]); });
 }
 inline Lanes yzx(Lanes a) { return {{a.v[1], a.v[2], a.v[0], a.v[3]}}; }
+inline Lanes yzwx(Lanes a) { return {{a.v[1], a.v[2], a.v[3], a.v[0]}}; }
 inline Lanes swapped_pairs(Lanes a) { return {{a.v[1], a.v[0], a.v[3], a.v[2]}}; }
 inline Lanes swapped_halves(Lanes a) { return {{a.v[2], a.v[3], a.v[0], a.v[1]}}; }
 template <int k>

@@ -7,6 +7,7 @@
 #include "engine/geometry/overlap/contact_loop.hpp"
 #include "engine/geometry/overlap/cross_hessian.hpp"
 #include "engine/geometry/overlap/lanes.hpp"
+#include "engine/geometry/overlap/own_hessians.hpp"
 #include "engine/geometry/overlap/small_corners.hpp"
 
 namespace isojam {
@@ -97,8 +98,7 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
     if (result.volume > 0) {  // or rounding ate a sliver
       if (!hessian) return result;
       set_cross_hessian(a, b, r, loop, hessian->ab);
-      set_own_hessian(hessian->ab, result.area, rounded(r), hessian->aa);
-      set_own_hessian(hessian->ab.transpose(), -result.area, -rounded(r), hessian->bb);
+      set_own_hessians(result.area, rounded(r), *hessian);
       return result;
     }
   }
