@@ -71,6 +71,7 @@ TEST(LanesTest, SelectionsTakeTheLanesTheyName) {
     expect_lanes(halves(a, b), [&](int k) { return k < 2 ? x[k] : y[k]; });
     expect_lanes(without_fourth(a), [&](int k) { return k < 3 ? x[k] : 0; });
     expect_lanes(yzx(a), [&](int k) { return x[std::array{1, 2, 0, 3}[k]]; });
+    expect_lanes(yzwx(a), [&](int k) { return x[(k + 1) % 4]; });
     expect_lanes(swapped_pairs(a), [&](int k) { return x[k ^ 1]; });
     expect_lanes(swapped_halves(a), [&](int k) { return x[k ^ 2]; });
     expect_lanes(lane<0>(a), [&](int) { return x[0]; });
