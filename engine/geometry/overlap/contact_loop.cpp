@@ -107,7 +107,7 @@ int find_crossings(Count vectors, const Side* sides, std::uint64_t alive, Contac
     const auto at = static_cast<std::uint32_t>(std::countr_zero(alive));
     const Side& side = sides[at / capacity];
     const EdgeRecord& edge = side.edge[at % capacity];
-    const auto planes = static_cast<std::size_t>(4 * vectors);
+    const std::size_t planes = 4 * static_cast<std::size_t>(vectors);
     const Interval inside = clip(vectors, side.distance + planes * edge.tail, side.distance + planes * edge.head);
     const auto byte = [](std::uint32_t value) { return static_cast<std::uint8_t>(value); };
     loop.crossing[count] = {byte(at), byte(tag_of(inside.enter.first())), byte(tag_of(inside.leave.first())),
@@ -169,7 +169,7 @@ void place_spans(const Vectors& vectors, const Side* sides, int spans, ContactLo
     const std::uint32_t of_b = c.edge / std::uint32_t{capacity};
     const Side& side = sides[of_b];
     const EdgeRecord& edge = side.edge[c.edge % capacity];
-    place_corners(side, edge, static_cast<std::size_t>(4 * vectors(of_b)), c, loop.corner + 2 * k);
+    place_corners(side, edge, 4 * static_cast<std::size_t>(vectors(of_b)), c, loop.corner + 2 * k);
     c.into = side.face[c.into], c.out_of = side.face[c.out_of];
     const std::uint32_t enters = c.enters(), leaves = c.leaves();
     const std::uint32_t leaving = edge.pairs[of_b], step = std::uint32_t{0x00010001} << 5 * of_b;
