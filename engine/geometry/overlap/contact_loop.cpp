@@ -205,6 +205,7 @@ bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
     beginning[pair] = 0;
     open |= from == 0;
     // One store: four bytes would be stored in loops of their own, one after the other.
+    static_assert(std::endian::native == std::endian::little);
     const std::uint32_t faces = pair % capacity | pair / capacity << 8;
     const std::uint32_t corners = (from - 1) % ContactLoop::max_corners | piercings.at[k].corner << 8;
     loop.segment[k] = std::bit_cast<ContactLoop::Segment>(faces | corners << 16);

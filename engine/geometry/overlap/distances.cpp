@@ -1,8 +1,8 @@
 #include "engine/geometry/overlap/distances.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstring>
 
 #include "engine/geometry/overlap/lanes.hpp"
@@ -240,10 +240,11 @@ void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const
 
 void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
                              const Slab& slab, Distances& d) {
+  assert(slab.of_b.faces != 0);
   int count = 0;
   for (std::uint32_t faces = slab.of_b.faces; faces; faces &= faces - 1)
     d.near_face[count++] = static_cast<std::uint8_t>(std::countr_zero(faces));
-  const int vectors = std::max(1, (count + 3) / 4);
+  const int vectors = (count + 3) / 4;
   // One plane more than once changes nothing.
   std::memset(d.near_face + count, d.near_face[count - 1], static_cast<std::size_t>(4 * vectors - count));
   d.planes = 4 * vectors, d.face = d.near_face;
