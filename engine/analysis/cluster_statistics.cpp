@@ -23,7 +23,7 @@ Network unwrapped(const Packing& packing, const Cluster& cluster, std::span<cons
   for (int m = 0; m < cluster.size(); ++m) {
     place[cluster.members[m]] = m;
     network.centres.emplace_back(packing.poses[cluster.members[m]].position +
-                                 packing.cell.side() * cluster.images[m].cast<double>());
+                                 packing.cell.translation(cluster.images[m]));
   }
   network.neighbours.resize(network.centres.size());
   long count = 0;

@@ -95,7 +95,7 @@ void measure_extents(const Packing& packing, Cluster& cluster) {
   Vector3d low = Vector3d::Constant(infinity), high = -low, body_low = low, body_high = high;
   for (int m = 0; m < cluster.size(); ++m) {
     const Pose& pose = packing.poses[cluster.members[m]];
-    const Vector3d centre = pose.position + packing.cell.side() * cluster.images[m].cast<double>();
+    const Vector3d centre = pose.position + packing.cell.translation(cluster.images[m]);
     const Reach body = reach(*packing.solid, pose);
     low = low.cwiseMin(centre);
     high = high.cwiseMax(centre);
@@ -103,8 +103,9 @@ void measure_extents(const Packing& packing, Cluster& cluster) {
     body_high = body_high.cwiseMax(centre + body.above);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    const bool winds = std::any_of(cluster.windings.begin(), cluster.windings.end(),
-                                   [&](const Vector3i& winding) { return winding[axis] != 0; });
+    const bool winds = std::any_of(cluster.windings.begin(), cluster.windings.end(), [&](const Vector3i& winding) {
+      return packing.cell.translation(winding)[axis] != 0;
+    });
     if (winds) continue;
     cluster.extent[axis] = high[axis] - low[axis];
     cluster.body_extent[axis] = body_high[axis] - body_low[axis];

@@ -15,7 +15,8 @@ namespace isojam {
 /// of its own periodic images; the displacements of such images, in cells, form a lattice.
 struct Cluster {
   std::vector<int> members;  ///< ascending; the first is the cluster's label
-  /// Image of each member: followed along bonds from the label, its centre is at x + L·image. One of many choices if
+  /// Image of each member: followed along bonds from the label, its centre is at x + h·image, the columns of h
+  /// being the lattice vectors. One of many choices if
   /// the cluster winds.
   std::vector<Eigen::Vector3i> images;
   /// Linearly independent windings, in cells: as many as the lattice has dimensions. None: no periodic closure.
@@ -29,7 +30,8 @@ struct Cluster {
   int label() const { return members.front(); }
   /// Percolation by closure through the periodic boundary, in 0..3 independent directions.
   int winding_rank() const { return static_cast<int>(windings.size()); }
-  /// Percolation in the weaker sense: an extent without end, or of at least the side of the cell.
+  /// Percolation in the weaker sense: an extent without end, or of at least the side of the cell, V_cell^(1/3) where
+  /// that is no cube.
   bool spans(double side) const;
   /// The greatest extent between centres; none if it winds.
   std::optional<double> longest_extent() const;

@@ -104,7 +104,7 @@ Order order_of(const Packing& packing, std::span<const Contact> contacts) {
 
 OrientationCorrelation orientation_correlation(const Packing& packing, const Eigen::MatrixXd& harmonics,
                                                const OrientationCorrelationOptions& options) {
-  const double reach = options.reach.value_or(packing.cell.side() / 2);
+  const double reach = options.reach.value_or(packing.cell.heights().minCoeff() / 2);
   if (!(options.width > 0) || !(reach > 0) || !std::isfinite(reach))
     throw std::invalid_argument("orientational correlation needs bins and a reach of positive size");
   OrientationCorrelation result{options.width, {}};

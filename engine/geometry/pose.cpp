@@ -94,6 +94,24 @@ Pose scaled(const Pose& pose, const DoubleDouble& s) {
   return result;
 }
 
+DoubleDoubleMatrix operator*(const DoubleDoubleMatrix& a, const DoubleDoubleMatrix& b) {
+  DoubleDoubleMatrix product;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) product.set(r, c, a(r, 0) * b(0, c) + a(r, 1) * b(1, c) + a(r, 2) * b(2, c));
+  }
+  return product;
+}
+
+Pose deformed(const Pose& pose, const DoubleDoubleMatrix& f) {
+  Pose result = pose;
+  for (int r = 0; r < 3; ++r) {
+    const DoubleDouble x = f(r, 0) * pose.coordinate(0) + f(r, 1) * pose.coordinate(1) + f(r, 2) * pose.coordinate(2);
+    result.position[r] = x.high;
+    result.position_low[r] = x.low;
+  }
+  return result;
+}
+
 DoubleDoubleMatrix rotation_matrix(const Pose& pose) {
   const double excess = short_sum(squared_length(pose), -1).high;
   if (!is_small(excess) && std::isfinite(excess)) return rotation_matrix(normalised(pose));

@@ -24,6 +24,8 @@ struct DoubleDoubleMatrix {
   void set(int r, int c, const DoubleDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
 };
 
+DoubleDoubleMatrix operator*(const DoubleDoubleMatrix& a, const DoubleDoubleMatrix& b);
+
 /// Position of the centre (V_p^(1/3)) and orientation (quaternion q, body frame → lab frame) of a particle, each a
 /// double-double: x = position + position_low, q = orientation + orientation_low, with the first the nearest double of
 /// the sum. The rotation is the one by q/|q|, whatever |q|. Whoever assigns a first part resets the second.
@@ -48,6 +50,9 @@ Pose moved_by_half_turn(const Pose& pose, const Eigen::Vector3d& dx, const Eigen
 
 /// The pose with its centre at s·x.
 Pose scaled(const Pose& pose, const DoubleDouble& s);
+
+/// The pose with its centre at F x, its orientation as it is.
+Pose deformed(const Pose& pose, const DoubleDoubleMatrix& f);
 
 /// Rotation by q/|q|, body frame → lab frame, to 1e-31.
 DoubleDoubleMatrix rotation_matrix(const Pose& pose);

@@ -18,6 +18,11 @@ Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x) {
     y.segment<6>(6 * block.row) += block.value * x.segment<6>(6 * block.column);
     y.segment<6>(6 * block.column) += block.value.transpose() * x.segment<6>(6 * block.row);
   }
+  if (matrix.strains() > 0) {
+    const Eigen::Index n = 6 * Eigen::Index{matrix.size()}, k = matrix.strains();
+    y.head(n) += matrix.border * x.tail(k);
+    y.tail(k) = matrix.border.transpose() * x.head(n) + matrix.corner * x.tail(k);
+  }
   return y;
 }
 

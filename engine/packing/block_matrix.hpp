@@ -7,7 +7,8 @@
 
 namespace isojam {
 
-/// Symmetric matrix of 6×6 blocks, one per particle and one per pair of particles that touch.
+/// Symmetric matrix of 6×6 blocks, one per particle and one per pair of particles that touch; bordered where strains of
+/// the cell are coordinates too.
 struct BlockMatrix {
   struct Block {
     int row = 0, column = 0;  ///< row < column; the block below the diagonal is its transpose
@@ -15,8 +16,12 @@ struct BlockMatrix {
   };
   std::vector<Matrix6d> diagonal;
   std::vector<Block> off_diagonal;  ///< in order of (row, column), each at most once
+  /// Last columns, 6N × strains, and what stands below them on the diagonal, strains × strains; empty without strains.
+  Eigen::MatrixXd border, corner;
 
   int size() const { return static_cast<int>(diagonal.size()); }  ///< in blocks
+  int strains() const { return static_cast<int>(corner.cols()); }
+  Eigen::Index rows() const { return 6 * Eigen::Index{size()} + strains(); }
   /// Adds the blocks of a pair of particles, row < column; pairs come in order of (row, column), any of them
   /// repeatedly.
   void add_pair(int row, int column, const Matrix6d& row_row, const Matrix6d& row_column,

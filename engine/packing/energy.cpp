@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/geometry/overlap/small_distances.hpp"
+#include "engine/packing/strain_border.hpp"
 
 namespace isojam {
 
@@ -110,17 +111,23 @@ double largest_imbalance(const Eigen::VectorXd& gradient) {
 
 }  // namespace
 
+double deviator_of(const Evaluation& evaluation) {
+  if (!(evaluation.pressure > 0)) return 0;
+  const Eigen::Matrix3d excess = evaluation.stress + evaluation.pressure * Eigen::Matrix3d::Identity();
+  return excess.cwiseAbs().maxCoeff() / evaluation.pressure;
+}
+
 void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   // Hessians and contacts are mostly asked for in a state that was evaluated a moment ago.
-  const bool seen = seen_solid_ == packing.solid && seen_side_ == packing.cell.side() && seen_ == packing.poses &&
-                    seen_precision_ == precision;
+  const bool seen = seen_solid_ == packing.solid && seen_cell_ && *seen_cell_ == packing.cell &&
+                    seen_ == packing.poses && seen_precision_ == precision;
   if (seen) return;
   seen_.clear();
   list_.refresh(packing);
   place_all(packing, precision, placed_);
   totals_ += overlap_pairs(packing, precision, placed_, list_.pairs(), list_.axes(), touching_);
   seen_ = packing.poses;
-  seen_side_ = packing.cell.side();
+  seen_cell_ = packing.cell;
   seen_solid_ = packing.solid;
   seen_precision_ = precision;
 }
@@ -161,7 +168,8 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   return result;
 }
 
-SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_distance, Precision precision) {
+SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_distance, Precision precision,
+                                        CellFreedom cell) {
   overlap_all(packing, precision);
   const std::vector<NeighbourPair>& pairs = list_.pairs();
   const std::vector<PairHessian> hessians = pair_hessians(packing, precision, placed_, pairs, touching_);
@@ -169,16 +177,20 @@ SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_dis
   if (probe_distance > 0) closed = probe_pairs(packing, placed_, pairs, list_.axes(), probe_distance);
   SecondOrder result;
   result.hessian.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
+  const StrainBasis strains = strain_basis(cell) / strain_length(packing.size());
+  StrainBorder border(cell, packing.size(), result.hessian);
   std::size_t next = 0;
   for_each_of_either(touching_, closed, [&](std::size_t k, const Overlap* now, const Overlap* then) {
     const NeighbourPair& pair = pairs[k];
-    result.pairs.push_back(incipient_contact(pair.a, pair.b, now ? *now : Overlap{}, then ? *then : Overlap{},
-                                             displacement(packing, pair), probe_distance,
-                                             packing.solid->gyration_radius()));
+    const Eigen::Vector3d r = displacement(packing, pair);
+    result.pairs.push_back(incipient_contact(pair.a, pair.b, now ? *now : Overlap{}, then ? *then : Overlap{}, r,
+                                             probe_distance, packing.solid->gyration_radius(), strains));
     if (!now) return;
     const PairHessian& h = hessians[next++];
     result.hessian.add_pair(pair.a, pair.b, h.aa, h.ab, h.bb);
+    border.add_pair(pair.a, pair.b, h, -now->volume / 2 * now->area, r);
   });
+  border.finish();
   return result;
 }
 

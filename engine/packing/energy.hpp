@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "engine/packing/block_matrix.hpp"
+#include "engine/packing/cell/control.hpp"
 #include "engine/packing/incipient_contact.hpp"
 #include "engine/packing/neighbour_list.hpp"
 #include "engine/packing/pair_loop.hpp"
@@ -14,7 +16,9 @@ namespace isojam {
 /// Y·V_p, lengths in V_p^(1/3), pressure and stress in Y.
 struct Evaluation {
   double energy = 0;
-  Eigen::VectorXd gradient;  ///< 6N: per particle (−F, −T/R), lab frame; R the radius of gyration
+  double load_energy = 0;  ///< of `energy`, what Enthalpy added
+  /// 6N: per particle (−F, −T/R), lab frame; R the radius of gyration. Behind them what Enthalpy adds.
+  Eigen::VectorXd gradient;
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
   double pressure = 0;                               ///< −dE/dV_cell = −tr(stress)/3
   double mean_force = 0;                             ///< mean of |F| over touching pairs; 0 without contacts
@@ -34,9 +38,13 @@ struct Evaluation {
   long contacts = 0;
 };
 
+/// Largest entry of stress + p·1 over p: how far the stress is from hydrostatic; 0 without pressure.
+double deviator_of(const Evaluation& evaluation);
+
 /// Second derivatives of the energy, and what they leave out.
 struct SecondOrder {
-  BlockMatrix hessian;  ///< ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient
+  /// ∂²E/∂r², r per particle (x, R·θ) as in Evaluation::gradient; bordered by the strains ℓ·ε that are free.
+  BlockMatrix hessian;
   /// Pairs that touch, and pairs that would with their gap closed; in order of (a, b, shift).
   std::vector<IncipientContact> pairs;
 };
@@ -62,13 +70,14 @@ struct ContactTerms {
 /// packing gives the same bits whatever was evaluated before and whatever the number of threads.
 class PackingEnergy {
  public:
-  /// Throws std::invalid_argument if the cell is not larger than least_side(solid).
+  /// Throws std::invalid_argument unless is_legal(cell, solid).
   /// Precision::double_double computes V, S and M of every contact from the low parts of the state too, at a tenth more
   /// cost; sums are in double in either.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
   /// Analytic Hessian; where two images of a particle touch another, their blocks are summed. Incipient contacts are
   /// those that touch once their centres are closer by `probe_distance` (V_p^(1/3)); with 0, the contacts alone.
-  SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working);
+  SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working,
+                           CellFreedom cell = CellFreedom::fixed);
   BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working);
   /// Touching pairs in order of (a, b, shift).
   std::vector<Contact> contacts(const Packing& packing);
@@ -84,7 +93,7 @@ class PackingEnergy {
   TouchingPairs touching_;
   std::vector<std::vector<ContactTerms>> terms_;  ///< of touching_
   std::vector<Pose> seen_;                        ///< of the packing that touching_ belong to
-  double seen_side_ = 0;
+  std::optional<PeriodicCell> seen_cell_;
   const ConvexSolid* seen_solid_ = nullptr;
   Precision seen_precision_ = Precision::working;
   long evaluations_ = 0;

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "engine/packing/cell/strain.hpp"
+
 namespace isojam {
 
 namespace {
@@ -21,12 +23,14 @@ Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, double radius) {
 
 LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, double gyration_radius) {
   const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
-  return {overlap.volume, joined(overlap.area, overlap.moment / gyration_radius),
-          joined(-overlap.area, moment_b / gyration_radius)};
+  return {overlap.volume,
+          joined(overlap.area, overlap.moment / gyration_radius),
+          joined(-overlap.area, moment_b / gyration_radius),
+          {}};
 }
 
 IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& closed, const Eigen::Vector3d& r,
-                                   double probe_distance, double gyration_radius) {
+                                   double probe_distance, double gyration_radius, const StrainBasis& strains) {
   IncipientContact pair;
   pair.a = a, pair.b = b;
   const Eigen::Vector3d approach = probe_distance * r.normalized();
@@ -34,6 +38,11 @@ IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overl
   if (closed.touching()) {
     pair.closed = tangent(closed, r - approach, gyration_radius);
     pair.closed.at_rest -= closed.area.dot(approach);  // B moved by −approach, against −S_A
+  }
+  // Strain moves B by ε r, against −S_A.
+  if (strains.cols() > 0) {
+    pair.now.slope_strains = -(strained(r) * strains).transpose() * now.area;
+    pair.closed.slope_strains = -(strained(r) * strains).transpose() * closed.area;
   }
   const bool wider = closed.area.squaredNorm() > now.area.squaredNorm();
   pair.tilt = tilt_stiffness(wider ? closed.area : now.area, gyration_radius);

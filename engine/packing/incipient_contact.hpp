@@ -3,17 +3,22 @@
 #include <Eigen/Core>
 
 #include "engine/geometry/overlap/overlap.hpp"
+#include "engine/packing/cell/control.hpp"
 
 namespace isojam {
 
-/// Overlap volume of a pair (a, b) to first order in a step s of 6N entries, per particle (x, R·θ), R the radius of
-/// gyration: V ≈ at_rest + slope_a·s_a + slope_b·s_b. V in V_p, slopes in V_p^(2/3).
+/// Overlap volume of a pair (a, b) to first order in a step s as moved() takes it, per particle (x, R·θ), R the radius
+/// of gyration, and behind these the strains ℓ·ε that are free: V ≈ at_rest + slope_a·s_a + slope_b·s_b +
+/// slope_strains·ε. V in V_p, slopes in V_p^(2/3).
 struct LinearisedOverlap {
   double at_rest = 0;
   Vector6d slope_a = Vector6d::Zero(), slope_b = Vector6d::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> slope_strains{};
 
   double at(const Eigen::VectorXd& step, int a, int b) const {
-    return at_rest + slope_a.dot(step.segment<6>(6 * a)) + slope_b.dot(step.segment<6>(6 * b));
+    const double by_particles = at_rest + slope_a.dot(step.segment<6>(6 * a)) + slope_b.dot(step.segment<6>(6 * b));
+    if (slope_strains.size() == 0) return by_particles;
+    return by_particles + slope_strains.dot(step.tail(slope_strains.size()));
   }
 };
 
@@ -34,8 +39,8 @@ struct IncipientContact {
 LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, double gyration_radius);
 
 /// The pair with overlap `now` at r, and `closed` with B's centre closer to A's by `probe_distance` (V_p^(1/3)). Either
-/// may be empty, not both.
+/// may be empty, not both. `strains`: those that are free, over ℓ.
 IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& closed, const Eigen::Vector3d& r,
-                                   double probe_distance, double gyration_radius);
+                                   double probe_distance, double gyration_radius, const StrainBasis& strains = {});
 
 }  // namespace isojam

@@ -1,5 +1,6 @@
 #include "engine/packing/neighbour_list.hpp"
 
+#include <Eigen/LU>
 #include <stdexcept>
 #include <utility>
 
@@ -26,22 +27,38 @@ std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_p
 
 }  // namespace
 
-void NeighbourList::refresh(const Packing& packing) {
+/// Centres have come from x to F x + u, and r to F r + u_b − u_a: a pair that was farther apart than reach and skin is
+/// no nearer than |F r| − 2 max |u|, |F r| ≥ (1 − |F − 1|) |r|.
+bool NeighbourList::is_valid(const Packing& packing) const {
   const std::size_t n = packing.poses.size();
-  bool valid = solid_ == packing.solid && side_ == packing.cell.side() && positions_.size() == n;
-  for (std::size_t i = 0; valid && i < n; ++i)
-    valid = (packing.poses[i].position - positions_[i]).squaredNorm() < skin_ * skin_ / 4;
-  if (valid) return;
-  if (!(packing.cell.side() > least_side(*packing.solid)))
+  if (solid_ != packing.solid || !cell_ || positions_.size() != n) return false;
+  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  double most = skin_ / 2;
+  if (!(*cell_ == packing.cell)) {
+    f = packing.cell.vectors().high * cell_->vectors().high.inverse();
+    most = ((1 - (f - Eigen::Matrix3d::Identity()).norm()) * (reach_ + skin_) - reach_) / 2;
+    if (!(most > 0) || !is_legal(packing.cell, *packing.solid)) return false;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!((packing.poses[i].position - f * positions_[i]).squaredNorm() < most * most)) return false;
+  }
+  return true;
+}
+
+void NeighbourList::refresh(const Packing& packing) {
+  if (is_valid(packing)) return;
+  if (!is_legal(packing.cell, *packing.solid))
     throw std::invalid_argument("the cell is so small that a particle can touch two images of another");
+  const std::size_t n = packing.poses.size();
   const bool same_system = solid_ == packing.solid && positions_.size() == n;
+  reach_ = 2 * packing.solid->circumradius();
   skin_ = skin_in_circumradii * packing.solid->circumradius();
-  std::vector<NeighbourPair> pairs = find_neighbours(packing, 2 * packing.solid->circumradius() + skin_);
+  std::vector<NeighbourPair> pairs = find_neighbours(packing, reach_ + skin_);
   axes_ = same_system ? carried_over(pairs_, axes_, pairs) : std::vector<SeparatingAxis>(pairs.size());
   pairs_ = std::move(pairs);
   positions_.resize(n);
   for (std::size_t i = 0; i < n; ++i) positions_[i] = packing.poses[i].position;
-  side_ = packing.cell.side();
+  cell_ = packing.cell;
   solid_ = packing.solid;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "engine/packing/neighbours.hpp"
@@ -8,11 +9,12 @@
 
 namespace isojam {
 
-/// Pairs of particles within reach and a skin, with a separating axis of each, kept while no particle has moved by more
-/// than half the skin: a cache, which changes the cost of what is computed from it and never the result.
+/// Pairs of particles within reach and a skin, with a separating axis of each, kept while neither particles nor cell
+/// have moved so far that a pair beyond the skin can be within reach: a cache, which changes the cost of what is
+/// computed from it and never the result.
 class NeighbourList {
  public:
-  /// Lists the pairs of `packing`. Throws std::invalid_argument if the cell is not larger than least_side(solid).
+  /// Lists the pairs of `packing`. Throws std::invalid_argument unless is_legal(cell, solid).
   void refresh(const Packing& packing);
 
   /// In order of (a, b, shift); with centres farther apart than two circumradii too.
@@ -20,10 +22,13 @@ class NeighbourList {
   std::vector<SeparatingAxis>& axes() { return axes_; }  ///< of pairs()
 
  private:
+  bool is_valid(const Packing& packing) const;
+
   std::vector<NeighbourPair> pairs_;
   std::vector<SeparatingAxis> axes_;
   std::vector<Eigen::Vector3d> positions_;  ///< when it was made
-  double side_ = 0, skin_ = 0;
+  std::optional<PeriodicCell> cell_;
+  double reach_ = 0, skin_ = 0;
   const ConvexSolid* solid_ = nullptr;
 };
 

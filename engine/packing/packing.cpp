@@ -1,9 +1,12 @@
 #include "engine/packing/packing.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
+
+#include "engine/packing/cell/control.hpp"
+#include "engine/packing/cell/strain.hpp"
 
 namespace isojam {
 
@@ -53,16 +56,44 @@ Packing random_packing(const ConvexSolid& solid, int n, double density, RandomSt
 }
 
 Packing strained_to(const Packing& packing, double density) {
+  const double side = side_at(packing.size(), density);
+  if (!packing.cell.is_cube()) {
+    DoubleDoubleMatrix stretch;
+    stretch.high *= side / packing.cell.side();
+    return deformed(packing, stretch);
+  }
   Packing strained = packing;
-  strained.cell = PeriodicCell(side_at(packing.size(), density));
-  const DoubleDouble stretch = DoubleDouble(strained.cell.side()) / packing.cell.side();
+  strained.cell = PeriodicCell(side);
+  const DoubleDoubleMatrix& was = packing.cell.vectors();
+  const DoubleDouble stretch = DoubleDouble(side) / was(0, 0);
   for (Pose& pose : strained.poses) pose = scaled(pose, stretch);
   return strained;
 }
 
-Packing moved(const Packing& packing, const Eigen::VectorXd& step) {
-  assert(step.size() == 6 * packing.size());
+Packing deformed(const Packing& packing, const DoubleDoubleMatrix& f) {
   Packing result = packing;
+  result.cell = packing.cell.deformed(f);
+  for (Pose& pose : result.poses) pose = deformed(pose, f);
+  return result;
+}
+
+namespace {
+
+/// Strained by the entries of a step after those of particles.
+Packing strained_by(const Packing& packing, const Eigen::VectorXd& step) {
+  const Eigen::Index strains = step.size() - 6 * Eigen::Index{packing.size()};
+  const Vector6d strain = strain_basis(freedom_of(strains)) * step.tail(strains) / strain_length(packing.size());
+  if (strain.isZero(0)) return packing;
+  if (strain.allFinite()) return deformed(packing, exponential(strain_tensor(strain)));
+  Packing lost = packing;  // a cell is always finite; what stands in it need not be
+  for (Pose& pose : lost.poses) pose.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return lost;
+}
+
+}  // namespace
+
+Packing moved(const Packing& packing, const Eigen::VectorXd& step) {
+  Packing result = strained_by(packing, step);
   const double radius = packing.solid->gyration_radius();
   for (int i = 0; i < packing.size(); ++i) {
     // To the bit where it was: what is known of it stays good.

@@ -46,9 +46,15 @@ class StrainStep {
   }
 
  private:
+  MinimiseOptions minimiser() const {
+    MinimiseOptions options = options_.minimise;
+    options.control = control_at_density(options_);
+    return options;
+  }
+
   /// Minimises `packing` and appends the step to the path.
   const JamStep& relax(Packing& packing) {
-    MinimiseOptions options = options_.minimise;
+    MinimiseOptions options = minimiser();
     if (progress_.stage == JamStage::consolidation) {
       options.residual = std::max(options.residual, options_.consolidation_residual);
       options.unjammed_energy = std::max(options.unjammed_energy, options_.consolidation_energy);
@@ -68,6 +74,7 @@ class StrainStep {
     const Evaluation value = energy_.evaluate(packing, step.summary.precision);
     step.energy_per_particle = value.energy / packing.size();
     step.pressure = value.pressure;
+    step.deviator = deviator_of(value);
     result_.work += step.summary.work;
     result_.path.push_back(step);
     return result_.path.back();
@@ -79,6 +86,8 @@ class StrainStep {
       result_.status = JamStatus::interrupted;
     } else if (step.summary.reason == StopReason::not_finite) {
       result_.status = JamStatus::not_finite;
+    } else if (step.summary.reason == StopReason::cell_limit) {
+      result_.status = JamStatus::cell_limit;
     } else if (static_cast<int>(result_.path.size()) >= options_.max_steps) {
       result_.status = JamStatus::step_limit;
     } else {
@@ -109,6 +118,7 @@ class StrainStep {
   /// Strains up, towards the target energy; the first step only minimises.
   void consolidate() {
     Packing& packing = progress_.packing;
+    packing.cell = packing.cell.reduced();
     if (!result_.path.empty()) {
       const double strain = options_.target_before_relaxation ? gentle_step() : options_.consolidation_step;
       if (packing.density() + strain > options_.max_density) {
@@ -129,11 +139,17 @@ class StrainStep {
   /// What bounds an expansion step beside the fraction: nearer than asked for costs more than it tells.
   double step_bound() const { return std::min(options_.longest_step, distance() - 0.95 * options_.final_distance); }
 
-  double expansion_step() const { return std::min(progress_.step_fraction * distance(), step_bound()); }
+  /// A lone state may be nearer than asked for.
+  double expansion_step() const {
+    const double step = progress_.step_fraction * distance(), bound = step_bound();
+    return bound > 0 ? std::min(step, bound) : step;
+  }
 
   /// Strains down towards φ_J from the last equilibrium; the first step only minimises.
   void expand() {
     if (progress_.lost >= 0) return rise();
+    // Before the step, so that the pairs of both of its ends are counted in the same lattice.
+    progress_.packing.cell = progress_.packing.cell.reduced();
     Packing next = progress_.packing;
     const bool first = result_.states.empty();
     const JamStep& step = first ? relax(next) : strained_down(next);
@@ -143,7 +159,7 @@ class StrainStep {
       progress_.packing = std::move(next);
       return;
     }
-    const bool ends_branch = follows() && gives_way();
+    const bool ends_branch = follows() && gives_way() && options_.control == Control::density;
     if (!ends_branch && !is_state(step.summary)) return failed(first);
     if (!first && !ends_branch && last_state().energy_per_particle > 0)
       result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
@@ -156,8 +172,14 @@ class StrainStep {
     }
     if (ends_branch) return lose(std::move(next));
     if (!first) progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
+    // A packing that shrinks as its pressure falls has found a denser branch: energies of the one that it left say
+    // nothing about φ_J of that.
+    if (!first && options_.control == Control::pressure && next.density() >= progress_.packing.density())
+      forget_states();
     keep(std::move(next));
-    if (distance_to_jamming(result_.path.back()) <= options_.final_distance) end_expansion(JamStatus::jammed);
+    const bool bracketed = result_.states.size() > 1 || options_.control == Control::density;
+    if (bracketed && distance_to_jamming(result_.path.back()) <= options_.final_distance)
+      end_expansion(JamStatus::jammed);
   }
 
   /// Whether what consolidation passed for a packing at the target energy was not yet in balance, and lost most of that
@@ -165,6 +187,11 @@ class StrainStep {
   bool gave_way_at_the_top(const JamStep& step) const {
     return !options_.target_before_relaxation && step.energy_per_particle < options_.target_energy / 2 &&
            (is_state(step.summary) || step.summary.reason == StopReason::unjammed);
+  }
+
+  void forget_states() {
+    result_.states.clear();
+    result_.state_steps.clear();
   }
 
   void keep(Packing state) {
@@ -179,13 +206,22 @@ class StrainStep {
            distance() <= followed_within && is_equilibrium(last_state().summary);
   }
 
+  const JamStep& released(Packing& next) {
+    const double left = 1 - expansion_step() / distance();
+    MinimiseOptions options = options_.minimise;
+    options.control = control_at_pressure(options_, std::pow(left, 5) * last_state().pressure);
+    if (!follows()) return append(next, minimise(next, energy_, options, stop_));
+    return append(next, follow_load(next, distance(), energy_, options, stop_));
+  }
+
   const JamStep& strained_down(Packing& next) {
+    if (options_.control == Control::pressure) return released(next);
     const double density = next.density() - expansion_step();
     if (!follows()) {
       next = strained_to(next, density);
       return relax(next);
     }
-    return append(next, follow_equilibrium(next, density, distance(), energy_, options_.minimise, stop_));
+    return append(next, follow_equilibrium(next, density, distance(), energy_, minimiser(), stop_));
   }
 
   /// Whether the packing that the last step led to has come apart, or slides farther than is worth following, even in
@@ -215,7 +251,7 @@ class StrainStep {
     Packing next = strained_to(progress_.packing, progress_.packing.density() + strain);
     if (next.density() > options_.max_density) return end_expansion(JamStatus::goal_not_reached);
     const double force = mean_force_at(before.pressure, before.density);
-    const JamStep& step = append(next, relax_to_equilibrium(next, force, distance, energy_, options_.minimise, stop_));
+    const JamStep& step = append(next, relax_to_equilibrium(next, force, distance, energy_, minimiser(), stop_));
     if (must_end(step)) return;
     progress_.packing = next;
     if (!is_state(step.summary)) {
@@ -224,8 +260,7 @@ class StrainStep {
     }
     if (distance_to_jamming(step) < options_.final_distance / (1 - options_.step_fraction)) return;
     progress_.lost = -1;
-    result_.states.clear();
-    result_.state_steps.clear();
+    forget_states();
     keep(std::move(next));
   }
 
@@ -251,6 +286,14 @@ class StrainStep {
 };
 
 }  // namespace
+
+CellControl control_at_density(const JamOptions& options) {
+  return {options.cell == CellShape::free ? CellFreedom::shape : CellFreedom::fixed, 0};
+}
+
+CellControl control_at_pressure(const JamOptions& options, double pressure) {
+  return {options.cell == CellShape::free ? CellFreedom::free : CellFreedom::isotropic, pressure};
+}
 
 std::vector<EnergyPoint> energy_points(const JamResult& result) {
   std::vector<EnergyPoint> points;

@@ -23,6 +23,21 @@ template <>
 inline constexpr std::array enum_names<Consolidation>{EnumName{Consolidation::relaxed, "relaxed"},
                                                       EnumName{Consolidation::hasty, "hasty"}};
 
+/// What the states of an expansion are given: their density or their pressure.
+enum class Control { density, pressure };
+template <>
+inline constexpr std::array enum_names<Control>{EnumName{Control::density, "density"},
+                                                EnumName{Control::pressure, "pressure"}};
+
+/// How the cell may change, beside its volume.
+enum class CellShape {
+  isotropic,  ///< it stays a cube
+  free        ///< it gives way to shear: every state bears a hydrostatic stress, from the way up on
+};
+template <>
+inline constexpr std::array enum_names<CellShape>{EnumName{CellShape::isotropic, "isotropic"},
+                                                  EnumName{CellShape::free, "free"}};
+
 /// Jamming protocol of Smith, Fisher, Alam 2011 (and 2010): consolidate in small isotropic strain steps, then expand
 /// towards φ_J, minimising after each. Energies in Y·V_p.
 struct JamOptions {
@@ -56,6 +71,10 @@ struct JamOptions {
   double consolidation_energy = 1e-14;
   int consolidation_evaluations = 2000;
   Consolidation consolidation = Consolidation::relaxed;
+  /// Under pressure control the states of the expansion are those of ever lower pressures, volume and particles in
+  /// balance with it: a step in which Δφ is expected to fall by a fraction is one to (1 − fraction)⁵ of the pressure.
+  Control control = Control::density;
+  CellShape cell = CellShape::isotropic;
   MinimiseOptions minimise;
 };
 
@@ -73,12 +92,18 @@ struct Rearrangement {
   double particles_moved = 0;
 };
 
+/// The control of the cell in a stage: at the density that the packing has, or under pressure control and once the
+/// expansion has begun, at a pressure.
+CellControl control_at_density(const JamOptions& options);
+CellControl control_at_pressure(const JamOptions& options, double pressure);
+
 /// A minimised state on the path; energy in Y·V_p, pressure in Y.
 struct JamStep {
   JamStage stage = JamStage::consolidation;
   double density = 0;
   double energy_per_particle = 0;
   double pressure = 0;
+  double deviator = 0;  ///< largest entry of stress + p·1 over p: what is not hydrostatic; 0 without pressure
   MinimiseSummary summary;
   int descents = 0;                            ///< saddles that the state was followed down from before it was kept
   std::optional<Rearrangement> rearrangement;  ///< since the state before; of states that followed one
@@ -94,6 +119,7 @@ enum class JamStatus {
   not_jammed,        ///< fewer than two states above jamming
   density_limit,     ///< max_density reached without the target energy
   step_limit,        ///< max_steps spent
+  cell_limit,        ///< the cell came to be so small or skew that a particle could touch two images of another
   not_finite,
   interrupted
 };
@@ -104,6 +130,7 @@ inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called
                                                   EnumName{JamStatus::not_jammed, "not_jammed"},
                                                   EnumName{JamStatus::density_limit, "density_limit"},
                                                   EnumName{JamStatus::step_limit, "step_limit"},
+                                                  EnumName{JamStatus::cell_limit, "cell_limit"},
                                                   EnumName{JamStatus::not_finite, "not_finite"},
                                                   EnumName{JamStatus::interrupted, "interrupted"}};
 

@@ -1,6 +1,7 @@
 #include "engine/solve/rearrangement.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -18,9 +19,15 @@ auto touching_pairs(const Packing& packing) {
   return keys;
 }
 
+/// F with h₁ = F h₀ for the lattice vectors of two cells.
+Eigen::Matrix3d deformation(const PeriodicCell& before, const PeriodicCell& after) {
+  if (before.is_cube() && after.is_cube()) return after.side() / before.side() * Eigen::Matrix3d::Identity();
+  return after.vectors().high * before.vectors().high.inverse();
+}
+
 /// |dx|² + R²|dθ|² of a particle beside the affine strain.
-double squared_displacement(const Pose& before, const Pose& after, double stretch, double radius) {
-  const Eigen::Vector3d dx = after.position - stretch * before.position;
+double squared_displacement(const Pose& before, const Pose& after, const Eigen::Matrix3d& f, double radius) {
+  const Eigen::Vector3d dx = after.position - f * before.position;
   const Eigen::Quaterniond turn = after.orientation * before.orientation.conjugate();
   const double angle = 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
   return dx.squaredNorm() + std::pow(radius * angle, 2);
@@ -45,10 +52,11 @@ Rearrangement rearrangement(const Packing& before, const JamStep& step_before, c
                         std::back_inserter(both));
   found.contacts_lost = static_cast<int>(old_pairs.size() - both.size());
   found.contacts_gained = static_cast<int>(new_pairs.size() - both.size());
-  const double stretch = after.cell.side() / before.cell.side(), radius = after.solid->gyration_radius();
+  const Eigen::Matrix3d f = deformation(before.cell, after.cell);
+  const double radius = after.solid->gyration_radius();
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < after.poses.size(); ++i) {
-    const double u2 = squared_displacement(before.poses[i], after.poses[i], stretch, radius);
+    const double u2 = squared_displacement(before.poses[i], after.poses[i], f, radius);
     sum += u2;
     squares += u2 * u2;
   }

@@ -15,12 +15,17 @@ Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix) {
 }
 
 Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix) {
-  const Eigen::Index n = 6 * Eigen::Index{matrix.size()};
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  const Eigen::Index n = 6 * Eigen::Index{matrix.size()}, strains = matrix.strains();
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n + strains, n + strains);
   for (int k = 0; k < matrix.size(); ++k) dense.block<6, 6>(6 * k, 6 * k) = matrix.diagonal[k];
   for (const BlockMatrix::Block& block : matrix.off_diagonal) {
     dense.block<6, 6>(6 * block.row, 6 * block.column) = block.value;
     dense.block<6, 6>(6 * block.column, 6 * block.row) = block.value.transpose();
+  }
+  if (strains > 0) {
+    dense.topRightCorner(n, strains) = matrix.border;
+    dense.bottomLeftCorner(strains, n) = matrix.border.transpose();
+    dense.bottomRightCorner(strains, strains) = matrix.corner;
   }
   return dense;
 }
@@ -33,11 +38,17 @@ Eigen::MatrixXd translations(int particles) {
 }
 
 double norm_bound(const BlockMatrix& matrix) {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(6 * Eigen::Index{matrix.size()});
+  const Eigen::Index n = 6 * Eigen::Index{matrix.size()}, strains = matrix.strains();
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n + strains);
   for (int k = 0; k < matrix.size(); ++k) sums.segment<6>(6 * k) = matrix.diagonal[k].cwiseAbs().rowwise().sum();
   for (const BlockMatrix::Block& block : matrix.off_diagonal) {
     sums.segment<6>(6 * block.row) += block.value.cwiseAbs().rowwise().sum();
     sums.segment<6>(6 * block.column) += block.value.cwiseAbs().colwise().sum().transpose();
+  }
+  if (strains > 0) {
+    sums.head(n) += matrix.border.cwiseAbs().rowwise().sum();
+    sums.tail(strains) =
+        matrix.border.cwiseAbs().colwise().sum().transpose() + matrix.corner.cwiseAbs().rowwise().sum();
   }
   if (!sums.allFinite()) return std::numeric_limits<double>::infinity();
   return sums.size() == 0 ? 0 : sums.maxCoeff();

@@ -13,7 +13,7 @@ namespace isojam {
 // r = {x, R·θ} per particle, R the radius of gyration; a particle has mass 1, and so has the coordinate R·θ, since
 // ½ I θ'² = ½ (R θ')². Nothing is left to be scaled: D = ∂²E/∂r², λ = ω² in (Y/ρ)·V_p^(-2/3).
 
-/// Both halves of D, 6N × 6N.
+/// Both halves of D, 6N × 6N, and of its border where it has one.
 Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix);
 Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix);
 

@@ -5,7 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "engine/packing/enthalpy.hpp"
 #include "engine/solve/minimise/descent.hpp"
+#include "engine/vibration/strict.hpp"
 
 namespace isojam {
 
@@ -14,16 +16,16 @@ namespace {
 /// Halvings of a trial step: down to 1e-12 of the first, less than the depth of any contact that matters.
 constexpr int max_halvings = 40;
 
-/// The packing moved along ±mode, by the longest trial step that lowers the energy by more than its noise, to the lower
-/// side.
+/// The packing moved along ±mode, by the longest trial step that lowers the enthalpy by more than its noise, to the
+/// lower side.
 std::optional<Packing> step_down(const Packing& packing, const Eigen::VectorXd& mode, double first_step,
-                                 Precision precision, PackingEnergy& energy) {
-  const Evaluation here = energy.evaluate(packing, precision);
+                                 Precision precision, const Enthalpy& enthalpy, PackingEnergy& energy) {
+  const auto evaluate = [&](const Packing& there) { return enthalpy.of(energy.evaluate(there, precision), there); };
+  const Evaluation here = evaluate(packing);
   double step = first_step * packing.solid->inradius() / largest_displacement(mode);
   for (int halving = 0; halving < max_halvings; ++halving) {
     Packing ahead = moved(packing, step * mode), behind = moved(packing, -step * mode);
-    const double at_ahead = energy.evaluate(ahead, precision).energy;
-    const double at_behind = energy.evaluate(behind, precision).energy;
+    const double at_ahead = evaluate(ahead).energy, at_behind = evaluate(behind).energy;
     if (std::min(at_ahead, at_behind) < here.energy - here.energy_noise) return at_ahead <= at_behind ? ahead : behind;
     step /= 2;
   }
@@ -33,7 +35,10 @@ std::optional<Packing> step_down(const Packing& packing, const Eigen::VectorXd& 
 class Follower {
  public:
   Follower(const Packing& packing, const DownhillOptions& options, std::stop_token stop)
-      : options_(options), stop_(std::move(stop)), result_{.packing = packing} {}
+      : options_(options),
+        stop_(std::move(stop)),
+        enthalpy_(options.minimise.control, packing.cell),
+        result_{.packing = packing} {}
 
   DownhillResult follow() {
     result_.ended = descend();
@@ -43,18 +48,18 @@ class Follower {
  private:
   DownhillEnd descend() {
     minimise_here();
-    const double first_energy = result_.summary.energy;
+    const double first = enthalpy();
     while (true) {
-      result_.energy_drop = first_energy - result_.summary.energy;
+      result_.energy_drop = first - enthalpy();
       if (!is_equilibrium(result_.summary)) return DownhillEnd::lost_balance;
-      const SpectrumEnds ends = assess_here();
+      const std::optional<Eigen::VectorXd> mode = assess_here();
       if (result_.stability.verdict == Verdict::undetermined) return DownhillEnd::undetermined;
       if (result_.stability.negative == 0)
         return result_.descents == 0 ? DownhillEnd::was_minimum : DownhillEnd::reached_minimum;
-      if (ends.lowest.size() == 0) return DownhillEnd::undetermined;
+      if (!mode) return DownhillEnd::undetermined;
       if (result_.descents == options_.max_descents) return DownhillEnd::still_unstable;
-      std::optional<Packing> lower = step_down(result_.packing, ends.lowest.vectors.col(0), options_.first_step,
-                                               result_.summary.precision, energy_);
+      std::optional<Packing> lower =
+          step_down(result_.packing, *mode, options_.first_step, result_.summary.precision, enthalpy_, energy_);
       if (!lower) return DownhillEnd::still_unstable;
       result_.packing = std::move(*lower);
       ++result_.descents;
@@ -67,17 +72,31 @@ class Follower {
     result_.summary = minimise(result_.packing, energy_, options_.minimise, stop_);
   }
 
-  SpectrumEnds assess_here() {
+  double enthalpy() { return result_.summary.energy + enthalpy_.work(result_.packing.cell); }
+
+  /// Sets the stability. The direction to go if that says so: the lowest mode of the particles, or where that is not
+  /// unstable the softest strain.
+  std::optional<Eigen::VectorXd> assess_here() {
     const Precision precision = result_.summary.precision;
     const Evaluation here = energy_.evaluate(result_.packing, precision);
+    const double torque = unbalanced_torque(here, result_.packing.solid->gyration_radius());
     const BlockMatrix matrix = energy_.hessian(result_.packing, precision);
-    SpectrumEnds ends = spectrum_ends(matrix, options_.modes);
-    result_.stability = assess(matrix, ends, unbalanced_torque(here, result_.packing.solid->gyration_radius()));
-    return ends;
+    const SpectrumEnds ends = spectrum_ends(matrix, options_.modes);
+    result_.stability = assess(matrix, ends, torque);
+    const CellControl& control = options_.minimise.control;
+    if (result_.stability.negative == 0 && control.cell != CellFreedom::fixed) {
+      const BlockMatrix bordered = enthalpy_hessian(result_.packing, control, precision);
+      result_.stability = assess(bordered, ends, torque);
+      if (const auto soft = softest_strain(bordered)) return soft->step;
+      return std::nullopt;
+    }
+    if (ends.lowest.size() == 0) return std::nullopt;
+    return ends.lowest.vectors.col(0);
   }
 
   const DownhillOptions& options_;
   std::stop_token stop_;
+  Enthalpy enthalpy_;
   PackingEnergy energy_;
   DownhillResult result_;
 };

@@ -39,13 +39,14 @@ struct DownhillResult {
   MinimiseSummary summary{};  ///< of the last minimisation
   Stability stability{};      ///< of `packing`; not called where balance was lost
   int descents = 0;           ///< saddles left behind
-  double energy_drop = 0;     ///< from the first equilibrium to the last
+  double energy_drop = 0;     ///< of the enthalpy, from the first equilibrium to the last
 
   bool was_unstable() const { return descents > 0 || stability.negative > 0; }
 };
 
 /// Follows an unstable equilibrium along its lowest mode, on the side where the energy falls more, to a minimum, and
-/// looks again, a few times at most. What comes is minimised first: an equilibrium stays as it is.
+/// looks again, a few times at most. What comes is minimised first: an equilibrium stays as it is. Where the cell is
+/// free, options.minimise.control, it is one of particles and cell together.
 DownhillResult follow_downhill(const Packing& packing, const DownhillOptions& options = {}, std::stop_token stop = {});
 
 }  // namespace isojam

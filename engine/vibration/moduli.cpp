@@ -4,6 +4,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "engine/packing/cell/strain.hpp"
+#include "engine/packing/strain_border.hpp"
 #include "engine/solve/factor/block_cholesky.hpp"
 #include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
@@ -16,26 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Strains = Eigen::Matrix<double, 3, 6>;
-
-/// Symmetric tensor of the I-th unit vector.
-Matrix3d unit_strain(int i) {
-  Matrix3d strain = Matrix3d::Zero();
-  if (i < 3) {
-    strain(i, i) = 1;
-  } else {
-    const int a = (i + 1) % 3, b = (i + 2) % 3;
-    strain(a, b) = strain(b, a) = 1 / std::numbers::sqrt2;
-  }
-  return strain;
-}
-
-/// Column I: the change of r by the I-th unit strain.
-Strains strained(const Vector3d& r) {
-  Strains changes;
-  for (int i = 0; i < 6; ++i) changes.col(i) = unit_strain(i) * r;
-  return changes;
-}
 
 /// x_b − x_a of every block off the diagonal, by a merge of two lists in the order of pairs.
 std::vector<Vector3d> displacements(const Packing& packing, const BlockMatrix& hessian,
@@ -77,22 +59,8 @@ Affine affine_response(const Packing& packing, const BlockMatrix& hessian, std::
     response.forces.middleRows<6>(6 * block.column) -= block.value.topRows<3>().transpose() * dr;
   }
   const Matrix3d stress = packing.cell.volume() * (evaluation.stress + evaluation.stress.transpose()) / 2;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) {
-      const Matrix3d product = unit_strain(i) * unit_strain(j);
-      response.stiffness(i, j) += stress.cwiseProduct(product + product.transpose()).sum() / 2;
-    }
-  }
+  response.stiffness += of_squared_strain(stress);
   return response;
-}
-
-/// Of the traceless tensors, orthonormal.
-Eigen::Matrix<double, 6, 5> traceless_basis() {
-  Eigen::Matrix<double, 6, 5> basis = Eigen::Matrix<double, 6, 5>::Zero();
-  basis.col(0).head<3>() = Vector3d(1, -1, 0).normalized();
-  basis.col(1).head<3>() = Vector3d(1, 1, -2).normalized();
-  basis.bottomRightCorner<3, 3>().setIdentity();
-  return basis;
 }
 
 /// From d²E/ds² of r → e^s r, which is 9V(K − p).

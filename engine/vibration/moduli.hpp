@@ -10,11 +10,8 @@
 
 namespace isojam {
 
-// Strain is logarithmic: r → exp(ε) r for every centre-to-centre vector r, ε symmetric, orientations as they are. A
-// traceless ε then keeps the volume to all orders, so that moduli under pressure are what it costs to shear at constant
-// volume, and K = V d²E/dV². Symmetric tensors are written in the orthonormal basis
-//   (ε_xx, ε_yy, ε_zz, √2 ε_yz, √2 ε_zx, √2 ε_xy)   (Mandel),
-// in which rotations are orthogonal and eigenvalues mean something.
+// Strain is logarithmic and written in Mandel's components (packing/cell/strain.hpp): moduli under pressure are what it
+// costs to shear at constant volume, and K = V d²E/dV².
 
 /// Elastic tensor C_IJ = (1/V) d²E/dε_I dε_J at ε = 0, in Y. Isotropic: 3K − 3p along the trace, 2G on the traceless
 /// five.

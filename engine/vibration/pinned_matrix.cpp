@@ -11,6 +11,7 @@ BlockMatrix pinned_matrix(const BlockMatrix& matrix, double held_diagonal, Pinni
   first.topRows<3>().setZero();
   first.leftCols<3>().setZero();
   first.topLeftCorner<3, 3>().diagonal().setConstant(held_diagonal);
+  if (matrix.strains() > 0) pinned.border.topRows<3>().setZero();
   std::vector<char> touched(matrix.diagonal.size(), 0);
   for (BlockMatrix::Block& block : pinned.off_diagonal) {
     if (block.row == 0) block.value.topRows<3>().setZero();

@@ -17,6 +17,8 @@ bool settle_state(Packing& packing, JamStep& step, const DownhillOptions& option
   const Evaluation value = PackingEnergy().evaluate(packing, result.summary.precision);
   step.energy_per_particle = value.energy / packing.size();
   step.pressure = value.pressure;
+  step.density = packing.density();
+  step.deviator = deviator_of(value);
   step.summary = result.summary;
   step.descents = result.descents;
   return true;
@@ -31,6 +33,10 @@ void settle(JamResult& result, const JamOptions& options, std::stop_token stop) 
   bool changed = false;
   for (std::size_t k = 0; k < result.states.size() && !stop.stop_requested(); ++k) {
     JamStep& step = result.path[static_cast<std::size_t>(result.state_steps[k])];
+    // The first state of an expansion is one of given density.
+    downhill.minimise.control = options.control == Control::pressure && k > 0
+                                    ? control_at_pressure(options, step.pressure)
+                                    : control_at_density(options);
     changed |= settle_state(result.states[k], step, downhill, stop);
   }
   if (changed) result.phi_j = fit_jamming_point(energy_points(result), options.fit_window);

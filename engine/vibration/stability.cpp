@@ -29,10 +29,10 @@ std::optional<int> count_below(const BlockMatrix& matrix, double sigma) {
 bool all_above(const BlockMatrix& matrix, double sigma) { return BlockCholesky().factorise(matrix, -sigma); }
 
 void count_modes(const BlockMatrix& matrix, double lambda_max, Stability& stability) {
-  const int all = 6 * matrix.size();
+  const auto all = static_cast<int>(matrix.rows());
   const double tolerance = stability.tolerance;
-  // Pinning one particle cuts a space of 6N − 3 dimensions out of 6N: the least eigenvalue there is at most the fourth
-  // of D. The first three belong to the translations.
+  // Pinning one particle cuts three dimensions out of the space: the least eigenvalue there is at most the fourth of D.
+  // The first three belong to the translations.
   if (all_above(pinned_matrix(matrix, lambda_max, Pinning::translations), tolerance)) {
     stability.zero = 3;
     stability.positive = all - 3;
@@ -107,12 +107,13 @@ Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unb
   // Without the highest modes their bound serves.
   const double lambda_max = ends.lambda_max > 0 ? ends.lambda_max : bound;
   if (lambda_max == 0) {
-    stability.zero = 6 * matrix.size();
+    stability.zero = static_cast<int>(matrix.rows());
     stability.verdict = Verdict::marginal;
   } else {
     stability.tolerance = zero_tolerance(matrix, lambda_max, unbalanced_torque);
     count_modes(matrix, lambda_max, stability);
-    const Eigen::MatrixXd moves = translations(matrix.size());
+    Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(matrix.rows(), 3);
+    moves.topRows(6 * Eigen::Index{matrix.size()}) = translations(matrix.size());
     for (int c = 0; c < 3; ++c)
       stability.translation_error = std::max(stability.translation_error, (matrix * moves.col(c)).norm());
   }

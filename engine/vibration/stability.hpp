@@ -42,7 +42,7 @@ inline constexpr std::array enum_names<NearRattler::Reason>{
 
 struct Stability {
   Verdict verdict = Verdict::not_called;
-  int zero = 0, negative = 0, positive = 0;  ///< of all 6N modes, exact by Sylvester's inertia
+  int zero = 0, negative = 0, positive = 0;  ///< of all 6N modes, and strains, exact by Sylvester's inertia
   double tolerance = 0;                      ///< |λ| up to this is zero
   double translation_error = 0;              ///< max ‖D t‖ over the three translations; below tolerance
   std::vector<NearRattler> near_rattlers;    ///< ascending by particle; at most one entry for each
@@ -59,6 +59,7 @@ double unbalanced_torque(const Evaluation& evaluation, double gyration_radius);
 /// Counts all modes of D, by the number of eigenvalues below −tolerance and above +tolerance, and names near-rattlers.
 /// A packing whose D with one particle pinned is above the tolerance has 6N − 3 positive modes (eigenvalues
 /// interlace), which a Cholesky factorisation shows; anything else is counted by LDLᵀ.
+/// Of a matrix with a border those directions are counted in which particles and cell move together.
 /// Four contacts are the fewest that can hold a particle: forces on fewer than four points balance in a plane, and
 /// nothing opposes a motion out of it to first order.
 Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque = 0);

@@ -1,5 +1,6 @@
 #include "tasks/export/frame.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -79,13 +80,27 @@ void check_frames(std::span<const ExportFrame> frames) {
   }
 }
 
-WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& position) {
-  const double side = cell.side();
+namespace {
+
+/// Into [low, low + 1) of each lattice vector.
+WrappedPosition into_any_cell(const PeriodicCell& cell, const Eigen::Vector3d& position, double low) {
+  const Eigen::Vector3d cells = (cell.fractional(position).array() - low).floor();
+  Eigen::Vector3i image = cells.cast<int>();
+  Eigen::Vector3d rest = cell.fractional(position - cell.translation(image));
+  for (int c = 0; c < 3; ++c) {
+    // Rounding can leave a position just beyond either end, which is the other end.
+    if (rest[c] >= low && rest[c] < low + 1) continue;
+    image[c] += rest[c] < low ? 0 : 1;
+    rest[c] = low;
+  }
+  return {cell.vectors().high * rest, image};
+}
+
+WrappedPosition into_cube(double side, const Eigen::Vector3d& position) {
   WrappedPosition result;
   for (int c = 0; c < 3; ++c) {
     double cells = std::floor(position[c] / side);
     double x = position[c] - side * cells;
-    // Rounding can leave a position just beyond either end, which is the other end.
     if (x < 0 || x >= side) {
       cells += x < 0 ? 0 : 1;
       x = 0;
@@ -96,7 +111,7 @@ WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& posit
   return result;
 }
 
-WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position) {
+WrappedPosition into_centred_cube(const PeriodicCell& cell, const Eigen::Vector3d& position) {
   const float half = static_cast<float>(cell.side()) / 2;
   WrappedPosition result;
   result.image = -cell.nearest_shift(position);
@@ -109,6 +124,31 @@ WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3
     result.wrapped[c] = std::max(x, -half);
   }
   return result;
+}
+
+}  // namespace
+
+WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& position) {
+  return cell.is_cube() ? into_cube(cell.side(), position) : into_any_cell(cell, position, 0);
+}
+
+WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position) {
+  return cell.is_cube() ? into_centred_cube(cell, position) : into_any_cell(cell, position, -0.5);
+}
+
+Packing in_standard_frame(Packing packing) {
+  if (packing.cell.is_cube()) return packing;
+  const Eigen::Matrix3d h = packing.cell.vectors().high;
+  Eigen::Matrix3d turn;  // rows: the new axes
+  turn.row(0) = h.col(0).normalized();
+  turn.row(2) = h.col(0).cross(h.col(1)).normalized();
+  turn.row(1) = turn.row(2).cross(turn.row(0));
+  DoubleDoubleMatrix upper;
+  upper.high = (turn * h).triangularView<Eigen::Upper>();
+  packing.cell = PeriodicCell(upper);
+  const Eigen::Quaterniond rotation(turn);
+  for (auto& pose : packing.poses) pose = {turn * pose.position, rotation * pose.orientation, {0, 0, 0}, {0, 0, 0, 0}};
+  return packing;
 }
 
 }  // namespace isojam

@@ -40,15 +40,20 @@ ExportFrame make_frame(Packing packing, std::optional<double> delta_phi);
 /// Throws std::invalid_argument unless there is a frame, and all have the same solid and number of particles.
 void check_frames(std::span<const ExportFrame> frames);
 
-/// A position moved by whole sides into the cell, and by how many: position = wrapped + side·image.
+/// A position moved by lattice vectors into the cell, and by how many: position = wrapped + h·image.
 struct WrappedPosition {
   Eigen::Vector3d wrapped;
   Eigen::Vector3i image;
 };
 
-/// Into [0, L) along each axis.
+/// Into [0, 1) of each lattice vector.
 WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& position);
-/// Into [−L/2, L/2) along each axis, as single precision has it too: the components are floats, and so is L.
+/// Into [−½, ½) of each lattice vector; in a cube of side L as single precision has it too: the components are floats,
+/// and so is L.
 WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position);
+
+/// The packing turned so that its first lattice vector lies along x and the second in the plane of x and y, as formats
+/// with tilts have it. A cube stays as it is.
+Packing in_standard_frame(Packing packing);
 
 }  // namespace isojam

@@ -56,16 +56,32 @@ void append_poses(const Packing& packing, std::vector<GsdChunk>& chunks) {
   chunks.push_back(many("particles/image", images, 3));
 }
 
+/// Lengths along the axes and tilts, as HOOMD-blue's schema has them: lattice vectors (Lx, 0, 0), (xy·Ly, Ly, 0) and
+/// (xz·Lz, yz·Lz, Lz).
+std::vector<float> box_of(const PeriodicCell& cell) {
+  const Eigen::Matrix3d& h = cell.vectors().high;
+  std::vector<float> box;
+  for (const double x : {h(0, 0), h(1, 1), h(2, 2), h(0, 1) / h(1, 1), h(0, 2) / h(2, 2), h(1, 2) / h(2, 2)})
+    box.push_back(static_cast<float>(x));
+  return box;
+}
+
+/// The lattice vectors as they are in the packing, one after the other.
+std::vector<double> vectors_of(const PeriodicCell& cell) {
+  const Eigen::Matrix3d& h = cell.vectors().high;
+  return {h.data(), h.data() + 9};
+}
+
 std::vector<GsdChunk> chunks_of(const ExportFrame& frame, std::uint64_t step, bool with_distance) {
   std::vector<GsdChunk> chunks;
-  const auto& packing = frame.packing;
-  const auto side = static_cast<float>(packing.cell.side());
+  const auto packing = in_standard_frame(frame.packing);
   chunks.push_back(one("configuration/step", step));
-  chunks.push_back(many("configuration/box", std::vector<float>{side, side, side, 0, 0, 0}));
+  chunks.push_back(many("configuration/box", box_of(packing.cell)));
   if (step == 0) append_constants(packing, chunks);
   append_poses(packing, chunks);
   chunks.push_back(one("log/isojam/phi", packing.density()));
   chunks.push_back(one("log/isojam/side", packing.cell.side()));
+  if (!packing.cell.is_cube()) chunks.push_back(many("log/isojam/cell", vectors_of(frame.packing.cell), 3));
   if (with_distance) chunks.push_back(one("log/isojam/delta_phi", *frame.delta_phi));
   chunks.push_back(many("log/particles/isojam/Z", frame.Z));
   chunks.push_back(many("log/particles/isojam/cluster", frame.cluster));

@@ -113,6 +113,11 @@ std::string vtp_file(const ExportFrame& frame) {
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
       "<FieldData>\n";
   append_field(xml, "side", packing.cell.side());
+  if (!packing.cell.is_cube()) {
+    const Eigen::Matrix3d& h = packing.cell.vectors().high;
+    append_array(xml, "Float64", "Name=\"cell\" NumberOfComponents=\"9\" NumberOfTuples=\"1\"", 9, 9,
+                 [&](std::size_t k) { return h.data()[k]; });
+  }
   append_field(xml, "phi", packing.density());
   if (frame.delta_phi) append_field(xml, "delta_phi", *frame.delta_phi);
   fmt::format_to(Text(xml), "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n",

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iterator>
+#include <vector>
 
 #include "tasks/export/formats.hpp"
 
@@ -11,10 +13,12 @@ using Text = std::back_insert_iterator<std::string>;
 
 void append_frame(std::string& text, const ExportFrame& frame) {
   const auto& packing = frame.packing;
+  const Eigen::Matrix3d& h = packing.cell.vectors().high;
+  const std::vector<double> vectors(h.data(), h.data() + 9);  // one after the other
   fmt::format_to(Text(text),
-                 "{0}\nLattice=\"{1} 0 0 0 {1} 0 0 0 {1}\" pbc=\"T T T\" "
+                 "{0}\nLattice=\"{1}\" pbc=\"T T T\" "
                  "Properties=species:S:1:pos:R:3:orientation:R:4:Z:I:1:cluster:I:1 phi={2}",
-                 packing.size(), packing.cell.side(), packing.density());
+                 packing.size(), fmt::join(vectors, " "), packing.density());
   if (frame.delta_phi) fmt::format_to(Text(text), " delta_phi={}", *frame.delta_phi);
   text += '\n';
   for (std::size_t i = 0; i < packing.poses.size(); ++i) {

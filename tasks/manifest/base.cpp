@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -54,7 +55,7 @@ void check_parameter(const JsonPlace& place, const std::string& name, const Json
 Json value_of(const std::string& word, const Field& field) {
   JamOptions options;
   const Slot slot = field.slot(options);
-  if (std::holds_alternative<Method*>(slot) || std::holds_alternative<Consolidation*>(slot)) return word;
+  if (std::visit([]<class T>(const T*) { return std::is_enum_v<T>; }, slot)) return word;
   auto value = Json::parse(word, nullptr, false);
   return value.is_discarded() ? Json(word) : value;
 }

@@ -51,6 +51,8 @@ constexpr std::array fields{
     field<&P::consolidation_energy>("consolidation_energy", {0, 1}),
     field<&P::consolidation_evaluations>("consolidation_evaluations", {1, 1e9}),
     field<&P::consolidation>("consolidation", none),
+    field<&P::control>("control", none),
+    field<&P::cell>("cell", none),
     field<&M::method>("method", none),
     field<&M::residual>("residual", positive_to(1)),
     field<&M::energy_change>("energy_change", {0, 1}),

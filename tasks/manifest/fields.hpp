@@ -18,7 +18,7 @@ template <>
 inline constexpr std::array enum_names<Group>{EnumName{Group::protocol, "protocol"},
                                               EnumName{Group::minimiser, "minimiser"}};
 
-using Slot = std::variant<double*, int*, long*, bool*, Method*, Consolidation*>;
+using Slot = std::variant<double*, int*, long*, bool*, Method*, Consolidation*, Control*, CellShape*>;
 
 /// A parameter of the engine that a manifest may set or sweep. Its default is the in-class default of the struct.
 struct Field {

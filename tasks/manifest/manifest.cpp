@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/packing/periodic_cell.hpp"
+#include "engine/packing/cell/periodic_cell.hpp"
 #include "tasks/json/hash.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/options.hpp"
@@ -15,6 +15,7 @@
 #include "tasks/json/sealed.hpp"
 #include "tasks/manifest/base.hpp"
 #include "tasks/manifest/fields.hpp"
+#include "tasks/manifest/shear.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/system/file.hpp"
 
@@ -30,9 +31,9 @@ constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
 constexpr std::size_t longest_name = 64;
 
-constexpr std::array<std::string_view, 13> keys{"$schema",    "name",     "checksum",  "seed",    "sweep",
-                                                "replicates", "protocol", "minimiser", "measure", "modes",
-                                                "keep_path",  "exclude",  "base"};
+constexpr std::array<std::string_view, 14> keys{"$schema",    "name",      "checksum",  "seed",    "sweep",
+                                                "replicates", "protocol",  "minimiser", "measure", "modes",
+                                                "shear",      "keep_path", "exclude",   "base"};
 constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 
 /// Where a parameter belongs that stands at the wrong place.
@@ -290,6 +291,7 @@ void read_values(const JsonPlace& root, Manifest& manifest) {
   });
   root.read_if_any(
       "modes", [&](const JsonPlace& place) { manifest.measuring.modes = static_cast<int>(place.integer(mode_range)); });
+  root.read_if_any("shear", [&](const JsonPlace& place) { manifest.measuring.shear = read_shear(place); });
 }
 
 Json to_json(const Replicates& replicates) {
@@ -355,6 +357,7 @@ Json to_json(const Manifest& manifest) {
   }
   json["measure"] = values_of(manifest.measures);
   json["modes"] = manifest.measuring.modes;
+  json["shear"] = shear_json(manifest.measuring.shear);
   json["keep_path"] = manifest.keep_path;
   json["exclude"] = option_json(manifest.exclude);
   if (!manifest.base.empty()) json["base"] = manifest.base;

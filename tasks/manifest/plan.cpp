@@ -8,6 +8,7 @@
 
 #include "tasks/json/hash.hpp"
 #include "tasks/manifest/fields.hpp"
+#include "tasks/manifest/shear.hpp"
 
 namespace isojam {
 namespace {
@@ -101,6 +102,7 @@ Json to_json(const ReplicateSpec& spec) {
   json["measure"] = Json::array();
   for (const auto measure : spec.measures) json["measure"].push_back(to_string(measure));
   json["modes"] = spec.measuring.modes;
+  json["shear"] = shear_json(spec.measuring.shear);
   return json;
 }
 

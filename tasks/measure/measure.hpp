@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/shear/shear.hpp"
 #include "engine/solve/jam.hpp"
 #include "tasks/json/json.hpp"
 #include "tasks/measure/list.hpp"
@@ -15,6 +16,7 @@ namespace isojam {
 
 struct MeasureOptions {
   int modes = 50;  ///< vibrations wanted at either end of the spectrum; the paper averages over 50
+  ShearOptions shear;
 };
 
 /// What one measurement adds to the record of a replicate. A number that is null has its reason beside it.

@@ -8,10 +8,13 @@ namespace {
 constexpr std::string_view group = "moduli";
 constexpr Quantity K{"K", "/moduli/K", group, "Y", "K"}, G{"G", "/moduli/G", group, "Y", "G"};
 constexpr Quantity G_min{"G_min", "/moduli/G_min", group, "Y", "G_{min}"};
+constexpr Quantity G_2{"G_2", "/moduli/G_2", group, "Y", "G_2"}, G_3{"G_3", "/moduli/G_3", group, "Y", "G_3"};
+constexpr Quantity G_4{"G_4", "/moduli/G_4", group, "Y", "G_4"};
+constexpr Quantity G_max{"G_max", "/moduli/G_max", group, "Y", "G_{max}"};
 constexpr Quantity x_E{"x_E", "/moduli_scaling/E/exponent", exponent_group, "1", "x_E", Quantity::Of::replicate};
 constexpr Quantity x_p{"x_p", "/moduli_scaling/p/exponent", exponent_group, "1", "x_p", Quantity::Of::replicate};
 constexpr Quantity x_K{"x_K", "/moduli_scaling/K/exponent", exponent_group, "1", "x_K", Quantity::Of::replicate};
-constexpr std::array quantities{K, G, G_min, x_E, x_p, x_K};
+constexpr std::array quantities{K, G, G_min, G_2, G_3, G_4, G_max, x_E, x_p, x_K};
 
 constexpr std::string_view no_response = "the Hessian is not positive definite: no response is defined";
 
@@ -24,8 +27,11 @@ Json moduli_record(const std::optional<ElasticTensor>& tensor) {
   put(state, K, value([](const ElasticTensor& t) { return t.bulk_modulus(); }), no_response);
   put_optional(json, "K_affine", value([](const ElasticTensor& t) { return t.affine_bulk_modulus(); }), no_response);
   put(state, G, value([](const ElasticTensor& t) { return t.mean_shear_modulus(); }), no_response);
-  put(state, G_min, value([](const ElasticTensor& t) { return t.shear_moduli().front(); }), no_response);
-  put_optional(json, "G_max", value([](const ElasticTensor& t) { return t.shear_moduli().back(); }), no_response);
+  std::size_t place = 0;
+  for (const Quantity& quantity : {G_min, G_2, G_3, G_4, G_max}) {
+    put(state, quantity, value([place](const ElasticTensor& t) { return t.shear_moduli()[place]; }), no_response);
+    ++place;
+  }
   return state;
 }
 

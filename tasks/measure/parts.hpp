@@ -28,6 +28,9 @@ Json contact_record(const ContactAnalysis& analysis);
 /// crystalline (Q6 is above crystalline_q6).
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest);
 
+/// Why a state cannot be freed or sheared; nullopt if it can: forces balance, and it bears a pressure.
+std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy& energy);
+
 /// Writes the law y ∝ Δφ^exponent over the states within scaling_window of jamming where `exponent` stands in the
 /// record of a replicate, and beside it its ci95_half_width and the points. `y` has an entry per state, nullopt where
 /// it is not known.

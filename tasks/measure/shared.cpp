@@ -19,6 +19,14 @@ std::optional<std::string_view> undecided(const ContactAnalysis& analysis) {
   return std::nullopt;
 }
 
+std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy& energy) {
+  constexpr double balanced = 1e-3;
+  const auto here = energy.evaluate(packing, Precision::double_double);
+  if (!(here.pressure > 0)) return "the packing bears no pressure";
+  if (!(here.residual <= balanced)) return "forces do not balance";
+  return std::nullopt;
+}
+
 void put_scaling(Json& replicate, const Quantity& exponent, const JamResult& jam,
                  const std::vector<std::optional<double>>& y) {
   std::vector<double> distances, values;

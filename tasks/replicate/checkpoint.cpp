@@ -28,6 +28,7 @@ Json step_json(const JamStep& step) {
   json["density"] = step.density;
   json["energy_per_particle"] = step.energy_per_particle;
   json["pressure"] = step.pressure;
+  json["deviator"] = step.deviator;
   json["descents"] = step.descents;
   if (step.rearrangement) json["rearrangement"] = to_json(*step.rearrangement);
   if (step.lost) json["lost"] = true;
@@ -66,6 +67,7 @@ JamStep read_step(const JsonPlace& place) {
   step.density = place.at("density").number(not_negative);
   step.energy_per_particle = place.at("energy_per_particle").number(any_number);
   step.pressure = place.at("pressure").number(any_number);
+  step.deviator = place.at("deviator").number(not_negative);
   step.descents = static_cast<int>(place.at("descents").integer({0, 1e9}));
   if (place.has("rearrangement")) step.rearrangement = read_rearrangement(place.at("rearrangement"));
   step.lost = place.has("lost") && place.at("lost").boolean();
@@ -84,7 +86,8 @@ JamStep read_step(const JsonPlace& place) {
 bool is_finite(const JamStep& step) {
   const auto& summary = step.summary;
   return std::isfinite(step.density) && std::isfinite(step.energy_per_particle) && std::isfinite(step.pressure) &&
-         std::isfinite(summary.energy) && !std::isnan(summary.residual) && !std::isnan(summary.residual_floor);
+         std::isfinite(step.deviator) && std::isfinite(summary.energy) && !std::isnan(summary.residual) &&
+         !std::isnan(summary.residual_floor);
 }
 
 PairCounts read_counts(const JsonPlace& place) {

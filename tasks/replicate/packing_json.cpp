@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace isojam {
@@ -43,6 +46,55 @@ Eigen::Vector4d read_quaternion(const JsonPlace& place) {
   return {wxyz[1], wxyz[2], wxyz[3], wxyz[0]};
 }
 
+/// Cubes have a side; other cells their three vectors, one after the other.
+void put_cell(Json& json, const PeriodicCell& cell) {
+  const auto& vectors = cell.vectors();
+  if (cell.is_cube()) {
+    json["side"] = cell.side();
+    if (vectors.low(0, 0) != 0) json["side_low"] = vectors.low(0, 0);
+    return;
+  }
+  for (int c = 0; c < 3; ++c) {
+    json["cell"].push_back(numbers(Eigen::Vector3d(vectors.high.col(c))));
+    json["cell_low"].push_back(numbers(Eigen::Vector3d(vectors.low.col(c))));
+  }
+}
+
+DoubleDoubleMatrix read_vectors(const JsonPlace& place) {
+  DoubleDoubleMatrix vectors;
+  if (!place.has("cell")) {
+    const double low = place.has("side_low") ? place.at("side_low").number({-greatest_length, greatest_length}) : 0;
+    vectors.high *= place.at("side").number({0, greatest_length, true});
+    vectors.low.diagonal().setConstant(low);
+    return vectors;
+  }
+  const auto cell = place.at("cell"), cell_low = place.at("cell_low");
+  for (const auto& list : {cell, cell_low}) {
+    if (list.expect_list("three vectors") != 3) list.refuse("the list has another length", "three vectors");
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    vectors.high.col(static_cast<Eigen::Index>(c)) = read_vector<3>(cell.at(c), greatest_length);
+    vectors.low.col(static_cast<Eigen::Index>(c)) = read_vector<3>(cell_low.at(c), greatest_length);
+  }
+  return vectors;
+}
+
+/// A cell in which no particle can touch two images of another.
+PeriodicCell read_cell(const JsonPlace& place, const ConvexSolid& solid) {
+  std::optional<PeriodicCell> cell;
+  std::string why = "a particle could touch two images of another";
+  try {
+    cell.emplace(read_vectors(place));
+  } catch (const std::invalid_argument& error) {
+    why = error.what();
+  }
+  if (!cell || !is_legal(*cell, solid)) {
+    place.at(place.has("cell") ? "cell" : "side")
+        .refuse(why, fmt::format("right-handed vectors, no translation of theirs {} or shorter", least_side(solid)));
+  }
+  return *cell;
+}
+
 JsonPlace list_of(const JsonPlace& place, const std::string& key, std::size_t size) {
   auto list = place.at(key);
   const auto allowed = fmt::format("a list with an entry for each of {} particles", size);
@@ -56,7 +108,7 @@ Json to_json(const Packing& packing) {
   Json json;
   json["solid"] = to_string(kind_of(*packing.solid));
   json["phi"] = packing.density();
-  json["side"] = packing.cell.side();
+  put_cell(json, packing.cell);
   for (const auto* key : {"positions", "orientations", "positions_low", "orientations_low"}) json[key] = Json::array();
   for (const auto& pose : packing.poses) {
     json["positions"].push_back(numbers(pose.position));
@@ -69,8 +121,7 @@ Json to_json(const Packing& packing) {
 
 Packing read_packing(const JsonPlace& place) {
   const auto& solid = platonic(place.at("solid").choice<SolidKind>());
-  const double least = least_side(solid);
-  Packing packing{&solid, PeriodicCell(place.at("side").number({least, greatest_length, true})), {}};
+  Packing packing{&solid, read_cell(place, solid), {}};
   const auto n = place.at("positions").expect_list("a list of positions");
   if (n == 0 || static_cast<double>(n) > most_particles)
     place.at("positions").refuse("no packing", fmt::format("1 to {:.0f} particles", most_particles));

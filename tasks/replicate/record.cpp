@@ -31,6 +31,7 @@ Json step_record(const JamStep& step, const JamResult& jam) {
   put_distance(json, step.density, jam);
   put_number(json, "energy_per_particle", step.energy_per_particle);
   put_number(json, "pressure", step.pressure);
+  put_number(json, "deviator", step.deviator);
   put_number(json, "residual", step.summary.residual);
   put_number(json, "residual_floor", step.summary.residual_floor);
   json["stopped"] = to_string(step.summary.reason);

@@ -47,6 +47,7 @@ std::optional<Failure> failure_of(const JamResult& jam) {
                        last.summary.residual, to_string(last.summary.reason));
   }
   if (jam.status == JamStatus::density_limit) why += "; the limit is /protocol/max_density in the manifest: raise it";
+  if (jam.status == JamStatus::cell_limit) why += "; more particles leave a cell more room to give way";
   if (jam.status == JamStatus::step_limit) why += "; the limit is /protocol/max_steps in the manifest: raise it";
   return Failure{"jam", why};
 }

@@ -134,6 +134,22 @@ std::vector<Flag> exclude_of(const Json& manifest) {
   return flags;
 }
 
+/// Strain and stress over the first state's pressure along a shear; empty without one.
+Json shear_points(const Json& record) {
+  Json points = Json::array();
+  const auto pressure = number_at(record, "/shear/path/0/pressure");
+  if (pressure.is_null() || pressure.get<double>() <= 0) return points;
+  for (const auto& state : list_at(record, "/shear/path")) {
+    const auto stress = number_at(state, "/stress");
+    Json point;
+    point["strain"] = number_at(state, "/strain");
+    point["stress"] = stress.is_null() ? stress : Json(stress.get<double>() / pressure.get<double>());
+    point["dropped"] = value_at(state, "/dropped") == Json(true);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
 Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vector<Flag>& exclude) {
   const auto& record = replicate.record;
   Json json;
@@ -162,6 +178,7 @@ Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vec
   }
   json["lowest"] = numbers_at(record, "/nearest/modes/lowest/omega");
   json["highest"] = numbers_at(record, "/nearest/modes/highest/omega");
+  json["shear"] = shear_points(record);
   return json;
 }
 

@@ -31,14 +31,22 @@ Json shortened_list(const Vector& v, double unit) {
   return list;
 }
 
-Eigen::Vector3d wrapped(const Eigen::Vector3d& x, double side) {
-  return x - side * (x / side).array().floor().matrix();
+Eigen::Vector3d wrapped(const Eigen::Vector3d& x, const PeriodicCell& cell) {
+  const Eigen::Vector3d cells = cell.fractional(x).array().floor();
+  return x - cell.translation(cells.cast<int>());
+}
+
+Json vectors_of(const PeriodicCell& cell) {
+  Json vectors = Json::array();
+  for (int c = 0; c < 3; ++c)
+    vectors.push_back(shortened_list(Eigen::Vector3d(cell.vectors().high.col(c)), length_unit));
+  return vectors;
 }
 
 void put_poses(Json& json, const Packing& packing) {
   json["positions"] = json["orientations"] = Json::array();
   for (const auto& pose : packing.poses) {
-    json["positions"].push_back(shortened_list(wrapped(pose.position, packing.cell.side()), length_unit));
+    json["positions"].push_back(shortened_list(wrapped(pose.position, packing.cell), length_unit));
     const auto& q = pose.orientation.coeffs();
     json["orientations"].push_back(shortened_list(Eigen::Vector4d(q[3], q[0], q[1], q[2]), length_unit));
   }
@@ -139,6 +147,7 @@ Json packing_view(const Packing& packing, int modes) {
   json["solid"] = packing.solid->name();
   json["phi"] = packing.density();
   json["side"] = packing.cell.side();
+  json["cell"] = vectors_of(packing.cell);
   put_poses(json, packing);
   put_contacts(json, classified.contacts, packing.size());
   put_clusters(json, packing, classified);
@@ -147,12 +156,12 @@ Json packing_view(const Packing& packing, int modes) {
 }
 
 Json unwrapped_cluster(const Packing& packing, const Cluster& cluster) {
-  const double side = packing.cell.side();
+  const Eigen::Vector3d middle = packing.cell.vectors().high * Eigen::Vector3d::Constant(0.5);
   std::vector<Eigen::Vector3d> positions;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < cluster.members.size(); ++k) {
     const auto& pose = packing.poses[static_cast<std::size_t>(cluster.members[k])];
-    positions.emplace_back(pose.position + side * cluster.images[k].cast<double>());
+    positions.emplace_back(pose.position + packing.cell.translation(cluster.images[k]));
     centre += positions.back() / cluster.size();
   }
   Json json;
@@ -160,7 +169,7 @@ Json unwrapped_cluster(const Packing& packing, const Cluster& cluster) {
   json["winding_rank"] = cluster.winding_rank();
   json["positions"] = Json::array();
   for (const auto& x : positions) {
-    const Eigen::Vector3d centred = x - centre + Eigen::Vector3d::Constant(side / 2);
+    const Eigen::Vector3d centred = x - centre + middle;
     json["positions"].push_back(shortened_list(centred, length_unit));
   }
   return json;

@@ -31,8 +31,8 @@ from selenium.webdriver.common.keys import Keys  # noqa: E402
 from selenium.webdriver.support.ui import Select  # noqa: E402
 
 EXECUTABLE = pathlib.Path(sys.argv.pop(1)).resolve()
-CHARTS = ["density", "topology", "edge-face", "face-face", "extrapolation", "spectrum", "scaling", "evaluations",
-          "time", "stops"]
+CHARTS = ["density", "topology", "edge-face", "face-face", "extrapolation", "spectrum", "scaling", "shear",
+          "evaluations", "time", "stops"]
 
 # Pixels of the view that are not background, and a hash of all.
 DRAWN = """
@@ -364,7 +364,7 @@ class Report(unittest.TestCase):
 
     def test_what_was_not_measured_is_left_out_with_its_reason(self):
         self.open(self.pages.report(self.swept()))
-        self.assertEqual(self.charts(), [name for name in CHARTS if name not in ("spectrum", "scaling")])
+        self.assertEqual(self.charts(), [name for name in CHARTS if name not in ("spectrum", "scaling", "shear")])
         self.assertIn('add "modes" to the manifest’s "measure"', self.find(".absent").text)
         nothing = self.pages.run("bare", measure=[], replicates=1)
         self.open(self.pages.report(nothing))

@@ -9,7 +9,7 @@ import re
 import shutil
 import subprocess
 
-MEASURES = ["contacts", "order", "clusters", "modes", "moduli", "rigidity"]
+MEASURES = ["contacts", "order", "clusters", "modes", "moduli", "strict", "shear", "rigidity"]
 HOSTILE = "<script>alert(1)</script>"
 
 
@@ -20,7 +20,7 @@ def manifest(**changes):
         "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
                      "step_fraction": 0.4, "final_distance": 0.03, "fit_window": 0.1, "consolidation_residual": 0.1},
         "minimiser": {"residual": 1e-3, "max_evaluations": 2000, "unjammed_energy": 1e-14},
-        "measure": MEASURES,
+        "measure": MEASURES, "shear": {"step": 0.002, "until": 0.006},
     }
     return {**tiny, **changes}
 

@@ -73,15 +73,16 @@ def apart(a, b, normals, edges_a, edges_b):
     return bool(((on_a.max(axis=1) < on_b.min(axis=1)) | (on_b.max(axis=1) < on_a.min(axis=1))).any())
 
 
-def count_contacts(picture, side):
+def count_contacts(picture, translations):
+    """Of each particle, over these images."""
     n = len(picture.corners)
     reach = 2 * numpy.linalg.norm(picture.corners[0] - picture.centres[0], axis=1).max()
     normals = [picture.normals(i) for i in range(n)]
     edges = [picture.edges(i) for i in range(n)]
     counts = numpy.zeros(n, dtype=int)
-    shifts = side * numpy.array(list(itertools.product((-1, 0, 1), repeat=3)))
     for i, j in itertools.combinations(range(n), 2):
-        near = shifts[numpy.linalg.norm(picture.centres[j] - picture.centres[i] + shifts, axis=1) < reach]
+        between = picture.centres[j] - picture.centres[i]
+        near = translations[numpy.linalg.norm(between + translations, axis=1) < reach]
         for shift in near:
             if not apart(picture.corners[i], picture.corners[j] + shift, numpy.vstack([normals[i], normals[j]]),
                          edges[i], edges[j]):
@@ -146,7 +147,8 @@ class Vtp(check.RoundTrip):
                 continue  # both ends of an expansion do: each takes a second
             z = picture.cell["Z"][::len(picture.faces[0])]
             self.assert_near(z.mean(), values["Z"], 8 * results.DOUBLE * values["Z"], "mean Z")
-            self.assertEqual(list(count_contacts(picture, state.side)), list(z), file)
+            images = state.side * numpy.array(list(itertools.product((-1, 0, 1), repeat=3)))
+            self.assertEqual(list(count_contacts(picture, images)), list(z), file)
 
     def test_classes_and_clusters(self):
         marked_in_all = 0

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
+#include "engine/packing/cell/strain.hpp"
 #include "engine/packing/neighbours.hpp"
 
 namespace isojam::oracle {
@@ -11,9 +12,14 @@ namespace {
 
 Quad3 quad_displacement(const Packing& packing, const NeighbourPair& pair) {
   Quad3 r = quad_position(packing.poses[pair.b]) - quad_position(packing.poses[pair.a]);
-  for (int c = 0; c < 3; ++c) r[c] += Quad(packing.cell.side()) * pair.shift[c];
+  const QuadMatrix vectors = widened(packing.cell.vectors());
+  for (int c = 0; c < 3; ++c) {
+    for (int k = 0; k < 3; ++k) r[c] += vectors[c][k] * pair.shift[k];
+  }
   return r;
 }
+
+Quad determinant(const QuadMatrix& m) { return dot(m[0], cross(m[1], m[2])); }
 
 }  // namespace
 
@@ -36,6 +42,7 @@ QuadEvaluation evaluate_in_quad(const Packing& packing) {
     sum.torque[pair.a] = sum.torque[pair.a] + torque;
     // The same line of action seen from B's centre.
     sum.torque[pair.b] = sum.torque[pair.b] - torque + cross(r, force);
+    for (int c = 0; c < 3; ++c) sum.virial[c] = sum.virial[c] + force[c] * r;
     sum.mean_force += norm(force);
     ++sum.contacts;
   }
@@ -53,6 +60,23 @@ std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& p
   for (std::size_t i = 0; i < packing.poses.size(); ++i) {
     for (const Quad f : evaluation.force[i]) gradient.push_back(-f);
     for (const Quad t : evaluation.torque[i]) gradient.push_back(-t / packing.solid->gyration_radius());
+  }
+  return gradient;
+}
+
+std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing, const CellControl& control) {
+  std::vector<Quad> gradient = gradient_of(evaluation, packing);
+  const StrainBasis basis = strain_basis(control.cell);
+  const Quad load =
+      frees_volume(control.cell) ? Quad(control.pressure) * determinant(widened(packing.cell.vectors())) : 0;
+  for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+    const Eigen::Matrix3d strain = strain_tensor(basis.col(k));
+    Quad slope = 0;
+    for (int r = 0; r < 3; ++r) {
+      slope += load * strain(r, r);
+      for (int c = 0; c < 3; ++c) slope += evaluation.virial[r][c] * strain(r, c);
+    }
+    gradient.push_back(slope / strain_length(packing.size()));
   }
   return gradient;
 }

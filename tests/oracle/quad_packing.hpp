@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
+#include "engine/packing/cell/control.hpp"
 #include "engine/packing/packing.hpp"
 
 namespace isojam::oracle {
@@ -13,6 +14,7 @@ namespace isojam::oracle {
 struct QuadEvaluation {
   Quad energy = 0;
   std::vector<Quad3> force, torque;  ///< per particle, lab frame
+  QuadMatrix virial{};               ///< Σ (∂E/∂r) rᵀ over touching pairs
   Quad mean_force = 0;               ///< mean of |F| over touching pairs
   Quad residual = 0;                 ///< max of |F_i|, |T_i|/R over mean_force; 0 without contacts
   long contacts = 0;
@@ -23,6 +25,8 @@ QuadEvaluation evaluate_in_quad(const Packing& packing);
 
 /// ∂E/∂(x, R·θ), 6N, in the order of Evaluation::gradient.
 std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing);
+/// The same of E + p V, with the derivatives by the strains ℓ·ε that are free behind them.
+std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing, const CellControl& control);
 
 /// (gradient(packing + h·direction) − gradient(packing − h·direction))/2h, each gradient in quadruple precision, so
 /// that h may be far below the depth of every contact.

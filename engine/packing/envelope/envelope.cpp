@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/packing/strain_border.hpp"
+
 namespace isojam {
 
 namespace {
@@ -37,6 +39,7 @@ void add(const EnvelopeContact& contact, EnvelopeEvaluation& sum) {
                (at.energy + std::abs(at.shift.dot(contact.multiplier)) + std::abs(at.shift.dot(at.wrench)));
   sum.gradient.segment<6>(6 * contact.pair.a) += at.gradient_a;
   sum.gradient.segment<6>(6 * contact.pair.b) += at.gradient_b;
+  sum.virial += at.gradient_b.head<3>() * contact.displacement.transpose();
   sum.multiplier_error = std::max(sum.multiplier_error, (at.wrench - contact.multiplier).norm());
   if (!at.touching) return;
   sum.mean_force += at.wrench.head<3>().norm();
@@ -150,16 +153,19 @@ EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEva
   return summed(std::move(contacts), static_cast<int>(only.size()));
 }
 
-BlockMatrix curvature(const EnvelopeEvaluation& evaluation) {
+BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellFreedom cell) {
   std::vector<PairHessian> terms(evaluation.contacts.size());
   for_each_slot(terms.size(), [&](std::size_t k) { terms[k] = evaluation.contacts[k].at.curvature(); });
   BlockMatrix sum;
-  sum.diagonal.assign(static_cast<std::size_t>(evaluation.gradient.size() / 6), Matrix6d::Zero());
+  sum.diagonal.assign(static_cast<std::size_t>(particles), Matrix6d::Zero());
+  StrainBorder border(cell, particles, sum);
   for (std::size_t k = 0; k < terms.size(); ++k) {
-    const NeighbourPair& pair = evaluation.contacts[k].pair;
-    if (!evaluation.contacts[k].at.touching) continue;
-    sum.add_pair(pair.a, pair.b, terms[k].aa, terms[k].ab, terms[k].bb);
+    const EnvelopeContact& contact = evaluation.contacts[k];
+    if (!contact.at.touching) continue;
+    sum.add_pair(contact.pair.a, contact.pair.b, terms[k].aa, terms[k].ab, terms[k].bb);
+    border.add_pair(contact.pair.a, contact.pair.b, terms[k], contact.at.gradient_b.head<3>(), contact.displacement);
   }
+  border.finish();
   return sum;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/packing/block_matrix.hpp"
+#include "engine/packing/cell/control.hpp"
 #include "engine/packing/envelope/proximal_contact.hpp"
 #include "engine/packing/neighbour_list.hpp"
 
@@ -30,10 +31,12 @@ struct EnvelopeContact {
 struct EnvelopeEvaluation {
   double value = 0;                       ///< Φ, Y·V_p
   double noise = 0;                       ///< differences of Φ that rounding makes
-  Eigen::VectorXd gradient;               ///< 6N, as Evaluation::gradient
+  Eigen::VectorXd gradient;               ///< 6N, as Evaluation::gradient; behind them what a load adds
   std::vector<EnvelopeContact> contacts;  ///< in order of (a, b, shift)
-  double mean_force = 0;                  ///< mean |F| where A and the ghost touch
-  double multiplier_error = 0;            ///< largest |∇e − μ| of a contact
+  /// Σ (∂Φ/∂r) rᵀ over contacts, r = x_b − x_a: what the free strains feel, as V_cell·stress of an Evaluation.
+  Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
+  double mean_force = 0;        ///< mean |F| where A and the ghost touch
+  double multiplier_error = 0;  ///< largest |∇e − μ| of a contact
   long touching = 0;
   long overlaps = 0;  ///< with Hessian, that finding the shifts took
 };
@@ -42,8 +45,8 @@ struct EnvelopeEvaluation {
 class EnvelopeEnergy {
  public:
   /// `forces` in order of (a, b, shift); pairs without one have μ = 0. With `only`, one flag for each particle,
-  /// contacts without a flagged particle are left out. Throws std::invalid_argument if the cell is not larger than
-  /// least_side(solid).
+  /// contacts without a flagged particle are left out. Throws std::invalid_argument unless
+  /// is_legal(cell, solid).
   EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactForce> forces, double stiffness,
                               std::span<const char> only = {});
   /// The touching pairs as they are, each with the multiplier ∇e: no contact is shifted and Φ = E.
@@ -69,8 +72,8 @@ EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char
 EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEvaluation& part,
                              std::span<const char> only);
 
-/// Second derivatives of Φ.
-BlockMatrix curvature(const EnvelopeEvaluation& evaluation);
+/// Second derivatives of Φ of so many particles, bordered by the strains that are free.
+BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellFreedom cell = CellFreedom::fixed);
 
 /// Multipliers and shifts of the contacts as they are.
 std::vector<ContactForce> forces_of(const EnvelopeEvaluation& evaluation);

@@ -123,6 +123,30 @@ bool BlockCholesky::eliminate(const Front& front, const BlockMatrix& matrix, dou
 }
 
 bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
+  return factorise_blocks(matrix, shift) && factorise_border(matrix, shift);
+}
+
+/// The complement of H' = H + shift in C' = C + shift is stationary in the response X: as C' + BᵀX + XᵀB + XᵀH'X it is
+/// wrong by the square of the error of X, where C' − Bᵀ H'⁻¹ B would cancel to few digits.
+bool BlockCholesky::factorise_border(const BlockMatrix& matrix, double shift) {
+  const Eigen::Index n = 6 * Eigen::Index{matrix.size()}, strains = matrix.strains();
+  response_.resize(n, strains);
+  if (strains == 0) return true;
+  Eigen::MatrixXd reaction(n, strains);
+  for (Eigen::Index k = 0; k < strains; ++k) {
+    response_.col(k) = -solve_blocks(matrix.border.col(k));
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(n + strains);
+    column.head(n) = response_.col(k);
+    reaction.col(k) = (matrix * column).head(n) + shift * column.head(n);
+  }
+  const Eigen::MatrixXd cross = matrix.border.transpose() * response_;
+  Eigen::MatrixXd complement = matrix.corner + cross + cross.transpose() + response_.transpose() * reaction;
+  complement.diagonal().array() += shift;
+  complement_.compute(complement);
+  return complement_.info() == Eigen::Success;
+}
+
+bool BlockCholesky::factorise_blocks(const BlockMatrix& matrix, double shift) {
   if (!has_pattern_of(matrix)) analyse(matrix);
   const auto eliminate_range = [&](int r) {
     for (int f = plan_.ranges[r].first; f < plan_.ranges[r].last; ++f) {
@@ -135,6 +159,15 @@ bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
 }
 
 Eigen::VectorXd BlockCholesky::solve(const Eigen::Ref<const Eigen::VectorXd>& b) const {
+  const Eigen::Index n = response_.rows(), strains = response_.cols();
+  if (strains == 0) return solve_blocks(b);
+  Eigen::VectorXd x(b.size());
+  x.tail(strains) = complement_.solve(b.tail(strains) + response_.transpose() * b.head(n));
+  x.head(n) = solve_blocks(b.head(n)) + response_ * x.tail(strains);
+  return x;
+}
+
+Eigen::VectorXd BlockCholesky::solve_blocks(const Eigen::Ref<const Eigen::VectorXd>& b) const {
   Eigen::VectorXd x(b.size()), below(b.size() + 6);
   for (int k = 0; k < size_; ++k) x.segment<6>(6 * k) = b.segment<6>(6 * plan_.node_of[k]);
   for (const Front& front : plan_.fronts) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cstddef>
 #include <utility>
@@ -15,7 +16,8 @@ namespace isojam {
 /// particles (Duff & Reid 1983, Liu 1992): supernodes are eliminated as dense fronts, each handing its update matrix
 /// up to its parent. Large ones are done by several threads, the tree of fronts and the rows of the largest fronts
 /// shared out, with the same bits for any number of them. The symbolic part is kept while the pattern of the matrix
-/// stays the same.
+/// stays the same. Strains that border the matrix come last: as many solves of the factor as there are strains, and the
+/// Cholesky factor of the Schur complement.
 ///
 ///   BlockCholesky factor;
 ///   if (factor.factorise(energy.hessian(packing), 1e-9)) step = -factor.solve(gradient);
@@ -24,10 +26,13 @@ class BlockCholesky {
   /// Factorises; false if the shifted matrix is not positive definite to working precision; then solve() must not be
   /// called.
   bool factorise(const BlockMatrix& matrix, double shift);
-  /// Solution (H + shift·1)⁻¹ b, b with 6 entries per particle.
+  /// Solution (H + shift·1)⁻¹ b, b with matrix.rows() entries.
   Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& b) const;
 
  private:
+  bool factorise_blocks(const BlockMatrix& matrix, double shift);
+  bool factorise_border(const BlockMatrix& matrix, double shift);
+  Eigen::VectorXd solve_blocks(const Eigen::Ref<const Eigen::VectorXd>& b) const;
   bool has_pattern_of(const BlockMatrix& matrix) const;
   void analyse(const BlockMatrix& matrix);
   bool eliminate(const Front& front, const BlockMatrix& matrix, double shift);
@@ -40,6 +45,8 @@ class BlockCholesky {
   int size_ = -1;
   FrontPlan plan_;
   Eigen::VectorXd factor_, reciprocals_, updates_;
+  Eigen::MatrixXd response_;  ///< −(H + shift·1)⁻¹·border
+  Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>> complement_;
 };
 
 }  // namespace isojam

@@ -19,7 +19,15 @@ Eigen::SparseMatrix<double> lower_half(const BlockMatrix& matrix, double shift) 
       for (int j = 0; j < 6; ++j) entries.emplace_back(6 * block.column + j, 6 * block.row + i, block.value(i, j));
     }
   }
-  Eigen::SparseMatrix<double> result(6 * matrix.size(), 6 * matrix.size());
+  const int particles = 6 * matrix.size();
+  for (int k = 0; k < matrix.strains(); ++k) {
+    for (int i = 0; i < particles; ++i) {
+      if (matrix.border(i, k) != 0) entries.emplace_back(particles + k, i, matrix.border(i, k));
+    }
+    for (int j = 0; j <= k; ++j)
+      entries.emplace_back(particles + k, particles + j, matrix.corner(k, j) + (j == k ? shift : 0));
+  }
+  Eigen::SparseMatrix<double> result(matrix.rows(), matrix.rows());
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }

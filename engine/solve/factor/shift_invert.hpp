@@ -20,7 +20,7 @@ class ShiftInvert {
 
   explicit ShiftInvert(const BlockMatrix& matrix) : matrix_(matrix) {}
 
-  Eigen::Index rows() const { return 6 * Eigen::Index{matrix_.size()}; }
+  Eigen::Index rows() const { return matrix_.rows(); }
   Eigen::Index cols() const { return rows(); }
   /// Factorises. Throws std::domain_error if a pivot is zero or not finite: σ is an eigenvalue (of a leading part) of H
   /// to working precision, or H holds what is not a number.

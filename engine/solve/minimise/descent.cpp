@@ -20,7 +20,8 @@ constexpr double floors_before_refining = 10;
 
 double largest_displacement(const Eigen::VectorXd& step) {
   double largest = 0;
-  for (Eigen::Index k = 0; k < step.size(); k += 3) largest = std::max(largest, step.segment<3>(k).norm());
+  for (Eigen::Index k = 0; k < step.size(); k += 3)
+    largest = std::max(largest, step.segment(k, std::min<Eigen::Index>(3, step.size() - k)).norm());
   return largest;
 }
 
@@ -29,7 +30,8 @@ Descent::Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions&
       energy_(energy),
       options_(options),
       stop_(std::move(stop)),
-      here_(energy.evaluate(packing)),
+      enthalpy_(options.control, packing.cell),
+      here_(enthalpy_.of(energy.evaluate(packing), packing)),
       previous_energy_(std::numeric_limits<double>::infinity()),
       evaluations_(1) {}
 
@@ -44,12 +46,14 @@ void Descent::raise_precision() {
 Evaluation Descent::evaluate(const Packing& packing) {
   ++evaluations_;
   if (precision_ == Precision::double_double) ++work_.double_double_evaluations;
-  return energy_.evaluate(packing, precision_);
+  return enthalpy_.of(energy_.evaluate(packing, precision_), packing);
 }
 
 SecondOrder Descent::second_order(const Packing& packing, double probe_distance) {
   ++work_.hessians;
-  return energy_.second_order(packing, probe_distance, precision_);
+  SecondOrder second = energy_.second_order(packing, probe_distance, precision_, options_.control.cell);
+  enthalpy_.add_to(second.hessian, packing);
+  return second;
 }
 
 void Descent::count_factorisations(long factorisations, long updates) {
@@ -59,11 +63,14 @@ void Descent::count_factorisations(long factorisations, long updates) {
 
 std::optional<StopReason> Descent::verdict() {
   if (!std::isfinite(here_.energy) || !here_.gradient.allFinite()) return StopReason::not_finite;
-  if (here_.contacts == 0) return StopReason::unjammed;
+  if (cell_limit_) return StopReason::cell_limit;
+  // A pressure makes a packing jammed.
+  const bool loaded = frees_volume(options_.control.cell);
+  if (here_.contacts == 0 && !loaded) return StopReason::unjammed;
   raise_precision();
   if (here_.residual <= options_.residual) return StopReason::residual_reached;
   if (here_.residual <= here_.residual_floor) return StopReason::precision_floor;
-  if (here_.energy < options_.unjammed_energy * packing_.size()) return StopReason::unjammed;
+  if (!loaded && here_.energy < options_.unjammed_energy * packing_.size()) return StopReason::unjammed;
   const bool settled = previous_energy_ - here_.energy < options_.energy_change * here_.energy;
   if (options_.energy_change > 0 && settled) return StopReason::energy_change;
   if (stop_.stop_requested()) return StopReason::interrupted;
@@ -73,6 +80,13 @@ std::optional<StopReason> Descent::verdict() {
 
 Evaluation Descent::probe(const Packing& from, const Eigen::VectorXd& step, Packing& there) {
   there = moved(from, step);
+  if (options_.control.cell != CellFreedom::fixed && !is_legal(there.cell, *there.solid)) {
+    cell_limit_ = true;
+    there = from;
+    Evaluation nowhere = here_;
+    nowhere.energy = std::numeric_limits<double>::infinity();
+    return nowhere;
+  }
   return evaluate(there);
 }
 
@@ -124,7 +138,7 @@ bool Descent::advance(const Eigen::VectorXd& direction, double first_step, doubl
 MinimiseSummary Descent::finish(StopReason reason) const {
   MinimiseSummary summary;
   summary.reason = reason;
-  summary.energy = here_.energy;
+  summary.energy = here_.energy - here_.load_energy;
   summary.residual = here_.residual;
   summary.residual_floor = here_.residual_floor;
   summary.precision = precision_;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "engine/packing/enthalpy.hpp"
 #include "engine/solve/minimise/line_search.hpp"
 #include "engine/solve/minimise/minimise.hpp"
 
@@ -30,7 +31,8 @@ class Descent {
   double longest_displacement() const;
   /// Second derivatives at any state, and its incipient contacts within `probe_distance` (V_p^(1/3)).
   SecondOrder second_order(const Packing& packing, double probe_distance);
-  /// Evaluates the state at `step` from another one without moving there.
+  /// Evaluates the state at `step` from another one without moving there. A cell that would not be legal is as far as
+  /// this minimisation goes; the energy is infinite there.
   Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
   /// Moves to a probed state.
   void accept(Packing there, Evaluation value);
@@ -48,15 +50,17 @@ class Descent {
   PackingEnergy& energy_;
   const MinimiseOptions& options_;
   std::stop_token stop_;
+  Enthalpy enthalpy_;
   Evaluation here_;
   double previous_energy_;
   Precision precision_ = Precision::working;
   double last_step_ = 0;
+  bool cell_limit_ = false;
   long evaluations_ = 0, iterations_ = 0;
   MinimiseWork work_;
 };
 
-/// Largest particle displacement |dx| or R|dθ| in a step of 6N entries.
+/// Largest particle displacement |dx| or R|dθ| in a step, or what of strains ℓ·ε is as long.
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);

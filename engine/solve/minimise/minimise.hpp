@@ -32,10 +32,12 @@ struct MinimiseOptions {
   /// balanced forces is never called unjammed, however low its energy.
   double unjammed_energy = 1e-20;
   long max_evaluations = 20000;
-  int history = 20;  ///< pairs that L-BFGS keeps
+  int history = 20;       ///< pairs that L-BFGS keeps
+  CellControl control{};  ///< of the cell: fixed, or free to give way
 };
 
-/// Moves `packing` to a local minimum of the energy at fixed cell. On return it is the best state seen.
+/// Moves `packing` to a local minimum of the energy, or where the cell is free, of the enthalpy. On return it is the
+/// best state seen.
 MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options,
                          std::stop_token stop = {});
 

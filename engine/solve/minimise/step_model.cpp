@@ -171,6 +171,8 @@ BlockMatrix StepModel::assembled(double shift) const {
   const std::vector<BlockMatrix::Block>& present = second_.hessian.off_diagonal;
   BlockMatrix sum;
   sum.diagonal = second_.hessian.diagonal;
+  sum.border = second_.hessian.border;
+  sum.corner = second_.hessian.corner;
   std::size_t next = 0;
   // Pairs come in the order of blocks: two sorted lists become one.
   const auto copy_up_to = [&](int a, int b) {
@@ -190,6 +192,11 @@ BlockMatrix StepModel::assembled(double shift) const {
       sum.diagonal[pair.a] += closed.slope_a * closed.slope_a.transpose() / 2;
       sum.diagonal[pair.b] += closed.slope_b * closed.slope_b.transpose() / 2;
       blocks.back().value += closed.slope_a * closed.slope_b.transpose() / 2;
+      if (sum.strains() > 0) {
+        sum.border.middleRows<6>(6 * pair.a) += closed.slope_a * closed.slope_strains.transpose() / 2;
+        sum.border.middleRows<6>(6 * pair.b) += closed.slope_b * closed.slope_strains.transpose() / 2;
+        sum.corner += closed.slope_strains * closed.slope_strains.transpose() / 2;
+      }
     }
     add_tilt(tilt_weight(pair, state, shift) * pair.tilt, sum, blocks.back());
   }
@@ -204,12 +211,13 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const IncipientContact& pair = second_.pairs[k];
     if (before[k].closing && !states_[k].closing) return std::nullopt;
-    if (states_[k].closing && !before[k].closing)
-      terms.push_back(column(pair, pair.closed.slope_a / std::sqrt(2.0), pair.closed.slope_b / std::sqrt(2.0)));
+    if (states_[k].closing && !before[k].closing) terms.push_back(column(pair, pair.closed) / std::sqrt(2.0));
     const double extra = tilt_weight(pair, states_[k], shift) - tilt_weight(pair, before[k], shift);
     if (extra > 0) {
-      for (const Eigen::Vector3d& turn : roots(extra * pair.tilt))
-        terms.push_back(column(pair, joined(Eigen::Vector3d::Zero(), -turn), joined(Eigen::Vector3d::Zero(), turn)));
+      for (const Eigen::Vector3d& turn : roots(extra * pair.tilt)) {
+        const Vector6d turned = joined(Eigen::Vector3d::Zero(), turn);
+        terms.push_back(column(pair, {0, -turned, turned, {}}));
+      }
     }
     if (terms.size() > most) return std::nullopt;
   }
@@ -218,10 +226,12 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
   return u;
 }
 
-Eigen::VectorXd StepModel::column(const IncipientContact& pair, const Vector6d& of_a, const Vector6d& of_b) const {
+/// Slopes by all coordinates.
+Eigen::VectorXd StepModel::column(const IncipientContact& pair, const LinearisedOverlap& volume) const {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(gradient_.size());
-  u.segment<6>(6 * pair.a) = of_a;
-  u.segment<6>(6 * pair.b) = of_b;
+  u.segment<6>(6 * pair.a) = volume.slope_a;
+  u.segment<6>(6 * pair.b) = volume.slope_b;
+  u.tail(volume.slope_strains.size()) = volume.slope_strains;
   return u;
 }
 
@@ -231,8 +241,10 @@ Eigen::VectorXd StepModel::gradient() const {
   for (std::size_t k = 0; k < states_.size(); ++k) {
     if (!states_[k].closing) continue;
     const IncipientContact& pair = second_.pairs[k];
-    sum.segment<6>(6 * pair.a) += pair.closed.at_rest / 2 * pair.closed.slope_a;
-    sum.segment<6>(6 * pair.b) += pair.closed.at_rest / 2 * pair.closed.slope_b;
+    const LinearisedOverlap& closed = pair.closed;
+    sum.segment<6>(6 * pair.a) += closed.at_rest / 2 * closed.slope_a;
+    sum.segment<6>(6 * pair.b) += closed.at_rest / 2 * closed.slope_b;
+    sum.tail(closed.slope_strains.size()) += closed.at_rest / 2 * closed.slope_strains;
   }
   return sum;
 }

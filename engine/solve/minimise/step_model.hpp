@@ -22,7 +22,7 @@ struct StepFactor {
   long updates = 0;  ///< solved by low-rank update instead
 };
 
-/// A step s of 6N entries, per particle (x, R·θ), and the decrease in energy (Y·V_p) that the model promises for it.
+/// A step s as moved() takes it, and the decrease in energy (Y·V_p) that the model promises for it.
 struct ModelStep {
   Eigen::VectorXd displacement;
   double decrease = 0;
@@ -61,7 +61,7 @@ class StepModel {
   double tilt_weight(const IncipientContact& pair, const State& state, double shift) const;
   BlockMatrix assembled(double shift) const;
   std::optional<Eigen::MatrixXd> gained(const std::vector<State>& before, double shift) const;
-  Eigen::VectorXd column(const IncipientContact& pair, const Vector6d& of_a, const Vector6d& of_b) const;
+  Eigen::VectorXd column(const IncipientContact& pair, const LinearisedOverlap& volume) const;
   Eigen::VectorXd gradient() const;
   double decrease(const Eigen::VectorXd& step) const;
 

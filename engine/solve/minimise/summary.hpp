@@ -17,6 +17,7 @@ enum class StopReason {
   precision_floor,     ///< no lower residual can be resolved, not even in double-double
   budget,              ///< evaluations spent
   line_search_failed,  ///< no lower energy found along any direction tried
+  cell_limit,          ///< the cell came to be so small or skew that a particle could touch two images of another
   not_finite,          ///< energy or gradient was not finite
   interrupted          ///< stop requested from outside
 };
@@ -28,6 +29,7 @@ inline constexpr std::array enum_names<StopReason>{EnumName{StopReason::not_call
                                                    EnumName{StopReason::precision_floor, "precision_floor"},
                                                    EnumName{StopReason::budget, "budget"},
                                                    EnumName{StopReason::line_search_failed, "line_search_failed"},
+                                                   EnumName{StopReason::cell_limit, "cell_limit"},
                                                    EnumName{StopReason::not_finite, "not_finite"},
                                                    EnumName{StopReason::interrupted, "interrupted"}};
 
@@ -48,7 +50,7 @@ struct MinimiseWork {
 /// Outcome of one minimisation; the default says that none was run.
 struct MinimiseSummary {
   StopReason reason = StopReason::not_called;
-  double energy = 0;
+  double energy = 0;                         ///< E, without the work against a pressure
   double residual = 0;                       ///< as Evaluation::residual
   double residual_floor = 0;                 ///< as Evaluation::residual_floor, in the same state
   Precision precision = Precision::working;  ///< of the last evaluation

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
+#include "engine/packing/enthalpy.hpp"
 #include "engine/packing/envelope/envelope.hpp"
 #include "engine/packing/packing.hpp"
 #include "engine/solve/minimise/summary.hpp"
@@ -15,25 +17,39 @@ struct EnvelopeState {
   EnvelopeEvaluation value;
 };
 
-/// Evaluates envelopes of one stiffness ρ (Y·V_p^(1/3)) and counts what that takes.
+/// Evaluates envelopes of one stiffness ρ (Y·V_p^(1/3)), under the load of the cell, and counts what that takes.
 class EnvelopeEvaluator {
  public:
-  explicit EnvelopeEvaluator(MinimiseWork& work) : work_(work) {}
+  EnvelopeEvaluator(Enthalpy load, MinimiseWork& work) : load_(std::move(load)), work_(work) {}
+
+  const Enthalpy& load() const { return load_; }
+  /// Whether a state was asked for whose cell is not legal. Its Φ is infinite.
+  bool cell_limit() const { return cell_limit_; }
 
   double stiffness() const { return stiffness_; }
   void set_stiffness(double value) { stiffness_ = value; }
 
-  /// `only` as in EnvelopeEnergy::evaluate().
+  /// `only` as in EnvelopeEnergy::evaluate(); without the load then.
   EnvelopeState at(Packing packing, const std::vector<ContactForce>& forces, const std::vector<char>& only = {});
   EnvelopeState unshifted(Packing packing);
 
+  /// Second derivatives, those of the load included.
+  BlockMatrix curvature(const EnvelopeState& state) const;
+
  private:
+  Enthalpy load_;
   EnvelopeEnergy energy_;
   MinimiseWork& work_;
   double stiffness_ = 0;
+  bool cell_limit_ = false;
 };
 
-/// Forces to evaluate the state after `step` (6N entries, x and R·θ per particle) with: multipliers as they are, shifts
+/// ε that a step of so many particles strains the cell by.
+Eigen::Matrix3d strain_of(const Eigen::VectorXd& step, int particles);
+/// The step (x, R·θ) of B as A sees it, its image strained by ε.
+Vector6d step_of_b(const EnvelopeContact& contact, const Eigen::VectorXd& step, const Eigen::Matrix3d& strain);
+
+/// Forces to evaluate the state after `step`, as moved() takes it, with: multipliers as they are, shifts
 /// as the step changes them to first order.
 std::vector<ContactForce> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step);
 

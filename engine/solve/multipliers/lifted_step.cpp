@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/packing/strain_border.hpp"
 #include "engine/solve/minimise/descent.hpp"
 
 namespace isojam {
@@ -24,7 +25,9 @@ std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stif
   curvatures.reserve(state.value.contacts.size());
   BlockMatrix hessian;
   hessian.diagonal.assign(state.packing.poses.size(), Matrix6d::Zero());
+  StrainBorder border(evaluator.load().control().cell, state.packing.size(), hessian);
   Eigen::VectorXd gradient = state.value.gradient;
+  Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
   const auto shift_of = [&](const EnvelopeContact& contact) {
     return to_lab(state.packing.poses[contact.pair.b], contact.at.shift);
   };
@@ -33,20 +36,27 @@ std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stif
     const PairHessian& h = curvatures.emplace_back(contact.at.curvature(stiffness));
     const Vector6d w = shift_of(contact);
     hessian.add_pair(contact.pair.a, contact.pair.b, h.aa, h.ab, h.bb);
+    border.add_pair(contact.pair.a, contact.pair.b, h, contact.at.gradient_b.head<3>(), contact.displacement);
+    const Vector6d of_b = h.bb * w;
     gradient.segment<6>(6 * contact.pair.a) -= h.ab * w;
-    gradient.segment<6>(6 * contact.pair.b) -= h.bb * w;
+    gradient.segment<6>(6 * contact.pair.b) -= of_b;
+    virial += of_b.head<3>() * contact.displacement.transpose();
   }
+  border.finish();
+  evaluator.load().add_to(hessian, state.packing);
+  if (hessian.strains() > 0) gradient.tail(hessian.strains()) -= border.slopes(virial);
   ++work.factorisations;
   if (!factor.factorise(hessian, std::max(shift, resolved(hessian)))) return std::nullopt;
   const Eigen::VectorXd step = -factor.solve(gradient);
   if (!(largest_displacement(step) <= longest)) return std::nullopt;
+  const Eigen::Matrix3d strain = strain_of(step, state.packing.size());
   std::vector<ContactForce> forces;
   auto curvature = curvatures.begin();
   for (const EnvelopeContact& contact : state.value.contacts) {
     if (!contact.at.touching) continue;
     const PairHessian& h = *curvature++;
     const Vector6d of_a = step.segment<6>(6 * contact.pair.a);
-    const Vector6d of_ghost = step.segment<6>(6 * contact.pair.b) - shift_of(contact);
+    const Vector6d of_ghost = step_of_b(contact, step, strain) - shift_of(contact);
     const Vector6d change = h.ab.transpose() * of_a + h.bb * of_ghost;
     forces.push_back(
         {contact.pair, contact.at.wrench + to_body(state.packing.poses[contact.pair.b], change), Vector6d::Zero()});

@@ -25,6 +25,7 @@ constexpr double longest_step = 0.1;  ///< inradii
 std::vector<NeighbourPair> mispredictions(const EnvelopeState& here, const EnvelopeState& there,
                                           const Eigen::VectorXd& step, double tolerance) {
   std::vector<NeighbourPair> wrong;
+  const Eigen::Matrix3d strain = strain_of(step, here.packing.size());
   std::size_t k = 0;
   const std::vector<EnvelopeContact>& before = here.value.contacts;
   for (const EnvelopeContact& contact : there.value.contacts) {
@@ -32,7 +33,7 @@ std::vector<NeighbourPair> mispredictions(const EnvelopeState& here, const Envel
     while (k < before.size() && canonical_key(before[k].pair) < canonical_key(pair)) ++k;
     double promised = 0;
     if (k < before.size() && canonical_key(before[k].pair) == canonical_key(pair))
-      promised = before[k].at.predicted(step.segment<6>(6 * pair.a), step.segment<6>(6 * pair.b));
+      promised = before[k].at.predicted(step.segment<6>(6 * pair.a), step_of_b(before[k], step, strain));
     if (std::abs(contact.at.value - promised) > tolerance) wrong.push_back(pair);
   }
   return wrong;
@@ -101,7 +102,7 @@ bool relax_locally(const std::vector<char>& flags, double shift, double promised
   BlockCholesky factor;
   bool moved_at_all = false;
   for (int k = 0; k < most_steps; ++k) {
-    const BlockMatrix matrix = part.of(curvature(here.value));
+    const BlockMatrix matrix = part.of(curvature(here.value, here.packing.size()));
     ++work.local_factorisations;
     if (!factor.factorise(matrix, shift)) {
       shift *= growth;
@@ -124,7 +125,9 @@ bool relax_locally(const std::vector<char>& flags, double shift, double promised
     }
   }
   if (!moved_at_all) return false;
-  state = {std::move(here.packing), with_part(state.value, here.value, flags)};
+  const EnvelopeEvaluation whole = with_part(state.value, here.value, flags);
+  state.value = evaluator.load().of(whole, here.packing);
+  state.packing = std::move(here.packing);
   return true;
 }
 

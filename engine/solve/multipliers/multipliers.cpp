@@ -13,6 +13,7 @@
 #include "engine/solve/multipliers/envelope_state.hpp"
 #include "engine/solve/multipliers/lifted_step.hpp"
 #include "engine/solve/multipliers/local_relaxation.hpp"
+#include "engine/solve/multipliers/tangent.hpp"
 
 // Near jamming all contact forces are of one size, f ~ Δφ⁵, and so the depth of a contact depends on its kind: ~ Δφ for
 // corners and crossed edges, ~ Δφ⁵ for flat faces. A flat contact is a spring of stiffness .1 that holds over 1e-10,
@@ -111,12 +112,27 @@ class Multipliers {
         energy_(energy),
         options_(options),
         stop_(std::move(stop)),
-        evaluator_(summary_.work),
+        evaluator_(Enthalpy(options.control, packing.cell), summary_.work),
         here_{packing, {}} {}
 
   /// From the equilibrium to one at another density.
   MinimiseSummary follow(double density) {
-    follow_strain(density);
+    const Packing strained = strained_to(packing_, density);
+    const double stretch = strained.cell.side() / packing_.cell.side() - 1;
+    follow_tangent(strained, stretch * Eigen::Matrix3d::Identity(), distance_ - (packing_.density() - density));
+    return run();
+  }
+
+  /// From the equilibrium to one in the cell deformed by F.
+  MinimiseSummary follow(const DoubleDoubleMatrix& f) {
+    follow_tangent(deformed(packing_, f), f.high - Eigen::Matrix3d::Identity(), distance_);
+    return run();
+  }
+
+  /// From the equilibrium to one under the load of the options: p ∝ Δφ⁵.
+  MinimiseSummary follow_load() {
+    const double now = energy_.evaluate(packing_, Precision::double_double).pressure;
+    follow_tangent(packing_, Eigen::Matrix3d::Zero(), distance_ * std::pow(options_.control.pressure / now, 0.2));
     return run();
   }
 
@@ -152,58 +168,33 @@ class Multipliers {
     evaluator_.set_stiffness(stiffening * k0_);
   }
 
-  void follow_strain(double density) {
+  /// From `packing_` to what it is after a change that makes Δφ `distance`: `strained` by what was `imposed` already.
+  void follow_tangent(const Packing& strained, const Eigen::Matrix3d& imposed, double distance) {
     k0_ = 1;
     set_scales(1, 1);
-    const double distance = distance_ - (packing_.density() - density), ratio = distance / distance_;
-    assert(distance > 0);
+    const double ratio = distance / distance_;
+    assert(ratio > 0);
     // Scales ask for the mean force, which does not depend on them.
     first_force_ = evaluator_.unshifted(packing_).value.mean_force;
     set_scales(first_force_, distance_);
     const EnvelopeState from = evaluator_.unshifted(packing_);
     const double fall = std::pow(ratio, 5);
     shift_ = first_shift * k0_;
-    EnvelopeState strained{strained_to(packing_, density), {}};
-    std::vector<ContactForce> forces;
-    const Eigen::VectorXd tangent = tangent_step(from, strained.packing, forces);
-    for (ContactForce& force : forces) force.multiplier *= fall;
+    Tangent answer = tangent(from, imposed, tangent_shift * k0_, longest_tangent * packing_.solid->inradius(),
+                             evaluator_, factor_, summary_.work);
+    for (ContactForce& force : answer.forces) force.multiplier *= fall;
     set_scales(fall * first_force_, distance);
-    here_ = evaluator_.at(moved(strained.packing, tangent), forces);
-  }
-
-  /// How particles follow the strain to first order, −H⁻¹ (∂g/∂ε) ε, and the forces of `from` with the shifts that this
-  /// makes.
-  Eigen::VectorXd tangent_step(const EnvelopeState& from, const Packing& strained, std::vector<ContactForce>& forces) {
-    const double stretch = strained.cell.side() / from.packing.cell.side() - 1;
-    const auto stretched = [&](const EnvelopeContact& contact) {
-      return joined(stretch * contact.displacement, Eigen::Vector3d::Zero());
-    };
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(from.value.gradient.size());
-    for (const EnvelopeContact& contact : from.value.contacts) {
-      const PairHessian h = contact.at.curvature();
-      gradient.segment<6>(6 * contact.pair.a) += h.ab * stretched(contact);
-      gradient.segment<6>(6 * contact.pair.b) += h.bb * stretched(contact);
-    }
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(gradient.size());
-    ++summary_.work.hessians;
-    ++summary_.work.factorisations;
-    if (factor_.factorise(curvature(from.value), tangent_shift * k0_))
-      step = limited(-factor_.solve(gradient), longest_tangent * packing_.solid->inradius());
-    forces = forces_of(from.value);
-    for (std::size_t k = 0; k < forces.size(); ++k) {
-      const EnvelopeContact& contact = from.value.contacts[k];
-      const Vector6d a = step.segment<6>(6 * contact.pair.a);
-      const Vector6d b = step.segment<6>(6 * contact.pair.b) + stretched(contact);
-      forces[k].shift = to_body(strained.poses[contact.pair.b], contact.at.shift_change(a, b));
-    }
-    return step;
+    here_ = evaluator_.at(moved(strained, answer.step), answer.forces);
   }
 
   std::optional<StopReason> verdict() const {
     const EnvelopeEvaluation& value = here_.value;
+    if (evaluator_.cell_limit()) return StopReason::cell_limit;
     if (!std::isfinite(value.value) || !value.gradient.allFinite()) return StopReason::not_finite;
-    if (value.touching == 0 || value.mean_force < unjammed_force * expected_force_ || loose_ > most_loose)
-      return StopReason::unjammed;
+    if (value.touching == 0 || value.mean_force < unjammed_force * expected_force_ || loose_ > most_loose) {
+      // A pressure makes a packing jammed, which Newton's method then sees to.
+      return frees_volume(options_.control.cell) ? StopReason::line_search_failed : StopReason::unjammed;
+    }
     if (stop_.stop_requested()) return StopReason::interrupted;
     if (shift_ > most_shift * k0_) return StopReason::line_search_failed;
     const long most = std::min(most_envelopes, options_.max_evaluations - summary_.evaluations);
@@ -254,7 +245,7 @@ class Multipliers {
 
   /// One step, with as many shifts as it needs unless a verdict falls.
   void advance() {
-    const BlockMatrix matrix = curvature(here_.value);
+    const BlockMatrix matrix = evaluator_.curvature(here_);
     ++summary_.work.hessians;
     double growth = 2;
     while (!verdict()) {
@@ -324,10 +315,10 @@ class Multipliers {
 
   /// The energy itself in the present state.
   void measure() {
-    const Evaluation value = energy_.evaluate(packing_, Precision::double_double);
+    const Evaluation value = evaluator_.load().of(energy_.evaluate(packing_, Precision::double_double), packing_);
     ++summary_.evaluations;
     ++summary_.work.double_double_evaluations;
-    summary_.energy = value.energy;
+    summary_.energy = value.energy - value.load_energy;
     summary_.residual = value.residual;
     summary_.residual_floor = value.residual_floor;
     summary_.precision = Precision::double_double;
@@ -374,6 +365,16 @@ class Multipliers {
 MinimiseSummary follow_equilibrium(Packing& packing, double density, double distance, PackingEnergy& energy,
                                    const MinimiseOptions& options, std::stop_token stop) {
   return Multipliers(packing, distance, energy, options, std::move(stop)).follow(density);
+}
+
+MinimiseSummary follow_deformation(Packing& packing, const DoubleDoubleMatrix& f, double distance,
+                                   PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop) {
+  return Multipliers(packing, distance, energy, options, std::move(stop)).follow(f);
+}
+
+MinimiseSummary follow_load(Packing& packing, double distance, PackingEnergy& energy, const MinimiseOptions& options,
+                            std::stop_token stop) {
+  return Multipliers(packing, distance, energy, options, std::move(stop)).follow_load();
 }
 
 MinimiseSummary relax_to_equilibrium(Packing& packing, double force, double distance, PackingEnergy& energy,

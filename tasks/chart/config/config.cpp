@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/packing/periodic_cell.hpp"
+#include "engine/packing/cell/periodic_cell.hpp"
 #include "engine/solve/jam.hpp"
 #include "tasks/json/options.hpp"
 #include "tasks/json/parse.hpp"

@@ -8,6 +8,7 @@ const allFigures = (data) => [
   extrapolationFigure(data),
   spectrumFigure(data),
   scalingFigure(data),
+  shearFigure(data),
   costFigure(data, 'evaluations', 'evaluations'),
   costFigure(data, 'cpu_seconds', 'time'),
   stopFigure(data),

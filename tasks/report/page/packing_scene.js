@@ -47,11 +47,23 @@ function fill({solid, outline}, mesh, particles) {
   for (const attribute of [position, normal, color, ends]) attribute.needsUpdate = true;
 }
 
-function cellOutline(side) {
-  const box = new THREE.LineSegments(new THREE.EdgesGeometry(new THREE.BoxGeometry(side, side, side)),
-    new THREE.LineBasicMaterial({color: 0x888888}));
-  box.position.set(side / 2, side / 2, side / 2);
-  return box;
+/// The point with these coordinates along the vectors of the cell.
+function inCell(cell, s) {
+  return [0, 1, 2].map((c) => s[0] * cell[0][c] + s[1] * cell[1][c] + s[2] * cell[2][c]);
+}
+
+/// The twelve edges of the cell: from every corner along every vector that leads on.
+function cellOutline(cell) {
+  const ends = [];
+  for (const corner of [0, 1, 2, 3, 4, 5, 6, 7]) {
+    const s = [corner & 1, (corner >> 1) & 1, corner >> 2];
+    for (const along of [0, 1, 2]) {
+      if (s[along] === 0) ends.push(...inCell(cell, s), ...inCell(cell, s.map((x, c) => (c === along ? 1 : x))));
+    }
+  }
+  const edges = new THREE.BufferGeometry();
+  edges.setAttribute('position', new THREE.BufferAttribute(new Float32Array(ends), 3));
+  return new THREE.LineSegments(edges, new THREE.LineBasicMaterial({color: 0x888888}));
 }
 
 function dispose(objects) {
@@ -87,8 +99,8 @@ function orbitCamera(canvas, moved) {
       const now = spherical();
       moveTo(new THREE.Spherical(now.radius * zoom, now.phi + phi, now.theta + theta));
     },
-    reset(side) {
-      controls.target.setScalar(side / 2);
+    reset(cell, side) {
+      controls.target.set(...inCell(cell, [0.5, 0.5, 0.5]));
       Object.assign(controls, {minDistance: side * 0.4, maxDistance: side * 8});
       Object.assign(camera, {near: side * 0.05, far: side * 12});
       moveTo(new THREE.Spherical(side * 3.3, 1.15, 0.6));
@@ -116,13 +128,13 @@ function followWidth(canvas, renderer, camera, draw) {
   }).observe(canvas.parentElement);
 }
 
-/// A canvas with a scene that is drawn only when something changed. `show` takes a solid's shape, the cell's side and
-/// the particles ({at, orientation, colour}); `update` the same particles elsewhere.
+/// A canvas with a scene that is drawn only when something changed. `show` takes a solid's shape, the cell ({cell, side})
+/// and the particles ({at, orientation, colour}); `update` the same particles elsewhere.
 function packingScene(canvas, antialias) {
   const renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: true, preserveDrawingBuffer: true});
   renderer.setPixelRatio(antialias ? Math.min(devicePixelRatio, 2) : 1);
   const scene = new THREE.Scene();
-  let waiting = false, objects = null, mesh = null, box = null, side = 1, frames = 0, resting = 0;
+  let waiting = false, objects = null, mesh = null, box = null, shown = null, frames = 0, resting = 0;
   let sparing = false;
   const orbit = orbitCamera(canvas, () => move());
   const draw = () => {
@@ -147,24 +159,24 @@ function packingScene(canvas, antialias) {
   scene.add(orbit.camera, new THREE.HemisphereLight(0xffffff, 0xb8b4a8, 0.55));
   followWidth(canvas, renderer, orbit.camera, draw);
   canvas.addEventListener('keydown', (event) => {
-    if (event.key === 'Home') orbit.reset(side);
+    if (event.key === 'Home') orbit.reset(shown.cell, shown.side);
     else if (keyTurns[event.key]) orbit.turn(...keyTurns[event.key]);
     else return;
     event.preventDefault();
   });
   return {
-    show(shape, cellSide, particles, keepCamera) {
+    show(shape, view, particles, keepCamera) {
       if (objects) {
         const old = [objects.solid, objects.outline, box];
         scene.remove(...old);
         dispose(old);
       }
-      [mesh, side] = [solidMesh(shape), cellSide];
-      [objects, box] = [particleObjects(mesh, particles.length), cellOutline(side)];
+      [mesh, shown] = [solidMesh(shape), view];
+      [objects, box] = [particleObjects(mesh, particles.length), cellOutline(view.cell)];
       scene.add(objects.solid, objects.outline, box);
       sparing = !antialias && (mesh.edges.length / 3) * particles.length > slowOutlines;
       fill(objects, mesh, particles);
-      if (!keepCamera) orbit.reset(side);
+      if (!keepCamera) orbit.reset(view.cell, view.side);
       draw();
     },
     update(particles) {

@@ -127,7 +127,7 @@ function connect(data, views, controls, scene, {key, status}) {
     const view = current();
     colouring = colouringOf(view, controls.colour.value);
     key.replaceChildren(keyOf(colouring, controls.colour.value));
-    scene.show(data.solids[view.solid], view.side, particlesOf(view, state()), keepCamera);
+    scene.show(data.solids[view.solid], view, particlesOf(view, state()), keepCamera);
   };
   const choose = (keepCamera) => {
     const view = current();

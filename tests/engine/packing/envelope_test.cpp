@@ -82,7 +82,7 @@ TEST_P(EnvelopeOf, DerivativesAgreeWithDifferences) {
   const EnvelopeEvaluation forth = envelope.evaluate(moved(packing_, h * along), forces, stiffness);
   const EnvelopeEvaluation back = envelope.evaluate(moved(packing_, -h * along), forces, stiffness);
   const double slope = here.gradient.dot(along), difference = (forth.value - back.value) / (2 * h);
-  const Eigen::VectorXd bend = curvature(here) * along;
+  const Eigen::VectorXd bend = curvature(here, packing_.size()) * along;
   const Eigen::VectorXd bend_difference = (forth.gradient - back.gradient) / (2 * h);
   const double error = (bend - bend_difference).norm() / bend.norm();
   double longest = 0;

@@ -3,6 +3,7 @@
 //   images does: reaches from a fraction of the mean distance to beyond half the side and beyond the side itself,
 //   positions outside of the cell and on the borders of its cells included;
 //   the cell list is the brute-force list up to N = 2000, in canonical order;
+//   the same in skew cells, and in cells that are not reduced: pairs and distances are those of the reduced one;
 //   on a simple cubic lattice every particle has 6 neighbours, then 18, then 26.
 
 #include "engine/packing/neighbours.hpp"
@@ -111,6 +112,67 @@ TEST(NeighboursTest, DisplacementIsThatOfTheImage) {
     const Vector3d bare = packing.poses[pair.b].position - packing.poses[pair.a].position;
     EXPECT_LE((d - bare - 9 * pair.shift.cast<double>()).norm(), 8 * epsilon * (bare.norm() + 9));
     EXPECT_LE((d - packing.cell.nearest_image(bare)).norm(), 8 * epsilon * (bare.norm() + 9));
+  }
+}
+
+/// Points in a cell of any shape.
+Packing skew_points(int n, std::uint64_t seed) {
+  RandomStream random{9, seed};
+  DoubleDoubleMatrix f;
+  f.high << 1, .3, -.2, .1, 1.1, .25, -.35, .2, .9;
+  f.low(0, 1) = 1e-18;
+  Packing packing = deformed(points(n, 7, seed), f);
+  packing.cell = packing.cell.reduced();
+  return packing;
+}
+
+std::vector<std::pair<std::pair<int, int>, double>> distances(const Packing& packing, double reach) {
+  std::vector<std::pair<std::pair<int, int>, double>> result;
+  for (const NeighbourPair& pair : find_neighbours(packing, reach))
+    result.push_back({{pair.a, pair.b}, displacement(packing, pair).norm()});
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+TEST(NeighboursTest, OfSkewCellsAreAllPairsAndImagesWithinReach) {
+  for (const int n : {2, 10, 100, 700}) {
+    const Packing packing = skew_points(n, static_cast<std::uint64_t>(n));
+    for (const double reach : {.7, 1.4, 2.0, 3.1, 4.0, 7.0}) {
+      if (n == 700 && reach > 3) continue;
+      std::vector<Key> expected;
+      for (int a = 0; a < n; ++a) {
+        for (int b = a + 1; b < n; ++b) {
+          const Vector3d d = packing.poses[b].position - packing.poses[a].position;
+          const Eigen::Vector3i near = packing.cell.nearest_shift(d);
+          for (int image = 0; image < 7 * 7 * 7; ++image) {
+            const Eigen::Vector3i k = near + Eigen::Vector3i(image % 7 - 3, image / 7 % 7 - 3, image / 49 - 3);
+            if ((d + packing.cell.translation(k)).norm() < reach) expected.push_back({a, b, k[0], k[1], k[2]});
+          }
+        }
+      }
+      std::sort(expected.begin(), expected.end());
+      EXPECT_EQ(keys(find_neighbours_brute_force(packing, reach)), expected) << "N " << n << ", reach " << reach;
+      EXPECT_EQ(keys(find_neighbours(packing, reach)), expected) << "N " << n << ", reach " << reach;
+    }
+  }
+}
+
+TEST(NeighboursTest, DoNotDependOnTheVectorsThatSpanTheLattice) {
+  const Packing packing = skew_points(60, 5);
+  Packing skewer = packing;
+  DoubleDoubleMatrix vectors = packing.cell.vectors();
+  for (int r = 0; r < 3; ++r) {
+    vectors.set(r, 1, vectors(r, 1) + vectors(r, 0) * 2);
+    vectors.set(r, 2, vectors(r, 2) - vectors(r, 1));
+  }
+  skewer.cell = PeriodicCell(vectors);
+  for (const double reach : {1.0, 2.5, 4.0}) {
+    const auto here = distances(packing, reach), there = distances(skewer, reach);
+    ASSERT_EQ(here.size(), there.size()) << reach;
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      EXPECT_EQ(here[k].first, there[k].first);
+      EXPECT_NEAR(here[k].second, there[k].second, 1e-12);
+    }
   }
 }
 

@@ -175,10 +175,10 @@ TEST_P(Multipliers, AnswerThreadsWithTheSameBits) {
 /// An equilibrium with its own multipliers, at the stiffness that following would take.
 struct Prepared {
   MinimiseWork work;
-  EnvelopeEvaluator evaluator{work};
+  EnvelopeEvaluator evaluator;
   EnvelopeState state;
 
-  explicit Prepared(const State& from) : state{from.packing, {}} {
+  explicit Prepared(const State& from) : evaluator(Enthalpy({}, from.packing.cell), work), state{from.packing, {}} {
     evaluator.set_stiffness(1);
     const double force = evaluator.unshifted(from.packing).value.mean_force;
     evaluator.set_stiffness(300 * force / from.distance);

@@ -68,16 +68,49 @@ Packing made_up_packing() {
   return packing;
 }
 
-TEST(PackingJson, SurvivesBitForBit) {
-  const auto packing = made_up_packing();
+/// In a cell that has given way, and in a cube whose side has a low part.
+std::vector<Packing> in_other_cells() {
+  DoubleDoubleMatrix skew, stretch;
+  skew.high << 1.02, .07, -.03, .01, .98, .05, 0, -.02, 1.01;
+  skew.low(1, 2) = 3e-19;
+  stretch.high *= 1.01;
+  stretch.low.diagonal().setConstant(1e-17);
+  return {deformed(made_up_packing(), skew), deformed(made_up_packing(), stretch)};
+}
+
+void expect_survival(const Packing& packing) {
   const auto text = sealed({{"schema", "made.up.v1"}, {"packing", to_json(packing)}});
   const auto read = parse_sealed(text, "file");
   const auto again = read_packing(JsonPlace(read, "file").at("packing"));
   EXPECT_EQ(again.solid, packing.solid);
-  EXPECT_EQ(again.cell.side(), packing.cell.side());
+  EXPECT_TRUE(again.cell == packing.cell);
+  EXPECT_EQ(again.cell.is_cube(), packing.cell.is_cube());
   ASSERT_EQ(again.size(), packing.size());
   for (int i = 0; i < packing.size(); ++i)
     EXPECT_TRUE(again.poses[static_cast<std::size_t>(i)] == packing.poses[static_cast<std::size_t>(i)]) << i;
+}
+
+TEST(PackingJson, SurvivesBitForBit) {
+  expect_survival(made_up_packing());
+  for (const auto& packing : in_other_cells()) expect_survival(packing);
+}
+
+TEST(PackingJson, RefusesCellsThatAreNone) {
+  const auto good = to_json(in_other_cells().front());
+  const std::vector<std::pair<std::string, Json>> wrong{
+      {"/cell", "cube"},      {"/cell", {{1, 0, 0}, {0, 1, 0}}}, {"/cell/1", {0, 0, 0}}, {"/cell/0", {.5, 0, 0}},
+      {"/cell/2/1", nullptr}, {"/cell_low", Json::array()},      {"/cell_low/0/0", "x"}};
+  for (const auto& [pointer, value] : wrong) {
+    auto bad = good;
+    bad[Json::json_pointer(pointer)] = value;
+    try {
+      read_packing(JsonPlace(bad, "file"));
+      FAIL() << pointer << ": " << value;
+    } catch (const InputError& error) {
+      const auto& said = error.details().pointer;
+      EXPECT_TRUE(pointer.starts_with(said) || said.starts_with(pointer)) << pointer << ": " << error.what();
+    }
+  }
 }
 
 TEST(PackingJson, RefusesWhatIsNoPacking) {

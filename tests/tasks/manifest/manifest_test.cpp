@@ -53,8 +53,14 @@ Json number_of(const Field& field, double x) { return is_integer(field) ? Json(s
 Json another_value(const Field& field) {
   const auto usual = field_value(field, {});
   if (usual.is_boolean()) return !usual.get<bool>();
-  if (usual == "relaxed") return "hasty";
-  if (usual.is_string()) return usual == "lbfgs" ? "conjugate_gradient" : "lbfgs";
+  JamOptions options;
+  const auto other = std::visit(
+      []<class T>(const T*) -> Json {
+        if constexpr (std::is_enum_v<T>) return all_names<T>.back();
+        return nullptr;
+      },
+      field.slot(options));
+  if (usual.is_string()) return other == usual ? Json("newton") : other;
   return is_integer(field) ? Json(usual.get<long>() + 1) : Json(usual.get<double>() / 2 + 1e-9);
 }
 

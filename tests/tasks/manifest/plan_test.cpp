@@ -144,6 +144,8 @@ Json another_value(const Field& field) {
   const auto usual = field_value(field, {});
   if (usual.is_boolean()) return !usual.get<bool>();
   if (usual == "relaxed") return "hasty";
+  if (usual == "density") return "pressure";
+  if (usual == "isotropic") return "free";
   if (usual.is_string()) return "lbfgs";
   if (usual.is_number_integer()) return usual.get<long>() + 1;
   return usual.get<double>() / 2 + 1e-9;

@@ -74,6 +74,13 @@ std::vector<BadManifest> malformed() {
       set("number for a truth value", "/protocol/target_before_relaxation", 1, "true or false"),
       set("misspelt method", "/minimiser/method", "lbgfs", "did you mean \"lbfgs\"?"),
       set("method is a number", "/minimiser/method", 3, "\"conjugate_gradient\", \"fire\""),
+      set("misspelt control", "/protocol/control", "preasure", "did you mean \"pressure\"?"),
+      set("a cell of no kind", "/protocol/cell", "cubic", "\"isotropic\", \"free\""),
+      set("shear that is no object", "/shear", "pure", "an object"),
+      set("misspelt key of shear", "/shear", {{"stp", 0.1}}, "did you mean \"step\"?", "/shear/stp"),
+      set("shear of no kind", "/shear", {{"mode", "torsion"}}, "\"pure\", \"simple\"", "/shear/mode"),
+      set("shear without a step", "/shear", {{"step", 0}}, "a number in (0, 1]", "/shear/step"),
+      set("shear back and forth", "/shear", {{"back", 3}}, "true or false", "/shear/back"),
       set("misspelt measure", "/measure", {"contact"}, "did you mean \"contacts\"?", "/measure/0"),
       set("measure is no list", "/measure", "contacts", "a list"),
       set("misspelt flag", "/exclude", {"cristalline"}, "did you mean \"crystalline\"?", "/exclude/0"),
@@ -142,6 +149,8 @@ std::vector<BadManifest> inconsistent() {
   for (int n = 1; n <= 101; ++n) many["sweep"]["max_steps"].push_back(n);
   return {
       {"too few particles", with("/sweep/particles", {64, 5}), "/sweep/particles/1", "or more", false},
+      {"a shear that ends before its step", with("/shear", {{"step", 0.1}, {"until", 0.05}}), "/shear/until",
+       "at least a step", false},
       {"too few at a swept density", crowded.dump(), "/sweep/particles/1", "max_density 2", false},
       {"swept and fixed", both.dump(), "/protocol/target_energy", "either here or at /sweep/target_energy", false},
       {"starts above its limit", with("/protocol/initial_density", 0.95), "/protocol/initial_density",

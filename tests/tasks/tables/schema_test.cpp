@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <type_traits>
+#include <variant>
 
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/options.hpp"
@@ -35,17 +37,19 @@ Json expected_definition(const Field& field) {
   JamOptions options;
   const auto slot = field.slot(options);
   Json json;
-  if (std::holds_alternative<bool*>(slot)) {
-    json["type"] = "boolean";
-  } else if (std::holds_alternative<Method*>(slot)) {
-    for (const auto name : all_names<Method>) json["enum"].push_back(name);
-  } else if (std::holds_alternative<Consolidation*>(slot)) {
-    for (const auto name : all_names<Consolidation>) json["enum"].push_back(name);
-  } else {
-    json["type"] = std::holds_alternative<double*>(slot) ? "number" : "integer";
-    json[field.range.low_excluded ? "exclusiveMinimum" : "minimum"] = field.range.low;
-    json[field.range.high_excluded ? "exclusiveMaximum" : "maximum"] = field.range.high;
-  }
+  std::visit(
+      [&]<class T>(const T*) {
+        if constexpr (std::is_enum_v<T>) {
+          for (const auto name : all_names<T>) json["enum"].push_back(name);
+        } else if constexpr (std::is_same_v<T, bool>) {
+          json["type"] = "boolean";
+        } else {
+          json["type"] = std::is_same_v<T, double> ? "number" : "integer";
+          json[field.range.low_excluded ? "exclusiveMinimum" : "minimum"] = field.range.low;
+          json[field.range.high_excluded ? "exclusiveMaximum" : "maximum"] = field.range.high;
+        }
+      },
+      slot);
   json["default"] = field_value(field, {});
   return json;
 }

@@ -1,0 +1,95 @@
+#include "engine/packing/enthalpy.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/packing/cell/strain.hpp"
+#include "engine/packing/envelope/envelope.hpp"
+#include "engine/packing/strain_border.hpp"
+
+namespace isojam {
+
+namespace {
+
+/// Relative, of p (V − V₀).
+constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+
+/// Stress on the strains that are free over a pressure.
+double imbalance(const Vector6d& stress, double pressure) {
+  const double largest = strain_tensor(stress).cwiseAbs().maxCoeff();
+  if (largest == 0) return 0;
+  return pressure > 0 ? largest / pressure : std::numeric_limits<double>::infinity();
+}
+
+Eigen::Matrix3d inverse(const PeriodicCell& cell) { return cell.vectors().high.inverse(); }
+
+}  // namespace
+
+Enthalpy::Enthalpy(const CellControl& control, const PeriodicCell& reference)
+    : control_(control),
+      basis_(strain_basis(control.cell)),
+      reference_(reference),
+      reference_volume_(reference.volume_double_double()),
+      sheared_(control.cell == CellFreedom::free && !control.deviator.isZero(0)) {}
+
+double Enthalpy::work(const PeriodicCell& cell) const {
+  const double by_pressure = pressure() * (cell.volume_double_double() - reference_volume_).high;
+  if (!sheared_) return by_pressure;
+  const Eigen::Matrix3d change = (cell.vectors().high - reference_.vectors().high) * inverse(reference_);
+  return by_pressure - reference_.volume() * control_.deviator.cwiseProduct(change).sum();
+}
+
+/// V₀ F τ, whose symmetric part strains work against beside the pressure: under ε F becomes F + ε F + ½ ε² F.
+Eigen::Matrix3d Enthalpy::load(const PeriodicCell& cell) const {
+  if (!sheared_) return Eigen::Matrix3d::Zero();
+  return reference_.volume() * cell.vectors().high * inverse(reference_) * control_.deviator;
+}
+
+/// Of the free strains.
+Eigen::VectorXd Enthalpy::strain_gradient(const Eigen::Matrix3d& stress, const Packing& packing) const {
+  Vector6d excess = strain_components(stress + pressure() * Eigen::Matrix3d::Identity());
+  if (sheared_) excess -= strain_components(load(packing.cell)) / packing.cell.volume();
+  return packing.cell.volume() / strain_length(packing.size()) * (basis_.transpose() * excess);
+}
+
+Evaluation Enthalpy::of(Evaluation evaluation, const Packing& packing) const {
+  const Eigen::Index particles = 6 * Eigen::Index{packing.size()}, strains = basis_.cols();
+  if (strains == 0) return evaluation;
+  const Eigen::VectorXd gradient = strain_gradient(evaluation.stress, packing);
+  evaluation.gradient.conservativeResize(particles + strains);
+  evaluation.gradient.tail(strains) = gradient;
+  const Vector6d stress = strain_length(packing.size()) / packing.cell.volume() * (basis_ * gradient);
+  const double scale = frees_volume(control_.cell) ? pressure() : evaluation.pressure;
+  evaluation.residual = std::max(evaluation.residual, imbalance(stress, scale));
+  evaluation.load_energy = work(packing.cell);
+  evaluation.energy += evaluation.load_energy;
+  evaluation.energy_noise += rounding * std::abs(evaluation.load_energy);
+  return evaluation;
+}
+
+EnvelopeEvaluation Enthalpy::of(EnvelopeEvaluation evaluation, const Packing& packing) const {
+  const Eigen::Index particles = 6 * Eigen::Index{packing.size()}, strains = basis_.cols();
+  if (strains == 0) return evaluation;
+  evaluation.gradient.conservativeResize(particles + strains);
+  evaluation.gradient.tail(strains) = strain_gradient(evaluation.virial / packing.cell.volume(), packing);
+  const double load = work(packing.cell);
+  evaluation.value += load;
+  evaluation.noise += rounding * std::abs(load);
+  return evaluation;
+}
+
+void Enthalpy::add_to(BlockMatrix& hessian, const Packing& packing) const {
+  if (!frees_volume(control_.cell)) return;
+  // V exp(tr ε) to second order.
+  const Eigen::VectorXd trace =
+      basis_.transpose() * (std::sqrt(3.0) * trace_direction()) / strain_length(packing.size());
+  hessian.corner += pressure() * packing.cell.volume() * trace * trace.transpose();
+  if (!sheared_) return;
+  const Eigen::Matrix3d bent = load(packing.cell);
+  const double length = strain_length(packing.size());
+  hessian.corner -= basis_.transpose() * of_squared_strain((bent + bent.transpose()) / 2) * basis_ / (length * length);
+}
+
+}  // namespace isojam

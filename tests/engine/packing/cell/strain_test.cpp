@@ -1,0 +1,102 @@
+// Facts proved here:
+//   components and tensor are each other's inverse and keep inner products; the antisymmetric part of a tensor is left
+//   out;
+//   strained(r)·ε is ε r;
+//   the bases of strains are orthonormal, the traceless one is, and they are told from their number;
+//   exp(ε) is right to 1e-31 of it, by exp(ε)² = exp(2ε), exp(ε) exp(−ε) = 1 and det exp(ε) = exp(tr ε) in quadruple
+//   precision, and to 1e-12 of ε for strains far below the spacing of doubles at 1; an isotropic strain leaves a cube a
+//   cube.
+
+#include "engine/packing/cell/strain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/geometry/quad.hpp"
+#include "engine/packing/cell/control.hpp"
+#include "engine/packing/cell/periodic_cell.hpp"
+#include "engine/random/stream.hpp"
+
+namespace isojam {
+namespace {
+
+Vector6d random_strain(RandomStream& random, double scale) {
+  Vector6d strain;
+  for (double& x : strain) x = scale * random.normal();
+  return strain;
+}
+
+double difference(const QuadMatrix& a, const QuadMatrix& b) {
+  double largest = 0;
+  for (const Quad3& row : a - b) largest = std::max(largest, static_cast<double>(norm(row)));
+  return largest;
+}
+
+Quad determinant(const QuadMatrix& m) { return dot(m[0], cross(m[1], m[2])); }
+
+TEST(StrainTest, ComponentsKeepInnerProducts) {
+  RandomStream random{31, 1};
+  for (int k = 0; k < 100; ++k) {
+    const Vector6d v = random_strain(random, 1), w = random_strain(random, 1);
+    EXPECT_LE((strain_components(strain_tensor(v)) - v).norm(), 1e-15 * v.norm());
+    EXPECT_NEAR(strain_tensor(v).cwiseProduct(strain_tensor(w)).sum(), v.dot(w), 1e-14);
+    Eigen::Matrix3d turn;
+    turn << 0, 1, -2, -1, 0, 3, 2, -3, 0;
+    EXPECT_LE((strain_components(strain_tensor(v) + turn) - v).norm(), 1e-14);
+    const Eigen::Vector3d r(random.normal(), random.normal(), random.normal());
+    EXPECT_LE((strained(r) * v - strain_tensor(v) * r).norm(), 1e-14 * (1 + r.norm()));
+  }
+}
+
+TEST(StrainTest, BasesAreOrthonormal) {
+  for (const auto& entry : enum_names<CellFreedom>) {
+    const StrainBasis basis = strain_basis(entry.value);
+    const Eigen::Index n = basis.cols();
+    EXPECT_LE((basis.transpose() * basis - Eigen::MatrixXd::Identity(n, n)).norm(), 1e-15) << entry.name;
+    EXPECT_EQ(freedom_of(n), entry.value);
+  }
+  EXPECT_LE((traceless_basis().transpose() * trace_direction()).norm(), 1e-16);
+}
+
+TEST(StrainTest, ExponentialIsRightToAllDigits) {
+  RandomStream random{31, 2};
+  for (int k = 0; k < 100; ++k) {
+    const double scale = std::pow(10, -3 * random.uniform()) / 8;
+    const Eigen::Matrix3d strain = strain_tensor(random_strain(random, scale));
+    const QuadMatrix once = widened(exponential(strain)), twice = widened(exponential(2 * strain));
+    const QuadMatrix back = widened(exponential(-strain));
+    const QuadMatrix identity = widened(DoubleDoubleMatrix{});
+    EXPECT_LE(difference(once * once, twice), 1e-30) << scale;
+    EXPECT_LE(difference(once * back, identity), 1e-30) << scale;
+    const double trace = strain.trace();
+    EXPECT_NEAR(static_cast<double>(determinant(once)), std::exp(trace), 1e-15 * std::exp(trace)) << scale;
+  }
+}
+
+TEST(StrainTest, ExponentialKeepsTinyStrains) {
+  RandomStream random{31, 3};
+  for (const double scale : {1e-9, 1e-14, 1e-18}) {
+    const Eigen::Matrix3d strain = strain_tensor(random_strain(random, scale));
+    const QuadMatrix change = widened(exponential(strain)) - widened(DoubleDoubleMatrix{});
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        const Quad second = Quad((strain * strain)(r, c)) / 2;
+        EXPECT_LE(std::abs(static_cast<double>(change[r][c] - strain(r, c) - second)), 1e-12 * scale) << scale;
+      }
+    }
+  }
+}
+
+TEST(StrainTest, IsotropicStrainLeavesACubeACube) {
+  PeriodicCell cell(5.125);
+  for (const double strain : {1e-3, -2e-2, 3e-17, .2}) {
+    cell = cell.deformed(exponential(strain * Eigen::Matrix3d::Identity()));
+    EXPECT_TRUE(cell.is_cube()) << strain;
+  }
+  EXPECT_NEAR(cell.side(), 5.125 * std::exp(1e-3 - 2e-2 + .2), 1e-14);
+  EXPECT_NE(cell.vectors().low(0, 0), 0);
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,147 @@
+// Facts proved here, by differences in quadruple precision, in cells of every shape, of all five solids, in either
+// precision:
+//   gradient of the enthalpy by particles and by every freedom of the cell, border and corner of its second
+//   derivatives, each to 1e-9 of its size.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <cstdio>
+
+#include "engine/packing/cell/strain.hpp"
+#include "engine/packing/enthalpy.hpp"
+#include "tests/oracle/quad_packing.hpp"
+
+namespace isojam::oracle {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int particles = 70;
+
+/// A random packing in a cell sheared and stretched at random, legal still.
+Packing skewed(SolidKind kind, std::uint64_t seed) {
+  RandomStream random{81, seed, static_cast<std::uint64_t>(kind)};
+  const Packing packing = random_packing(platonic(kind), particles, .55, random);
+  while (true) {
+    DoubleDoubleMatrix f;
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c)
+        f.set(r, c, DoubleDouble(f.high(r, c) + .12 * random.normal()) + 1e-18 * random.normal());
+    }
+    if (f.high.determinant() <= .9 || f.high.determinant() > 1.2) continue;
+    const Packing candidate = deformed(packing, f);
+    if (is_legal(candidate.cell, *candidate.solid)) return candidate;
+  }
+}
+
+VectorXd random_direction(RandomStream& random, Eigen::Index size) {
+  VectorXd direction(size);
+  for (double& x : direction) x = random.normal();
+  return direction.normalized();
+}
+
+struct Case {
+  Packing packing;
+  Enthalpy enthalpy;
+  VectorXd along;
+};
+
+Case a_case(SolidKind kind, CellFreedom cell, std::uint64_t seed) {
+  RandomStream random{82, seed, static_cast<std::uint64_t>(cell)};
+  const Packing packing = skewed(kind, seed);
+  const CellControl control{cell, frees_volume(cell) ? 3e-3 : 0};
+  const VectorXd along = random_direction(random, 6 * particles + strain_basis(cell).cols());
+  return {packing, Enthalpy(control, packing.cell), along};
+}
+
+/// H in quadruple precision.
+Quad quad_enthalpy(const Case& at, const Packing& packing) {
+  const Quad volume = widened(packing.cell.volume_double_double());
+  return evaluate_in_quad(packing).energy + Quad(at.enthalpy.control().pressure) * volume;
+}
+
+/// The gradient of H in quadruple precision, as moved() takes steps.
+std::vector<Quad> quad_gradient(const Case& at, const Packing& packing) {
+  return gradient_of(evaluate_in_quad(packing), packing, at.enthalpy.control());
+}
+
+/// What the derivative of the gradient along moved() has beside the Hessian: ½ θ×T, since turns do not commute, and for
+/// the strains what forces and antisymmetric stress do along the step. All of it vanishes in balance.
+VectorXd out_of_balance(const Case& at, const Evaluation& here) {
+  const Packing& packing = at.packing;
+  VectorXd result = VectorXd::Zero(at.along.size());
+  Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < packing.size(); ++i) {
+    const Eigen::Vector3d theta = at.along.segment<3>(6 * i + 3) / packing.solid->gyration_radius();
+    const Eigen::Vector3d slope = here.gradient.segment<3>(6 * i), torque = here.gradient.segment<3>(6 * i + 3);
+    result.segment<3>(6 * i + 3) = theta.cross(torque) / 2;
+    virial += slope * at.along.segment<3>(6 * i).transpose();
+  }
+  const StrainBasis basis = strain_basis(at.enthalpy.control().cell);
+  const Eigen::Index strains = basis.cols();
+  if (strains == 0) return result;
+  const double length = strain_length(particles);
+  const Eigen::Matrix3d strain = strain_tensor(basis * at.along.tail(strains) / length);
+  const Eigen::Matrix3d turning = packing.cell.volume() * (here.stress - here.stress.transpose()) / 2;
+  virial += turning * strain;
+  result.tail(strains) = basis.transpose() * strain_components(virial) / length;
+  return result;
+}
+
+class EnthalpyDerivatives : public testing::TestWithParam<CellFreedom> {};
+
+TEST_P(EnthalpyDerivatives, GradientIsThatOfTheEnthalpy) {
+  const double h = 1e-9;
+  for (const SolidKind kind : all_solids) {
+    const Case at = a_case(kind, GetParam(), 1);
+    const Quad forth = quad_enthalpy(at, moved(at.packing, h * at.along)),
+               back = quad_enthalpy(at, moved(at.packing, -h * at.along));
+    const auto by_differences = static_cast<double>((forth - back) / (2 * Quad(h)));
+    for (const Precision precision : {Precision::working, Precision::double_double}) {
+      const Evaluation here = at.enthalpy.of(PackingEnergy().evaluate(at.packing, precision), at.packing);
+      ASSERT_EQ(here.gradient.size(), at.along.size());
+      EXPECT_NEAR(here.gradient.dot(at.along), by_differences, 1e-9 * here.gradient.norm())
+          << to_string(kind) << ", " << to_string(GetParam());
+      const std::vector<Quad> exact = quad_gradient(at, at.packing);
+      for (Eigen::Index k = 0; k < here.gradient.size(); ++k)
+        ASSERT_NEAR(here.gradient[k], static_cast<double>(exact[k]), 1e-12 * here.gradient.norm()) << k;
+    }
+  }
+}
+
+TEST_P(EnthalpyDerivatives, HessianIsThatOfTheGradient) {
+  const double h = 1e-9;
+  const CellFreedom cell = GetParam();
+  for (const SolidKind kind : all_solids) {
+    const Case at = a_case(kind, cell, 2);
+    const std::vector<Quad> forth = quad_gradient(at, moved(at.packing, h * at.along)),
+                            back = quad_gradient(at, moved(at.packing, -h * at.along));
+    VectorXd by_differences(at.along.size());
+    for (Eigen::Index k = 0; k < by_differences.size(); ++k)
+      by_differences[k] = static_cast<double>((forth[k] - back[k]) / (2 * Quad(h)));
+    for (const Precision precision : {Precision::working, Precision::double_double}) {
+      BlockMatrix hessian = PackingEnergy().second_order(at.packing, 0, precision, cell).hessian;
+      at.enthalpy.add_to(hessian, at.packing);
+      const Evaluation here = at.enthalpy.of(PackingEnergy().evaluate(at.packing, precision), at.packing);
+      const VectorXd exact = hessian * at.along + out_of_balance(at, here);
+      const double error = (exact - by_differences).norm() / by_differences.norm();
+      const Eigen::Index strains = hessian.strains();
+      const double of_cell = (exact.tail(strains) - by_differences.tail(strains)).norm();
+      const double scale = by_differences.tail(strains).norm();
+      std::printf("%-12s %-9s error %.1e, of strains %.1e of %.1e\n", to_string(kind).data(), to_string(cell).data(),
+                  error, of_cell, scale);
+      EXPECT_LE(error, 1e-9) << to_string(kind) << ", " << to_string(cell);
+      EXPECT_LE(of_cell, 1e-9 * scale) << to_string(kind) << ", " << to_string(cell);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryCell, EnthalpyDerivatives,
+                         testing::Values(CellFreedom::fixed, CellFreedom::isotropic, CellFreedom::shape,
+                                         CellFreedom::free),
+                         [](const auto& cell) { return std::string(to_string(cell.param)); });
+
+}  // namespace
+}  // namespace isojam::oracle
