@@ -134,16 +134,15 @@ std::vector<Flag> exclude_of(const Json& manifest) {
   return flags;
 }
 
-/// Strain and stress over the first state's pressure along a shear; empty without one.
+/// Strain, and stress over pressure, along a shear; empty without one.
 Json shear_points(const Json& record) {
   Json points = Json::array();
-  const auto pressure = number_at(record, "/shear/path/0/pressure");
-  if (pressure.is_null() || pressure.get<double>() <= 0) return points;
   for (const auto& state : list_at(record, "/shear/path")) {
-    const auto stress = number_at(state, "/stress");
+    const auto stress = number_at(state, "/stress"), pressure = number_at(state, "/pressure");
+    const bool known = !stress.is_null() && !pressure.is_null() && pressure.get<double>() > 0;
     Json point;
     point["strain"] = number_at(state, "/strain");
-    point["stress"] = stress.is_null() ? stress : Json(stress.get<double>() / pressure.get<double>());
+    point["stress"] = known ? Json(stress.get<double>() / pressure.get<double>()) : Json(nullptr);
     point["dropped"] = value_at(state, "/dropped") == Json(true);
     points.push_back(std::move(point));
   }

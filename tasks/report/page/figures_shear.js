@@ -36,9 +36,9 @@ function shearFigure(data) {
   };
   return {
     id, title, datasets,
-    note: 'Shear stress over the pressure at the start against strain, for the packing nearest jamming of every ' +
-      'replicate; triangles are states that the packing came to by giving way. A packing jammed in a cube has some ' +
-      'shear stress before it is strained.',
+    note: 'Shear stress over pressure against strain, for the packing nearest jamming of every replicate; triangles ' +
+      'are states that the packing came to by giving way. A packing jammed in a cube has some shear stress before it ' +
+      'is strained.',
     spec: (width) => panelSpec({description: 'Shear stress over pressure against strain.', width,
       count: present.length, datasets, panelAt, height: 200}),
   };

@@ -1,6 +1,7 @@
 // Facts proved here:
 // - a run that goes on from the text of any of its checkpoints ends with the record of the run that never stopped, but
-//   for timing, also where steps failed and were tried again; so does one that had ended and was not recorded yet;
+//   for timing, also where steps failed and were tried again, and in a cell that gives way; so does one that had ended
+//   and was not recorded yet;
 // - a checkpoint of another replicate, manifest or build, or with states that are not its own, is refused where it is
 //   wrong; a run that is no longer finite leaves none.
 
@@ -55,6 +56,14 @@ int expect_the_same_bits(const ReplicateSpec& spec) {
     EXPECT_EQ(sealed(*make_checkpoint(spec, from)), text);
   }
   return halvings;
+}
+
+TEST(Checkpoint, TheRestOfARunInACellThatGivesWayHasTheSameBits) {
+  auto manifest = test::tiny_manifest();
+  manifest["measure"] = {"contacts"};
+  manifest["protocol"]["control"] = "pressure";
+  manifest["protocol"]["cell"] = "free";
+  expect_the_same_bits(test::make_plan(parse_manifest(manifest.dump(), "tiny"))[0]);
 }
 
 TEST(Checkpoint, TheRestOfARunHasTheSameBits) {
