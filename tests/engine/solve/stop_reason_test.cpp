@@ -42,7 +42,7 @@ TEST(StopReasonTest, EveryReasonHasItsOwnName) {
   std::set<std::string_view> names;
   for (int k = 0; k <= static_cast<int>(StopReason::interrupted); ++k)
     names.insert(to_string(static_cast<StopReason>(k)));
-  EXPECT_EQ(names.size(), 9U);
+  EXPECT_EQ(names.size(), 10U);
   EXPECT_EQ(to_string(StopReason::not_called), "not_called");
   EXPECT_EQ(to_string(StopReason::precision_floor), "precision_floor");
   EXPECT_EQ(to_string(StopReason::interrupted), "interrupted");
