@@ -142,7 +142,7 @@ Eigen::Vector3i PeriodicCell::nearest_shift(const Eigen::Vector3d& d) const {
 }
 
 Eigen::Vector3d PeriodicCell::nearest_image(const Eigen::Vector3d& d) const {
-  const Eigen::Vector3d first = d + translation(nearest_shift(d));
+  Eigen::Vector3d first = d + translation(nearest_shift(d));
   if (is_cube_) return first;
   // Whatever is nearer lies fewer cells away than its length has heights.
   const Eigen::Vector3i most = (first.norm() * heights_.cwiseInverse()).array().floor().cast<int>() + 1;

@@ -211,7 +211,7 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const IncipientContact& pair = second_.pairs[k];
     if (before[k].closing && !states_[k].closing) return std::nullopt;
-    if (states_[k].closing && !before[k].closing) terms.push_back(column(pair, pair.closed) / std::sqrt(2.0));
+    if (states_[k].closing && !before[k].closing) terms.emplace_back(column(pair, pair.closed) / std::sqrt(2.0));
     const double extra = tilt_weight(pair, states_[k], shift) - tilt_weight(pair, before[k], shift);
     if (extra > 0) {
       for (const Eigen::Vector3d& turn : roots(extra * pair.tilt)) {

@@ -340,6 +340,7 @@ class Multipliers {
     summary_ = sum;
   }
 
+  BlockCholesky factor_;
   Packing& packing_;
   double distance_;
   PackingEnergy& energy_;
@@ -348,7 +349,6 @@ class Multipliers {
   MinimiseSummary summary_;
   EnvelopeEvaluator evaluator_;
   EnvelopeState here_;
-  BlockCholesky factor_;
   double first_force_ = 0;                                   ///< mean force of the equilibrium that it starts from
   double expected_force_ = 0;                                ///< mean force if nothing gives way
   double force_ = 0, k0_ = 0;                                ///< scales
