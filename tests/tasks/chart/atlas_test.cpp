@@ -1,9 +1,9 @@
 // Facts proved here:
 //   every cell of the stability atlas is as the tables of atlas_expected.cpp say, a letter for each setting (h holds,
-//   r refuses, f fails): isojam's own methods, and those that are there to be compared with;
-//   no cell is missing from a table, and none is there twice;
-//   isojam's own methods hold in every cell, or refuse; every cell says what was measured and why it was judged so;
-//   the same bits come out every time; after a stop request no row does.
+//   r refuses, f fails, ? holds or refuses as the last bits of a compiler's arithmetic have it): isojam's own methods,
+//   and those that are there to be compared with; no cell is missing from a table, and none is there twice; isojam's
+//   own methods hold in every cell, or refuse; every cell says what was measured and why it was judged so; the same
+//   bits come out every time; after a stop request no row does.
 
 #include <gtest/gtest.h>
 
@@ -31,6 +31,8 @@ void expect_as_told(const std::vector<AtlasRow>& rows, std::span<const ExpectedC
     std::string& letters = found[{row.regime, row.method}];
     letters += letter(row);
     const std::string& told = expected[{row.regime, row.method}];
+    const bool open = told.size() >= letters.size() && told[letters.size() - 1] == '?';
+    if (open && letters.back() != 'f') letters.back() = '?';
     EXPECT_TRUE(told.size() >= letters.size() && told[letters.size() - 1] == letters.back())
         << text_of(row) << "; expected " << told;
   }
