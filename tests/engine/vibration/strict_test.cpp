@@ -132,7 +132,8 @@ TEST(StrictTest, APackingThatItsBoxHoldsIsToldFromOneThatIsStrictlyJammed) {
   Packing lattice{&platonic(SolidKind::cube), PeriodicCell(4 * .98), {}};
   for (int k = 0; k < 64; ++k) {
     Pose pose;
-    pose.position = .98 * Eigen::Vector3d(k % 4, k / 4 % 4, k / 16);
+    const Eigen::Vector3i place(k % 4, k / 4 % 4, k / 16);
+    pose.position = .98 * place.cast<double>();
     lattice.poses.push_back(pose);
   }
   const Evaluation here = PackingEnergy().evaluate(lattice);

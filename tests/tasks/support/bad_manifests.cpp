@@ -76,11 +76,6 @@ std::vector<BadManifest> malformed() {
       set("method is a number", "/minimiser/method", 3, "\"conjugate_gradient\", \"fire\""),
       set("misspelt control", "/protocol/control", "preasure", "did you mean \"pressure\"?"),
       set("a cell of no kind", "/protocol/cell", "cubic", "\"isotropic\", \"free\""),
-      set("shear that is no object", "/shear", "pure", "an object"),
-      set("misspelt key of shear", "/shear", {{"stp", 0.1}}, "did you mean \"step\"?", "/shear/stp"),
-      set("shear of no kind", "/shear", {{"mode", "torsion"}}, "\"pure\", \"simple\"", "/shear/mode"),
-      set("shear without a step", "/shear", {{"step", 0}}, "a number in (0, 1]", "/shear/step"),
-      set("shear back and forth", "/shear", {{"back", 3}}, "true or false", "/shear/back"),
       set("misspelt measure", "/measure", {"contact"}, "did you mean \"contacts\"?", "/measure/0"),
       set("measure is no list", "/measure", "contacts", "a list"),
       set("misspelt flag", "/exclude", {"cristalline"}, "did you mean \"crystalline\"?", "/exclude/0"),
@@ -105,6 +100,17 @@ std::vector<BadManifest> malformed_base() {
       set("a base of an unknown method", "/base/method", "newtom", "did you mean \"newton\"?"),
       set("a base that names nothing", "/base", Json::object(), "one or more swept parameters"),
       set("a base that is a list", "/base", {"step_fraction"}, "an object with the keys"),
+  };
+}
+
+/// How to shear, in words that a schema refuses.
+std::vector<BadManifest> malformed_shear() {
+  return {
+      set("shear that is no object", "/shear", "pure", "an object"),
+      set("misspelt key of shear", "/shear", {{"stp", 0.1}}, "did you mean \"step\"?", "/shear/stp"),
+      set("shear of no kind", "/shear", {{"mode", "torsion"}}, "\"pure\", \"simple\"", "/shear/mode"),
+      set("shear without a step", "/shear", {{"step", 0}}, "a number in (0, 1]", "/shear/step"),
+      set("shear back and forth", "/shear", {{"back", 3}}, "true or false", "/shear/back"),
   };
 }
 
@@ -214,7 +220,7 @@ Json good_manifest() {
 
 std::vector<BadManifest> bad_manifests() {
   auto all = malformed();
-  for (const auto& more : {malformed_base(), malformed_sweep(), inconsistent(), unreadable()})
+  for (const auto& more : {malformed_base(), malformed_shear(), malformed_sweep(), inconsistent(), unreadable()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
