@@ -1,86 +1,20 @@
 #include "engine/geometry/convex_solid.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
-#include <set>
 #include <stdexcept>
 #include <utility>
+
+#include "engine/geometry/hull.hpp"
 
 namespace isojam {
 
 namespace {
 
-using Vector3l = Eigen::Matrix<long double, 3, 1>;
-
-/// A face of the hull: its vertices counter-clockwise seen from outside.
-using Loop = std::vector<int>;
-
-long double extent(const std::vector<Vector3l>& points) {
-  long double scale = 0;
-  for (const Vector3l& point : points) scale = std::max(scale, point.norm());
-  return scale;
-}
-
-/// Vertices of the supporting plane through a, b, c; empty if they are collinear or the plane cuts the body.
-std::vector<int> supporting_plane(const std::vector<Vector3l>& points, int a, int b, int c, long double scale) {
-  // Vertices given in double are coplanar only to their own rounding.
-  const long double tolerance = 64 * static_cast<long double>(std::numeric_limits<double>::epsilon()) * scale;
-  Vector3l normal = (points[b] - points[a]).cross(points[c] - points[a]);
-  if (normal.norm() <= tolerance * scale) return {};
-  normal.normalize();
-  std::vector<int> on_plane;
-  bool above = false, below = false;
-  for (int k = 0; k < static_cast<int>(points.size()); ++k) {
-    const long double distance = normal.dot(points[k] - points[a]);
-    if (std::abs(distance) <= tolerance) {
-      on_plane.push_back(k);
-    } else {
-      (distance > 0 ? above : below) = true;
-    }
-  }
-  return above && below ? std::vector<int>{} : on_plane;
-}
-
-/// Orders the vertices of a face counter-clockwise about its outward normal, starting from the least index.
-void order_counter_clockwise(Loop& face, const Vector3l& normal, const std::vector<Vector3l>& points) {
-  Vector3l centre = Vector3l::Zero();
-  for (const int v : face) centre += points[v];
-  centre /= static_cast<long double>(face.size());
-  const Vector3l u = (points[face.front()] - centre).normalized();
-  const Vector3l w = normal.cross(u);
-  const auto angle = [&](int v) {
-    const Vector3l d = points[v] - centre;
-    const long double value = std::atan2(w.dot(d), u.dot(d));
-    return value < -std::numeric_limits<double>::epsilon() ? value + 2 * std::numbers::pi_v<long double> : value;
-  };
-  std::sort(face.begin(), face.end(), [&](int p, int q) { return angle(p) < angle(q); });
-}
-
-std::vector<Loop> hull(const std::vector<Vector3l>& points) {
-  const int n = static_cast<int>(points.size());
-  const long double scale = extent(points);
-  Vector3l inside = Vector3l::Zero();
-  for (const Vector3l& point : points) inside += point / static_cast<long double>(n);
-  std::set<std::vector<int>> seen;
-  std::vector<Loop> faces;
-  for (int a = 0; a < n; ++a) {
-    for (int b = a + 1; b < n; ++b) {
-      for (int c = b + 1; c < n; ++c) {
-        std::vector<int> on_plane = supporting_plane(points, a, b, c, scale);
-        if (on_plane.empty() || !seen.insert(on_plane).second) continue;
-        Vector3l normal = (points[b] - points[a]).cross(points[c] - points[a]).normalized();
-        if (normal.dot(points[a] - inside) < 0) normal = -normal;
-        order_counter_clockwise(on_plane, normal, points);
-        faces.push_back(std::move(on_plane));
-      }
-    }
-  }
-  return faces;
-}
+/// A face of the hull.
+using Loop = FaceLoop;
 
 struct Plane {
   Quad3 normal{};
@@ -103,9 +37,15 @@ Plane fitted_plane(const Loop& face, const std::vector<Quad3>& points) {
 
 struct Moments {
   Quad volume = 0;
-  Quad3 first{};    ///< ∫ x dV
-  Quad second = 0;  ///< ∫ |x|² dV
+  Quad3 first{};          ///< ∫ x dV
+  Quad second = 0;        ///< ∫ |x|² dV
+  QuadMatrix products{};  ///< ∫ x xᵀ dV
 };
+
+/// w p pᵀ
+void add_product(Quad w, const Quad3& p, QuadMatrix& sum) {
+  for (std::size_t r = 0; r < 3; ++r) sum[r] = sum[r] + w * p[r] * p;
+}
 
 Moments moments(const std::vector<Quad3>& points, const std::vector<Loop>& faces) {
   Moments m;
@@ -119,9 +59,27 @@ Moments moments(const std::vector<Quad3>& points, const std::vector<Loop>& faces
       m.volume += det / 6;
       m.first = m.first + det / 24 * s;
       m.second += det / 120 * (dot(a, a) + dot(b, b) + dot(c, c) + dot(s, s));
+      for (const Quad3& p : {a, b, c, s}) add_product(det / 120, p, m.products);
     }
   }
   return m;
+}
+
+Eigen::Matrix3d inertia_tensor(const Moments& m) {
+  Eigen::Matrix3d tensor;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c)
+      tensor(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
+          static_cast<double>((r == c ? m.second : 0) - m.products[r][c]);
+  }
+  return tensor;
+}
+
+/// A multiple of 1, to what rounding of vertices in double leaves of it.
+bool is_isotropic(const Eigen::Matrix3d& tensor) {
+  const double mean = tensor.trace() / 3;
+  const Eigen::Matrix3d rest = tensor - mean * Eigen::Matrix3d::Identity();
+  return rest.cwiseAbs().maxCoeff() <= 64 * std::numeric_limits<double>::epsilon() * mean;
 }
 
 /// Edges tail < head, in order of (tail, head).
@@ -134,7 +92,7 @@ std::vector<Edge> find_edges(const std::vector<Loop>& faces) {
   std::vector<Edge> edges;
   for (const auto& [ends, left] : left_of) {
     const auto back = left_of.find({ends.second, ends.first});
-    if (back == left_of.end()) throw std::invalid_argument("the faces do not close a convex polyhedron");
+    if (back == left_of.end()) throw NoSolid("the faces do not close a convex polyhedron");
     if (ends.first < ends.second) edges.push_back({ends.first, ends.second, left, back->second});
   }
   return edges;
@@ -201,28 +159,23 @@ std::vector<Quad3> widened(std::span<const Eigen::Vector3d> vertices) {
   return result;
 }
 
-std::vector<Vector3l> extended(std::span<const Quad3> vertices) {
-  std::vector<Vector3l> result;
-  for (const Quad3& v : vertices)
-    result.emplace_back(static_cast<long double>(v[0]), static_cast<long double>(v[1]), static_cast<long double>(v[2]));
-  return result;
-}
-
 }  // namespace
 
 ConvexSolid::ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vertices)
-    : ConvexSolid(std::move(name), widened(vertices)) {}
+    : ConvexSolid(std::move(name), widened(vertices)) {
+  given_.assign(vertices.begin(), vertices.end());
+}
 
 ConvexSolid::ConvexSolid(std::string name, std::span<const Quad3> vertices) : name_(std::move(name)) {
   if (vertices.size() < 4 || vertices.size() > max_features)
-    throw std::invalid_argument("a solid has 4 to 32 vertices");
-  // Which vertices make a face is safe to decide in less precision than the constants have.
-  const std::vector<Loop> loops = hull(extended(vertices));
-  if (loops.size() < 4) throw std::invalid_argument("the vertices span no volume");
+    throw NoSolid("a solid has 4 to " + std::to_string(max_features) + " vertices, not " +
+                  std::to_string(vertices.size()));
+  const std::vector<Loop> loops = hull_faces(vertices);
   edges_ = find_edges(loops);
   if (loops.size() > max_features || edges_.size() > max_features)
-    throw std::invalid_argument("a solid has at most 32 faces and 32 edges");
-  if (vertices.size() + loops.size() != edges_.size() + 2) throw std::invalid_argument("a vertex is not extreme");
+    throw NoSolid("a solid has at most " + std::to_string(max_features) + " faces and edges, not " +
+                  std::to_string(loops.size()) + " and " + std::to_string(edges_.size()));
+  if (vertices.size() + loops.size() != edges_.size() + 2) throw NoSolid("a vertex is not extreme");
 
   std::vector<Quad3> points(vertices.begin(), vertices.end());
   const Moments raw = moments(points, loops);
@@ -231,7 +184,6 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Quad3> vertices) : na
   for (Quad3& point : points) point = scale * (point - centroid);
   std::vector<Plane> planes;
   for (const Loop& loop : loops) planes.push_back(fitted_plane(loop, points));
-
   for (const Quad3& point : points) {
     vertices_.push_back(rounded(point));
     circumradius_ = std::max(circumradius_, static_cast<double>(norm(point)));
@@ -242,7 +194,10 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Quad3> vertices) : na
     faces_.push_back({rounded(planes[f].normal), static_cast<double>(planes[f].offset), loops[f]});
     inradius_ = std::min(inradius_, faces_.back().offset);
   }
-  gyration_radius_ = static_cast<double>(square_root(2 * moments(points, loops).second / 3));
+  const Moments about_centroid = moments(points, loops);
+  gyration_radius_ = static_cast<double>(square_root(2 * about_centroid.second / 3));
+  inertia_ = inertia_tensor(about_centroid);
+  is_spherical_top_ = is_isotropic(inertia_);
   arrays_ = flatten(points, planes, loops, edges_);
 }
 

@@ -96,13 +96,15 @@ class ConvexSolid {
   static constexpr int max_features = SolidArrays::capacity;
 
   /// Hull of `vertices` (all of them extreme), moved and scaled to unit volume and centroid 0.
-  /// Throws std::invalid_argument if a vertex is not extreme or the limits are exceeded.
+  /// Throws NoSolid (hull.hpp), a std::invalid_argument, if a vertex is not extreme or the limits are exceeded.
   ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vertices);
   /// Hull of vertices in quadruple precision, so that every constant is the nearest double and its low part
   /// correct to 1e-32.
   ConvexSolid(std::string name, std::span<const Quad3> vertices);
 
   const std::string& name() const { return name_; }
+  /// The vertices that it was made of, in their own units and place; none if these were in quadruple precision.
+  const std::vector<Eigen::Vector3d>& given() const { return given_; }
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<Edge>& edges() const { return edges_; }
@@ -110,9 +112,12 @@ class ConvexSolid {
   double inradius() const { return inradius_; }          ///< least distance of a face from the centroid
   double circumradius() const { return circumradius_; }  ///< greatest distance of a vertex from the centroid
   double diameter() const { return diameter_; }          ///< greatest distance between two vertices
-  /// Radius of gyration about an axis, R = sqrt(I/m), I the mean principal moment of inertia (they are equal for the
-  /// Platonic solids).
+  /// Radius of gyration about an axis, R = sqrt(I/m), I the mean principal moment of inertia.
   double gyration_radius() const { return gyration_radius_; }
+  /// Tensor of inertia about the centroid, ∫ (|x|² − x xᵀ) dV, body frame: R² of a spherical top.
+  const Eigen::Matrix3d& inertia() const { return inertia_; }
+  /// Whether all moments of inertia are equal, to within rounding: the Platonic solids and all of their symmetry.
+  bool is_spherical_top() const { return is_spherical_top_; }
 
  private:
   std::string name_;
@@ -121,6 +126,9 @@ class ConvexSolid {
   std::vector<Edge> edges_;
   SolidArrays arrays_;
   double inradius_ = 0, circumradius_ = 0, diameter_ = 0, gyration_radius_ = 0;
+  Eigen::Matrix3d inertia_ = Eigen::Matrix3d::Zero();
+  std::vector<Eigen::Vector3d> given_;
+  bool is_spherical_top_ = false;
 };
 
 /// The shared immutable instance of a Platonic solid.

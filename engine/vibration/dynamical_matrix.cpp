@@ -1,6 +1,8 @@
 #include "engine/vibration/dynamical_matrix.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -9,6 +11,60 @@
 #include "engine/solve/factor/shift_invert.hpp"
 
 namespace isojam {
+
+namespace {
+
+using Principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+
+/// R I^(-1/2) of every particle, lab frame: what M^(-1/2) is for R·θ.
+std::vector<Eigen::Matrix3d> inverse_roots(const Packing& packing) {
+  const Principal principal(packing.solid->inertia());
+  const Eigen::Matrix3d& axes = principal.eigenvectors();
+  const Eigen::Vector3d roots = packing.solid->gyration_radius() * principal.eigenvalues().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix3d body = axes * roots.asDiagonal() * axes.transpose();
+  std::vector<Eigen::Matrix3d> result;
+  for (const Pose& pose : packing.poses) {
+    const Eigen::Matrix3d rotation = rotation_matrix(pose).high;
+    result.emplace_back(rotation * body * rotation.transpose());
+  }
+  return result;
+}
+
+}  // namespace
+
+BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian) {
+  assert(hessian.strains() == 0);
+  if (packing.solid->is_spherical_top()) return hessian;
+  const std::vector<Eigen::Matrix3d> roots = inverse_roots(packing);
+  const auto scale = [&](Matrix6d& block, int row, int column) {
+    block.bottomRows<3>() = (roots[static_cast<std::size_t>(row)] * block.bottomRows<3>()).eval();
+    block.rightCols<3>() = (block.rightCols<3>() * roots[static_cast<std::size_t>(column)]).eval();
+  };
+  for (int k = 0; k < hessian.size(); ++k) {
+    Matrix6d& own = hessian.diagonal[static_cast<std::size_t>(k)];
+    scale(own, k, k);
+    own = ((own + own.transpose()) / 2).eval();  // what rounding took of its symmetry
+  }
+  for (BlockMatrix::Block& block : hessian.off_diagonal) scale(block.value, block.row, block.column);
+  return hessian;
+}
+
+Eigen::MatrixXd mode_displacements(const Packing& packing, Eigen::MatrixXd modes) {
+  if (packing.solid->is_spherical_top()) return modes;
+  const std::vector<Eigen::Matrix3d> roots = inverse_roots(packing);
+  for (int k = 0; k < packing.size(); ++k) {
+    auto turns = modes.middleRows<3>(6 * Eigen::Index{k} + 3);
+    turns = (roots[static_cast<std::size_t>(k)] * turns).eval();
+  }
+  return modes;
+}
+
+double greatest_inverse_mass(const Packing& packing) {
+  const ConvexSolid& solid = *packing.solid;
+  if (solid.is_spherical_top()) return 1;
+  const double radius = solid.gyration_radius();
+  return radius * radius / Principal(solid.inertia()).eigenvalues()[0];
+}
 
 Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix) {
   return lower_half(matrix, 0).selfadjointView<Eigen::Lower>();

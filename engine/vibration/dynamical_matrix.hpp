@@ -9,9 +9,20 @@
 
 namespace isojam {
 
-// The dynamical matrix D of a packing, ω² u = D u, is what PackingEnergy::hessian returns. Its coordinates are
-// r = {x, R·θ} per particle, R the radius of gyration; a particle has mass 1, and so has the coordinate R·θ, since
-// ½ I θ'² = ½ (R θ')². Nothing is left to be scaled: D = ∂²E/∂r², λ = ω² in (Y/ρ)·V_p^(-2/3).
+// The dynamical matrix D of a packing, ω² u = D u, has the coordinates of PackingEnergy::hessian, r = {x, R·θ} per
+// particle, R the radius of gyration. A particle has mass 1, and the coordinate R·θ the tensor of mass I/R², since
+// ½ θ'ᵀIθ' = ½ (Rθ')ᵀ(I/R²)(Rθ'). For spherical tops that is 1, and D = ∂²E/∂r². Otherwise D = M^(-1/2) ∂²E/∂r²
+// M^(-1/2) with the symmetric root, and a mode moves the particles by M^(-1/2) u. λ = ω² in (Y/ρ)·V_p^(-2/3).
+
+/// D from the Hessian of the packing, which may have no border.
+BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian);
+
+/// M^(-1/2) u, columns of 6N: displacements (x, R·θ) from modes of D.
+Eigen::MatrixXd mode_displacements(const Packing& packing, Eigen::MatrixXd modes);
+
+/// The greatest entry of M^(-1) in principal axes, R²/I of the least moment: by how much more than R·θ a torque turns.
+/// 1 for spherical tops.
+double greatest_inverse_mass(const Packing& packing);
 
 /// Both halves of D, 6N × 6N, and of its border where it has one.
 Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix);

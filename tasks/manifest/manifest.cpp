@@ -17,6 +17,7 @@
 #include "tasks/manifest/fields.hpp"
 #include "tasks/manifest/shear.hpp"
 #include "tasks/measure/quantity.hpp"
+#include "tasks/solids/definitions.hpp"
 #include "tasks/system/file.hpp"
 
 namespace isojam {
@@ -31,9 +32,9 @@ constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
 constexpr std::size_t longest_name = 64;
 
-constexpr std::array<std::string_view, 14> keys{"$schema",    "name",      "checksum",  "seed",    "sweep",
+constexpr std::array<std::string_view, 15> keys{"$schema",    "name",      "checksum",  "seed",    "sweep",
                                                 "replicates", "protocol",  "minimiser", "measure", "modes",
-                                                "shear",      "keep_path", "exclude",   "base"};
+                                                "shear",      "keep_path", "exclude",   "base",    "solids"};
 constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 
 /// Where a parameter belongs that stands at the wrong place.
@@ -95,15 +96,15 @@ auto read_sweep_list(const JsonPlace& place, const std::string& allowed, Read re
   return values;
 }
 
-void read_sweep(const JsonPlace& place, Manifest& manifest) {
+void read_sweep(const JsonPlace& place, const SolidDefinitions& definitions, Manifest& manifest) {
   std::vector<std::string_view> names{"solid", "particles"};
   for (const auto& field : all_fields()) names.push_back(field.name);
   refuse_renamed(place);
   place.expect_keys(names);
 
   place.read("solid", [&](const JsonPlace& list) {
-    manifest.solids = read_sweep_list(list, quoted_list(all_names<SolidKind>),
-                                      [](const JsonPlace& entry) { return entry.choice<SolidKind>(); });
+    manifest.solids = read_sweep_list(list, "the name of a solid",
+                                      [&](const JsonPlace& entry) { return read_solid_name(entry, definitions); });
   });
   place.read("particles", [&](const JsonPlace& list) {
     manifest.particles = read_sweep_list(list, integer_in(particle_range), [](const JsonPlace& entry) {
@@ -235,18 +236,18 @@ void check_particles(const JsonPlace& root, const Manifest& manifest, const std:
     density = std::max(density, set.options.max_density);
     start = std::max(start, set.options.initial_density);
   }
-  const auto needs = [&](SolidKind kind) { return least_particles(platonic(kind), density); };
-  const auto kind = *std::max_element(manifest.solids.begin(), manifest.solids.end(),
-                                      [&](SolidKind a, SolidKind b) { return needs(a) < needs(b); });
+  const auto needs = [&](const Solid& solid) { return least_particles(*solid, density); };
+  const auto neediest = *std::max_element(manifest.solids.begin(), manifest.solids.end(),
+                                          [&](const Solid& a, const Solid& b) { return needs(a) < needs(b); });
   for (const int particles : manifest.particles) {
-    if (particles >= needs(kind)) continue;
-    const double allowed = densest(platonic(kind), particles);
+    if (particles >= needs(neediest)) continue;
+    const double allowed = densest(*neediest, particles);
     root.attempt([&] {
       place_of_particles(root, particles)
           .refuse(fmt::format("{} particles are too few for the periodic cell: at max_density {} one {} would touch "
                               "two images of another",
-                              particles, density, to_string(kind)),
-                  fmt::format("{} or more{}", needs(kind),
+                              particles, density, to_string(neediest)),
+                  fmt::format("{} or more{}", needs(neediest),
                               allowed > start ? fmt::format(", or a max_density of {} or less", allowed) : ""));
     });
   }
@@ -271,7 +272,9 @@ void read_values(const JsonPlace& root, Manifest& manifest) {
   root.read("seed", [&](const JsonPlace& place) {
     manifest.seed = static_cast<std::uint64_t>(place.integer({0, greatest_seed}));
   });
-  root.read("sweep", [&](const JsonPlace& place) { read_sweep(place, manifest); });
+  SolidDefinitions definitions;
+  root.read_if_any("solids", [&](const JsonPlace& place) { definitions = read_definitions(place); });
+  root.read("sweep", [&](const JsonPlace& place) { read_sweep(place, definitions, manifest); });
   for (const auto group : {Group::protocol, Group::minimiser}) {
     root.read_if_any(std::string(to_string(group)),
                      [&](const JsonPlace& place) { read_group(root, place, group, manifest); });
@@ -346,7 +349,7 @@ Json to_json(const Manifest& manifest) {
   json["name"] = manifest.name;
   json["seed"] = manifest.seed;
   auto& sweep = json["sweep"];
-  for (const auto kind : manifest.solids) sweep["solid"].push_back(to_string(kind));
+  for (const auto& solid : manifest.solids) sweep["solid"].push_back(to_string(solid));
   sweep["particles"] = manifest.particles;
   for (const auto& swept : manifest.swept) sweep[swept.name] = swept.values;
   json["replicates"] = to_json(manifest.replicates);
@@ -361,6 +364,7 @@ Json to_json(const Manifest& manifest) {
   json["keep_path"] = manifest.keep_path;
   json["exclude"] = option_json(manifest.exclude);
   if (!manifest.base.empty()) json["base"] = manifest.base;
+  if (auto definitions = definitions_json(manifest.solids); !definitions.is_null()) json["solids"] = definitions;
   return json;
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/solids/solid.hpp"
 #include "engine/solve/jam.hpp"
 #include "tasks/json/json.hpp"
 #include "tasks/measure/flag.hpp"
@@ -40,7 +40,7 @@ struct Replicates {
 struct Manifest {
   std::string name;
   std::uint64_t seed = 0;
-  std::vector<SolidKind> solids;  ///< in the order of all_solids
+  std::vector<Solid> solids;      ///< ascending
   std::vector<int> particles;     ///< ascending
   std::vector<SweptField> swept;  ///< by name
   Replicates replicates;

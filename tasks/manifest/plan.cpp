@@ -9,6 +9,7 @@
 #include "tasks/json/hash.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tasks/manifest/shear.hpp"
+#include "tasks/solids/solid_json.hpp"
 
 namespace isojam {
 namespace {
@@ -31,7 +32,7 @@ std::string prefix(const ReplicateSpec& spec) {
 
 }  // namespace
 
-std::string point_text(SolidKind solid, int particles, const Json& parameters) {
+std::string point_text(const Solid& solid, int particles, const Json& parameters) {
   Json point;
   point["solid"] = to_string(solid);
   point["particles"] = particles;
@@ -92,7 +93,7 @@ RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose) {
 
 Json to_json(const ReplicateSpec& spec) {
   Json json;
-  json["solid"] = to_string(spec.solid);
+  put_solid(json, spec.solid);
   json["particles"] = spec.particles;
   json["parameters"] = spec.parameters;
   json["replicate"] = spec.replicate;

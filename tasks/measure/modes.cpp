@@ -2,6 +2,7 @@
 
 #include "engine/analysis/clusters.hpp"
 #include "engine/packing/energy.hpp"
+#include "engine/vibration/dynamical_matrix.hpp"
 #include "engine/vibration/mode_statistics.hpp"
 #include "engine/vibration/stability.hpp"
 #include "tasks/measure/flag.hpp"
@@ -36,10 +37,11 @@ struct Vibrations {
   std::optional<double> omega_l, omega_h;
 };
 
-Vibrations vibrations_of(const Packing& packing, const BlockMatrix& hessian, const Evaluation& here, int modes) {
+Vibrations vibrations_of(const Packing& packing, const BlockMatrix& matrix, const Evaluation& here, int modes) {
   Vibrations vibrations;
-  vibrations.ends = spectrum_ends(hessian, {.lowest = modes, .highest = modes});
-  vibrations.stability = assess(hessian, vibrations.ends, unbalanced_torque(here, packing.solid->gyration_radius()));
+  vibrations.ends = spectrum_ends(matrix, {.lowest = modes, .highest = modes});
+  const double torque = unbalanced_torque(here, packing.solid->gyration_radius()) * greatest_inverse_mass(packing);
+  vibrations.stability = assess(matrix, vibrations.ends, torque);
   vibrations.omega_l = mean_frequency(vibrations.ends.lowest, vibrations.stability.tolerance);
   vibrations.omega_h = mean_frequency(vibrations.ends.highest, vibrations.stability.tolerance);
   return vibrations;
@@ -111,8 +113,8 @@ Json mode_record(const Vibrations& vibrations) {
   return state;
 }
 
-void put_density(Json& modes, const BlockMatrix& hessian, double tolerance) {
-  const auto density = density_of_states(dense_modes(hessian).eigenvalues, tolerance);
+void put_density(Json& modes, const BlockMatrix& matrix, double tolerance) {
+  const auto density = density_of_states(dense_modes(matrix).eigenvalues, tolerance);
   if (!density) return put_absent(modes, "density_of_states", "no two frequencies differ");
   const auto list = [](const Eigen::VectorXd& x) { return std::vector<double>(x.begin(), x.end()); };
   auto& json = modes["density_of_states"];
@@ -130,12 +132,12 @@ Measurement measure_modes(const JamResult& jam, const MeasureOptions& options) {
     const Packing& packing = jam.states[k];
     const Precision precision = jam.path[jam.state_steps[k]].summary.precision;
     const auto here = energy.evaluate(packing, precision);
-    const auto hessian = energy.hessian(packing, precision);
-    const auto vibrations = vibrations_of(packing, hessian, here, options.modes);
+    const auto matrix = dynamical_matrix(packing, energy.hessian(packing, precision));
+    const auto vibrations = vibrations_of(packing, matrix, here, options.modes);
     auto state = mode_record(vibrations);
     put_share(state, vibrations.ends.highest, classified_contacts(packing, energy), packing.size());
     if (k == nearest && packing.size() <= all_modes_up_to)
-      put_density(state["modes"], hessian, vibrations.stability.tolerance);
+      put_density(state["modes"], matrix, vibrations.stability.tolerance);
     lowest.push_back(vibrations.omega_l);
     highest.push_back(vibrations.omega_h);
     if (vibrations.stability.verdict != Verdict::stable && measurement.flags.empty())

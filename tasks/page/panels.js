@@ -10,6 +10,18 @@ const solidShapes = {
   tetrahedron: 'triangle-up', cube: 'square', octahedron: 'diamond', dodecahedron: 'circle',
   icosahedron: 'triangle-down',
 };
+// Solids that have none, in the order in which they come.
+const otherColours = ['#56b4e9', '#8c6d31', '#7f7f7f', '#000000', '#b2182b', '#5e4fa2'];
+const otherShapes = ['cross', 'triangle-left', 'triangle-right', 'stroke'];
+
+/// Gives solids of other names a colour and a shape of their own, as far as there are some.
+function nameSolids(names) {
+  const others = names.filter((name) => !(name in solidColours));
+  others.forEach((name, index) => {
+    solidColours[name] = otherColours[index % otherColours.length];
+    solidShapes[name] = otherShapes[index % otherShapes.length];
+  });
+}
 const ink = '#222222', faint = '#d9d8d2';
 
 const chartConfig = {

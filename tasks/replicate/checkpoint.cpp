@@ -98,7 +98,7 @@ PairCounts read_counts(const JsonPlace& place) {
 
 Packing read_own_packing(const JsonPlace& place, const ReplicateSpec& spec) {
   auto packing = read_packing(place);
-  if (packing.solid != &platonic(spec.solid) || packing.size() != spec.particles)
+  if (packing.solid != &*spec.solid || packing.size() != spec.particles)
     place.refuse("the packing is not one of this replicate",
                  fmt::format("{} of solid {}", spec.particles, to_string(spec.solid)));
   return packing;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cassert>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tasks/solids/solid_json.hpp"
 
 namespace isojam {
 namespace {
@@ -15,14 +15,6 @@ namespace {
 /// Far beyond any cell, and far from overflow.
 constexpr double greatest_length = 1e9;
 constexpr double most_particles = 1e6;
-
-/// Of one of the Platonic solids, which are unique.
-SolidKind kind_of(const ConvexSolid& solid) {
-  const auto found =
-      std::find_if(all_solids.begin(), all_solids.end(), [&](SolidKind kind) { return &platonic(kind) == &solid; });
-  assert(found != all_solids.end());
-  return *found;
-}
 
 template <class Vector>
 Json numbers(const Vector& v) {
@@ -106,7 +98,7 @@ JsonPlace list_of(const JsonPlace& place, const std::string& key, std::size_t si
 
 Json to_json(const Packing& packing) {
   Json json;
-  json["solid"] = to_string(kind_of(*packing.solid));
+  put_solid(json, Solid::of(*packing.solid));
   json["phi"] = packing.density();
   put_cell(json, packing.cell);
   for (const auto* key : {"positions", "orientations", "positions_low", "orientations_low"}) json[key] = Json::array();
@@ -120,7 +112,7 @@ Json to_json(const Packing& packing) {
 }
 
 Packing read_packing(const JsonPlace& place) {
-  const auto& solid = platonic(place.at("solid").choice<SolidKind>());
+  const ConvexSolid& solid = *read_solid(place);
   Packing packing{&solid, read_cell(place, solid), {}};
   const auto n = place.at("positions").expect_list("a list of positions");
   if (n == 0 || static_cast<double>(n) > most_particles)

@@ -13,8 +13,7 @@ namespace {
 
 Checkpoint begin(const ReplicateSpec& spec) {
   auto random = replicate_stream(spec, Purpose::placement);
-  return {begin_jam(random_packing(platonic(spec.solid), spec.particles, spec.options.initial_density, random),
-                    spec.options),
+  return {begin_jam(random_packing(*spec.solid, spec.particles, spec.options.initial_density, random), spec.options),
           {}};
 }
 

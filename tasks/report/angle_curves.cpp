@@ -65,14 +65,7 @@ Json random_record(const RandomAlignment& random) {
 }  // namespace
 
 Json angle_references(const ConvexSolid& solid) {
-  Json json{{"critical", nullptr}, {"random", nullptr}};
-  try {
-    json["critical"] = critical_record(critical_angles(solid));
-    json["random"] = random_record(RandomAlignment(solid));
-  } catch (const std::invalid_argument&) {
-    // A solid whose features are not all alike has no such curves, and the null says so.
-  }
-  return json;
+  return {{"critical", critical_record(critical_angles(solid))}, {"random", random_record(RandomAlignment(solid))}};
 }
 
 Json thinned_cdf(std::span<const double> angles) {
@@ -89,7 +82,7 @@ Json thinned_cdf(std::span<const double> angles) {
   return steps;
 }
 
-std::optional<PaperDensity> paper_density(SolidKind solid, int particles) {
+std::optional<PaperDensity> paper_density(const Solid& solid, int particles) {
   struct Entry {
     SolidKind solid;
     int particles;
@@ -102,7 +95,7 @@ std::optional<PaperDensity> paper_density(SolidKind solid, int particles) {
       Entry{SolidKind::icosahedron, 100, {.6953, .0003}},  Entry{SolidKind::icosahedron, 400, {.7008, .0003}},
   };
   const auto* found = std::find_if(table.begin(), table.end(), [&](const Entry& entry) {
-    return entry.solid == solid && entry.particles == particles;
+    return solid == Solid(entry.solid) && entry.particles == particles;
   });
   if (found == table.end()) return std::nullopt;
   return found->density;

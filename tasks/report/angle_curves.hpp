@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/solids/solid.hpp"
 #include "tasks/json/json.hpp"
 
 namespace isojam {
@@ -26,6 +26,6 @@ struct PaperDensity {
   double phi_j = 0, half_width = 0;
 };
 /// nullopt for what the paper does not have.
-std::optional<PaperDensity> paper_density(SolidKind solid, int particles);
+std::optional<PaperDensity> paper_density(const Solid& solid, int particles);
 
 }  // namespace isojam

@@ -286,7 +286,7 @@ Json solid_list(const Results& results) {
   for (const auto& replicate : results.replicates) {
     const auto name = std::string(to_string(replicate.summary.solid));
     if (solids.contains(name)) continue;
-    const auto& solid = platonic(replicate.summary.solid);
+    const ConvexSolid& solid = *replicate.summary.solid;
     solids[name] = solid_shape(solid);
     solids[name].update(angle_references(solid));
   }

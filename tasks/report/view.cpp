@@ -6,6 +6,7 @@
 
 #include "engine/analysis/orientation_order.hpp"
 #include "engine/packing/energy.hpp"
+#include "engine/vibration/dynamical_matrix.hpp"
 #include "engine/vibration/spectrum.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/measure/parts.hpp"
@@ -83,13 +84,14 @@ Eigen::VectorXd displacements(Eigen::VectorXd mode, double gyration_radius) {
   return mode / mode.cwiseAbs().maxCoeff();
 }
 
-void append_modes(Json& list, const ModeSet& set, std::string_view end, double gyration_radius) {
+void append_modes(Json& list, const ModeSet& set, std::string_view end, const Packing& packing) {
+  const Eigen::MatrixXd moves = mode_displacements(packing, set.vectors);
   for (Eigen::Index k = 0; k < set.size(); ++k) {
     const double lambda = set.eigenvalues[k];
     Json mode;
     mode["end"] = end;
     mode["omega"] = lambda > 0 ? Json(std::sqrt(lambda)) : Json(nullptr);
-    mode["u"] = shortened_list(displacements(set.vectors.col(k), gyration_radius), mode_unit);
+    mode["u"] = shortened_list(displacements(moves.col(k), packing.solid->gyration_radius()), mode_unit);
     list.push_back(std::move(mode));
   }
 }
@@ -99,9 +101,10 @@ Json mode_list(const Packing& packing, PackingEnergy& energy, int modes) {
   if (modes == 0) return list;
   const ModeOptions options{.lowest = modes, .highest = modes, .largest_dense = largest_dense_view};
   // The low parts decide the softest modes: without them faces that just touch may seem apart.
-  const auto ends = spectrum_ends(energy.hessian(packing, Precision::double_double), options);
-  append_modes(list, ends.lowest, "lowest", packing.solid->gyration_radius());
-  append_modes(list, ends.highest, "highest", packing.solid->gyration_radius());
+  const auto ends =
+      spectrum_ends(dynamical_matrix(packing, energy.hessian(packing, Precision::double_double)), options);
+  append_modes(list, ends.lowest, "lowest", packing);
+  append_modes(list, ends.highest, "highest", packing);
   return list;
 }
 

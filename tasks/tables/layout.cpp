@@ -156,7 +156,7 @@ std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
                             head("ff edge-edge", "\\theta_{ff}^{ee}"), head("ff edge-face", "\\theta_{ff}^{ef}")}};
   for (const auto& row : table.rows) {
     if (lines.back().front() == to_string(row.solid)) continue;
-    const auto angles = critical_angles(platonic(row.solid));
+    const auto angles = critical_angles(*row.solid);
     lines.push_back({std::string(to_string(row.solid))});
     for (const double angle :
          {angles.ef_vertex_face, angles.ef_edge_edge, angles.ff_vertex_face, angles.ff_edge_edge, angles.ff_edge_face})

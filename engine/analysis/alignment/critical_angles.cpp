@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
+#include <optional>
 #include <vector>
 
 namespace isojam {
@@ -47,19 +47,122 @@ std::vector<double> dihedral_angles(const ConvexSolid& solid) {
   return angles;
 }
 
-/// The value that all angles share. Vertices are rounded, so they agree to some ulp of a length over an edge.
-double common(const ConvexSolid& solid, const std::vector<double>& angles) {
+/// The value that all angles share; nullopt if they do not. Vertices are rounded, so angles that are one agree to some
+/// ulp of a length over an edge.
+std::optional<double> common(const ConvexSolid& solid, const std::vector<double>& angles) {
   double shortest_edge = solid.diameter();
   for (const Edge& edge : solid.edges()) {
     shortest_edge = std::min(shortest_edge, (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).norm());
   }
   const double tolerance = 64 * std::numeric_limits<double>::epsilon() * solid.diameter() / shortest_edge;
   const auto [least, greatest] = std::minmax_element(angles.begin(), angles.end());
-  if (*greatest - *least > tolerance) {
-    throw std::invalid_argument("critical angles need a solid whose vertices and edges are all alike; " + solid.name() +
-                                " is not one");
-  }
+  if (*greatest - *least > tolerance) return std::nullopt;
   return angles.front();
+}
+
+/// What all vertices and edges have in common.
+struct SharedAngles {
+  double dihedral, edge, normal;  ///< the last two as in VertexFigure
+};
+
+std::optional<SharedAngles> shared_angles(const ConvexSolid& solid) {
+  std::vector<double> edge_angles, normal_angles;
+  for (const VertexFigure& figure : vertex_figures(solid)) {
+    edge_angles.insert(edge_angles.end(), figure.edges.begin(), figure.edges.end());
+    normal_angles.insert(normal_angles.end(), figure.normals.begin(), figure.normals.end());
+  }
+  const auto dihedral = common(solid, dihedral_angles(solid));
+  const auto edge = common(solid, edge_angles), normal = common(solid, normal_angles);
+  if (!dihedral || !edge || !normal) return std::nullopt;
+  return SharedAngles{*dihedral, *edge, *normal};
+}
+
+void set_edge_angles(double half_dihedral, CriticalAngles& critical) {
+  const double sine = std::sin(half_dihedral);
+  // Edge-edge: the edges cross at a right angle, each pair of faces symmetric about the line of contact.
+  critical.ef_edge_edge = right_angle - half_dihedral;
+  critical.ff_edge_edge = std::acos(sine * sine);
+  // Edge-face: the two faces at the edge are equally steep on the face that it lies in.
+  critical.ff_edge_face = right_angle - half_dihedral;
+}
+
+/// The cone of outward normals of a vertex: a polygon on the sphere, its corners the normals of the faces that meet
+/// there, its sides perpendicular to the edges. A plane that touches the vertex alone has its normal inside.
+struct NormalCone {
+  std::vector<Vector3d> corners, sides;  ///< unit; directions d of the cone have d·side ≥ 0
+};
+
+std::vector<NormalCone> normal_cones(const ConvexSolid& solid) {
+  std::vector<NormalCone> cones(solid.vertices().size());
+  for (const Edge& edge : solid.edges()) {
+    const Vector3d along = (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
+    cones[edge.tail].sides.push_back(-along);
+    cones[edge.head].sides.push_back(along);
+  }
+  for (const Face& face : solid.faces()) {
+    for (const int v : face.vertices) cones[v].corners.push_back(face.normal);
+  }
+  return cones;
+}
+
+double least_product(const std::vector<Vector3d>& list, const Vector3d& direction) {
+  double least = 1;
+  for (const Vector3d& each : list) least = std::min(least, each.dot(direction));
+  return least;
+}
+
+double greatest_product(const std::vector<Vector3d>& list, const Vector3d& direction) {
+  double greatest = -1;
+  for (const Vector3d& each : list) greatest = std::max(greatest, each.dot(direction));
+  return greatest;
+}
+
+/// Calls look(d) for every unit vector that has the same product with three vectors of a list, either way round.
+template <class Look>
+void for_each_centre(const std::vector<Vector3d>& list, const Look& look) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (std::size_t j = i + 1; j < list.size(); ++j) {
+      for (std::size_t k = j + 1; k < list.size(); ++k) {
+        const Vector3d axis = (list[j] - list[i]).cross(list[k] - list[i]);
+        if (axis.squaredNorm() == 0) continue;
+        look(axis.normalized());
+        look(-axis.normalized());
+      }
+    }
+  }
+}
+
+/// The greatest angle to the sides that a direction of the cone can have, the radius of its inscribed circle: which
+/// touches three sides, or two of them where great circles are farthest apart.
+double inscribed_radius(const NormalCone& cone) {
+  double best = 0;
+  const auto look = [&](const Vector3d& d) { best = std::max(best, least_product(cone.sides, d)); };
+  for_each_centre(cone.sides, look);
+  for (const Vector3d& side : cone.sides) {
+    for (const Vector3d& other : cone.sides) look((side + other).stableNormalized());
+  }
+  return std::asin(std::min(1.0, best));
+}
+
+/// The greatest angle to the nearest corner that a direction of the cone can have: at a centre of three corners inside,
+/// or on a side, where the plane between two corners cuts it.
+double farthest_from_corners(const NormalCone& cone, double tolerance) {
+  double best = 1;
+  const auto look = [&](const Vector3d& d) {
+    if (least_product(cone.sides, d) >= -tolerance) best = std::min(best, greatest_product(cone.corners, d));
+  };
+  for_each_centre(cone.corners, look);
+  for (const Vector3d& side : cone.sides) {
+    for (std::size_t i = 0; i < cone.corners.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vector3d d = side.cross(cone.corners[i] - cone.corners[j]);
+        if (d.norm() <= tolerance) continue;
+        look(d.normalized());
+        look(-d.normalized());
+      }
+    }
+  }
+  return std::acos(std::max(-1.0, best));
 }
 
 }  // namespace
@@ -68,23 +171,32 @@ double CriticalAngles::ef_min() const { return std::min(ef_vertex_face, ef_edge_
 double CriticalAngles::ff_min() const { return std::min({ff_vertex_face, ff_edge_edge, ff_edge_face}); }
 
 CriticalAngles critical_angles(const ConvexSolid& solid) {
-  std::vector<double> edge_angles, normal_angles;
-  for (const VertexFigure& figure : vertex_figures(solid)) {
-    edge_angles.insert(edge_angles.end(), figure.edges.begin(), figure.edges.end());
-    normal_angles.insert(normal_angles.end(), figure.normals.begin(), figure.normals.end());
-  }
-  const double half_dihedral = common(solid, dihedral_angles(solid)) / 2;
-  const double sine = std::sin(half_dihedral);
-
+  const auto shared = shared_angles(solid);
+  if (!shared) return critical_angles_of_cones(solid);
   CriticalAngles critical;
   // Vertex-face: the axis of the vertex points along the inward normal of the face.
-  critical.ef_vertex_face = right_angle - common(solid, edge_angles);
-  critical.ff_vertex_face = common(solid, normal_angles);
-  // Edge-edge: the edges cross at a right angle, each pair of faces symmetric about the line of contact.
-  critical.ef_edge_edge = right_angle - half_dihedral;
-  critical.ff_edge_edge = std::acos(sine * sine);
-  // Edge-face: the two faces at the edge are equally steep on the face that it lies in.
-  critical.ff_edge_face = right_angle - half_dihedral;
+  critical.ef_vertex_face = right_angle - shared->edge;
+  critical.ff_vertex_face = shared->normal;
+  set_edge_angles(shared->dihedral / 2, critical);
+  return critical;
+}
+
+bool has_like_features(const ConvexSolid& solid) {
+  const std::size_t sides = solid.faces().front().vertices.size();
+  return shared_angles(solid) && std::all_of(solid.faces().begin(), solid.faces().end(),
+                                             [&](const Face& face) { return face.vertices.size() == sides; });
+}
+
+CriticalAngles critical_angles_of_cones(const ConvexSolid& solid) {
+  const std::vector<double> dihedral = dihedral_angles(solid);
+  CriticalAngles critical;
+  set_edge_angles(*std::max_element(dihedral.begin(), dihedral.end()) / 2, critical);
+  critical.ef_vertex_face = critical.ff_vertex_face = std::numbers::pi;
+  for (const NormalCone& cone : normal_cones(solid)) {
+    const double tolerance = 64 * std::numeric_limits<double>::epsilon() * solid.diameter() / solid.inradius();
+    critical.ef_vertex_face = std::min(critical.ef_vertex_face, inscribed_radius(cone));
+    critical.ff_vertex_face = std::min(critical.ff_vertex_face, farthest_from_corners(cone, tolerance));
+  }
   return critical;
 }
 

@@ -5,7 +5,9 @@
 namespace isojam {
 
 /// Critical alignment angles (radians): the largest that each contact topology allows, for two equal solids in
-/// the orientation of highest symmetry (the paper's Table II).
+/// the orientation of highest symmetry (the paper's Table II). Where vertices or edges are not all alike, the least of
+/// what each of them allows in its own best orientation: below it, no feature of the solid keeps an angle from a
+/// contact.
 struct CriticalAngles {
   double ef_vertex_face = 0, ef_edge_edge = 0;
   double ff_vertex_face = 0, ff_edge_edge = 0, ff_edge_face = 0;
@@ -14,9 +16,15 @@ struct CriticalAngles {
   double ff_min() const;  ///< least of the θ_ff
 };
 
-/// Returns the angles in closed form, from the dihedral angle and the vertex figure of the solid. Throws
-/// std::invalid_argument if its vertices or edges are not all alike: the orientation of highest symmetry is then not
-/// defined.
+/// Returns the angles: in closed form, from the dihedral angle and the vertex figure, where edges and vertices are all
+/// alike; from the widest dihedral angle and the cones of normals of all vertices otherwise.
 CriticalAngles critical_angles(const ConvexSolid& solid);
+
+/// Whether vertices, edges and faces are all alike, as far as angles at them and numbers of sides tell: a regular
+/// solid.
+bool has_like_features(const ConvexSolid& solid);
+
+/// The second way, for any solid: the oracle of the first.
+CriticalAngles critical_angles_of_cones(const ConvexSolid& solid);
 
 }  // namespace isojam

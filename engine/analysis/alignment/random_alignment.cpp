@@ -19,10 +19,27 @@ using std::numbers::pi;
 
 double angle_between(const Vector3d& u, const Vector3d& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
 
-Vector3d random_direction(RandomStream& random) {
-  const double z = 2 * random.uniform() - 1, azimuth = 2 * pi * random.uniform();
+/// A stratified sample has as many cells of equal area along either cylindrical coordinate of the sphere.
+constexpr int bands = 256;
+
+Vector3d direction_at(double z, double azimuth) {
   const double r = std::sqrt(1 - z * z);
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+Vector3d random_direction(RandomStream& random) {
+  const double z = 2 * random.uniform() - 1, azimuth = 2 * pi * random.uniform();
+  return direction_at(z, azimuth);
+}
+
+/// Share of ascending values below x, linear between them; from 0 at 0.
+double share_below(const std::vector<double>& values, double x) {
+  const auto above = std::lower_bound(values.begin(), values.end(), x);
+  if (above == values.end()) return 1;
+  const auto below = static_cast<double>(above - values.begin());
+  const double left = above == values.begin() ? 0 : *(above - 1);
+  const double part = *above > left ? (x - left) / (*above - left) : 0;
+  return std::min(1.0, (below + part) / static_cast<double>(values.size()));
 }
 
 /// Where the value is greatest, the first of several.
@@ -48,6 +65,15 @@ class Features {
   }
 
   const Vector3d& edge(std::size_t e) const { return edges_[e]; }
+
+  /// That part of the way from one face normal at the edge to the other, which is all that an edge in a face can turn.
+  Vector3d turned_about(std::size_t e, double part) const {
+    const Edge& edge = solid_.edges()[e];
+    const Vector3d& left = solid_.faces()[static_cast<std::size_t>(edge.left)].normal;
+    const Vector3d& right = solid_.faces()[static_cast<std::size_t>(edge.right)].normal;
+    const double sense = left.cross(right).dot(edges_[e]) < 0 ? -1 : 1;
+    return Eigen::AngleAxisd(sense * (part * angle_between(left, right)), edges_[e]) * left;
+  }
 
   double nearest_normal(const Vector3d& direction) const {
     const Face& nearest = *greatest(solid_.faces(), [&](const Face& face) { return face.normal.dot(direction); });
@@ -82,26 +108,61 @@ Tails binomial_tails(long n, double p, long k) {
 
 }  // namespace
 
-RandomAlignment::RandomAlignment(const ConvexSolid& solid)
-    : faces_(static_cast<double>(solid.faces().size())),
-      vertices_(static_cast<double>(solid.vertices().size())),
-      valence_(2 * static_cast<double>(solid.edges().size()) / vertices_) {
-  const CriticalAngles critical = critical_angles(solid);  // refuses unlike vertices or edges
-  const std::size_t sides = solid.faces().front().vertices.size();
-  for (const Face& face : solid.faces()) {
-    if (face.vertices.size() != sides)
-      throw std::invalid_argument("random alignment has a closed form for regular solids; " + solid.name() +
-                                  " is none");
-  }
-  face_sides_ = static_cast<double>(sides);
+RandomAlignment::RandomAlignment(const ConvexSolid& solid, Way way)
+    : faces_(static_cast<double>(solid.faces().size())), vertices_(static_cast<double>(solid.vertices().size())) {
+  if (way == Way::sampled || !set_regular(solid)) sample(solid);
+}
+
+/// Faces all alike, and so are edges and vertices: their angles agree. Then 2E/V edges meet in a vertex.
+bool RandomAlignment::set_regular(const ConvexSolid& solid) {
+  if (!has_like_features(solid)) return false;
+  const CriticalAngles critical = critical_angles(solid);
+  face_sides_ = static_cast<double>(solid.faces().front().vertices.size());
+  valence_ = 2 * static_cast<double>(solid.edges().size()) / vertices_;
   ff_max_ = critical.ff_vertex_face;
   ef_max_ = critical.ef_vertex_face;
   constrained_ff_max_ = critical.ff_edge_face;
+  return true;
+}
+
+void RandomAlignment::sample(const ConvexSolid& solid) {
+  const Features features(solid);
+  RandomStream random{solid.faces().size(), solid.edges().size(), solid.vertices().size()};
+  for (int band = 0; band < bands; ++band) {
+    for (int sector = 0; sector < bands; ++sector) {
+      const double z = 2 * (band + random.uniform()) / bands - 1;
+      const Vector3d direction = direction_at(z, 2 * pi * (sector + random.uniform()) / bands);
+      face_face_.push_back(features.nearest_normal(direction));
+      edge_face_.push_back(features.least_elevation(direction));
+    }
+  }
+  for (std::size_t edge = 0; edge < solid.edges().size(); ++edge) {
+    for (int k = 0; k < bands; ++k)
+      constrained_.push_back(features.nearest_normal(features.turned_about(edge, (k + .5) / bands)));
+  }
+  for (auto* list : {&face_face_, &edge_face_, &constrained_}) std::sort(list->begin(), list->end());
+  ff_max_ = face_face_.back();
+  ef_max_ = edge_face_.back();
+  constrained_ff_max_ = constrained_.back();
+  caps_apart_ = pi;
+  for (const Face& face : solid.faces()) {
+    for (const Face& other : solid.faces()) {
+      if (&face != &other) caps_apart_ = std::min(caps_apart_, angle_between(face.normal, other.normal) / 2);
+    }
+  }
+}
+
+double RandomAlignment::sampling_error() const {
+  return is_sampled() ? std::pow(static_cast<double>(face_face_.size()), -0.75) : 0;
 }
 
 double RandomAlignment::face_face(double theta) const {
   if (theta <= 0) return 0;
   if (theta >= ff_max_) return 1;
+  if (is_sampled()) {
+    if (theta <= caps_apart_) return faces_ * std::pow(std::sin(theta / 2), 2);
+    return share_below(face_face_, theta);
+  }
   const double inradius = constrained_ff_max_;  // of the polygon that a face subtends
   if (theta <= inradius) return faces_ * std::pow(std::sin(theta / 2), 2);
   // Azimuth ψ about the normal from the middle of a side, where the side is at the angle ρ, tan ρ = tan(inradius)/cos
@@ -132,10 +193,13 @@ double RandomAlignment::cone_beyond(double theta) const {
 double RandomAlignment::edge_face(double theta) const {
   if (theta <= 0) return 0;
   if (theta >= ef_max_) return 1;
+  if (is_sampled()) return share_below(edge_face_, theta);
   return std::clamp(1 - cone_beyond(theta) * vertices_ / (4 * pi), 0.0, 1.0);
 }
 
 double RandomAlignment::constrained_face_face(double theta) const {
+  if (theta <= 0) return 0;
+  if (is_sampled()) return share_below(constrained_, theta);
   return std::clamp(theta / constrained_ff_max_, 0.0, 1.0);
 }
 
@@ -156,14 +220,8 @@ std::vector<AlignmentAngles> sample_edge_constrained(const ConvexSolid& solid, i
   sample.reserve(n);
   for (int k = 0; k < n; ++k) {
     const auto chosen = static_cast<std::size_t>(random.uniform() * static_cast<double>(solid.edges().size()));
-    const Edge& edge = solid.edges()[chosen];
-    const Vector3d& along = features.edge(chosen);
-    const Vector3d& left = solid.faces()[edge.left].normal;
-    // From one face normal at the edge to the other, which is all that an edge in a face can turn.
-    const double turn = random.uniform() * angle_between(left, solid.faces()[edge.right].normal);
-    const double sense = left.cross(solid.faces()[edge.right].normal).dot(along) < 0 ? -1 : 1;
-    const Vector3d direction = Eigen::AngleAxisd(sense * turn, along) * left;
-    sample.push_back({features.nearest_normal(direction), std::abs(std::asin(along.dot(direction)))});
+    const Vector3d direction = features.turned_about(chosen, random.uniform());
+    sample.push_back({features.nearest_normal(direction), std::abs(std::asin(features.edge(chosen).dot(direction)))});
   }
   return sample;
 }

@@ -12,19 +12,21 @@
 
 namespace isojam {
 
-/// Ideal random contacts of a regular solid, to compare alignment angles with (the paper's Figure 2): the solid touches
-/// the face of another. Angles in radians; each function is a distribution function.
-///   Unconstrained: any orientation is as likely, and a vertex touches. Then p(θ_ff) ∝ sin θ_ff up to the least
-///   critical angle, where the region of a face ends, and p(θ_ef) → const at 0. Edge-face constrained: an edge lies in
-///   the face, turned about itself by any angle as likely. Then θ_ff is uniform on [0, π/2 − δ/2], δ the dihedral
+/// Ideal random contacts of a solid, to compare alignment angles with (the paper's Figure 2): the solid touches the
+/// face of another. Angles in radians; each function is a distribution function.
+///   Unconstrained: any orientation is as likely, and a vertex touches. Then p(θ_ff) ∝ sin θ_ff up to where the regions
+///   of two faces meet, and p(θ_ef) → const at 0. Edge-face constrained: an edge lies in the face, any of them turned
+///   about itself by any angle as likely. Then θ_ff of a regular solid is uniform on [0, π/2 − δ/2], δ the dihedral
 ///   angle, and θ_ef = 0.
+/// In closed form where faces, edges and vertices are all alike; otherwise from a stratified sample, but for θ_ff below
+/// half the least angle between two face normals, which is in closed form for any solid.
 class RandomAlignment {
  public:
-  /// Throws std::invalid_argument unless the faces, edges and vertices of the solid are all alike.
-  explicit RandomAlignment(const ConvexSolid& solid);
+  enum class Way { closed_where_regular, sampled };
+  explicit RandomAlignment(const ConvexSolid& solid, Way way = Way::closed_where_regular);
 
   /// Distribution of θ_ff, the angle from a random direction to the nearest face normal: the part of the sphere within
-  /// θ of one, caps cut to the regular polygons that the faces subtend.
+  /// θ of one, caps cut to the polygons that the faces subtend.
   double face_face(double theta) const;
   /// Distribution of θ_ef, the least angle from a random direction to the sides of the polygon that the vertex's normal
   /// cone cuts out of the sphere: 1 − the part of that polygon farther than θ from all sides, by Gauss and Bonnet.
@@ -36,11 +38,20 @@ class RandomAlignment {
   double ef_max() const { return ef_max_; }                          ///< where edge_face does
   double constrained_ff_max() const { return constrained_ff_max_; }  ///< where constrained_face_face does
 
+  bool is_sampled() const { return !face_face_.empty(); }
+  /// What sampling does to a distribution function: n^(-3/4) of n points, one in each of n cells of a sphere, is its
+  /// standard deviation but for a factor near 1. 0 in closed form.
+  double sampling_error() const;
+
  private:
   double cone_beyond(double theta) const;
+  bool set_regular(const ConvexSolid& solid);
+  void sample(const ConvexSolid& solid);
 
   double faces_ = 0, vertices_ = 0, face_sides_ = 0, valence_ = 0;
   double ff_max_ = 0, ef_max_ = 0, constrained_ff_max_ = 0;
+  double caps_apart_ = 0;                                    ///< half the least angle between two face normals
+  std::vector<double> face_face_, edge_face_, constrained_;  ///< ascending; empty in closed form
 };
 
 /// The angles of one contact.

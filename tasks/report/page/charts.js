@@ -15,6 +15,7 @@ const allFigures = (data) => [
 ];
 
 function drawCharts(data, place) {
+  nameSolids(Object.keys(data.solids));
   const figures = allFigures(data);
   for (const figure of figures.filter(({absent}) => !absent)) drawFigure(figure, place);
   const absent = figures.filter((figure) => figure.absent);

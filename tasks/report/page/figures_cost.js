@@ -26,7 +26,7 @@ function costFigure(data, key, id) {
     spec: (width) => bandSpec({
       description: `${title}, by sweep point.`, width, labels: data.rows.map((row) => row.label),
       datasets: {replicates}, x: {type: 'log', domain, title: costKinds[key].title}, marks: [mark],
-      bandHeight: width < 560 ? 44 : 30, scales: [solidScale, shapeScale],
+      bandHeight: width < 560 ? 44 : 30, scales: [solidScale(), shapeScale()],
     }),
   };
 }

@@ -46,12 +46,10 @@ function laneMark(type, from, offset, extra, style) {
 }
 
 const solidColour = {scale: 'solid', field: 'solid'};
-const solidScale = {
-  name: 'solid', type: 'ordinal', domain: Object.keys(solidColours), range: Object.values(solidColours),
-};
-const shapeScale = {
-  name: 'shape', type: 'ordinal', domain: Object.keys(solidShapes), range: Object.values(solidShapes),
-};
+const ordinalScale = (name, values) => (
+  {name, type: 'ordinal', domain: Object.keys(values), range: Object.values(values)});
+const solidScale = () => ordinalScale('solid', solidColours);
+const shapeScale = () => ordinalScale('shape', solidShapes);
 
 function densityMarks() {
   const x = (field) => ({scale: 'x', field});
@@ -121,7 +119,7 @@ function densityFigure(data) {
       description: 'Jamming density of every replicate, means with 95 % intervals, and the values of the paper.',
       width, labels: data.rows.filter((row) => (row.all ?? row).phi_j.mean !== null).map((row) => row.label), datasets,
       x: {domain, title: 'jamming density'}, marks: densityMarks(), bandHeight: width < 560 ? 66 : 52,
-      scales: [solidScale, shapeScale],
+      scales: [solidScale(), shapeScale()],
     }),
   };
 }

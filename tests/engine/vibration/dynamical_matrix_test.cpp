@@ -4,13 +4,16 @@
 //   central differences of the gradient reproduce the analytic matrix, by turns of a particle too, in jammed octahedra
 //   where h is below the depth of the flat contacts, and get ever better as h falls;
 //   where h is above it they show negative modes that the packing does not have;
+//   the modes of boxes solve the eigenproblem with the mass of textbooks, those of spherical tops are the Hessian's;
 //   u·Du of a random u is the curvature of the energy along u.
 
 #include "engine/vibration/dynamical_matrix.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/spectrum.hpp"
@@ -117,6 +120,39 @@ TEST(DynamicalMatrix, IsTheCurvatureOfTheEnergy) {
         (h * h);
     EXPECT_NEAR(curvature, quotient, 1e-4 * quotient) << "trial " << trial;
   }
+}
+
+TEST(DynamicalMatrix, OfSphericalTopsIsTheHessian) {
+  const Packing packing = small_packing(SolidKind::octahedron, 0.7, 54);
+  const BlockMatrix hessian = PackingEnergy().hessian(packing);
+  EXPECT_EQ(dense_matrix(dynamical_matrix(packing, hessian)), dense_matrix(hessian));
+  EXPECT_EQ(greatest_inverse_mass(packing), 1);
+}
+
+/// Solves H m = λ M m, M the mass of (x, R·θ) from the moments of a box in its own axes.
+TEST(DynamicalMatrix, OfBoxesHasTheirInertia) {
+  RandomStream random{55};
+  std::vector<Eigen::Vector3d> vertices;
+  const Eigen::Vector3d edges = Eigen::Vector3d(1, 1.5, 2) / std::cbrt(3.0);
+  for (int k = 0; k < 8; ++k)
+    vertices.emplace_back(edges.cwiseProduct(Eigen::Vector3d(k & 1 ? 1 : 0, k & 2 ? 1 : 0, k & 4 ? 1 : 0)));
+  const ConvexSolid box("box", vertices);
+  const Packing packing = random_packing(box, least_particles(box, 0.8), 0.8, random);
+  const Eigen::Vector3d moments = (Eigen::Vector3d::Constant(edges.squaredNorm()) - edges.cwiseAbs2()) / 12;
+  const double mean = moments.mean();
+  const BlockMatrix hessian = PackingEnergy().hessian(packing), matrix = dynamical_matrix(packing, hessian);
+  const SymmetricEigen modes = symmetric_eigen(dense_matrix(matrix));
+  const MatrixXd moves = mode_displacements(packing, modes.vectors);
+  MatrixXd mass = MatrixXd::Identity(6 * packing.size(), 6 * packing.size());
+  for (int i = 0; i < packing.size(); ++i) {
+    const Eigen::Matrix3d q = packing.poses[static_cast<std::size_t>(i)].orientation.toRotationMatrix();
+    mass.block<3, 3>(6 * i + 3, 6 * i + 3) = q * (moments / mean).asDiagonal() * q.transpose();
+  }
+  const MatrixXd rest = dense_matrix(hessian) * moves - mass * moves * modes.values.asDiagonal();
+  EXPECT_LE(rest.norm(), 1e-12 * dense_matrix(hessian).norm());
+  EXPECT_LE((moves.transpose() * mass * moves - MatrixXd::Identity(mass.rows(), mass.cols())).norm(), 1e-11);
+  EXPECT_GT((dense_matrix(matrix) - dense_matrix(hessian)).norm(), .05 * dense_matrix(hessian).norm()) << "it matters";
+  EXPECT_NEAR(greatest_inverse_mass(packing), mean / moments.minCoeff(), 1e-14);
 }
 
 TEST(DynamicalMatrix, RefusesNoStep) {

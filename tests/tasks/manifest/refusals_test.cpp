@@ -62,9 +62,11 @@ TEST(Refusals, AllAtOnceInTheOrderOfTheDocument) {
                    "/sweep/final_distance/0", "/seed", "/protocol/target_enery", "/protocol/approach",
                    "/protocol/step_fraction", "/protocol/final_distance", "/measure/0", "/replicates/half_width",
                    "/replicates/min", "/replicates/max", "/replicates/quantity", "/modes", "/method"}));
-  EXPECT_EQ(refusals(text).at(4),
-            "m.json: /sweep/solid/0: unknown value \"octahedra\"; allowed: \"tetrahedron\", \"cube\", \"octahedron\", "
-            "\"dodecahedron\", \"icosahedron\"; did you mean \"octahedron\"?");
+  EXPECT_EQ(
+      refusals(text).at(4),
+      "m.json: /sweep/solid/0: unknown value \"octahedra\"; allowed: \"tetrahedron\", \"cube\", \"octahedron\", "
+      "\"dodecahedron\", \"icosahedron\", \"truncated_tetrahedron\", \"cuboctahedron\", \"rhombic_dodecahedron\", "
+      "prism3 to prism10 and antiprism4 to antiprism8, or a name that /solids defines; did you mean \"octahedron\"?");
 }
 
 TEST(Refusals, NothingThatFollowsFromAnotherError) {

@@ -118,7 +118,11 @@ std::vector<BadManifest> malformed_shear() {
 std::vector<BadManifest> malformed_sweep() {
   return {
       set("misspelt sweep key", "/sweep/particle", Json{64}, "did you mean \"particles\"?"),
-      set("unknown solid", "/sweep/solid", {"octahedra"}, "did you mean \"octahedron\"?", "/sweep/solid/0"),
+      {"unknown solid", with("/sweep/solid", {"octahedra"}), "/sweep/solid/0", "did you mean \"octahedron\"?", false},
+      set("solid whose name is none", "/sweep/solid", {"8-hedron"}, "unknown value", "/sweep/solid/0"),
+      set("solid defined in no way", "/solids", {{"a", {{"ball", 1}}}}, "unknown key", "/solids/a/ball"),
+      set("box without a height", "/solids", {{"a", {{"box", {1, 2}}}}}, "three edges", "/solids/a/box"),
+      set("box of no height", "/solids", {{"a", {{"box", {1, 2, 0}}}}}, "a number in (0", "/solids/a/box/2"),
       set("solid is a number", "/sweep/solid", {8}, "\"tetrahedron\", \"cube\"", "/sweep/solid/0"),
       set("solid is no list", "/sweep/solid", "cube", "a list"),
       set("no solid", "/sweep/solid", Json::array(), "the list is empty"),

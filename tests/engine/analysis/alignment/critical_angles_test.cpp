@@ -5,7 +5,8 @@
 //   3. they are extremal: no orientation of a contact of that topology has larger angles, and a search over
 //      orientations climbs up to them;
 //   4. contacts that overlap() finds at random stay below the critical angles of their topology;
-//   5. a solid whose vertices or edges differ is refused.
+//   5. the cones of normals give them for these solids too; for others, the least over the vertices of what a search
+//      over orientations climbs to.
 
 #include "engine/analysis/alignment/critical_angles.hpp"
 
@@ -19,10 +20,10 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "engine/analysis/alignment/alignment.hpp"
+#include "engine/geometry/solids/solid.hpp"
 #include "tests/engine/analysis/constructed_contacts.hpp"
 
 namespace isojam {
@@ -206,12 +207,73 @@ TEST_P(CriticalAnglesOf, BoundTheContactsThatTheKernelFinds) {
 INSTANTIATE_TEST_SUITE_P(Solids, CriticalAnglesOf, testing::ValuesIn(all_solids),
                          [](const auto& solid) { return std::string(to_string(solid.param)); });
 
-TEST(CriticalAngles, RefuseSolidsWithUnlikeVerticesOrEdges) {
+TEST_P(CriticalAnglesOf, ComeFromConesOfNormalsToo) {
+  const auto closed = as_array(critical_angles(platonic(GetParam())));
+  const auto of_cones = as_array(critical_angles_of_cones(platonic(GetParam())));
+  for (std::size_t k = 0; k < closed.size(); ++k) EXPECT_NEAR(of_cones[k], closed[k], rounding) << k;
+}
+
+TEST(CriticalAngles, OfUnlikeVerticesAreTheLeast) {
   std::vector<Vector3d> box, pyramid{{0, 0, 1}};
   for (int k = 0; k < 8; ++k) box.emplace_back(k & 1 ? 1 : -1, k & 2 ? 2 : -2, k & 4 ? 3 : -3);
   for (int k = 0; k < 4; ++k) pyramid.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, 0);
-  EXPECT_THROW(critical_angles(ConvexSolid("box", box)), std::invalid_argument);
-  EXPECT_THROW(critical_angles(ConvexSolid("pyramid", pyramid)), std::invalid_argument);
+  // The cones and edges of any box are a cube's.
+  const auto cube = as_array(critical_angles(platonic(SolidKind::cube)));
+  const auto of_box = as_array(critical_angles(ConvexSolid("box", box)));
+  for (std::size_t k = 0; k < cube.size(); ++k) EXPECT_NEAR(of_box[k], cube[k], rounding) << k;
+  // Four faces at 45° around the apex, 120° between neighbours, whose normals are 45° from the axis: there a circle of
+  // 45° holds the corners, the edges rise by 35.26°; at the base three faces meet, and a search finds less.
+  const CriticalAngles of_pyramid = critical_angles(ConvexSolid("pyramid", pyramid));
+  EXPECT_NEAR(of_pyramid.ff_edge_face, pi / 6, rounding) << "of the widest dihedral angle, 120°";
+  EXPECT_LE(of_pyramid.ff_vertex_face, pi / 4 + rounding);
+  EXPECT_LE(of_pyramid.ef_vertex_face, std::asin(1 / std::sqrt(3.0)) + rounding);
+}
+
+/// The greatest of the least angles over directions of the cone of each vertex, by brute force: from below.
+CriticalAngles searched(const ConvexSolid& solid, RandomStream& random) {
+  std::vector<double> ef(solid.vertices().size(), 0), ff(solid.vertices().size(), 0);
+  for (int k = 0; k < 400000; ++k) {
+    const Vector3d d = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+    std::size_t outermost = 0;
+    for (std::size_t v = 1; v < solid.vertices().size(); ++v) {
+      if (solid.vertices()[v].dot(d) > solid.vertices()[outermost].dot(d)) outermost = v;
+    }
+    double face = pi, edge = pi;
+    for (const Face& each : solid.faces()) {
+      if (std::find(each.vertices.begin(), each.vertices.end(), static_cast<int>(outermost)) != each.vertices.end())
+        face = std::min(face, std::acos(std::min(1.0, each.normal.dot(d))));
+    }
+    for (const Edge& each : solid.edges()) {
+      if (each.tail != static_cast<int>(outermost) && each.head != static_cast<int>(outermost)) continue;
+      const Vector3d along = (solid.vertices()[each.head] - solid.vertices()[each.tail]).normalized();
+      edge = std::min(edge, std::asin(std::min(1.0, std::abs(along.dot(d)))));
+    }
+    ff[outermost] = std::max(ff[outermost], face);
+    ef[outermost] = std::max(ef[outermost], edge);
+  }
+  CriticalAngles least;
+  least.ef_vertex_face = *std::min_element(ef.begin(), ef.end());
+  least.ff_vertex_face = *std::min_element(ff.begin(), ff.end());
+  return least;
+}
+
+TEST(CriticalAngles, OfOtherSolidsAreWhatASearchClimbsTo) {
+  RandomStream random{63};
+  std::vector<Vector3d> rock;
+  for (int k = 0; k < 9; ++k) rock.push_back(Vector3d(random.normal(), random.normal(), random.normal()).normalized());
+  const std::vector<Solid> solids{*Solid::named("truncated_tetrahedron"),
+                                  *Solid::named("cuboctahedron"),
+                                  *Solid::named("rhombic_dodecahedron"),
+                                  *Solid::named("prism6"),
+                                  *Solid::named("antiprism5"),
+                                  Solid::made_of("rock", rock)};
+  for (const Solid& solid : solids) {
+    const CriticalAngles exact = critical_angles(*solid), found = searched(*solid, random);
+    EXPECT_LE(found.ff_vertex_face, exact.ff_vertex_face + rounding) << to_string(solid);
+    EXPECT_LE(found.ef_vertex_face, exact.ef_vertex_face + rounding) << to_string(solid);
+    EXPECT_NEAR(found.ff_vertex_face, exact.ff_vertex_face, .03) << to_string(solid);
+    EXPECT_NEAR(found.ef_vertex_face, exact.ef_vertex_face, .03) << to_string(solid);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,187 @@
+// Facts proved here:
+//   the named solids have the numbers of faces, edges and vertices of their definitions, edges of one length, to 1e-30,
+//   and the volume that closed forms give for that length; prisms and antiprisms are those of their n;
+//   a hull of points in general position has each of them for a vertex, and every face supports;
+//   of points that are no solid the one to blame is named: twins, and points on an edge, on a face, and inside;
+//   the tensor of inertia of a box is that of the textbooks, and which solids are spherical tops;
+//   a Solid is one and the same for one name and one set of vertices, and ordered by what it is.
+
+#include "engine/geometry/solids/solid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/geometry/hull.hpp"
+#include "engine/geometry/solids/named_solids.hpp"
+#include "engine/random/stream.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Vector3d;
+using Points = std::vector<Vector3d>;
+using std::numbers::pi;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// A solid, its features, and its volume with edges of length 1.
+struct Expected {
+  std::string name;
+  std::size_t vertices, edges, faces;
+  double volume;
+};
+
+std::vector<Expected> expected_solids() {
+  const double root2 = std::sqrt(2.0);
+  std::vector<Expected> list{{"truncated_tetrahedron", 12, 18, 8, 23 * root2 / 12},
+                             {"cuboctahedron", 12, 24, 14, 5 * root2 / 3},
+                             {"rhombic_dodecahedron", 14, 24, 12, 16 * std::sqrt(3.0) / 9}};
+  for (const std::size_t n : {3, 5, 6, 7, 8, 9, 10}) {
+    const auto m = static_cast<double>(n);
+    list.push_back({"prism" + std::to_string(n), 2 * n, 3 * n, n + 2, m / 4 / std::tan(pi / m)});
+  }
+  for (const std::size_t n : {4, 5, 6, 7, 8}) {
+    const auto m = static_cast<double>(n);
+    const double root = std::sqrt(4 * std::pow(std::cos(pi / (2 * m)), 2) - 1);
+    list.push_back({"antiprism" + std::to_string(n), 2 * n, 4 * n, 2 * n + 2,
+                    m * root * std::sin(3 * pi / (2 * m)) / (12 * std::pow(std::sin(pi / m), 2))});
+  }
+  return list;
+}
+
+TEST(NamedSolids, AreWhatTheyAreCalled) {
+  for (const Expected& expected : expected_solids()) {
+    const auto solid = Solid::named(expected.name);
+    ASSERT_TRUE(solid) << expected.name;
+    EXPECT_EQ((*solid)->vertices().size(), expected.vertices) << expected.name;
+    EXPECT_EQ((*solid)->edges().size(), expected.edges) << expected.name;
+    EXPECT_EQ((*solid)->faces().size(), expected.faces) << expected.name;
+    const Edge& first = (*solid)->edges().front();
+    const double edge = ((*solid)->vertices()[first.head] - (*solid)->vertices()[first.tail]).norm();
+    EXPECT_NEAR(edge * std::cbrt(expected.volume), 1, 16 * eps) << expected.name << ": edge of unit volume";
+  }
+}
+
+TEST(NamedSolids, HaveEdgesOfOneLengthToTheLastDigit) {
+  for (const Expected& expected : expected_solids()) {
+    const SolidArrays& arrays = (*Solid::named(expected.name))->arrays();
+    const auto length = [&](const Edge& edge) { return norm(arrays.vertex(edge.head) - arrays.vertex(edge.tail)); };
+    for (int e = 1; e < arrays.edges; ++e) {
+      EXPECT_LE(std::abs(static_cast<double>(length(arrays.edge[e]) - length(arrays.edge[0]))), 1e-30)
+          << expected.name << " edge " << e;
+    }
+  }
+}
+
+TEST(NamedSolids, HaveNoOtherNames) {
+  for (const char* name : {"", "sphere", "prism", "prism4", "prism2", "prism11", "prism06", "prism6a", "prism-6",
+                           "antiprism3", "antiprism9", "Cube", "prism99999999999999999999"})
+    EXPECT_FALSE(Solid::named(name)) << name;
+}
+
+TEST(Hull, OfPointsOnASphereHasAllOfThemForVertices) {
+  RandomStream random{61};
+  for (int trial = 0; trial < 40; ++trial) {
+    Points points;
+    for (int k = 0; k < 5 + trial % 8; ++k)
+      points.push_back(Vector3d(random.normal(), random.normal(), random.normal()).normalized());
+    const ConvexSolid solid("rock", points);
+    EXPECT_EQ(solid.given(), points);
+    EXPECT_EQ(solid.faces().size(), 2 * points.size() - 4) << "points in general position: triangles alone";
+    for (const Face& face : solid.faces()) {
+      for (const Vector3d& v : solid.vertices()) EXPECT_LE(face.normal.dot(v), face.offset + 64 * eps);
+    }
+  }
+}
+
+/// The vertex that is blamed, −1 for all of them, −2 for nothing.
+int blamed(const Points& points) {
+  try {
+    const ConvexSolid solid("x", points);
+    return -2;
+  } catch (const NoSolid& error) {
+    return error.vertex();
+  }
+}
+
+TEST(Hull, BlamesThePointThatIsNoVertex) {
+  const Points cube = platonic(SolidKind::cube).vertices();
+  const auto with = [&](const Vector3d& point) {
+    Points points = cube;
+    points.insert(points.begin() + 3, point);
+    return points;
+  };
+  EXPECT_EQ(blamed(cube), -2);
+  EXPECT_EQ(blamed(with({0, 0, 0})), 3) << "inside";
+  EXPECT_EQ(blamed(with({.5, .1, -.2})), 3) << "on a face";
+  EXPECT_EQ(blamed(with({.5, .5, .1})), 3) << "on an edge";
+  EXPECT_EQ(blamed(with({.5 - 1e-9, .5, .1})), 3) << "just within";
+  EXPECT_EQ(blamed(with(cube[0])), 3) << "twice";
+  EXPECT_EQ(blamed(with({0, .1, .8})), -2) << "outside: another solid";
+  EXPECT_EQ(blamed(with({.6, .6, .6})), 8) << "a corner comes to lie inside";
+  EXPECT_EQ(blamed({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), -1) << "flat";
+  Points many;
+  for (int k = 0; k < 33; ++k) many.emplace_back(std::cos(k), std::sin(k), .01 * k);
+  EXPECT_EQ(blamed(many), -1) << "33 vertices";
+}
+
+TEST(Inertia, OfABoxIsThatOfTextbooks) {
+  const Vector3d edges(1, 1.5, 2);
+  Points points;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (int k = 0; k < 8; ++k)
+    points.emplace_back(turn * edges.cwiseProduct(Vector3d(k & 1 ? 1 : 0, k & 2 ? 1 : 0, k & 4 ? 1 : 0)));
+  const ConvexSolid box("box", points);
+  const Vector3d unit = edges / std::cbrt(edges.prod());
+  const Vector3d moments = (Vector3d::Constant(unit.squaredNorm()) - unit.cwiseAbs2()) / 12;
+  EXPECT_LE((box.inertia() - turn * moments.asDiagonal() * turn.transpose()).norm(), 16 * eps);
+  EXPECT_NEAR(box.gyration_radius(), std::sqrt(moments.mean()), 16 * eps);
+  EXPECT_FALSE(box.is_spherical_top());
+}
+
+TEST(Inertia, TellsSphericalTops) {
+  for (const std::string_view name : named_solids()) {
+    const Solid solid = *Solid::named(name);
+    EXPECT_TRUE(solid->is_spherical_top()) << name << "\n" << solid->inertia();
+    EXPECT_NEAR(solid->inertia()(0, 0), std::pow(solid->gyration_radius(), 2), 16 * eps) << name;
+  }
+  EXPECT_FALSE((*Solid::named("prism6"))->is_spherical_top());
+}
+
+TEST(SolidTest, IsOneForOneNameAndOneSetOfVertices) {
+  const Points points = platonic(SolidKind::cube).vertices();
+  const Solid one = Solid::made_of("mine", points), again = Solid::made_of("mine", points);
+  EXPECT_EQ(&*one, &*again);
+  EXPECT_TRUE(one.is_defined());
+  EXPECT_NE(one, Solid::made_of("yours", points));
+  EXPECT_NE(one, Solid(SolidKind::cube));
+  EXPECT_EQ(*Solid::named("cube"), Solid(SolidKind::cube));
+  EXPECT_EQ(*Solid::named("prism5"), *Solid::named("prism5"));
+  EXPECT_EQ(Solid::of(*one), one);
+}
+
+TEST(SolidTest, IsOrderedByWhatItIs) {
+  const Points points = platonic(SolidKind::cube).vertices();
+  Points other = points;
+  for (Vector3d& v : other) v *= 2;
+  std::vector<Solid> ascending;
+  for (const std::string_view name : named_solids()) ascending.push_back(*Solid::named(name));
+  ascending.push_back(*Solid::named("antiprism5"));
+  ascending.push_back(*Solid::named("prism6"));
+  ascending.push_back(Solid::made_of("a", points));
+  ascending.push_back(Solid::made_of("a", other));
+  ascending.push_back(Solid::made_of("b", points));
+  if (ascending[ascending.size() - 2] < ascending[ascending.size() - 3])
+    std::swap(ascending[ascending.size() - 2], ascending[ascending.size() - 3]);  // those of one name: by vertices
+  for (std::size_t i = 0; i < ascending.size(); ++i) {
+    for (std::size_t j = 0; j < ascending.size(); ++j)
+      EXPECT_EQ(ascending[i] < ascending[j], i < j) << to_string(ascending[i]) << " " << to_string(ascending[j]);
+  }
+}
+
+}  // namespace
+}  // namespace isojam
