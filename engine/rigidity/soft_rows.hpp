@@ -26,8 +26,8 @@ class SoftRows {
   double stiffest() const { return stiffest_; }
 
  private:
-  const Eigen::SparseMatrix<double>& rows_;
   BlockCholesky factor_;
+  const Eigen::SparseMatrix<double>& rows_;
   double stiffest_ = 0;
 };
 
