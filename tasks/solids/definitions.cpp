@@ -40,6 +40,7 @@ std::vector<Vector3d> file_vertices(const JsonPlace& place) {
   } catch (const NoSolidFile& error) {
     place.refuse(fmt::format("{}: {}", path.string(), error.what()), "an OFF or STL file of one convex polyhedron");
   } catch (const FileError& error) {
+    if (error.reason() == FileError::Reason::shortage) throw;  // which says nothing of the manifest
     place.refuse(error.what(), "an OFF or STL file of one convex polyhedron");
   }
 }

@@ -109,6 +109,7 @@ class Soup {
     if (mesh_.faces.size() == most_faces) throw NoSolidFile("the triangles are too many for one solid");
     auto& face = mesh_.faces.emplace_back();
     for (const auto& v : triangle) {
+      if (!v.allFinite()) throw NoSolidFile("a coordinate is not finite");
       const auto [found, added] = number_.try_emplace({v.x(), v.y(), v.z()}, mesh_.vertices.size());
       if (added) mesh_.vertices.push_back(v);
       face.push_back(found->second);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/geometry/hull.hpp"
 #include "engine/geometry/solids/named_solids.hpp"
 
@@ -10,6 +12,8 @@ namespace {
 
 /// Squares and products of three of them stay far from overflow and underflow.
 constexpr Range coordinate_range{-1e9, 1e9};
+/// Of the least cell of a solid, in its own volumes: particles at density 1.
+constexpr double largest_cell = 1e8;
 
 }  // namespace
 
@@ -47,9 +51,15 @@ std::vector<Eigen::Vector3d> read_vertices(const JsonPlace& place) {
 
 Solid solid_from(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices) {
   try {
-    return Solid::made_of(name, vertices);
+    auto solid = Solid::made_of(name, vertices);
+    if (std::pow(2 * solid->diameter(), 3) > largest_cell)
+      place.refuse("so long or so flat that its cell would need more particles than there can be",
+                   fmt::format("{:.0f} times as long as the cube root of its volume at most",
+                               std::floor(std::cbrt(largest_cell) / 2)));
+    return solid;
   } catch (const NoSolid& error) {
-    const bool listed = error.vertex() >= 0 && place.value().is_array();
+    // Corners of a box have no place of their own.
+    const bool listed = error.vertex() >= 0 && place.value().size() == vertices.size();
     (listed ? place.at(static_cast<std::size_t>(error.vertex())) : place)
         .refuse(error.what(),
                 fmt::format("4 to {0} points, each a corner of their convex hull, with {0} faces and edges "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <numbers>
 
 #include "engine/geometry/convex_solid.hpp"
@@ -105,7 +106,7 @@ std::array<Quad, 2> root_of_unity(int k, int n) {
   return {x - (fx * px + fy * py) / n, y - (fy * px - fx * py) / n};
 }
 
-/// Vertices of an n-gon at that height, turned by a 2m-th of a turn where `turned` is 1; m = n.
+/// Vertices of an n-gon at that height; `turned`, 0 or 1, by half the angle between neighbours.
 void add_polygon(std::vector<Quad3>& points, int n, int turned, Quad height) {
   for (int k = 0; k < n; ++k) {
     const auto [x, y] = root_of_unity(2 * k + turned, 2 * n);

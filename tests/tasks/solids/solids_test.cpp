@@ -74,15 +74,17 @@ TEST(SolidDefinitions, RefuseWhatIsNoSolidAllAtOnce) {
                     {"gone", {{"file", "no-such-file.off"}}},
                     {"half", {{"box", {1, 2}}}},
                     {"none", Json::object()},
+                    {"sheet", {{"box", {1, 1e-17, 1}}}},
                     {"slab", {{"box", {1, 0, 1}}}},
+                    {"thread", {{"box", {1, 1, 1e9}}}},
                     {"twice", {{"box", {1, 1, 1}}, {"file", "x.off"}}},
                     {"wrong", {{"sphere", 1}}}};
   std::string all;
   EXPECT_EQ(refused(swept(solids, {"dented", "flat", "sphere", "prism4"}), &all),
             (std::vector<std::string>{"/sweep/solid/2", "/sweep/solid/3", "/solids/2nd", "/solids/cube",
                                       "/solids/dented/vertices/1", "/solids/flat/vertices", "/solids/gone/file",
-                                      "/solids/half/box", "/solids/none", "/solids/slab/box/1", "/solids/twice",
-                                      "/solids/wrong/sphere"}))
+                                      "/solids/half/box", "/solids/none", "/solids/sheet/box", "/solids/slab/box/1",
+                                      "/solids/thread/box", "/solids/twice", "/solids/wrong/sphere"}))
       << all;
   EXPECT_NE(all.find("inside of the hull of the others"), std::string::npos) << all;
   EXPECT_NE(all.find("prism3 to prism10"), std::string::npos) << all;
@@ -219,6 +221,7 @@ TEST(SolidFiles, ThatHoldNoConvexSolidAreRefused) {
   EXPECT_NE(said("OFF 99999999 1 0"), "");
   EXPECT_NE(said("OFF 1 1 0 0 0 nan 3 0 0 0"), "");
   EXPECT_NE(said("solid x\n vertex 1 2 3\n vertex 1 2 4\n"), "");
+  EXPECT_NE(said("solid x\n vertex nan 2 3\n vertex 1 2 4\n vertex 0 0 0\n"), "");
   EXPECT_NE(said("solid x\n"), "");
   // A notch: every corner is extreme, two faces are not.
   const std::string dented =
