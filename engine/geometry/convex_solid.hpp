@@ -121,13 +121,13 @@ class ConvexSolid {
 
  private:
   std::string name_;
+  std::vector<Eigen::Vector3d> given_;
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
   SolidArrays arrays_;
   double inradius_ = 0, circumradius_ = 0, diameter_ = 0, gyration_radius_ = 0;
   Eigen::Matrix3d inertia_ = Eigen::Matrix3d::Zero();
-  std::vector<Eigen::Vector3d> given_;
   bool is_spherical_top_ = false;
 };
 

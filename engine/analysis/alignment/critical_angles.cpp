@@ -96,7 +96,7 @@ std::vector<NormalCone> normal_cones(const ConvexSolid& solid) {
   std::vector<NormalCone> cones(solid.vertices().size());
   for (const Edge& edge : solid.edges()) {
     const Vector3d along = (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
-    cones[edge.tail].sides.push_back(-along);
+    cones[edge.tail].sides.emplace_back(-along);
     cones[edge.head].sides.push_back(along);
   }
   for (const Face& face : solid.faces()) {
