@@ -1,6 +1,7 @@
 #include "engine/geometry/convex_solid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -198,6 +199,23 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Quad3> vertices) : na
   gyration_radius_ = static_cast<double>(square_root(2 * about_centroid.second / 3));
   inertia_ = inertia_tensor(about_centroid);
   is_spherical_top_ = is_isotropic(inertia_);
+  arrays_ = flatten(points, planes, loops, edges_);
+}
+
+ConvexSolid::ConvexSolid(const ConvexSolid& unit, double scale) : ConvexSolid(unit) {
+  assert(unit.scale_ == 1 && scale > 0);
+  if (scale == 1) return;
+  scale_ = scale;
+  std::vector<Quad3> points;
+  std::vector<Plane> planes;
+  std::vector<Loop> loops;
+  for (int v = 0; v < arrays_.vertices; ++v) points.push_back(Quad(scale) * arrays_.vertex(v));
+  for (int f = 0; f < arrays_.faces; ++f) planes.push_back({arrays_.normal(f), scale * arrays_.plane_offset(f)});
+  for (const Face& face : faces_) loops.push_back(face.vertices);
+  for (std::size_t v = 0; v < points.size(); ++v) vertices_[v] = rounded(points[v]);
+  for (std::size_t f = 0; f < faces_.size(); ++f) faces_[f].offset = static_cast<double>(planes[f].offset);
+  for (double* length : {&inradius_, &circumradius_, &diameter_, &gyration_radius_}) *length *= scale;
+  inertia_ *= volume() * (scale * scale);
   arrays_ = flatten(points, planes, loops, edges_);
 }
 

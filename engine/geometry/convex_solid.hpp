@@ -89,8 +89,9 @@ struct SolidArrays {
   Quad plane_offset(int f) const { return widened({offset[f], offset_low[f]}); }
 };
 
-/// An immutable convex polyhedron of unit volume and unit mass (V_p = 1, ρ = 1), centred on its centroid.
-/// Lengths in V_p^(1/3). At most 32 vertices, faces and edges each, so that sets of them are 32-bit masks.
+/// An immutable convex polyhedron, centred on its centroid, of density of mass 1, and of unit volume (V_p = 1) unless
+/// it was made in another size. Lengths in V_p^(1/3). At most 32 vertices, faces and edges each, so that sets of them
+/// are 32-bit masks.
 class ConvexSolid {
  public:
   static constexpr int max_features = SolidArrays::capacity;
@@ -101,6 +102,8 @@ class ConvexSolid {
   /// Hull of vertices in quadruple precision, so that every constant is the nearest double and its low part
   /// correct to 1e-32.
   ConvexSolid(std::string name, std::span<const Quad3> vertices);
+  /// `unit`, whose scale is 1, with all lengths times `scale` > 0.
+  ConvexSolid(const ConvexSolid& unit, double scale);
 
   const std::string& name() const { return name_; }
   /// The vertices that it was made of, in their own units and place; none if these were in quadruple precision.
@@ -109,12 +112,14 @@ class ConvexSolid {
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<Edge>& edges() const { return edges_; }
   const SolidArrays& arrays() const { return arrays_; }
-  double inradius() const { return inradius_; }          ///< least distance of a face from the centroid
-  double circumradius() const { return circumradius_; }  ///< greatest distance of a vertex from the centroid
-  double diameter() const { return diameter_; }          ///< greatest distance between two vertices
-  /// Radius of gyration about an axis, R = sqrt(I/m), I the mean principal moment of inertia.
+  double scale() const { return scale_; }                     ///< of its lengths to those of the solid of unit volume
+  double volume() const { return scale_ * scale_ * scale_; }  ///< and mass
+  double inradius() const { return inradius_; }               ///< least distance of a face from the centroid
+  double circumradius() const { return circumradius_; }       ///< greatest distance of a vertex from the centroid
+  double diameter() const { return diameter_; }               ///< greatest distance between two vertices
+  /// Radius of gyration about an axis, R = sqrt(I/m), I the mean principal moment of inertia, m the mass.
   double gyration_radius() const { return gyration_radius_; }
-  /// Tensor of inertia about the centroid, ∫ (|x|² − x xᵀ) dV, body frame: R² of a spherical top.
+  /// Tensor of inertia about the centroid, ∫ (|x|² − x xᵀ) dV, body frame: m R² of a spherical top.
   const Eigen::Matrix3d& inertia() const { return inertia_; }
   /// Whether all moments of inertia are equal, to within rounding: the Platonic solids and all of their symmetry.
   bool is_spherical_top() const { return is_spherical_top_; }
@@ -126,7 +131,7 @@ class ConvexSolid {
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
   SolidArrays arrays_;
-  double inradius_ = 0, circumradius_ = 0, diameter_ = 0, gyration_radius_ = 0;
+  double scale_ = 1, inradius_ = 0, circumradius_ = 0, diameter_ = 0, gyration_radius_ = 0;
   Eigen::Matrix3d inertia_ = Eigen::Matrix3d::Zero();
   bool is_spherical_top_ = false;
 };

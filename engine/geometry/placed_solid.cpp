@@ -53,23 +53,56 @@ void turn(const DoubleDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, 
 /// Doubles of one kind of vectors.
 std::ptrdiff_t room(int n) { return std::ptrdiff_t{block} * ((n + 3) / 4); }
 
+constexpr std::ptrdiff_t line = 8;  ///< doubles
+
+/// Of one solid: vertices, normals, and the rotation.
+std::size_t lines_of(const ConvexSolid& solid) {
+  constexpr std::ptrdiff_t matrix = 9;
+  return static_cast<std::size_t>((room(solid.arrays().vertices) + room(solid.arrays().faces) + matrix + line - 1) /
+                                  line);
+}
+
 }  // namespace
 
 void PlacedSolids::resize(const ConvexSolid& solid, std::size_t count, bool low) {
-  const SolidArrays& body = solid.arrays();
-  constexpr std::ptrdiff_t matrix = 9, line = sizeof(Line) / sizeof(double);
   has_low_ = low || (has_low_ && solid_ == &solid);  // whoever asks now and then does not pay for it every time
   solid_ = &solid;
   count_ = count;
-  stride_ = static_cast<std::size_t>((room(body.vertices) + room(body.faces) + matrix + line - 1) / line);
-  to_normals_ = room(body.vertices);
+  places_.clear();
+  stride_ = lines_of(solid);
+  to_normals_ = room(solid.arrays().vertices);
   to_low_ = line * static_cast<std::ptrdiff_t>(stride_ * count);
   lines_.resize(stride_ * count * (has_low_ ? 2 : 1));
 }
 
+void PlacedSolids::resize(std::span<const ConvexSolid* const> solids, bool low) {
+  solid_ = nullptr;
+  count_ = solids.size();
+  has_low_ = low;
+  places_.clear();
+  std::size_t lines = 0;
+  for (const ConvexSolid* solid : solids) {
+    places_.push_back({solid, lines});
+    lines += lines_of(*solid);
+  }
+  to_low_ = line * static_cast<std::ptrdiff_t>(lines);
+  lines_.resize(lines * (low ? 2 : 1));
+}
+
+PlacedSolid PlacedSolids::unlike(std::size_t k) const {
+  const ConvexSolid& solid = *places_[k].solid;
+  const double* at = &lines_[places_[k].line].value[0];
+  return {solid, at, at + room(solid.arrays().vertices), to_low_};
+}
+
+std::pair<const ConvexSolid*, double*> PlacedSolids::room_of(std::size_t k) {
+  if (solid_ != nullptr) return {solid_, &lines_[k * stride_].value[0]};
+  return {places_[k].solid, &lines_[places_[k].line].value[0]};
+}
+
 void PlacedSolids::place(std::size_t k, const Eigen::Matrix3d& rotation) {
-  const SolidArrays& body = solid_->arrays();
-  double* at = &lines_[k * stride_].value[0];
+  auto [solid, at] = room_of(k);
+  const SolidArrays& body = solid->arrays();
   turn(rotation, {body.x, body.y, body.z}, body.vertices, at);
   at += room(body.vertices);
   turn(rotation, {body.nx, body.ny, body.nz}, body.faces, at);
@@ -79,8 +112,9 @@ void PlacedSolids::place(std::size_t k, const Eigen::Matrix3d& rotation) {
 
 void PlacedSolids::place(std::size_t k, const DoubleDoubleMatrix& rotation) {
   assert(has_low_);
-  const SolidArrays& body = solid_->arrays();
-  double *at = &lines_[k * stride_].value[0], *low = at + to_low_;
+  auto [solid, at] = room_of(k);
+  const SolidArrays& body = solid->arrays();
+  double* low = at + to_low_;
   turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, at, low);
   at += room(body.vertices), low += room(body.vertices);
   turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, at, low);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/geometry/convex_solid.hpp"
@@ -63,8 +65,11 @@ class PlacedSolids {
   /// Makes room for `count` solids, none of them placed, with room for low parts if they are to be placed in
   /// double-double. Keeps a pointer to the solid, which must outlive this.
   void resize(const ConvexSolid& solid, std::size_t count, bool low);
+  /// The same for solids of several kinds.
+  void resize(std::span<const ConvexSolid* const> solids, bool low);
   std::size_t size() const { return count_; }
-  const ConvexSolid* solid() const { return solid_; }  ///< null before the first resize()
+  /// Of any of them, which are alike; null before the first resize() and where there are several kinds.
+  const ConvexSolid* solid() const { return solid_; }
 
   /// `rotation`: body frame → lab frame.
   void place(std::size_t k, const Eigen::Matrix3d& rotation);
@@ -72,6 +77,7 @@ class PlacedSolids {
   void place(std::size_t k, const DoubleDoubleMatrix& rotation);
 
   PlacedSolid operator[](std::size_t k) const {
+    if (solid_ == nullptr) return unlike(k);
     const double* at = &lines_[k * stride_].value[0];
     return {*solid_, at, at + to_normals_, to_low_};
   }
@@ -80,13 +86,23 @@ class PlacedSolids {
   struct alignas(64) Line {
     double value[8];
   };
+  /// Where one of several kinds stands.
+  struct Place {
+    const ConvexSolid* solid;
+    std::size_t line;
+  };
+
+  PlacedSolid unlike(std::size_t k) const;
+  /// What it is, and where it begins.
+  std::pair<const ConvexSolid*, double*> room_of(std::size_t k);
 
   const ConvexSolid* solid_ = nullptr;
   std::size_t count_ = 0;
   std::size_t stride_ = 0;  ///< lines of one solid
   std::ptrdiff_t to_normals_ = 0, to_low_ = 0;
   bool has_low_ = false;
-  std::vector<Line> lines_;  ///< of all solids, and after them of the low parts
+  std::vector<Place> places_;  ///< if there are several kinds
+  std::vector<Line> lines_;    ///< of all solids, and after them of the low parts
 };
 
 /// A solid placed by itself.
