@@ -96,7 +96,7 @@ void measure_extents(const Packing& packing, Cluster& cluster) {
   for (int m = 0; m < cluster.size(); ++m) {
     const Pose& pose = packing.poses[cluster.members[m]];
     const Vector3d centre = pose.position + packing.cell.translation(cluster.images[m]);
-    const Reach body = reach(*packing.solid, pose);
+    const Reach body = reach(packing.solids[cluster.members[m]], pose);
     low = low.cwiseMin(centre);
     high = high.cwiseMax(centre);
     body_low = body_low.cwiseMin(centre + body.below);

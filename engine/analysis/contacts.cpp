@@ -1,8 +1,10 @@
 #include "engine/analysis/contacts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace isojam {
 
@@ -53,6 +55,13 @@ ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> al
   return mean;
 }
 
+const ClassCutoffs& ContactAnalysis::cutoffs_of(const ConvexSolid& a, const ConvexSolid& b) const {
+  for (const ShapePair& pair : pairs) {
+    if ((pair.a == &a && pair.b == &b) || (pair.a == &b && pair.b == &a)) return pair.cutoffs;
+  }
+  return *this;
+}
+
 std::optional<double> ContactAnalysis::disagreement() const {
   const bool by_fit = face_face.has_cutoff();
   if (!by_fit || !Z_ff_gap) return std::nullopt;
@@ -61,8 +70,8 @@ std::optional<double> ContactAnalysis::disagreement() const {
 
 namespace {
 
-/// All but what belongs to one packing.
-ContactAnalysis cutoffs_of(const ConvexSolid& solid, std::span<const std::vector<Alignment>> packings) {
+/// From the contacts of several packings together.
+ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vector<Alignment>> packings) {
   std::vector<double> face_face, edge_face;
   for (const std::vector<Alignment>& alignments : packings) {
     for (const Alignment& alignment : alignments) {
@@ -70,13 +79,111 @@ ContactAnalysis cutoffs_of(const ConvexSolid& solid, std::span<const std::vector
       edge_face.push_back(alignment.edge_face);
     }
   }
+  ClassCutoffs cutoffs;
+  cutoffs.critical = critical;
+  cutoffs.face_face = fit_cdf(face_face, critical.ff_min() / 2);
+  cutoffs.edge_face = fit_cdf(edge_face, critical.ef_min() / 2);
+  cutoffs.face_face_gap = split_at_gap(face_face, critical.ff_min() / 2);
+  cutoffs.edge_face_gap = split_at_gap(edge_face, critical.ef_min() / 2);
+  return cutoffs;
+}
+
+/// Mean numbers over the particles of each kind: a contact counts for the kind at either end.
+std::vector<ContactNumbers> numbers_of_kinds(const Composition& solids, int particles,
+                                             std::span<const Contact> contacts, std::span<const ContactClass> classes) {
+  struct Counts {
+    long particles = 0;
+    std::array<long, 3> ends{};
+  };
+  std::vector<Counts> counts(static_cast<std::size_t>(solids.kinds()));
+  const auto of = [&](int i) -> Counts& {
+    return counts[static_cast<std::size_t>(solids.kind(static_cast<std::size_t>(i)))];
+  };
+  for (int i = 0; i < particles; ++i) ++of(i).particles;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const auto which = static_cast<std::size_t>(classes[k]);
+    ++of(contacts[k].pair.a).ends[which];
+    ++of(contacts[k].pair.b).ends[which];
+  }
+  std::vector<ContactNumbers> numbers;
+  for (const Counts& kind : counts) {
+    const auto [ff, ef, l] = kind.ends;
+    const auto mean = [&](long ends) { return static_cast<double>(ends) / static_cast<double>(kind.particles); };
+    numbers.push_back(
+        {.Z = mean(ff + ef + l), .Z_ff = mean(ff), .Z_ef = mean(ef), .Z_l = mean(l), .C = mean(3 * ff + 2 * ef + l)});
+  }
+  return numbers;
+}
+
+/// Whether a decides less than b.
+bool is_vaguer(const CdfFit& a, const CdfFit& b) {
+  if (a.has_cutoff() != b.has_cutoff()) return b.has_cutoff();
+  return a.verdict == FitVerdict::bimodal && b.verdict == FitVerdict::fitted;
+}
+
+/// One pair of shapes of a mixture, and which contacts are its own.
+struct Group {
+  ShapePair pair;
+  std::vector<std::size_t> members;
+  std::vector<Alignment> alignments;
+};
+
+/// In order of their names.
+std::vector<Group> groups_of(const Composition& solids, std::span<const Contact> contacts,
+                             std::span<const Alignment> alignments) {
+  std::vector<Group> groups;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const ConvexSolid *a = &solids.unit(static_cast<std::size_t>(contacts[k].pair.a)),
+                      *b = &solids.unit(static_cast<std::size_t>(contacts[k].pair.b));
+    if (std::pair(b->name(), b) < std::pair(a->name(), a)) std::swap(a, b);
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& each) { return each.pair.a == a && each.pair.b == b; });
+    if (group == groups.end()) group = groups.insert(group, Group{{a, b, 0, {}}, {}, {}});
+    ++group->pair.contacts;
+    group->members.push_back(k);
+    group->alignments.push_back(alignments[k]);
+  }
+  std::sort(groups.begin(), groups.end(), [](const Group& p, const Group& q) {
+    return std::pair(p.pair.a->name(), p.pair.b->name()) < std::pair(q.pair.a->name(), q.pair.b->name());
+  });
+  return groups;
+}
+
+/// Takes from `pair` what decides less than what `all` has so far.
+void take_vaguer(const ShapePair& pair, ContactAnalysis& all) {
+  const ClassCutoffs& cutoffs = pair.cutoffs;
+  if (is_vaguer(cutoffs.face_face, all.face_face)) all.face_face = cutoffs.face_face;
+  if (is_vaguer(cutoffs.edge_face, all.edge_face)) all.edge_face = cutoffs.edge_face;
+  if (!(cutoffs.face_face_gap.cutoff > 0)) all.face_face_gap = cutoffs.face_face_gap;
+  if (!(cutoffs.edge_face_gap.cutoff > 0)) all.edge_face_gap = cutoffs.edge_face_gap;
+  all.critical.take_lesser(cutoffs.critical);
+}
+
+ContactAnalysis analyse_mixture(const Composition& solids, int particles, std::span<const Contact> contacts,
+                                std::span<const Alignment> alignments) {
   ContactAnalysis analysis;
-  analysis.critical = critical_angles(solid);
-  analysis.face_face = fit_cdf(face_face, analysis.critical.ff_min() / 2);
-  analysis.edge_face = fit_cdf(edge_face, analysis.critical.ef_min() / 2);
-  analysis.face_face_gap = split_at_gap(face_face, analysis.critical.ff_min() / 2);
-  analysis.edge_face_gap = split_at_gap(edge_face, analysis.critical.ef_min() / 2);
-  analysis.pooled_over = static_cast<int>(packings.size());
+  analysis.classes.resize(contacts.size());
+  std::vector<ContactClass> by_gap(contacts.size());
+  for (Group& group : groups_of(solids, contacts, alignments)) {
+    ShapePair& pair = group.pair;
+    pair.cutoffs = cutoffs_of(critical_angles(*pair.a, *pair.b), std::span(&group.alignments, 1));
+    const auto classes = classify(group.alignments, pair.cutoffs.face_face.cutoff, pair.cutoffs.edge_face.cutoff);
+    const auto gap = classify(group.alignments, pair.cutoffs.face_face_gap.cutoff, 0);
+    for (std::size_t k = 0; k < group.members.size(); ++k) {
+      analysis.classes[group.members[k]] = classes[k];
+      by_gap[group.members[k]] = gap[k];
+    }
+    if (analysis.pairs.empty()) {
+      static_cast<ClassCutoffs&>(analysis) = pair.cutoffs;
+    } else {
+      take_vaguer(pair, analysis);
+    }
+    analysis.pairs.push_back(pair);
+  }
+  analysis.numbers = contact_numbers(particles, analysis.classes);
+  analysis.fixed_cutoffs = fixed_cutoff_numbers(particles, alignments);
+  if (analysis.face_face_gap.cutoff > 0) analysis.Z_ff_gap = contact_numbers(particles, by_gap).Z_ff;
+  analysis.of_kinds = numbers_of_kinds(solids, particles, contacts, analysis.classes);
   return analysis;
 }
 
@@ -84,7 +191,10 @@ ContactAnalysis cutoffs_of(const ConvexSolid& solid, std::span<const std::vector
 
 std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
                                             std::span<const std::vector<Alignment>> packings) {
-  std::vector<ContactAnalysis> analyses(packings.size(), cutoffs_of(solid, packings));
+  ContactAnalysis common;
+  static_cast<ClassCutoffs&>(common) = cutoffs_of(critical_angles(solid), packings);
+  common.pooled_over = static_cast<int>(packings.size());
+  std::vector<ContactAnalysis> analyses(packings.size(), common);
   for (std::size_t k = 0; k < packings.size(); ++k) {
     ContactAnalysis& analysis = analyses[k];
     const std::vector<Alignment>& alignments = packings[k];
@@ -100,6 +210,16 @@ std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int partic
 ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments) {
   const std::vector<Alignment> own(alignments.begin(), alignments.end());
   return analyse_pooled(solid, particles, std::span(&own, 1)).front();
+}
+
+ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::span<const Contact> contacts,
+                                 std::span<const Alignment> alignments) {
+  if (solids.has_one_shape()) {
+    ContactAnalysis analysis = analyse_contacts(solids.unit(0), particles, alignments);
+    if (!solids.is_uniform()) analysis.of_kinds = numbers_of_kinds(solids, particles, contacts, analysis.classes);
+    return analysis;
+  }
+  return analyse_mixture(solids, particles, contacts, alignments);
 }
 
 }  // namespace isojam

@@ -25,24 +25,46 @@ struct ContactNumbers {
   double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;
 };
 
-struct ContactAnalysis {
+/// Cut-offs between contact classes, of all contacts between solids of two shapes.
+struct ClassCutoffs {
   CdfFit face_face, edge_face;
   GapSplit face_face_gap, edge_face_gap;  ///< the other method, in the same windows
+  CriticalAngles critical;
+};
+
+/// The cut-offs of one pair of shapes in a mixture of several.
+struct ShapePair {
+  const ConvexSolid *a = nullptr, *b = nullptr;  ///< of unit volume
+  long contacts = 0;
+  ClassCutoffs cutoffs;
+};
+
+/// Where there are several shapes, the base has for each method the cut-off of the pair of shapes that decides least:
+/// without one, or else doubtful, or else any.
+struct ContactAnalysis : ClassCutoffs {
+  std::vector<ShapePair> pairs;  ///< of shapes that touch; none if there is one shape
   /// Packings whose angles, taken together, gave the fits, the gaps and so the cut-offs. 1: its own alone.
   int pooled_over = 1;
-  CriticalAngles critical;
-  std::vector<ContactClass> classes;  ///< per contact, in the order given, by the fits
-  ContactNumbers numbers;             ///< by the fits
-  std::optional<double> Z_ff_gap;     ///< Z_ff by the gap in θ_ff; none if there is no gap
-  ContactNumbers fixed_cutoffs;       ///< fixed_cutoff_numbers of the contacts
+  std::vector<ContactClass> classes;     ///< per contact, in the order given, by the fits
+  ContactNumbers numbers;                ///< by the fits
+  std::optional<double> Z_ff_gap;        ///< Z_ff by the gap in θ_ff; none if there is no gap
+  ContactNumbers fixed_cutoffs;          ///< fixed_cutoff_numbers of the contacts
+  std::vector<ContactNumbers> of_kinds;  ///< of the particles of each kind of a mixture; none if they are alike
   /// Z_ff_gap − Z_ff; none unless the fit gives a cut-off too.
   std::optional<double> disagreement() const;
+  /// The cut-offs of contacts between solids of these shapes.
+  const ClassCutoffs& cutoffs_of(const ConvexSolid& a, const ConvexSolid& b) const;
   double Q6 = 0;  ///< contact_q6 of the state, for whoever has its contacts and not just their angles
 };
 
 /// Classifies by the cut-offs of the two CDF fits on [0, θ_c,min/2] each: face-face if θ_ff < its cut-off,
 /// edge-face if θ_ef < its cut-off and not face-face, lower order otherwise. A collapsed fit leaves its cut-off at 0.
 ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments);
+
+/// The same of a packing of any solids: every pair of shapes has cut-offs of its own, each found from its contacts
+/// alone.
+ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::span<const Contact> contacts,
+                                 std::span<const Alignment> alignments);
 
 /// Analyses several packings of as many particles each (replicates of a sweep point) together: fits and gaps are found
 /// from the angles of all, and each packing is classified by the common cut-offs. Results in the order given.

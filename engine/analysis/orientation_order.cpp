@@ -66,7 +66,8 @@ Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l) {
   Eigen::MatrixXd harmonics = Eigen::MatrixXd::Zero(2 * l + 1, packing.size());
   for (int i = 0; i < packing.size(); ++i) {
     const Eigen::Matrix3d rotation = rotation_matrix(packing.poses[i]).high;
-    for (const Vector3d& vertex : packing.solid->vertices()) harmonics.col(i) += real_harmonics(rotation * vertex, l);
+    for (const Vector3d& vertex : packing.solids[i].vertices())
+      harmonics.col(i) += real_harmonics(rotation * vertex, l);
     harmonics.col(i).normalize();
   }
   return harmonics;
@@ -96,8 +97,10 @@ Order order_of(const Packing& packing, std::span<const Contact> contacts) {
   order.Q6 = steinhardt_order(bonds, 6);
   order.local_Q4 = mean_of(local_steinhardt_order(contacts, packing.size(), 4));
   order.local_Q6 = mean_of(local_steinhardt_order(contacts, packing.size(), 6));
-  order.rank = orientation_rank(*packing.solid);
-  order.S = orientation_order(orientation_harmonics(packing, order.rank));
+  if (packing.solids.has_one_shape()) {
+    order.rank = orientation_rank(packing.solids.unit(0));
+    order.S = orientation_order(orientation_harmonics(packing, order.rank));
+  }
   order.random_S = 1 / std::sqrt(static_cast<double>(packing.size()));
   return order;
 }

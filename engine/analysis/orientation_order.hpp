@@ -15,10 +15,10 @@ namespace isojam {
 /// vanish.
 unsigned orientation_rank(const ConvexSolid& solid);
 
-/// Spherical harmonics of every particle, (2l + 1) × N: the components Σ_v Y_lm(v) over its vertex directions in the
-/// lab frame, real harmonics, columns of unit norm. Particles alike but for a symmetry of the solid have equal columns.
-/// Products of columns are q_ij = Σ_vw P_l(v·w)/Σ_vv' P_l(v·v'), 1 if i and j are aligned, 0 on average if their
-/// orientations are independent.
+/// Spherical harmonics of every particle, all of one shape, (2l + 1) × N: the components Σ_v Y_lm(v) over its vertex
+/// directions in the lab frame, real harmonics, columns of unit norm. Particles alike but for a symmetry of the solid
+/// have equal columns. Products of columns are q_ij = Σ_vw P_l(v·w)/Σ_vv' P_l(v·v'), 1 if i and j are aligned, 0 on
+/// average if their orientations are independent.
 Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l);
 
 /// S_l = |mean column|, S_l² = (1/N²) Σ_ij q_ij: 1 if all are aligned, about 1/√N if orientations are independent.
@@ -33,8 +33,8 @@ std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contac
 struct Order {
   double Q4 = 0, Q6 = 0;                     ///< over all contacts; 0 without
   std::optional<double> local_Q4, local_Q6;  ///< means over particles with contacts; none without
-  unsigned rank = 0;                         ///< orientation_rank
-  double S = 0;                              ///< orientation_order of that rank
+  unsigned rank = 0;                         ///< orientation_rank; 0 where particles have several shapes
+  std::optional<double> S;                   ///< orientation_order of that rank; none where there is none
   double random_S = 0;                       ///< 1/√N, what independent orientations give
 };
 /// Order of a packing with its contacts (PackingEnergy::contacts).

@@ -18,6 +18,9 @@ struct BlockMatrix {
   std::vector<Block> off_diagonal;  ///< in order of (row, column), each at most once
   /// Last columns, 6N × strains, and what stands below them on the diagonal, strains × strains; empty without strains.
   Eigen::MatrixXd border, corner;
+  /// √m of the particles, where coordinates are scaled by it and it is not the same for all: a translation of the whole
+  /// then has these as its entries. Empty otherwise.
+  Eigen::VectorXd root_masses{};
 
   int size() const { return static_cast<int>(diagonal.size()); }  ///< in blocks
   int strains() const { return static_cast<int>(corner.cols()); }

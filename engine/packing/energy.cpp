@@ -21,28 +21,29 @@ struct Accumulator {
 };
 
 /// ρ_c.
-double relative_error(const ConvexSolid& solid, const Eigen::Vector3d& r, const Overlap& overlap) {
-  const double tolerance = gap_tolerance(solid, solid, r), area = overlap.area.norm();
-  return tolerance / std::max(double_double_below(solid, solid), overlap.volume / area) + tolerance / std::sqrt(area);
+double relative_error(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r, const Overlap& overlap) {
+  const double tolerance = gap_tolerance(a, b, r), area = overlap.area.norm();
+  return tolerance / std::max(double_double_below(a, b), overlap.volume / area) + tolerance / std::sqrt(area);
 }
 
 /// What one contact adds to an evaluation, lab frame. ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
 ContactTerms terms_of(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap) {
   ContactTerms terms;
   const Eigen::Vector3d r = displacement(packing, pair);
-  const double radius = packing.solid->gyration_radius();
+  const ConvexSolid &a = packing.solids[pair.a], &b = packing.solids[pair.b];
+  const double radius_a = a.gyration_radius(), radius_b = b.gyration_radius();
   const Eigen::Vector3d dtheta = overlap.volume / 2 * overlap.moment;
   terms.dx = overlap.volume / 2 * overlap.area;
-  terms.dtheta_a = dtheta / radius;
-  terms.dtheta_b = (r.cross(terms.dx) - dtheta) / radius;
+  terms.dtheta_a = dtheta / radius_a;
+  terms.dtheta_b = (r.cross(terms.dx) - dtheta) / radius_b;
   terms.stress = terms.dx * r.transpose();
   terms.energy = overlap.volume * overlap.volume / 4;
   terms.force = terms.dx.norm();
   const double square = overlap.area.squaredNorm();
   const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
-  terms.stiffness_a = (square + overlap.moment.squaredNorm() / (radius * radius)) / 2;
-  terms.stiffness_b = (square + moment_b.squaredNorm() / (radius * radius)) / 2;
-  terms.error = relative_error(*packing.solid, r, overlap);
+  terms.stiffness_a = (square + overlap.moment.squaredNorm() / (radius_a * radius_a)) / 2;
+  terms.stiffness_b = (square + moment_b.squaredNorm() / (radius_b * radius_b)) / 2;
+  terms.error = relative_error(a, b, r, overlap);
   return terms;
 }
 
@@ -65,7 +66,7 @@ void add_contact(const NeighbourPair& pair, const ContactTerms& terms, Evaluatio
 /// Sets residual_floor and energy_noise; mean_force > 0.
 void bound_rounding(const Packing& packing, Precision precision, const Accumulator& sums, Evaluation& result) {
   if (precision == Precision::double_double) {
-    const double levers = packing.solid->circumradius() / packing.solid->gyration_radius();
+    const double levers = packing.solids.greatest_lever();
     result.residual_floor = levers * *std::max_element(sums.noise.begin(), sums.noise.end()) / result.mean_force;
     result.energy_noise = sums.energy_noise;
     return;
@@ -103,6 +104,10 @@ void for_each_of_either(const TouchingPairs& now, const TouchingPairs& closed, c
   }
 }
 
+GyrationRadii radii_of(const Packing& packing, const NeighbourPair& pair) {
+  return {packing.solids[pair.a].gyration_radius(), packing.solids[pair.b].gyration_radius()};
+}
+
 double largest_imbalance(const Eigen::VectorXd& gradient) {
   double largest = 0;
   for (Eigen::Index k = 0; k < gradient.size(); k += 3) largest = std::max(largest, gradient.segment<3>(k).norm());
@@ -119,7 +124,7 @@ double deviator_of(const Evaluation& evaluation) {
 
 void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   // Hessians and contacts are mostly asked for in a state that was evaluated a moment ago.
-  const bool seen = seen_solid_ == packing.solid && seen_cell_ && *seen_cell_ == packing.cell &&
+  const bool seen = seen_solids_ == packing.solids && seen_cell_ && *seen_cell_ == packing.cell &&
                     seen_ == packing.poses && seen_precision_ == precision;
   if (seen) return;
   seen_.clear();
@@ -128,7 +133,7 @@ void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   totals_ += overlap_pairs(packing, precision, placed_, list_.pairs(), list_.axes(), touching_);
   seen_ = packing.poses;
   seen_cell_ = packing.cell;
-  seen_solid_ = packing.solid;
+  seen_solids_ = packing.solids;
   seen_precision_ = precision;
 }
 
@@ -184,7 +189,7 @@ SecondOrder PackingEnergy::second_order(const Packing& packing, double probe_dis
     const NeighbourPair& pair = pairs[k];
     const Eigen::Vector3d r = displacement(packing, pair);
     result.pairs.push_back(incipient_contact(pair.a, pair.b, now ? *now : Overlap{}, then ? *then : Overlap{}, r,
-                                             probe_distance, packing.solid->gyration_radius(), strains));
+                                             probe_distance, radii_of(packing, pair), strains));
     if (!now) return;
     const PairHessian& h = hessians[next++];
     result.hessian.add_pair(pair.a, pair.b, h.aa, h.ab, h.bb);

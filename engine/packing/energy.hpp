@@ -17,7 +17,7 @@ namespace isojam {
 struct Evaluation {
   double energy = 0;
   double load_energy = 0;  ///< of `energy`, what Enthalpy added
-  /// 6N: per particle (−F, −T/R), lab frame; R the radius of gyration. Behind them what Enthalpy adds.
+  /// 6N: per particle (−F, −T/R), lab frame; R the particle's radius of gyration. Behind them what Enthalpy adds.
   Eigen::VectorXd gradient;
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< (1/V_cell) dE/dε, lab frame
   double pressure = 0;                               ///< −dE/dV_cell = −tr(stress)/3
@@ -66,11 +66,11 @@ struct ContactTerms {
   double error = 0;                         ///< ρ_c, see Evaluation::residual_floor
 };
 
-/// Evaluates packings of one solid. Holds caches only (neighbour list with a skin, separating axes): the same
+/// Evaluates packings. Holds caches only (neighbour list with a skin, separating axes): the same
 /// packing gives the same bits whatever was evaluated before and whatever the number of threads.
 class PackingEnergy {
  public:
-  /// Throws std::invalid_argument unless is_legal(cell, solid).
+  /// Throws std::invalid_argument unless is_legal(cell, solids.widest()).
   /// Precision::double_double computes V, S and M of every contact from the low parts of the state too, at a tenth more
   /// cost; sums are in double in either.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
@@ -94,7 +94,7 @@ class PackingEnergy {
   std::vector<std::vector<ContactTerms>> terms_;  ///< of touching_
   std::vector<Pose> seen_;                        ///< of the packing that touching_ belong to
   std::optional<PeriodicCell> seen_cell_;
-  const ConvexSolid* seen_solid_ = nullptr;
+  std::optional<Composition> seen_solids_;
   Precision seen_precision_ = Precision::working;
   long evaluations_ = 0;
   PairCounts totals_;

@@ -12,31 +12,31 @@ namespace {
 /// A flat contact of vector area S whose section line crosses its middle resists tilt about axes in its plane:
 /// V_τ ≈ |S|^(3/2)/5 there, and ½ V_τ² = |S|³/50. Contacts of lower order have so small an area that it vanishes beside
 /// ½ |∇V|².
-Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, double radius) {
+Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, const GyrationRadii& radii) {
   const double square = area.squaredNorm();
   if (!(square > 0)) return Eigen::Matrix3d::Zero();
   const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - area * area.transpose() / square;
-  return square * std::sqrt(square) / (50 * radius * radius) * in_plane;
+  return square * std::sqrt(square) / (50 * radii.a * radii.b) * in_plane;
 }
 
 }  // namespace
 
-LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, double gyration_radius) {
+LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, const GyrationRadii& radii) {
   const Eigen::Vector3d moment_b = r.cross(overlap.area) - overlap.moment;
-  return {overlap.volume,
-          joined(overlap.area, overlap.moment / gyration_radius),
-          joined(-overlap.area, moment_b / gyration_radius),
-          {}};
+  return {
+      overlap.volume, joined(overlap.area, overlap.moment / radii.a), joined(-overlap.area, moment_b / radii.b), {}};
 }
 
 IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& closed, const Eigen::Vector3d& r,
-                                   double probe_distance, double gyration_radius, const StrainBasis& strains) {
+                                   double probe_distance, const GyrationRadii& radii, const StrainBasis& strains) {
   IncipientContact pair;
   pair.a = a, pair.b = b;
+  const double mean_radius = std::sqrt(radii.a * radii.b);
+  pair.turn_a = mean_radius / radii.a, pair.turn_b = mean_radius / radii.b;
   const Eigen::Vector3d approach = probe_distance * r.normalized();
-  if (now.touching()) pair.now = tangent(now, r, gyration_radius);
+  if (now.touching()) pair.now = tangent(now, r, radii);
   if (closed.touching()) {
-    pair.closed = tangent(closed, r - approach, gyration_radius);
+    pair.closed = tangent(closed, r - approach, radii);
     pair.closed.at_rest -= closed.area.dot(approach);  // B moved by −approach, against −S_A
   }
   // Strain moves B by ε r, against −S_A.
@@ -45,7 +45,7 @@ IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overl
     pair.closed.slope_strains = -(strained(r) * strains).transpose() * closed.area;
   }
   const bool wider = closed.area.squaredNorm() > now.area.squaredNorm();
-  pair.tilt = tilt_stiffness(wider ? closed.area : now.area, gyration_radius);
+  pair.tilt = tilt_stiffness(wider ? closed.area : now.area, radii);
   return pair;
 }
 

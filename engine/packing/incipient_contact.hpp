@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// Overlap volume of a pair (a, b) to first order in a step s as moved() takes it, per particle (x, R·θ), R the radius
+/// Overlap volume of a pair (a, b) to first order in a step s as moved() takes it, per particle (x, R·θ), R its radius
 /// of gyration, and behind these the strains ℓ·ε that are free: V ≈ at_rest + slope_a·s_a + slope_b·s_b +
 /// slope_strains·ε. V in V_p, slopes in V_p^(2/3).
 struct LinearisedOverlap {
@@ -30,17 +30,28 @@ struct IncipientContact {
   LinearisedOverlap now;  ///< tangent in the present state; 0 if the pair is apart
   /// Tangent with the gap closed, continued to the present state, where it is negative for a gap; 0 if still apart.
   LinearisedOverlap closed;
-  /// Stiffness against relative rotation (R·θ_B − R·θ_A) that a flat contact shows once its section line cuts the
+  /// Stiffness against relative rotation relative_turn() that a flat contact shows once its section line cuts the
   /// face; until then V is linear in the tilt and the Hessian blind to it.
   Eigen::Matrix3d tilt = Eigen::Matrix3d::Zero();
+  double turn_a = 1, turn_b = 1;  ///< √(R_A R_B)/R of each
+
+  /// √(R_A R_B) (θ_B − θ_A).
+  Eigen::Vector3d relative_turn(const Eigen::VectorXd& step) const {
+    return turn_b * step.segment<3>(6 * b + 3) - turn_a * step.segment<3>(6 * a + 3);
+  }
+};
+
+/// Radii of gyration of a pair.
+struct GyrationRadii {
+  double a, b;
 };
 
 /// Tangent of V for an overlap (vector area S_A and moment M_A in the lab frame) at displacement r = x_B − x_A.
-LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, double gyration_radius);
+LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, const GyrationRadii& radii);
 
 /// The pair with overlap `now` at r, and `closed` with B's centre closer to A's by `probe_distance` (V_p^(1/3)). Either
 /// may be empty, not both. `strains`: those that are free, over ℓ.
 IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& closed, const Eigen::Vector3d& r,
-                                   double probe_distance, double gyration_radius, const StrainBasis& strains = {});
+                                   double probe_distance, const GyrationRadii& radii, const StrainBasis& strains = {});
 
 }  // namespace isojam

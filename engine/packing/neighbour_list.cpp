@@ -28,16 +28,17 @@ std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_p
 }  // namespace
 
 /// Centres have come from x to F x + u, and r to F r + u_b − u_a: a pair that was farther apart than reach and skin is
-/// no nearer than |F r| − 2 max |u|, |F r| ≥ (1 − |F − 1|) |r|.
+/// no nearer than |F r| − 2 max |u|, |F r| ≥ (1 − |F − 1|) |r|,
+/// which bounds pairs of the largest particles most.
 bool NeighbourList::is_valid(const Packing& packing) const {
   const std::size_t n = packing.poses.size();
-  if (solid_ != packing.solid || !cell_ || positions_.size() != n) return false;
+  if (!(solids_ == packing.solids) || !cell_ || positions_.size() != n) return false;
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   double most = skin_ / 2;
   if (!(*cell_ == packing.cell)) {
     f = packing.cell.vectors().high * cell_->vectors().high.inverse();
     most = ((1 - (f - Eigen::Matrix3d::Identity()).norm()) * (reach_ + skin_) - reach_) / 2;
-    if (!(most > 0) || !is_legal(packing.cell, *packing.solid)) return false;
+    if (!(most > 0) || !is_legal(packing.cell, packing.solids.widest())) return false;
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (!((packing.poses[i].position - f * positions_[i]).squaredNorm() < most * most)) return false;
@@ -47,19 +48,20 @@ bool NeighbourList::is_valid(const Packing& packing) const {
 
 void NeighbourList::refresh(const Packing& packing) {
   if (is_valid(packing)) return;
-  if (!is_legal(packing.cell, *packing.solid))
+  if (!is_legal(packing.cell, packing.solids.widest()))
     throw std::invalid_argument("the cell is so small that a particle can touch two images of another");
   const std::size_t n = packing.poses.size();
-  const bool same_system = solid_ == packing.solid && positions_.size() == n;
-  reach_ = 2 * packing.solid->circumradius();
-  skin_ = skin_in_circumradii * packing.solid->circumradius();
-  std::vector<NeighbourPair> pairs = find_neighbours(packing, reach_ + skin_);
+  const bool same_system = solids_ == packing.solids && positions_.size() == n;
+  reach_ = 2 * packing.solids.greatest_circumradius();
+  skin_ = skin_in_circumradii * packing.solids.mean_circumradius();
+  std::vector<NeighbourPair> pairs =
+      packing.solids.is_uniform() ? find_neighbours(packing, reach_ + skin_) : find_in_reach(packing, skin_);
   axes_ = same_system ? carried_over(pairs_, axes_, pairs) : std::vector<SeparatingAxis>(pairs.size());
   pairs_ = std::move(pairs);
   positions_.resize(n);
   for (std::size_t i = 0; i < n; ++i) positions_[i] = packing.poses[i].position;
   cell_ = packing.cell;
-  solid_ = packing.solid;
+  solids_ = packing.solids;
 }
 
 }  // namespace isojam

@@ -14,10 +14,10 @@ namespace isojam {
 /// computed from it and never the result.
 class NeighbourList {
  public:
-  /// Lists the pairs of `packing`. Throws std::invalid_argument unless is_legal(cell, solid).
+  /// Lists the pairs of `packing`. Throws std::invalid_argument unless is_legal(cell, solids.widest()).
   void refresh(const Packing& packing);
 
-  /// In order of (a, b, shift); with centres farther apart than two circumradii too.
+  /// In order of (a, b, shift); with centres farther apart than both circumradii too.
   const std::vector<NeighbourPair>& pairs() const { return pairs_; }
   std::vector<SeparatingAxis>& axes() { return axes_; }  ///< of pairs()
 
@@ -29,7 +29,7 @@ class NeighbourList {
   std::vector<Eigen::Vector3d> positions_;  ///< when it was made
   std::optional<PeriodicCell> cell_;
   double reach_ = 0, skin_ = 0;
-  const ConvexSolid* solid_ = nullptr;
+  std::optional<Composition> solids_;
 };
 
 }  // namespace isojam

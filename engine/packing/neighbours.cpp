@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
 
 namespace isojam {
 
@@ -36,44 +40,99 @@ void sort_canonically(std::vector<NeighbourPair>& pairs, std::size_t first) {
             [](const auto& p, const auto& q) { return canonical_key(p) < canonical_key(q); });
 }
 
-/// Particles by cell of a grid with `cells` ≥ 3 cells along each lattice vector.
+/// Some particles by cell of a grid with `cells` ≥ 3 cells along each lattice vector.
 class CellGrid {
  public:
-  CellGrid(const Packing& packing, const Eigen::Vector3i& cells)
-      : cells_(cells), members_(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]) {
-    for (int i = 0; i < packing.size(); ++i) {
-      const Eigen::Vector3d u = packing.cell.fractional(packing.poses[static_cast<std::size_t>(i)].position);
-      Eigen::Vector3i where;
-      for (int c = 0; c < 3; ++c)
-        where[c] = std::min(static_cast<int>((u[c] - std::floor(u[c])) * cells[c]), cells[c] - 1);
-      home_.push_back(where);
-      members_[index(where)].push_back(i);
-    }
+  CellGrid(const Packing& packing, std::span<const int> particles, const Eigen::Vector3i& cells)
+      : packing_(packing), cells_(cells), members_(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]) {
+    for (const int i : particles) members_[index(home(i))].push_back(i);
   }
 
+  /// Those in the cell of particle i, which need not be one of them, and in the 26 around it.
   template <class Visit>
   void for_each_near(int i, Visit&& visit) const {
+    const Eigen::Vector3i here = home(i);
     for (int dx = -1; dx <= 1; ++dx) {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dz = -1; dz <= 1; ++dz) {
-          for (const int j : members_[index(home_[static_cast<std::size_t>(i)] + Eigen::Vector3i(dx, dy, dz))])
-            visit(j);
+          for (const int j : members_[index(here + Eigen::Vector3i(dx, dy, dz))]) visit(j);
         }
       }
     }
   }
 
  private:
+  Eigen::Vector3i home(int i) const {
+    const Eigen::Vector3d u = packing_.cell.fractional(packing_.poses[static_cast<std::size_t>(i)].position);
+    Eigen::Vector3i where;
+    for (int c = 0; c < 3; ++c)
+      where[c] = std::min(static_cast<int>((u[c] - std::floor(u[c])) * cells_[c]), cells_[c] - 1);
+    return where;
+  }
   std::size_t index(const Eigen::Vector3i& where) const {
     const auto wrapped = [&](int c) { return static_cast<std::size_t>((where[c] + cells_[c]) % cells_[c]); };
     const auto of = [this](int c) { return static_cast<std::size_t>(cells_[c]); };
     return (wrapped(0) * of(1) + wrapped(1)) * of(2) + wrapped(2);
   }
 
+  const Packing& packing_;
   Eigen::Vector3i cells_;
   std::vector<std::vector<int>> members_;
-  std::vector<Eigen::Vector3i> home_;
 };
+
+/// Cells of a grid for so many particles, `reach` or more from face to face; nullopt if they are too few for a grid.
+std::optional<Eigen::Vector3i> grid_cells(const PeriodicCell& cell, double reach, std::size_t particles) {
+  Eigen::Vector3i cells;
+  for (int c = 0; c < 3; ++c)
+    cells[c] = static_cast<int>(std::min(cell.heights()[c] / reach, std::cbrt(particles) + 1));
+  if (cells.minCoeff() < 3) return std::nullopt;
+  return cells;
+}
+
+double radius_of(const Packing& packing, int i) { return packing.solids[static_cast<std::size_t>(i)].circumradius(); }
+
+/// Particles of a class of size.
+class SizeClass {
+ public:
+  /// `members`: largest first.
+  SizeClass(const Packing& packing, std::vector<int> members, double skin)
+      : members_(std::move(members)),
+        radius_(radius_of(packing, members_.front())),
+        least_radius_(radius_of(packing, members_.back())) {
+    if (const auto cells = grid_cells(packing.cell, 2 * radius_ + skin, members_.size()))
+      grid_.emplace(packing, members_, *cells);
+  }
+
+  double radius() const { return radius_; }
+  bool has(double radius) const { return least_radius_ <= radius && radius <= radius_; }
+  /// All that may be in reach of particle i, no larger than `radius`.
+  template <class Visit>
+  void for_each_near(int i, Visit&& visit) const {
+    if (grid_) return grid_->for_each_near(i, visit);
+    for (const int j : members_) visit(j);
+  }
+
+ private:
+  std::vector<int> members_;
+  double radius_, least_radius_;
+  std::optional<CellGrid> grid_;
+};
+
+/// Largest first.
+std::vector<SizeClass> size_classes(const Packing& packing, double skin) {
+  std::vector<int> by_size(packing.poses.size());
+  std::iota(by_size.begin(), by_size.end(), 0);
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [&](int i, int j) { return radius_of(packing, i) > radius_of(packing, j); });
+  std::vector<SizeClass> classes;
+  for (auto first = by_size.begin(); first != by_size.end();) {
+    const double largest = radius_of(packing, *first);
+    const auto last = std::find_if(first, by_size.end(), [&](int i) { return 2 * radius_of(packing, i) < largest; });
+    classes.emplace_back(packing, std::vector<int>(first, last), skin);
+    first = last;
+  }
+  return classes;
+}
 
 }  // namespace
 
@@ -97,11 +156,11 @@ std::vector<NeighbourPair> find_neighbours_brute_force(const Packing& packing, d
 }
 
 std::vector<NeighbourPair> find_neighbours(const Packing& packing, double reach) {
-  Eigen::Vector3i cells;
-  for (int c = 0; c < 3; ++c)
-    cells[c] = static_cast<int>(std::min(packing.cell.heights()[c] / reach, std::cbrt(packing.size()) + 1));
-  if (cells.minCoeff() < 3) return find_neighbours_brute_force(packing, reach);
-  const CellGrid grid(packing, cells);
+  const auto cells = grid_cells(packing.cell, reach, packing.poses.size());
+  if (!cells) return find_neighbours_brute_force(packing, reach);
+  std::vector<int> all(packing.poses.size());
+  std::iota(all.begin(), all.end(), 0);
+  const CellGrid grid(packing, all, *cells);
   std::vector<NeighbourPair> pairs;
   for (int a = 0; a < packing.size(); ++a) {
     const std::size_t first = pairs.size();
@@ -110,6 +169,35 @@ std::vector<NeighbourPair> find_neighbours(const Packing& packing, double reach)
     });
     sort_canonically(pairs, first);
   }
+  return pairs;
+}
+
+std::vector<NeighbourPair> find_in_reach(const Packing& packing, double skin) {
+  const std::vector<SizeClass> classes = size_classes(packing, skin);
+  std::vector<NeighbourPair> pairs;
+  for (int i = 0; i < packing.size(); ++i) {
+    const double radius = radius_of(packing, i);
+    for (const SizeClass& size_class : classes) {
+      // Each looks for what is of its class or larger, whose grid is coarse enough.
+      if (size_class.radius() < radius) break;
+      size_class.for_each_near(i, [&](int j) {
+        if (size_class.has(radius) && j <= i) return;  // both look for each other
+        const double other = radius_of(packing, j);
+        append_images(packing, std::min(i, j), std::max(i, j), radius + other + skin, pairs);
+      });
+    }
+  }
+  sort_canonically(pairs, 0);
+  return pairs;
+}
+
+std::vector<NeighbourPair> find_in_reach_brute_force(const Packing& packing, double skin) {
+  std::vector<NeighbourPair> pairs;
+  for (int a = 0; a < packing.size(); ++a) {
+    for (int b = a + 1; b < packing.size(); ++b)
+      append_images(packing, a, b, radius_of(packing, a) + radius_of(packing, b) + skin, pairs);
+  }
+  sort_canonically(pairs, 0);
   return pairs;
 }
 

@@ -33,6 +33,11 @@ DoubleDoubleVector displacement_double_double(const Packing& packing, const Neig
 /// or more from face to face, or brute force where that is fewer than 3 along some lattice vector.
 std::vector<NeighbourPair> find_neighbours(const Packing& packing, double reach);
 
+/// All pairs and images that are no farther apart than their circumradii and `skin`, in the same order. By a grid for
+/// each of the classes of size, radii of a class within a factor of 2: small particles pay nothing for large ones.
+std::vector<NeighbourPair> find_in_reach(const Packing& packing, double skin);
+std::vector<NeighbourPair> find_in_reach_brute_force(const Packing& packing, double skin);
+
 /// find_neighbours() from all N(N−1)/2 pairs: the oracle.
 std::vector<NeighbourPair> find_neighbours_brute_force(const Packing& packing, double reach);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "engine/packing/cell/control.hpp"
@@ -37,21 +38,33 @@ std::uint32_t place_on_curve(const Eigen::Vector3d& position, double side) {
 }  // namespace
 
 Packing random_packing(const ConvexSolid& solid, int n, double density, RandomStream& random) {
-  if (n < 1) throw std::invalid_argument("a packing has at least one particle");
+  return random_packing(std::vector<Particle>(static_cast<std::size_t>(std::max(n, 0)), Particle{&solid}), density,
+                        random);
+}
+
+Packing random_packing(std::span<const Particle> particles, double density, RandomStream& random) {
   if (!(density > 0 && density <= 1)) throw std::invalid_argument("a density lies in (0, 1]");
-  Packing packing{&solid, PeriodicCell(side_at(n, density)), {}};
-  const double side = packing.cell.side();
-  if (side <= least_side(solid))
-    throw std::invalid_argument("the cell is so small that a particle can touch two images of another");
-  packing.poses.resize(static_cast<std::size_t>(n));
-  for (Pose& pose : packing.poses) {
+  const std::size_t n = particles.size();
+  if (n < 1) throw std::invalid_argument("a packing has at least one particle");
+  const PeriodicCell cell(side_at(static_cast<int>(n), density));
+  const double side = cell.side();
+  std::vector<Pose> poses(n);
+  for (Pose& pose : poses) {
     for (int c = 0; c < 3; ++c) pose.position[c] = side * random.uniform();
     pose.orientation = random_orientation(random);
   }
   // Neighbours in space become neighbours in memory, which thousands of particles need for their cost to stay linear.
-  std::stable_sort(packing.poses.begin(), packing.poses.end(), [side](const Pose& a, const Pose& b) {
-    return place_on_curve(a.position, side) < place_on_curve(b.position, side);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return place_on_curve(poses[a].position, side) < place_on_curve(poses[b].position, side);
   });
+  std::vector<Particle> in_order;
+  for (const std::size_t k : order) in_order.push_back(particles[k]);
+  Packing packing{Composition(in_order), cell, {}};
+  if (!is_legal(cell, packing.solids.widest()))
+    throw std::invalid_argument("the cell is so small that a particle can touch two images of another");
+  for (const std::size_t k : order) packing.poses.push_back(poses[k]);
   return packing;
 }
 
@@ -94,12 +107,11 @@ Packing strained_by(const Packing& packing, const Eigen::VectorXd& step) {
 
 Packing moved(const Packing& packing, const Eigen::VectorXd& step) {
   Packing result = strained_by(packing, step);
-  const double radius = packing.solid->gyration_radius();
   for (int i = 0; i < packing.size(); ++i) {
     // To the bit where it was: what is known of it stays good.
     if (step.segment<6>(6 * i).isZero(0)) continue;
     Pose& pose = result.poses[static_cast<std::size_t>(i)];
-    pose = moved(pose, step.segment<3>(6 * i), step.segment<3>(6 * i + 3) / radius);
+    pose = moved(pose, step.segment<3>(6 * i), step.segment<3>(6 * i + 3) / packing.solids[i].gyration_radius());
   }
   return result;
 }

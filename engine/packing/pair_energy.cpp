@@ -8,26 +8,29 @@ PairEnergy pair_energy(const PlacedSolid& a, const PlacedSolid& b, const DoubleD
   SeparatingAxis unused;
   OverlapHessian h;
   const Overlap value = overlap_with_hessian(a, b, r, unused, h);
-  return value.touching() ? pair_energy(value, h, r.high, a.solid().gyration_radius()) : PairEnergy{};
+  if (!value.touching()) return {};
+  return pair_energy(value, h, r.high, a.solid().gyration_radius(), b.solid().gyration_radius());
 }
 
-PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, const Eigen::Vector3d& r,
-                       double gyration_radius) {
-  Vector6d scale = Vector6d::Ones();
-  scale.tail<3>().setConstant(1 / gyration_radius);
+PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, const Eigen::Vector3d& r, double radius_a,
+                       double radius_b) {
+  Vector6d scale_a = Vector6d::Ones(), scale_b = scale_a;
+  scale_a.tail<3>().setConstant(1 / radius_a);
+  scale_b.tail<3>().setConstant(1 / radius_b);
   const Vector6d ga = joined(overlap.area, overlap.moment);
   const Vector6d gb = joined(-overlap.area, r.cross(overlap.area) - overlap.moment);
-  const auto set_block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second, Matrix6d& block) {
+  const auto set_block = [&](const Vector6d& g, const Vector6d& k, const Matrix6d& second, const Vector6d& rows,
+                             const Vector6d& columns, Matrix6d& block) {
     for (int c = 0; c < 6; ++c)
-      block.col(c) = (scale.array() * ((g * k[c] + overlap.volume * second.col(c)) / 2).array() * scale[c]).matrix();
+      block.col(c) = (rows.array() * ((g * k[c] + overlap.volume * second.col(c)) / 2).array() * columns[c]).matrix();
   };
   PairEnergy pair;
   pair.energy = overlap.volume * overlap.volume / 4;
-  pair.gradient_a = overlap.volume / 2 * scale.cwiseProduct(ga);
-  pair.gradient_b = overlap.volume / 2 * scale.cwiseProduct(gb);
-  set_block(ga, ga, hessian.aa, pair.hessian.aa);
-  set_block(ga, gb, hessian.ab, pair.hessian.ab);
-  set_block(gb, gb, hessian.bb, pair.hessian.bb);
+  pair.gradient_a = overlap.volume / 2 * scale_a.cwiseProduct(ga);
+  pair.gradient_b = overlap.volume / 2 * scale_b.cwiseProduct(gb);
+  set_block(ga, ga, hessian.aa, scale_a, scale_a, pair.hessian.aa);
+  set_block(ga, gb, hessian.ab, scale_a, scale_b, pair.hessian.ab);
+  set_block(gb, gb, hessian.bb, scale_b, scale_b, pair.hessian.bb);
   return pair;
 }
 

@@ -4,7 +4,7 @@
 
 namespace isojam {
 
-/// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R the radius of gyration:
+/// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R its radius of gyration:
 /// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
 struct PairHessian {
   Matrix6d aa = Matrix6d::Zero(), ab = Matrix6d::Zero(), bb = Matrix6d::Zero();
@@ -20,8 +20,8 @@ struct PairEnergy {
 /// The energy of A and B, B's centre at r = x_B − x_A, in double-double; both placed so.
 PairEnergy pair_energy(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r);
 
-/// The energy of a pair with that overlap and its Hessian.
-PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, const Eigen::Vector3d& r,
-                       double gyration_radius);
+/// The energy of a pair with that overlap and its Hessian; radii of gyration.
+PairEnergy pair_energy(const Overlap& overlap, const OverlapHessian& hessian, const Eigen::Vector3d& r, double radius_a,
+                       double radius_b);
 
 }  // namespace isojam

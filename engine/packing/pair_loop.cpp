@@ -26,16 +26,32 @@ using NearPairs = std::array<NearPair, grain>;
 
 /// Of the pairs first … last − 1 those whose circumspheres meet. Neither here nor in the next pass can a branch predict
 /// what a pair will be: all are written, and those that stay move the end on.
+template <class Reach>
 std::size_t within_reach(const Packing& packing, std::span<const NeighbourPair> pairs, std::size_t first,
-                         std::size_t last, NearPairs& near) {
-  const double reach = 2 * packing.solid->circumradius();
+                         std::size_t last, const Reach& reach_of, NearPairs& near) {
   std::size_t count = 0;
   for (std::size_t k = first; k < last; ++k) {
+    const double reach = reach_of(pairs[k]);
     const Eigen::Vector3d r = displacement(packing, pairs[k]);
     near[count] = {k, r.x(), r.y(), r.z()};
     count += static_cast<std::size_t>(r.squaredNorm() < reach * reach);
   }
   return count;
+}
+
+double reach_of(const Composition& solids, const NeighbourPair& pair) {
+  return solids[pair.a].circumradius() + solids[pair.b].circumradius();
+}
+
+std::size_t within_reach(const Packing& packing, std::span<const NeighbourPair> pairs, std::size_t first,
+                         std::size_t last, NearPairs& near) {
+  const Composition& solids = packing.solids;
+  if (!solids.is_uniform())
+    return within_reach(
+        packing, pairs, first, last, [&](const NeighbourPair& pair) { return reach_of(solids, pair); }, near);
+  const double reach = 2 * solids.only().circumradius();
+  return within_reach(
+      packing, pairs, first, last, [reach](const NeighbourPair&) { return reach; }, near);
 }
 
 /// Of these the ones that their axes do not separate.
@@ -90,7 +106,7 @@ void probe_pair(const Packing& packing, const PlacedSolids& placed, std::span<co
                 std::span<const SeparatingAxis> axes, std::size_t k, double probe_distance,
                 std::vector<PairOverlap>& touching) {
   const Eigen::Vector3d r = displacement(packing, pairs[k]);
-  const double length = r.norm(), reach = 2 * packing.solid->circumradius();
+  const double length = r.norm(), reach = reach_of(packing.solids, pairs[k]);
   if (length - probe_distance >= reach || length <= probe_distance) return;
   const PlacedSolid a = placed[pairs[k].a], b = placed[pairs[k].b];
   const Eigen::Vector3d closer = (1 - probe_distance / length) * r;
@@ -112,7 +128,7 @@ PairHessian pair_hessian(const Packing& packing, Precision precision, const Plac
   const Overlap value = precision == Precision::double_double
                             ? overlap_with_hessian(a, b, displacement_double_double(packing, pair), unused, h)
                             : overlap_with_hessian(a, b, r, unused, h);
-  return pair_energy(value, h, r, packing.solid->gyration_radius()).hessian;
+  return pair_energy(value, h, r, a.solid().gyration_radius(), b.solid().gyration_radius()).hessian;
 }
 
 }  // namespace
@@ -141,8 +157,17 @@ void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& ru
   });
 }
 
+void make_room(const Packing& packing, Precision precision, PlacedSolids& placed) {
+  const bool low = precision == Precision::double_double;
+  if (packing.solids.is_uniform()) {
+    placed.resize(packing.solids.only(), packing.poses.size(), low);
+  } else {
+    placed.resize(packing.solids.solids(), low);
+  }
+}
+
 void place_all(const Packing& packing, Precision precision, PlacedSolids& placed) {
-  placed.resize(*packing.solid, packing.poses.size(), precision == Precision::double_double);
+  make_room(packing, precision, placed);
   for_each_slot(placed.size(), [&](std::size_t k) {
     const Pose& pose = packing.poses[k];
     if (precision == Precision::double_double) {

@@ -37,6 +37,8 @@ void for_each_block(std::size_t blocks, const std::function<void(std::size_t)>& 
 /// that the result does not depend on the number of threads.
 void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run);
 
+/// Room for every particle's solid; what stood there stays if packing and precision are of the kind that they were.
+void make_room(const Packing& packing, Precision precision, PlacedSolids& placed);
 /// Every particle's solid in its orientation, in the order of particles. `placed` is overwritten.
 void place_all(const Packing& packing, Precision precision, PlacedSolids& placed);
 

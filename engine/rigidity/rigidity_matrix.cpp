@@ -14,14 +14,14 @@ using Eigen::Vector3d;
 
 class Rows {
  public:
-  explicit Rows(const Packing& packing) : packing_(packing), radius_(packing.solid->gyration_radius()) {}
+  explicit Rows(const Packing& packing) : packing_(packing) {}
 
   /// ∇V of the contact, from the frame of A to the lab.
   void add_normal(const Contact& contact) {
     const Eigen::Quaterniond& q = orientation(contact.pair.a);
     const Vector3d area = q * contact.overlap.area, moment = q * contact.overlap.moment;
-    const Vector6d on_a = joined(area, moment / radius_);
-    const Vector6d on_b = joined(-area, (contact.displacement.cross(area) - moment) / radius_);
+    const Vector6d on_a = joined(area, moment / radius(contact.pair.a));
+    const Vector6d on_b = joined(-area, (contact.displacement.cross(area) - moment) / radius(contact.pair.b));
     const double length = std::sqrt(on_a.squaredNorm() + on_b.squaredNorm());
     add(contact, on_a / length, on_b / length);
     forces_.push_back(contact.overlap.volume / 2 * length);
@@ -29,8 +29,10 @@ class Rows {
 
   /// Turns of A against B about `axis`, a unit vector in the frame of A.
   void add_tilt(const Contact& contact, const Vector3d& axis) {
-    const Vector3d turn = orientation(contact.pair.a) * axis / std::numbers::sqrt2;
-    add(contact, joined(Vector3d::Zero(), turn), joined(Vector3d::Zero(), -turn));
+    // θ_A − θ_B = R·θ_A/R_A − R·θ_B/R_B.
+    const double a = radius(contact.pair.a), b = radius(contact.pair.b), both = std::hypot(a, b);
+    const Vector3d turn = orientation(contact.pair.a) * axis;
+    add(contact, joined(Vector3d::Zero(), b / both * turn), joined(Vector3d::Zero(), -a / both * turn));
     forces_.push_back(0);
   }
 
@@ -49,6 +51,8 @@ class Rows {
     return packing_.poses[static_cast<std::size_t>(particle)].orientation;
   }
 
+  double radius(int particle) const { return packing_.solids[static_cast<std::size_t>(particle)].gyration_radius(); }
+
   void add(const Contact& contact, const Vector6d& on_a, const Vector6d& on_b) {
     const int row = static_cast<int>(forces_.size());
     for (int k = 0; k < 6; ++k) {
@@ -58,26 +62,30 @@ class Rows {
   }
 
   const Packing& packing_;
-  double radius_;
   std::vector<Eigen::Triplet<double>> entries_;
   std::vector<double> forces_;
 };
 
-void add_edge_face(const ConvexSolid& solid, const Contact& contact, const Alignment& alignment, Rows& rows) {
+/// A's solid and B's.
+using Pair = std::pair<const ConvexSolid&, const ConvexSolid&>;
+
+void add_edge_face(const Pair& solids, const Contact& contact, const Alignment& alignment, Rows& rows) {
   if (alignment.edge < 0 || alignment.face < 0)
     throw std::invalid_argument("an edge-face contact without an edge in a face");
-  const Edge& edge = solid.edges()[static_cast<std::size_t>(alignment.edge)];
+  const ConvexSolid &of_edge = alignment.edge_of_a ? solids.first : solids.second,
+                    &of_face = alignment.edge_of_a ? solids.second : solids.first;
+  const Edge& edge = of_edge.edges()[static_cast<std::size_t>(alignment.edge)];
   const Vector3d along =
-      solid.vertices()[static_cast<std::size_t>(edge.head)] - solid.vertices()[static_cast<std::size_t>(edge.tail)];
-  const Vector3d& normal = solid.faces()[static_cast<std::size_t>(alignment.face)].normal;
+      of_edge.vertices()[static_cast<std::size_t>(edge.head)] - of_edge.vertices()[static_cast<std::size_t>(edge.tail)];
+  const Vector3d& normal = of_face.faces()[static_cast<std::size_t>(alignment.face)].normal;
   const Eigen::Matrix3d& to_a = contact.pose.rotation;
   rows.add_tilt(contact, alignment.edge_of_a ? along.cross(to_a * normal).normalized()
                                              : (to_a * along).cross(normal).normalized());
 }
 
-void add_face_face(const ConvexSolid& solid, const Contact& contact, const Alignment& alignment, Rows& rows) {
+void add_face_face(const ConvexSolid& a, const Contact& contact, const Alignment& alignment, Rows& rows) {
   if (alignment.face_a < 0) throw std::invalid_argument("a face-face contact without faces");
-  const Vector3d& normal = solid.faces()[static_cast<std::size_t>(alignment.face_a)].normal;
+  const Vector3d& normal = a.faces()[static_cast<std::size_t>(alignment.face_a)].normal;
   const Vector3d in_plane = normal.unitOrthogonal();
   rows.add_tilt(contact, in_plane);
   rows.add_tilt(contact, normal.cross(in_plane));
@@ -98,9 +106,11 @@ RigidityMatrix class_constraints(const Packing& packing, std::span<const Contact
   Rows rows(packing);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     rows.add_normal(contacts[k]);
+    const Pair solids{packing.solids[static_cast<std::size_t>(contacts[k].pair.a)],
+                      packing.solids[static_cast<std::size_t>(contacts[k].pair.b)]};
     switch (classes[k]) {
-      case ContactClass::face_face: add_face_face(*packing.solid, contacts[k], alignments[k], rows); break;
-      case ContactClass::edge_face: add_edge_face(*packing.solid, contacts[k], alignments[k], rows); break;
+      case ContactClass::face_face: add_face_face(solids.first, contacts[k], alignments[k], rows); break;
+      case ContactClass::edge_face: add_edge_face(solids, contacts[k], alignments[k], rows); break;
       case ContactClass::lower_order: break;
     }
   }

@@ -110,7 +110,7 @@ class Shear {
     Packing packing = here().packing;
     packing.cell = packing.cell.reduced();
     const DoubleDoubleMatrix f = shear_deformation(change, options_.mode);
-    if (!is_legal(packing.cell.deformed(f), *packing.solid)) return limit(load);
+    if (!is_legal(packing.cell.deformed(f), packing.solids.widest())) return limit(load);
     const MinimiseSummary summary = follow_deformation(packing, f, distance(), energy_, options_.minimise, stop_);
     ShearState state = settled(std::move(packing), summary, load, {});
     state.strain = load;

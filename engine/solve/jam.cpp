@@ -154,7 +154,7 @@ class StrainStep {
     const bool first = result_.states.empty();
     const JamStep& step = first ? relax(next) : strained_down(next);
     if (must_end(step)) return;
-    if (first && gave_way_at_the_top(step)) {
+    if (first && result_.path.size() > 1 && gave_way_at_the_top(step)) {
       progress_.stage = JamStage::consolidation;
       progress_.packing = std::move(next);
       return;

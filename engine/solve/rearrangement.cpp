@@ -53,10 +53,9 @@ Rearrangement rearrangement(const Packing& before, const JamStep& step_before, c
   found.contacts_lost = static_cast<int>(old_pairs.size() - both.size());
   found.contacts_gained = static_cast<int>(new_pairs.size() - both.size());
   const Eigen::Matrix3d f = deformation(before.cell, after.cell);
-  const double radius = after.solid->gyration_radius();
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < after.poses.size(); ++i) {
-    const double u2 = squared_displacement(before.poses[i], after.poses[i], f, radius);
+    const double u2 = squared_displacement(before.poses[i], after.poses[i], f, after.solids[i].gyration_radius());
     sum += u2;
     squares += u2 * u2;
   }

@@ -16,29 +16,48 @@ namespace {
 
 using Principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
-/// R I^(-1/2) of every particle, lab frame: what M^(-1/2) is for R·θ.
-std::vector<Eigen::Matrix3d> inverse_roots(const Packing& packing) {
-  const Principal principal(packing.solid->inertia());
+/// M^(-1/2) of one particle, lab frame.
+struct InverseRoot {
+  double translation = 1;  ///< m^(-1/2)
+  Eigen::Matrix3d turn;    ///< R I^(-1/2)
+};
+
+/// R I^(-1/2) in the body frame.
+Eigen::Matrix3d body_root(const ConvexSolid& solid) {
+  const Principal principal(solid.inertia());
   const Eigen::Matrix3d& axes = principal.eigenvectors();
-  const Eigen::Vector3d roots = packing.solid->gyration_radius() * principal.eigenvalues().cwiseSqrt().cwiseInverse();
-  const Eigen::Matrix3d body = axes * roots.asDiagonal() * axes.transpose();
-  std::vector<Eigen::Matrix3d> result;
-  for (const Pose& pose : packing.poses) {
-    const Eigen::Matrix3d rotation = rotation_matrix(pose).high;
-    result.emplace_back(rotation * body * rotation.transpose());
+  const Eigen::Vector3d roots = solid.gyration_radius() * principal.eigenvalues().cwiseSqrt().cwiseInverse();
+  return axes * roots.asDiagonal() * axes.transpose();
+}
+
+std::vector<InverseRoot> inverse_roots(const Packing& packing) {
+  std::vector<InverseRoot> result;
+  const ConvexSolid* solid = nullptr;
+  Eigen::Matrix3d body;
+  for (std::size_t i = 0; i < packing.poses.size(); ++i) {
+    if (solid != &packing.solids[i]) body = body_root(packing.solids[i]);
+    solid = &packing.solids[i];
+    const Eigen::Matrix3d rotation = rotation_matrix(packing.poses[i]).high;
+    result.push_back({1 / std::sqrt(solid->volume()), rotation * body * rotation.transpose()});
   }
   return result;
 }
+
+/// Whether M = 1.
+bool has_unit_mass(const Composition& solids) { return solids.is_uniform() && solids.only().is_spherical_top(); }
 
 }  // namespace
 
 BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian) {
   assert(hessian.strains() == 0);
-  if (packing.solid->is_spherical_top()) return hessian;
-  const std::vector<Eigen::Matrix3d> roots = inverse_roots(packing);
+  if (has_unit_mass(packing.solids)) return hessian;
+  const std::vector<InverseRoot> roots = inverse_roots(packing);
   const auto scale = [&](Matrix6d& block, int row, int column) {
-    block.bottomRows<3>() = (roots[static_cast<std::size_t>(row)] * block.bottomRows<3>()).eval();
-    block.rightCols<3>() = (block.rightCols<3>() * roots[static_cast<std::size_t>(column)]).eval();
+    const InverseRoot &left = roots[static_cast<std::size_t>(row)], &right = roots[static_cast<std::size_t>(column)];
+    block.topRows<3>() *= left.translation;
+    block.leftCols<3>() *= right.translation;
+    block.bottomRows<3>() = (left.turn * block.bottomRows<3>()).eval();
+    block.rightCols<3>() = (block.rightCols<3>() * right.turn).eval();
   };
   for (int k = 0; k < hessian.size(); ++k) {
     Matrix6d& own = hessian.diagonal[static_cast<std::size_t>(k)];
@@ -46,24 +65,36 @@ BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian) {
     own = ((own + own.transpose()) / 2).eval();  // what rounding took of its symmetry
   }
   for (BlockMatrix::Block& block : hessian.off_diagonal) scale(block.value, block.row, block.column);
+  if (!packing.solids.is_uniform()) {
+    hessian.root_masses.resize(packing.size());
+    for (int k = 0; k < packing.size(); ++k)
+      hessian.root_masses[k] = 1 / roots[static_cast<std::size_t>(k)].translation;
+  }
   return hessian;
 }
 
 Eigen::MatrixXd mode_displacements(const Packing& packing, Eigen::MatrixXd modes) {
-  if (packing.solid->is_spherical_top()) return modes;
-  const std::vector<Eigen::Matrix3d> roots = inverse_roots(packing);
+  if (has_unit_mass(packing.solids)) return modes;
+  const std::vector<InverseRoot> roots = inverse_roots(packing);
   for (int k = 0; k < packing.size(); ++k) {
+    const InverseRoot& root = roots[static_cast<std::size_t>(k)];
+    modes.middleRows<3>(6 * Eigen::Index{k}) *= root.translation;
     auto turns = modes.middleRows<3>(6 * Eigen::Index{k} + 3);
-    turns = (roots[static_cast<std::size_t>(k)] * turns).eval();
+    turns = (root.turn * turns).eval();
   }
   return modes;
 }
 
 double greatest_inverse_mass(const Packing& packing) {
-  const ConvexSolid& solid = *packing.solid;
-  if (solid.is_spherical_top()) return 1;
-  const double radius = solid.gyration_radius();
-  return radius * radius / Principal(solid.inertia()).eigenvalues()[0];
+  if (has_unit_mass(packing.solids)) return 1;
+  double greatest = 0;
+  for (std::size_t i = 0; i < packing.poses.size(); ++i) {
+    const ConvexSolid& solid = packing.solids[i];
+    const double radius = solid.gyration_radius();
+    greatest = std::max(greatest, radius * radius / Principal(solid.inertia()).eigenvalues()[0]);
+    if (packing.solids.is_uniform()) break;
+  }
+  return greatest;
 }
 
 Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix) {
@@ -86,10 +117,13 @@ Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix) {
   return dense;
 }
 
-Eigen::MatrixXd translations(int particles) {
+Eigen::MatrixXd translations(const BlockMatrix& matrix) {
+  const int particles = matrix.size();
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(6 * Eigen::Index{particles}, 3);
-  const double entry = 1 / std::sqrt(static_cast<double>(particles));
-  for (int k = 0; k < particles; ++k) result.block<3, 3>(6 * k, 0).diagonal().setConstant(entry);
+  const bool alike = matrix.root_masses.size() == 0;
+  const double entry = 1 / (alike ? std::sqrt(static_cast<double>(particles)) : matrix.root_masses.norm());
+  for (int k = 0; k < particles; ++k)
+    result.block<3, 3>(6 * k, 0).diagonal().setConstant(alike ? entry : entry * matrix.root_masses[k]);
   return result;
 }
 

@@ -10,9 +10,10 @@
 namespace isojam {
 
 // The dynamical matrix D of a packing, ω² u = D u, has the coordinates of PackingEnergy::hessian, r = {x, R·θ} per
-// particle, R the radius of gyration. A particle has mass 1, and the coordinate R·θ the tensor of mass I/R², since
-// ½ θ'ᵀIθ' = ½ (Rθ')ᵀ(I/R²)(Rθ'). For spherical tops that is 1, and D = ∂²E/∂r². Otherwise D = M^(-1/2) ∂²E/∂r²
-// M^(-1/2) with the symmetric root, and a mode moves the particles by M^(-1/2) u. λ = ω² in (Y/ρ)·V_p^(-2/3).
+// particle, R its radius of gyration. A particle has as mass its volume, and the coordinate R·θ the tensor of mass
+// I/R², since ½ θ'ᵀIθ' = ½ (Rθ')ᵀ(I/R²)(Rθ'). For spherical tops of unit volume both are 1, and D = ∂²E/∂r². Otherwise
+// D = M^(-1/2) ∂²E/∂r² M^(-1/2) with the symmetric root, and a mode moves the particles by M^(-1/2) u.
+// λ = ω² in (Y/ρ)·V_p^(-2/3).
 
 /// D from the Hessian of the packing, which may have no border.
 BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian);
@@ -20,8 +21,8 @@ BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian);
 /// M^(-1/2) u, columns of 6N: displacements (x, R·θ) from modes of D.
 Eigen::MatrixXd mode_displacements(const Packing& packing, Eigen::MatrixXd modes);
 
-/// The greatest entry of M^(-1) in principal axes, R²/I of the least moment: by how much more than R·θ a torque turns.
-/// 1 for spherical tops.
+/// The greatest entry of M^(-1) for turns, in principal axes, R²/I of the least moment of any particle: by how much
+/// more than R·θ a torque turns. 1 for spherical tops of unit volume.
 double greatest_inverse_mass(const Packing& packing);
 
 /// Both halves of D, 6N × 6N, and of its border where it has one.
@@ -29,7 +30,7 @@ Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix);
 Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix);
 
 /// The three translations of the packing as a whole, 6N × 3, orthonormal: null vectors of D in any state.
-Eigen::MatrixXd translations(int particles);
+Eigen::MatrixXd translations(const BlockMatrix& matrix);
 
 /// Norm max_i Σ_j |D_ij|, which no |λ| exceeds; 0 without contacts, infinity if D is not finite.
 double norm_bound(const BlockMatrix& matrix);

@@ -22,7 +22,7 @@ std::optional<Packing> step_down(const Packing& packing, const Eigen::VectorXd& 
                                  Precision precision, const Enthalpy& enthalpy, PackingEnergy& energy) {
   const auto evaluate = [&](const Packing& there) { return enthalpy.of(energy.evaluate(there, precision), there); };
   const Evaluation here = evaluate(packing);
-  double step = first_step * packing.solid->inradius() / largest_displacement(mode);
+  double step = first_step * packing.solids.least_inradius() / largest_displacement(mode);
   for (int halving = 0; halving < max_halvings; ++halving) {
     Packing ahead = moved(packing, step * mode), behind = moved(packing, -step * mode);
     const double at_ahead = evaluate(ahead).energy, at_behind = evaluate(behind).energy;
@@ -79,7 +79,7 @@ class Follower {
   std::optional<Eigen::VectorXd> assess_here() {
     const Precision precision = result_.summary.precision;
     const Evaluation here = energy_.evaluate(result_.packing, precision);
-    const double torque = unbalanced_torque(here, result_.packing.solid->gyration_radius());
+    const double torque = unbalanced_torque(here, result_.packing.solids);
     const BlockMatrix matrix = energy_.hessian(result_.packing, precision);
     const SpectrumEnds ends = spectrum_ends(matrix, options_.modes);
     result_.stability = assess(matrix, ends, torque);

@@ -6,8 +6,16 @@
 
 namespace isojam {
 
-/// Projects the three translations of the packing as a whole out of a vector of 6N entries.
-inline void remove_translations(Eigen::Ref<Eigen::VectorXd> u) {
+/// Projects the three translations of the packing as a whole out of a vector of 6N entries. `root_masses` as a
+/// BlockMatrix has them.
+inline void remove_translations(const Eigen::VectorXd& root_masses, Eigen::Ref<Eigen::VectorXd> u) {
+  if (root_masses.size() > 0) {
+    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+    for (Eigen::Index k = 0; k < root_masses.size(); ++k) momentum += root_masses[k] * u.segment<3>(6 * k);
+    momentum /= root_masses.squaredNorm();
+    for (Eigen::Index k = 0; k < root_masses.size(); ++k) u.segment<3>(6 * k) -= root_masses[k] * momentum;
+    return;
+  }
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (Eigen::Index k = 0; k < u.size(); k += 6) mean += u.segment<3>(k);
   const Eigen::Index particles = u.size() / 6;
@@ -16,29 +24,30 @@ inline void remove_translations(Eigen::Ref<Eigen::VectorXd> u) {
 }
 
 /// Start vector of Lanczos, the same for every matrix of 6N rows, without symmetry that could hide a mode from it.
-Eigen::VectorXd lanczos_start(Eigen::Index rows);
+Eigen::VectorXd lanczos_start(const BlockMatrix& matrix);
 
-/// Operator P op P, P the projector that removes translations: the form in which Spectra takes an operator. It must
+/// Operator P op P, P the projector that removes translations: the form in which Spectra takes an operator. Both must
 /// outlive this.
 template <class Operation>
 class Deflated {
  public:
   using Scalar = double;
 
-  explicit Deflated(Operation& operation) : operation_(operation) {}
+  Deflated(Operation& operation, const BlockMatrix& matrix) : operation_(operation), root_masses_(matrix.root_masses) {}
 
   Eigen::Index rows() const { return operation_.rows(); }
   Eigen::Index cols() const { return operation_.cols(); }
   void set_shift(double sigma) { operation_.set_shift(sigma); }
   void perform_op(const double* x, double* y) const {
     Eigen::VectorXd in = Eigen::Map<const Eigen::VectorXd>(x, rows());
-    remove_translations(in);
+    remove_translations(root_masses_, in);
     operation_.perform_op(in.data(), y);
-    remove_translations(Eigen::Map<Eigen::VectorXd>(y, rows()));
+    remove_translations(root_masses_, Eigen::Map<Eigen::VectorXd>(y, rows()));
   }
 
  private:
   Operation& operation_;
+  const Eigen::VectorXd& root_masses_;
 };
 
 /// Operator x ↦ D x; D must outlive it.

@@ -37,9 +37,9 @@ void judge(ModeSet& modes, const BlockMatrix& matrix, double lambda_max) {
 }
 
 /// The modes of an operation, ascending. False, and no modes, if Lanczos did not converge.
-bool take_modes(LanczosOperation operation, LanczosRequest request, ModeSet& modes) {
+bool take_modes(const BlockMatrix& matrix, LanczosOperation operation, LanczosRequest request, ModeSet& modes) {
   ++modes.attempts;
-  request.start = lanczos_start(operation.rows());
+  request.start = lanczos_start(matrix);
   LanczosModes found = lanczos(std::move(operation), request);
   if (found.ended != LanczosEnd::converged) return false;
   // Spectra keeps the order asked for, descending whatever the rule is called.
@@ -86,14 +86,14 @@ class Ends {
 
   bool find_highest(Index wanted, SpectrumEnds& ends) const {
     Product product(matrix_);
-    Deflated<Product> operation(product);
+    Deflated<Product> operation(product, matrix_);
     for (int attempt = 0; attempt < 2; ++attempt) {
       const LanczosRequest request{.wanted = LanczosWanted::greatest,
                                    .modes = wanted,
                                    .subspace = subspace(wanted, all_, attempt),
                                    .tolerance = options_.highest_tolerance,
                                    .restarts = options_.restarts};
-      if (!take_modes(LanczosOperation(operation), request, ends.highest)) continue;
+      if (!take_modes(matrix_, LanczosOperation(operation), request, ends.highest)) continue;
       ends.lambda_max = ends.highest.eigenvalues.cwiseAbs().maxCoeff();
       judge(ends.highest, matrix_, ends.lambda_max);
       ends.highest.ended = attempt == 0 ? ModeEnd::converged : ModeEnd::retried;
@@ -120,14 +120,14 @@ class Ends {
 
   bool invert(Index wanted, int attempt, double shift, ModeSet& modes) const {
     ShiftInvert inverse(matrix_);
-    Deflated<ShiftInvert> operation(inverse);
+    Deflated<ShiftInvert> operation(inverse, matrix_);
     try {
       const LanczosRequest request{.modes = wanted,
                                    .subspace = subspace(wanted, all_, attempt),
                                    .shift = shift,
                                    .tolerance = options_.lowest_tolerance,
                                    .restarts = options_.restarts};
-      if (!take_modes(LanczosOperation(operation), request, modes)) return false;
+      if (!take_modes(matrix_, LanczosOperation(operation), request, modes)) return false;
     } catch (const std::domain_error&) {
       return false;  // the shift hit an eigenvalue
     }
@@ -137,7 +137,7 @@ class Ends {
   /// Below the lowest mode by a fraction of its distance from 0, or the usual shift if that is further.
   double below_all(double lambda_max) const {
     Product product(matrix_);
-    Deflated<Product> operation(product);
+    Deflated<Product> operation(product, matrix_);
     ModeSet lowest;
     const double rough = 1e-2;  // of the lowest mode itself: it is only to be undercut
     const double fallback = -norm_bound(matrix_);
@@ -146,7 +146,7 @@ class Ends {
                                  .subspace = std::min<Index>(all_, 40),
                                  .tolerance = rough,
                                  .restarts = options_.restarts};
-    if (!take_modes(LanczosOperation(operation), request, lowest)) return fallback;
+    if (!take_modes(matrix_, LanczosOperation(operation), request, lowest)) return fallback;
     const double lambda = lowest.eigenvalues[0];
     return std::min(-100 * options_.shift * lambda_max, lambda - 2 * rough * std::abs(lambda));
   }
@@ -182,11 +182,12 @@ class Ends {
 
 }  // namespace
 
-VectorXd lanczos_start(Index rows) {
+VectorXd lanczos_start(const BlockMatrix& matrix) {
+  const Index rows = 6 * Index{matrix.size()};
   RandomStream random{static_cast<std::uint64_t>(rows)};
   VectorXd start(rows);
   for (double& entry : start) entry = random.normal();
-  remove_translations(start);
+  remove_translations(matrix.root_masses, start);
   return start;
 }
 
@@ -201,7 +202,7 @@ ModeSet dense_modes(const BlockMatrix& matrix) {
   MatrixXd rotated = dense_matrix(matrix);
   if (rotated.rows() <= 3 || !rotated.allFinite()) return modes;
   // In a basis whose first three vectors are the translations, the rest of D is a matrix of its own.
-  const CompletedBasis basis(translations(matrix.size()));
+  const CompletedBasis basis(translations(matrix));
   const Index rest = rotated.rows() - 3;
   basis.enter(rotated);
   const SymmetricEigen found = symmetric_eigen(rotated.bottomRightCorner(rest, rest));

@@ -90,11 +90,11 @@ double zero_tolerance(const BlockMatrix& matrix, double lambda_max, double unbal
   return rounding_bound(matrix, lambda_max) + unbalanced_torque;
 }
 
-double unbalanced_torque(const Evaluation& evaluation, double gyration_radius) {
+double unbalanced_torque(const Evaluation& evaluation, const Composition& solids) {
   double largest = 0;
   for (Eigen::Index k = 3; k < evaluation.gradient.size(); k += 6)
-    largest = std::max(largest, evaluation.gradient.segment<3>(k).norm());
-  return largest / gyration_radius;
+    largest = std::max(largest, evaluation.gradient.segment<3>(k).norm() / solids[k / 6].gyration_radius());
+  return largest;
 }
 
 Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque) {
@@ -113,7 +113,7 @@ Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unb
     stability.tolerance = zero_tolerance(matrix, lambda_max, unbalanced_torque);
     count_modes(matrix, lambda_max, stability);
     Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(matrix.rows(), 3);
-    moves.topRows(6 * Eigen::Index{matrix.size()}) = translations(matrix.size());
+    moves.topRows(6 * Eigen::Index{matrix.size()}) = translations(matrix);
     for (int c = 0; c < 3; ++c)
       stability.translation_error = std::max(stability.translation_error, (matrix * moves.col(c)).norm());
   }

@@ -54,7 +54,7 @@ struct Stability {
 double zero_tolerance(const BlockMatrix& matrix, double lambda_max, double unbalanced_torque = 0);
 
 /// Largest |T_i|/R² of an evaluation, the second argument of zero_tolerance.
-double unbalanced_torque(const Evaluation& evaluation, double gyration_radius);
+double unbalanced_torque(const Evaluation& evaluation, const Composition& solids);
 
 /// Counts all modes of D, by the number of eigenvalues below −tolerance and above +tolerance, and names near-rattlers.
 /// A packing whose D with one particle pinned is above the tolerance has 6N − 3 positive modes (eigenvalues

@@ -20,7 +20,7 @@ CellControl strict_control(const Evaluation& evaluation) { return {CellFreedom::
 
 Stability strict_stability(const Packing& packing, const Evaluation& evaluation, Precision precision) {
   const BlockMatrix hessian = enthalpy_hessian(packing, strict_control(evaluation), precision);
-  return assess(hessian, {}, unbalanced_torque(evaluation, packing.solid->gyration_radius()));
+  return assess(hessian, {}, unbalanced_torque(evaluation, packing.solids));
 }
 
 bool is_strictly_jammed(const Stability& stability) {

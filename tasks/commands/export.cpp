@@ -10,7 +10,7 @@
 #include "tasks/export/exported_files.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/place.hpp"
-#include "tasks/replicate/packing_json.hpp"
+#include "tasks/packings/packing_json.hpp"
 #include "tasks/store/store.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/file.hpp"
@@ -91,7 +91,8 @@ std::vector<ExportFrame> read_path(const Arguments& arguments, const RecordedRep
     const auto state = states.at(k);
     frames.push_back(make_frame(read_packing(state), distance_of(state)));
     const auto &first = frames.front().packing, &last = frames.back().packing;
-    if (last.solid != first.solid || last.size() != first.size()) state.refuse("not a state of the same particles");
+    if (!(last.solids == first.solids) || last.size() != first.size())
+      state.refuse("not a state of the same particles");
   }
   return frames;
 }

@@ -24,7 +24,9 @@ ExitCode report(const Arguments& arguments, Console& console) {
   std::map<std::size_t, Json> views;
   for (const auto& chosen : choose_views(results, options)) {
     const auto packing = read_nearest_packing(directory, results.replicates[chosen.replicate]);
-    if (packing) views[chosen.replicate] = packing_view(*packing, chosen.with_modes ? options.modes : 0);
+    if (!packing) continue;
+    views[chosen.replicate] = packing_view(*packing, chosen.with_modes ? options.modes : 0);
+    views[chosen.replicate]["solid"] = to_string(results.replicates[chosen.replicate].summary.solid);
   }
   Json data = report_data(results, views);
   // A link that is there for a reader of the directory alone: the page may be sent elsewhere without it.

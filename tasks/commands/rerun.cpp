@@ -72,7 +72,8 @@ ExitCode redo(const Arguments& arguments, const Store& store, const ReplicateSpe
 /// Redoes a replicate from the start, replaces what was recorded and says whether the bits are the same. The record
 /// goes to stdout.
 ExitCode rerun(const Arguments& arguments, Console& console) {
-  const auto manifest = own_manifest(arguments.directory);
+  auto manifest = own_manifest(arguments.directory);
+  load_start(manifest);
   const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
   const auto spec = planned(Plan(manifest), arguments.replicate, store);
   try {

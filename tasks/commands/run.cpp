@@ -143,7 +143,8 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
 /// to whoever runs when all are finished.
 ExitCode run(const RunArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  const auto manifest = read_manifest(arguments.manifest);
+  auto manifest = read_manifest(arguments.manifest);
+  load_start(manifest);
   const Plan plan(manifest);
   const auto directory = arguments.directory.empty() ? "results/" + manifest.name : arguments.directory;
   warn_about(manifest, arguments.manifest, console);

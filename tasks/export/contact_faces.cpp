@@ -89,11 +89,11 @@ ContactFaces aligned_edge(const Body& a, const Body& b, double cutoff) {
 
 }  // namespace
 
-ContactFaces contact_faces(const ConvexSolid& solid, const Contact& contact, ContactClass contact_class,
-                           const Cutoffs& cutoffs) {
+ContactFaces contact_faces(const ConvexSolid& solid_a, const ConvexSolid& solid_b, const Contact& contact,
+                           ContactClass contact_class, const Cutoffs& cutoffs) {
   const auto& overlap = contact.overlap;
-  const Body a{solid, Matrix3d::Identity(), Vector3d::Zero(), overlap.faces_a, overlap.edges_a};
-  const Body b{solid, contact.pose.rotation, contact.pose.displacement, overlap.faces_b, overlap.edges_b};
+  const Body a{solid_a, Matrix3d::Identity(), Vector3d::Zero(), overlap.faces_a, overlap.edges_a};
+  const Body b{solid_b, contact.pose.rotation, contact.pose.displacement, overlap.faces_b, overlap.edges_b};
   switch (contact_class) {
     case ContactClass::face_face: return aligned_faces(a, b, cutoffs.face_face);
     case ContactClass::edge_face: return aligned_edge(a, b, cutoffs.edge_face);

@@ -19,7 +19,7 @@ struct Cutoffs {
 /// Face-face: the two faces that lie in each other; edge-face: the face, and the two that meet in the edge; lower
 /// order: all that bound the intersection. Where several features are aligned, as of two solids in the same
 /// orientation, those are meant that are pressed into each other least: the others bound the contact on its sides.
-ContactFaces contact_faces(const ConvexSolid& solid, const Contact& contact, ContactClass contact_class,
-                           const Cutoffs& cutoffs);
+ContactFaces contact_faces(const ConvexSolid& solid_a, const ConvexSolid& solid_b, const Contact& contact,
+                           ContactClass contact_class, const Cutoffs& cutoffs);
 
 }  // namespace isojam

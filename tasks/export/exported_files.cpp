@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "tasks/export/formats.hpp"
@@ -33,7 +35,22 @@ std::vector<ExportedFile> xyz_files(std::span<const ExportFrame> frames, const f
   if (solid == output) {
     throw FileError(fmt::format("{}: the solid goes there; choose another extension", output.string()));
   }
-  return {{output, xyz_file(frames)}, {solid, obj_file(*frames.front().packing.solid)}};
+  std::vector<ExportedFile> files{{output, xyz_file(frames)}};
+  const auto& packing = frames.front().packing;
+  if (packing.solids.is_uniform()) {
+    files.push_back({solid, obj_file(packing.solids.only())});
+    return files;
+  }
+  // Species are told by shape; the size of a particle stands beside its name.
+  std::map<std::string, const ConvexSolid*> shapes;
+  for (std::size_t i = 0; i < packing.poses.size(); ++i)
+    shapes.emplace(packing.solids.unit(i).name(), &packing.solids.unit(i));
+  for (const auto& [name, shape] : shapes) {
+    auto path = solid;
+    path.replace_filename(fmt::format("{}-{}.obj", solid.stem().string(), name));
+    files.push_back({path, obj_file(*shape)});
+  }
+  return files;
 }
 
 }  // namespace

@@ -6,15 +6,16 @@
 #include "tasks/export/frame.hpp"
 
 // Files for other programs: functions from frames to the bytes of a file, the same bytes from the same frames. Frames
-// are given in order of expansion, have the same solid and number of particles, and are at least one; functions of
+// are given in order of expansion, have the same particles, and are at least one; functions of
 // several throw std::invalid_argument otherwise. Lengths in V_p^(1/3).
 
 namespace isojam {
 
 /// GSD with the schema "hoomd" 1.4, as HOOMD-blue and OVITO read it. Box and particles in single precision, particles
-/// wrapped into the box about the origin; the solid in particles/type_shapes; logged: isojam/phi, isojam/side and, if
-/// every frame has one, isojam/delta_phi in double precision, particles/isojam/Z and particles/isojam/cluster.
-/// Diameters are left at their default, as viewers scale shapes by them.
+/// wrapped into the box about the origin; a type for each solid in each size, its shape in particles/type_shapes;
+/// logged: isojam/phi, isojam/side and, if every frame has one, isojam/delta_phi in double precision,
+/// particles/isojam/Z and particles/isojam/cluster. Diameters are left at their default, as viewers scale shapes by
+/// them.
 std::string gsd_file(std::span<const ExportFrame> frames);
 
 /// VTK XML PolyData in ASCII: the faces of every particle, wound outwards, with vertices of its own. Particles are
@@ -31,10 +32,10 @@ struct TimedFile {
 /// A ParaView collection (.pvd).
 std::string pvd_file(std::span<const TimedFile> files);
 
-/// Extended XYZ: species (the solid), centre in [0, L)³, orientation (x, y, z, w), Z and cluster.
+/// Extended XYZ: species (the solid), of mixtures its size, centre in [0, L)³, orientation (x, y, z, w), Z and cluster.
 std::string xyz_file(std::span<const ExportFrame> frames);
 
-/// The solid in its body frame, unit volume, faces wound outwards, as Wavefront OBJ.
+/// The solid in its body frame and size, faces wound outwards, as Wavefront OBJ.
 std::string obj_file(const ConvexSolid& solid);
 
 }  // namespace isojam

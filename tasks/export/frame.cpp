@@ -24,7 +24,7 @@ FaceContact strength_of(ContactClass contact_class) {
 }
 
 void mark_faces(ExportFrame& frame, int particle, std::uint32_t faces, FaceContact strength) {
-  const auto first = static_cast<std::size_t>(particle) * frame.packing.solid->faces().size();
+  const auto first = frame.first_face[static_cast<std::size_t>(particle)];
   for (; faces != 0; faces &= faces - 1) {
     auto& face = frame.faces[first + static_cast<std::size_t>(std::countr_zero(faces))];
     // None of a frame's contacts is decided, or all are: the order of the enumeration serves for both.
@@ -46,24 +46,29 @@ std::vector<std::int32_t> clusters_of(const Packing& packing, const ClassifiedCo
 
 ExportFrame make_frame(Packing packing, std::optional<double> delta_phi) {
   const auto n = packing.poses.size();
-  const auto& solid = *packing.solid;
   PackingEnergy energy;
   const auto classified = classified_contacts(packing, energy);
   const bool decided = !undecided(classified.analysis);
 
-  ExportFrame frame{std::move(packing), delta_phi, {}, {}, {}};
+  ExportFrame frame{std::move(packing), delta_phi, {}, {}, {}, {}};
   frame.Z.assign(n, 0);
   frame.cluster =
       decided ? clusters_of(frame.packing, classified) : std::vector<std::int32_t>(n, ExportFrame::undecided_cluster);
-  frame.faces.assign(n * solid.faces().size(), FaceContact::none);
-  const Cutoffs cutoffs{classified.analysis.face_face.cutoff, classified.analysis.edge_face.cutoff};
+  frame.first_face.push_back(0);
+  for (std::size_t i = 0; i < n; ++i)
+    frame.first_face.push_back(frame.first_face.back() + frame.solid(i).faces().size());
+  frame.faces.assign(frame.first_face.back(), FaceContact::none);
+  const auto& solids = frame.packing.solids;
   for (std::size_t k = 0; k < classified.contacts.size(); ++k) {
     const auto& contact = classified.contacts[k];
     const auto contact_class = decided ? classified.analysis.classes[k] : ContactClass::lower_order;
     const auto strength = decided ? strength_of(contact_class) : FaceContact::undecided;
-    const auto faces = contact_faces(solid, contact, contact_class, cutoffs);
-    ++frame.Z[static_cast<std::size_t>(contact.pair.a)];
-    ++frame.Z[static_cast<std::size_t>(contact.pair.b)];
+    const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
+    const auto& fits = classified.analysis.cutoffs_of(solids.unit(a), solids.unit(b));
+    const auto faces =
+        contact_faces(solids[a], solids[b], contact, contact_class, {fits.face_face.cutoff, fits.edge_face.cutoff});
+    ++frame.Z[a];
+    ++frame.Z[b];
     mark_faces(frame, contact.pair.a, faces.of_a, strength);
     mark_faces(frame, contact.pair.b, faces.of_b, strength);
   }
@@ -74,8 +79,8 @@ void check_frames(std::span<const ExportFrame> frames) {
   if (frames.empty()) throw std::invalid_argument("no frames");
   const auto& first = frames.front().packing;
   for (const auto& frame : frames) {
-    if (frame.packing.solid != first.solid || frame.packing.size() != first.size()) {
-      throw std::invalid_argument("frames of different solids or numbers of particles");
+    if (!(frame.packing.solids == first.solids) || frame.packing.size() != first.size()) {
+      throw std::invalid_argument("frames of different particles");
     }
   }
 }

@@ -18,7 +18,7 @@ enum class FaceContact : std::int32_t {
   face_face = 3
 };
 
-/// One state of an expansion with what pictures of it show. Sizes: N particles, F faces of the solid.
+/// One state of an expansion with what pictures of it show. Sizes: N particles.
 struct ExportFrame {
   static constexpr int no_cluster = -1;         ///< no face-face contact
   static constexpr int undecided_cluster = -2;  ///< classes of contacts undecided
@@ -28,16 +28,19 @@ struct ExportFrame {
   std::vector<std::int32_t> Z;      ///< N: contacts of each particle
   /// N: least number of a particle in the same cluster of face-face contacts, or one of the constants above.
   std::vector<std::int32_t> cluster;
-  /// N·F: of face f of particle i at i·F + f, by contact_faces; of undecided contacts all faces that bound the
+  /// Of face f of particle i at first_face[i] + f, by contact_faces; of undecided contacts all faces that bound the
   /// intersection.
   std::vector<FaceContact> faces;
+  std::vector<std::size_t> first_face{};  ///< N + 1, the number of all at the end
+
+  const ConvexSolid& solid(std::size_t particle) const { return packing.solids[particle]; }
 };
 
 /// Finds contacts, their classes and their clusters as the measurements do.
-/// Throws std::invalid_argument if the cell is not larger than least_side(solid).
+/// Throws std::invalid_argument if the cell is not larger than least_side() of the widest solid.
 ExportFrame make_frame(Packing packing, std::optional<double> delta_phi);
 
-/// Throws std::invalid_argument unless there is a frame, and all have the same solid and number of particles.
+/// Throws std::invalid_argument unless there is a frame, and all have the same particles.
 void check_frames(std::span<const ExportFrame> frames);
 
 /// A position moved by lattice vectors into the cell, and by how many: position = wrapped + h·image.

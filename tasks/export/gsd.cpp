@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <array>
+#include <map>
 
 #include "tasks/export/formats.hpp"
-#include "tasks/export/gsd_layer.hpp"
 #include "tasks/json/json.hpp"
+#include "tasks/packings/gsd_layer.hpp"
 #include "tasks/system/version.hpp"
 
 namespace isojam {
@@ -27,18 +30,47 @@ GsdChunk many(std::string name, const std::vector<T>& values, std::uint32_t colu
   return gsd_chunk(std::move(name), std::span<const T>(values), columns);
 }
 
+/// Solids that differ in shape or size, in the order in which particles come, and the number of each particle's.
+struct Types {
+  std::vector<const ConvexSolid*> solids;
+  std::vector<std::uint32_t> of;
+};
+
+Types types_of(const Packing& packing) {
+  Types types;
+  std::map<const ConvexSolid*, std::uint32_t> number;
+  for (std::size_t i = 0; i < packing.poses.size(); ++i) {
+    const auto* solid = &packing.solids[i];
+    const auto [found, added] = number.try_emplace(solid, static_cast<std::uint32_t>(types.solids.size()));
+    if (added) types.solids.push_back(solid);
+    types.of.push_back(found->second);
+  }
+  return types;
+}
+
 /// What does not change along an expansion; other frames inherit it from the first.
 void append_constants(const Packing& packing, std::vector<GsdChunk>& chunks) {
   const auto n = packing.poses.size();
-  const double radius = packing.solid->gyration_radius();
   chunks.push_back(one("configuration/dimensions", std::uint8_t{3}));
   chunks.push_back(one("particles/N", static_cast<std::uint32_t>(n)));
-  chunks.push_back(gsd_chunk("particles/types", packing.solid->name()));
-  chunks.push_back(gsd_chunk("particles/type_shapes", shape_text(*packing.solid)));
-  chunks.push_back(many("particles/typeid", std::vector<std::uint32_t>(n, 0)));
-  chunks.push_back(many("particles/mass", std::vector<float>(n, 1.0F)));
-  const auto inertia = static_cast<float>(radius * radius);  // of unit mass, and isotropic
-  chunks.push_back(many("particles/moment_inertia", std::vector<float>(3 * n, inertia), 3));
+  const auto types = types_of(packing);
+  std::vector<std::string> names, shapes;
+  for (const auto* solid : types.solids) {
+    names.push_back(types.solids.size() == 1 ? solid->name() : fmt::format("{}_{}", solid->name(), names.size()));
+    shapes.push_back(shape_text(*solid));
+  }
+  chunks.push_back(gsd_chunk("particles/types", names));
+  chunks.push_back(gsd_chunk("particles/type_shapes", shapes));
+  chunks.push_back(many("particles/typeid", types.of));
+  std::vector<float> masses, moments;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& solid = packing.solids[i];
+    const double radius = solid.gyration_radius();
+    masses.push_back(static_cast<float>(solid.volume()));
+    moments.insert(moments.end(), 3, static_cast<float>(solid.volume() * radius * radius));  // their mean
+  }
+  chunks.push_back(many("particles/mass", masses));
+  chunks.push_back(many("particles/moment_inertia", moments, 3));
 }
 
 void append_poses(const Packing& packing, std::vector<GsdChunk>& chunks) {

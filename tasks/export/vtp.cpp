@@ -33,10 +33,11 @@ void append_field(std::string& xml, std::string_view name, double value) {
 
 std::vector<double> world_vertices(const Packing& packing) {
   std::vector<double> coordinates;
-  for (const auto& pose : packing.poses) {
+  for (std::size_t i = 0; i < packing.poses.size(); ++i) {
+    const auto& pose = packing.poses[i];
     const Eigen::Matrix3d rotation = rotation_matrix(pose).high;
     const auto centre = into_cell(packing.cell, pose.position).wrapped;
-    for (const auto& vertex : packing.solid->vertices()) {
+    for (const auto& vertex : packing.solids[i].vertices()) {
       const Eigen::Vector3d corner = centre + rotation * vertex;
       coordinates.insert(coordinates.end(), corner.begin(), corner.end());
     }
@@ -51,26 +52,30 @@ struct Polygons {
 
 Polygons polygons_of(const Packing& packing) {
   Polygons polygons;
+  std::size_t first = 0;
   for (std::size_t i = 0; i < packing.poses.size(); ++i) {
-    for (const auto& face : packing.solid->faces()) {
-      for (const int vertex : face.vertices) {
-        polygons.corners.push_back(i * packing.solid->vertices().size() + static_cast<std::size_t>(vertex));
-      }
+    const auto& solid = packing.solids[i];
+    for (const auto& face : solid.faces()) {
+      for (const int vertex : face.vertices) polygons.corners.push_back(first + static_cast<std::size_t>(vertex));
       polygons.ends.push_back(polygons.corners.size());
     }
+    first += solid.vertices().size();
   }
   return polygons;
 }
 
 void append_cell_data(std::string& xml, const ExportFrame& frame) {
-  const auto per_particle = frame.packing.solid->faces().size();
+  std::vector<std::size_t> particle;
+  for (std::size_t i = 0; i + 1 < frame.first_face.size(); ++i)
+    particle.insert(particle.end(), frame.first_face[i + 1] - frame.first_face[i], i);
+  const auto per_line = frame.solid(0).faces().size();
   const auto append = [&](std::string_view name, const auto& of_face) {
-    append_array(xml, "Int32", fmt::format("Name=\"{}\"", name), frame.faces.size(), per_particle, of_face);
+    append_array(xml, "Int32", fmt::format("Name=\"{}\"", name), frame.faces.size(), per_line, of_face);
   };
   xml += "<CellData Scalars=\"contact_class\">\n";
-  append("particle", [&](std::size_t f) { return f / per_particle; });
-  append("Z", [&](std::size_t f) { return frame.Z[f / per_particle]; });
-  append("cluster", [&](std::size_t f) { return frame.cluster[f / per_particle]; });
+  append("particle", [&](std::size_t f) { return particle[f]; });
+  append("Z", [&](std::size_t f) { return frame.Z[particle[f]]; });
+  append("cluster", [&](std::size_t f) { return frame.cluster[particle[f]]; });
   append("contact_class", [&](std::size_t f) { return static_cast<std::int32_t>(frame.faces[f]); });
   xml += "</CellData>\n";
 }
@@ -120,8 +125,10 @@ std::string vtp_file(const ExportFrame& frame) {
   }
   append_field(xml, "phi", packing.density());
   if (frame.delta_phi) append_field(xml, "delta_phi", *frame.delta_phi);
-  fmt::format_to(Text(xml), "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n",
-                 packing.poses.size() * packing.solid->vertices().size(), frame.faces.size());
+  std::size_t vertices = 0;
+  for (std::size_t i = 0; i < packing.poses.size(); ++i) vertices += packing.solids[i].vertices().size();
+  fmt::format_to(Text(xml), "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n", vertices,
+                 frame.faces.size());
   append_cell_data(xml, frame);
   append_geometry(xml, packing);
   return xml + "</Piece>\n</PolyData>\n</VTKFile>\n";

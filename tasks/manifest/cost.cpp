@@ -17,7 +17,7 @@ struct CpuLaw {
 constexpr std::array<CpuLaw, all_solids.size()> cpu_laws{{{11, 2}, {3.5, 2}, {3.5, 2}, {3, 2}, {3.2, 2}}};
 
 /// Other solids cost about as much as cubes; those that tetrahedra resemble more.
-const CpuLaw& law_of(const Solid& solid) {
+const CpuLaw& law_of(const Mixture& solid) {
   const auto kind = from_string<SolidKind>(to_string(solid)).value_or(SolidKind::cube);
   return cpu_laws[static_cast<std::size_t>(kind)];
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/packing/cell/periodic_cell.hpp"
 #include "tasks/json/hash.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/options.hpp"
@@ -15,9 +14,10 @@
 #include "tasks/json/sealed.hpp"
 #include "tasks/manifest/base.hpp"
 #include "tasks/manifest/fields.hpp"
+#include "tasks/manifest/particles.hpp"
 #include "tasks/manifest/shear.hpp"
 #include "tasks/measure/quantity.hpp"
-#include "tasks/solids/definitions.hpp"
+#include "tasks/solids/mixture_json.hpp"
 #include "tasks/system/file.hpp"
 
 namespace isojam {
@@ -32,9 +32,9 @@ constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
 constexpr std::size_t longest_name = 64;
 
-constexpr std::array<std::string_view, 15> keys{"$schema",    "name",      "checksum",  "seed",    "sweep",
-                                                "replicates", "protocol",  "minimiser", "measure", "modes",
-                                                "shear",      "keep_path", "exclude",   "base",    "solids"};
+constexpr std::array<std::string_view, 16> keys{"$schema",  "name",      "checksum", "seed",  "sweep", "replicates",
+                                                "protocol", "minimiser", "measure",  "modes", "shear", "keep_path",
+                                                "exclude",  "base",      "solids",   "start"};
 constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 
 /// Where a parameter belongs that stands at the wrong place.
@@ -103,8 +103,8 @@ void read_sweep(const JsonPlace& place, const SolidDefinitions& definitions, Man
   place.expect_keys(names);
 
   place.read("solid", [&](const JsonPlace& list) {
-    manifest.solids = read_sweep_list(list, "the name of a solid",
-                                      [&](const JsonPlace& entry) { return read_solid_name(entry, definitions); });
+    manifest.solids = read_sweep_list(list, "the name of a solid or a mixture",
+                                      [&](const JsonPlace& entry) { return read_sweep_entry(entry, definitions); });
   });
   place.read("particles", [&](const JsonPlace& list) {
     manifest.particles = read_sweep_list(list, integer_in(particle_range), [](const JsonPlace& entry) {
@@ -176,13 +176,6 @@ std::vector<Flag> read_exclude(const JsonPlace& place) {
   return flags;
 }
 
-/// Pointer of a particle number in the user's own order.
-JsonPlace place_of_particles(const JsonPlace& root, int particles) {
-  const auto list = root.at("sweep").at("particles");
-  const auto found = std::find(list.value().begin(), list.value().end(), Json(particles));
-  return list.at(static_cast<std::size_t>(found - list.value().begin()));
-}
-
 JsonPlace place_of_field(const JsonPlace& root, const std::string& group, const std::string& name) {
   const auto sweep = root.at("sweep");
   if (sweep.has(name)) return sweep.at(name);
@@ -219,37 +212,6 @@ void check_densities(const JsonPlace& root, const std::vector<OptionSet>& sets) 
           .refuse(fmt::format("initial_density {} does not lie below max_density {}", options.initial_density,
                               options.max_density));
     }
-  }
-}
-
-/// The greatest density of four decimals at which the cell of so many particles is legal.
-double densest(const ConvexSolid& solid, int particles) {
-  auto steps = std::floor(particles / std::pow(least_side(solid), 3) * 1e4);
-  while (least_particles(solid, steps / 1e4) > particles) --steps;
-  return steps / 1e4;
-}
-
-/// Numbers of particles are held to the solid that needs most, at the greatest of all densities.
-void check_particles(const JsonPlace& root, const Manifest& manifest, const std::vector<OptionSet>& sets) {
-  double density = 0, start = 0;
-  for (const auto& set : sets) {
-    density = std::max(density, set.options.max_density);
-    start = std::max(start, set.options.initial_density);
-  }
-  const auto needs = [&](const Solid& solid) { return least_particles(*solid, density); };
-  const auto neediest = *std::max_element(manifest.solids.begin(), manifest.solids.end(),
-                                          [&](const Solid& a, const Solid& b) { return needs(a) < needs(b); });
-  for (const int particles : manifest.particles) {
-    if (particles >= needs(neediest)) continue;
-    const double allowed = densest(*neediest, particles);
-    root.attempt([&] {
-      place_of_particles(root, particles)
-          .refuse(fmt::format("{} particles are too few for the periodic cell: at max_density {} one {} would touch "
-                              "two images of another",
-                              particles, density, to_string(neediest)),
-                  fmt::format("{} or more{}", needs(neediest),
-                              allowed > start ? fmt::format(", or a max_density of {} or less", allowed) : ""));
-    });
   }
 }
 
@@ -292,6 +254,7 @@ void read_values(const JsonPlace& root, Manifest& manifest) {
     refuse_renamed(place);
     manifest.base = read_base(place);
   });
+  root.read_if_any("start", [&](const JsonPlace& place) { manifest.start = read_start(place); });
   root.read_if_any(
       "modes", [&](const JsonPlace& place) { manifest.measuring.modes = static_cast<int>(place.integer(mode_range)); });
   root.read_if_any("shear", [&](const JsonPlace& place) { manifest.measuring.shear = read_shear(place); });
@@ -303,6 +266,14 @@ Json to_json(const Replicates& replicates) {
           {"max", replicates.max},
           {"quantity", replicates.goal->quantity},
           {"half_width", replicates.goal->half_width}};
+}
+
+std::vector<Solid> all_solids_of(const Manifest& manifest) {
+  std::vector<Solid> solids;
+  for (const auto& mixture : manifest.solids) {
+    for (const auto& kind : mixture.kinds()) solids.push_back(kind.solid);
+  }
+  return solids;
 }
 
 Json values_of(const std::vector<Measure>& list) {
@@ -339,6 +310,8 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
   problems.refuse_any(document);
   check_together(root, manifest);
   problems.refuse_any(document);
+  if (manifest.start && !root.at("start").has("digests")) load_start(root.at("start"), manifest);
+  problems.refuse_any(document);
   return manifest;
 }
 
@@ -349,7 +322,7 @@ Json to_json(const Manifest& manifest) {
   json["name"] = manifest.name;
   json["seed"] = manifest.seed;
   auto& sweep = json["sweep"];
-  for (const auto& solid : manifest.solids) sweep["solid"].push_back(to_string(solid));
+  for (const auto& solid : manifest.solids) sweep["solid"].push_back(sweep_entry(solid));
   sweep["particles"] = manifest.particles;
   for (const auto& swept : manifest.swept) sweep[swept.name] = swept.values;
   json["replicates"] = to_json(manifest.replicates);
@@ -364,7 +337,9 @@ Json to_json(const Manifest& manifest) {
   json["keep_path"] = manifest.keep_path;
   json["exclude"] = option_json(manifest.exclude);
   if (!manifest.base.empty()) json["base"] = manifest.base;
-  if (auto definitions = definitions_json(manifest.solids); !definitions.is_null()) json["solids"] = definitions;
+  if (manifest.start) json["start"] = to_json(*manifest.start);
+  if (auto definitions = definitions_json(all_solids_of(manifest)); !definitions.is_null())
+    json["solids"] = definitions;
   return json;
 }
 
@@ -374,6 +349,7 @@ Json identity(const Manifest& manifest) {
   json.erase("keep_path");
   json.erase("exclude");
   json.erase("base");
+  if (json.contains("start")) json["start"].erase("packing");  // its digests tell more
   return json;
 }
 

@@ -6,9 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/geometry/solids/solid.hpp"
+#include "engine/packing/mixture/mixture.hpp"
 #include "engine/solve/jam.hpp"
 #include "tasks/json/json.hpp"
+#include "tasks/manifest/start.hpp"
 #include "tasks/measure/flag.hpp"
 #include "tasks/measure/measure.hpp"
 
@@ -40,7 +41,7 @@ struct Replicates {
 struct Manifest {
   std::string name;
   std::uint64_t seed = 0;
-  std::vector<Solid> solids;      ///< ascending
+  std::vector<Mixture> solids;    ///< ascending
   std::vector<int> particles;     ///< ascending
   std::vector<SweptField> swept;  ///< by name
   Replicates replicates;
@@ -51,6 +52,7 @@ struct Manifest {
   std::vector<Flag> exclude = usually_excluded();  ///< replicates so flagged count in no mean and towards no goal
   /// Swept parameters and their values: the row that others are compared with; see base.hpp. Empty: none.
   Json base = Json::object();
+  std::optional<Start> start{};  ///< packings of one's own instead of random ones
 };
 
 /// One combination of the swept parameters: the whole options, and what distinguishes them from other combinations.

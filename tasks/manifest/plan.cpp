@@ -9,7 +9,7 @@
 #include "tasks/json/hash.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tasks/manifest/shear.hpp"
-#include "tasks/solids/solid_json.hpp"
+#include "tasks/solids/mixture_json.hpp"
 
 namespace isojam {
 namespace {
@@ -32,7 +32,7 @@ std::string prefix(const ReplicateSpec& spec) {
 
 }  // namespace
 
-std::string point_text(const Solid& solid, int particles, const Json& parameters) {
+std::string point_text(const Mixture& solid, int particles, const Json& parameters) {
   Json point;
   point["solid"] = to_string(solid);
   point["particles"] = particles;
@@ -62,7 +62,8 @@ ReplicateSpec Plan::at(std::size_t point, int replicate) const {
           digest_,
           set.options,
           manifest_.measures,
-          manifest_.measuring};
+          manifest_.measuring,
+          manifest_.start};
 }
 
 ReplicateSpec Plan::operator[](std::size_t index) const {
@@ -93,7 +94,7 @@ RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose) {
 
 Json to_json(const ReplicateSpec& spec) {
   Json json;
-  put_solid(json, spec.solid);
+  put_mixture(json, spec.solid);
   json["particles"] = spec.particles;
   json["parameters"] = spec.parameters;
   json["replicate"] = spec.replicate;
@@ -104,6 +105,13 @@ Json to_json(const ReplicateSpec& spec) {
   for (const auto measure : spec.measures) json["measure"].push_back(to_string(measure));
   json["modes"] = spec.measuring.modes;
   json["shear"] = shear_json(spec.measuring.shear);
+  if (spec.start) {
+    const auto& file = spec.start->files[static_cast<std::size_t>(spec.replicate)];
+    json["start"]["digest"] = file.digest;
+    json["start"]["frame"] = file.frame;
+    if (spec.start->density) json["start"]["density"] = *spec.start->density;
+    json["start"]["stage"] = to_string(spec.start->stage);
+  }
   return json;
 }
 

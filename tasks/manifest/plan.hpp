@@ -14,7 +14,7 @@ namespace isojam {
 
 /// All that one replicate depends on: a value that can be run anywhere.
 struct ReplicateSpec {
-  Solid solid = SolidKind::tetrahedron;
+  Mixture solid = SolidKind::tetrahedron;
   int particles = 0;
   Json parameters = Json::object();  ///< the other swept values of its sweep point
   int replicate = 0;
@@ -23,10 +23,11 @@ struct ReplicateSpec {
   JamOptions options;
   std::vector<Measure> measures;
   MeasureOptions measuring;
+  std::optional<Start> start{};
 };
 
 /// Identity of a sweep point: solid, particles and the other swept values; never its place in the sweep.
-std::string point_text(const Solid& solid, int particles, const Json& parameters);
+std::string point_text(const Mixture& solid, int particles, const Json& parameters);
 std::string point_text(const ReplicateSpec& spec);
 
 /// Every replicate that a manifest can ask for, in canonical order: sweep point (solid, particles, parameters), then

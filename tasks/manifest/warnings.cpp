@@ -161,7 +161,7 @@ std::vector<std::string> warnings_of(const Manifest& manifest) {
     look_at_window(set.options, warnings);
     look_at_minimiser(set.options, manifest.exclude, warnings);
     for (const auto& solid : known) {
-      if (std::find(manifest.solids.begin(), manifest.solids.end(), Solid(solid.kind)) != manifest.solids.end())
+      if (std::find(manifest.solids.begin(), manifest.solids.end(), Mixture(solid.kind)) != manifest.solids.end())
         look_at_solid(set.options, solid, warnings);
     }
   }

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "engine/analysis/alignment/random_alignment.hpp"
 #include "engine/analysis/order.hpp"
@@ -20,7 +23,13 @@ constexpr Quantity Z_ff_fixed{"Z_ff_fixed", "/fixed_cutoffs/Z_ff", contact_group
 constexpr Quantity Z_ef_fixed{"Z_ef_fixed", "/fixed_cutoffs/Z_ef", contact_group, per_particle, "Z_{ef}^{fixed}"};
 constexpr Quantity Z_l_fixed{"Z_l_fixed", "/fixed_cutoffs/Z_l", contact_group, per_particle, "Z_l^{fixed}"};
 constexpr Quantity C_fixed{"C_fixed", "/fixed_cutoffs/C", contact_group, per_particle, "C^{fixed}"};
-constexpr std::array quantities{Z, Z_ff, Z_ef, Z_l, C, Z_ff_gap, Z_ff_fixed, Z_ef_fixed, Z_l_fixed, C_fixed};
+constexpr std::string_view kind_group = "kinds of a mixture";
+constexpr Quantity Z_1{"Z_1", "/kind_1/Z", kind_group, per_particle, "Z_1"};
+constexpr Quantity Z_2{"Z_2", "/kind_2/Z", kind_group, per_particle, "Z_2"};
+constexpr Quantity Z_3{"Z_3", "/kind_3/Z", kind_group, per_particle, "Z_3"};
+constexpr Quantity Z_4{"Z_4", "/kind_4/Z", kind_group, per_particle, "Z_4"};
+constexpr std::array quantities{Z,          Z_ff,      Z_ef,    Z_l, C,   Z_ff_gap, Z_ff_fixed,
+                                Z_ef_fixed, Z_l_fixed, C_fixed, Z_1, Z_2, Z_3,      Z_4};
 
 Json fit_record(const CdfFit& fit) {
   Json json;
@@ -48,6 +57,39 @@ void put_fixed(Json& state, const ContactNumbers& numbers) {
   put(state, C_fixed, numbers.C);
 }
 
+/// What a fit for every class has given, or null.
+struct Known {
+  bool face_face, all;
+  std::string_view why;
+};
+
+void put_numbers(Json& json, const ContactNumbers& n, const Known& known) {
+  put_number(json, "Z", n.Z);
+  const auto put_if = [&](const char* key, double value, bool is_known) {
+    put_optional(json, key, is_known ? std::optional(value) : std::nullopt, known.why);
+  };
+  put_if("Z_ff", n.Z_ff, known.face_face);
+  put_if("Z_ef", n.Z_ef, known.all);
+  put_if("Z_l", n.Z_l, known.all);
+  put_if("C", n.C, known.all);
+}
+
+/// Of a mixture: the numbers of each kind, and what decided the classes of each pair of shapes.
+void put_mixture(Json& state, const ContactAnalysis& analysis, const Known& known) {
+  for (std::size_t k = 0; k < analysis.of_kinds.size(); ++k)
+    put_numbers(state["kind_" + std::to_string(k + 1)], analysis.of_kinds[k], known);
+  for (const auto& pair : analysis.pairs) {
+    Json json;
+    json["solids"] = {pair.a->name(), pair.b->name()};
+    json["contacts"] = pair.contacts;
+    json["face_face_fit"] = fit_record(pair.cutoffs.face_face);
+    json["edge_face_fit"] = fit_record(pair.cutoffs.edge_face);
+    json["face_face_gap"] = gap_record(pair.cutoffs.face_face_gap);
+    json["edge_face_gap"] = gap_record(pair.cutoffs.edge_face_gap);
+    state["shape_pairs"].push_back(std::move(json));
+  }
+}
+
 }  // namespace
 
 Json contact_record(const ContactAnalysis& analysis) {
@@ -72,6 +114,7 @@ Json contact_record(const ContactAnalysis& analysis) {
   put_optional(state, "Z_ff_disagreement", analysis.disagreement(), "one of the methods gives no cut-off");
   put_fixed(state, analysis.fixed_cutoffs);
   state["pooled_over"] = analysis.pooled_over;
+  put_mixture(state, analysis, {analysis.face_face.has_cutoff(), !why, why.value_or("")});
   return state;
 }
 
@@ -88,17 +131,71 @@ std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
 
 namespace {
 
+/// Ideal random contacts of a packing: of all ends of contacts as many belong to each shape as in the packing, and
+/// either end may be the one that touches the other's face.
+class RandomContacts {
+ public:
+  RandomContacts(const Composition& solids, std::span<const Contact> contacts) {
+    if (solids.has_one_shape()) {
+      shapes_.push_back({1, RandomAlignment(solids.unit(0))});
+      return;
+    }
+    std::map<std::pair<std::string, const ConvexSolid*>, double> ends;
+    for (const auto& contact : contacts) {
+      for (const int particle : {contact.pair.a, contact.pair.b}) {
+        const auto& unit = solids.unit(static_cast<std::size_t>(particle));
+        ends[{unit.name(), &unit}] += 0.5 / static_cast<double>(contacts.size());
+      }
+    }
+    for (const auto& [shape, share] : ends) shapes_.push_back({share, RandomAlignment(*shape.second)});
+  }
+
+  double face_face(double theta) const {
+    return mean([theta](const RandomAlignment& random) { return random.face_face(theta); });
+  }
+  double edge_face(double theta) const {
+    return mean([theta](const RandomAlignment& random) { return random.edge_face(theta); });
+  }
+  double ff_max() const {
+    return most([](const RandomAlignment& random) { return random.ff_max(); });
+  }
+  double ef_max() const {
+    return most([](const RandomAlignment& random) { return random.ef_max(); });
+  }
+
+ private:
+  struct Shape {
+    double share;
+    RandomAlignment random;
+  };
+
+  template <class Function>
+  double mean(const Function& of) const {
+    double sum = 0;
+    for (const auto& shape : shapes_) sum += shape.share * of(shape.random);
+    return sum;
+  }
+  template <class Function>
+  double most(const Function& of) const {
+    double greatest = 0;
+    for (const auto& shape : shapes_) greatest = std::max(greatest, of(shape.random));
+    return greatest;
+  }
+
+  std::vector<Shape> shapes_;
+};
+
 /// Of the state nearest jamming: the angles themselves, ascending, for whoever draws their CDFs, and whether more are
 /// near 0 than ideal random contacts would have.
-Json angle_record(const ConvexSolid& solid, const std::vector<Alignment>& alignments) {
+Json angle_record(const Packing& packing, const ClassifiedContacts& classified) {
   std::vector<double> face_face, edge_face;
-  for (const auto& alignment : alignments) {
+  for (const auto& alignment : classified.alignments) {
     face_face.push_back(alignment.face_face);
     edge_face.push_back(alignment.edge_face);
   }
   std::sort(face_face.begin(), face_face.end());
   std::sort(edge_face.begin(), edge_face.end());
-  const RandomAlignment random(solid);
+  const RandomContacts random(packing.solids, classified.contacts);
   const auto compared = [](const Randomness& randomness) {
     Json json;
     json["verdict"] = to_string(randomness.verdict);
@@ -127,7 +224,7 @@ Measurement measure_contacts(const JamResult& jam, const MeasureOptions&) {
     measurement.states.push_back(contact_record(classified.analysis));
     if (k != nearest) continue;
     measurement.flags = contact_flags(classified.analysis);
-    measurement.states.back()["angles"] = angle_record(*jam.states[k].solid, classified.alignments);
+    measurement.states.back()["angles"] = angle_record(jam.states[k], classified);
   }
   return measurement;
 }

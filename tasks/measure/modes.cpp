@@ -40,7 +40,7 @@ struct Vibrations {
 Vibrations vibrations_of(const Packing& packing, const BlockMatrix& matrix, const Evaluation& here, int modes) {
   Vibrations vibrations;
   vibrations.ends = spectrum_ends(matrix, {.lowest = modes, .highest = modes});
-  const double torque = unbalanced_torque(here, packing.solid->gyration_radius()) * greatest_inverse_mass(packing);
+  const double torque = unbalanced_torque(here, packing.solids) * greatest_inverse_mass(packing);
   vibrations.stability = assess(matrix, vibrations.ends, torque);
   vibrations.omega_l = mean_frequency(vibrations.ends.lowest, vibrations.stability.tolerance);
   vibrations.omega_h = mean_frequency(vibrations.ends.highest, vibrations.stability.tolerance);

@@ -18,8 +18,13 @@ Json order_record(const Order& order) {
   put(state, Q6, order.Q6);
   put(state, local_Q4, order.local_Q4, "no contacts");
   put(state, local_Q6, order.local_Q6, "no contacts");
-  state["order"]["rank"] = order.rank;
-  put(state, S, order.S);
+  constexpr auto several = "particles of several shapes have no orientation in common";
+  if (order.S) {
+    state["order"]["rank"] = order.rank;
+  } else {
+    put_optional(state["order"], "rank", std::nullopt, several);
+  }
+  put(state, S, order.S, several);
   put_number(state["order"], "random_S", order.random_S);
   return state;
 }
@@ -44,7 +49,8 @@ Measurement measure_order(const JamResult& jam, const MeasureOptions&) {
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
     const auto order = order_of(jam.states[k], energy.contacts(jam.states[k]));
     auto state = order_record(order);
-    if (k == nearest) state["order"]["orientation_correlation"] = correlation_record(jam.states[k], order.rank);
+    if (k == nearest && order.S)
+      state["order"]["orientation_correlation"] = correlation_record(jam.states[k], order.rank);
     measurement.states.push_back(std::move(state));
   }
   return measurement;

@@ -7,8 +7,8 @@ namespace isojam {
 ClassifiedContacts classified_contacts(const Packing& packing, PackingEnergy& energy) {
   ClassifiedContacts classified;
   classified.contacts = energy.contacts(packing);
-  classified.alignments = alignments(*packing.solid, classified.contacts);
-  classified.analysis = analyse_contacts(*packing.solid, packing.size(), classified.alignments);
+  classified.alignments = alignments(packing.solids, classified.contacts);
+  classified.analysis = analyse_contacts(packing.solids, packing.size(), classified.contacts, classified.alignments);
   classified.analysis.Q6 = contact_q6(classified.contacts);
   return classified;
 }

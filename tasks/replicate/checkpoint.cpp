@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tasks/replicate/packing_json.hpp"
+#include "tasks/packings/packing_json.hpp"
+#include "tasks/packings/start_packing.hpp"
 #include "tasks/replicate/record.hpp"
 
 namespace isojam {
@@ -98,7 +99,7 @@ PairCounts read_counts(const JsonPlace& place) {
 
 Packing read_own_packing(const JsonPlace& place, const ReplicateSpec& spec) {
   auto packing = read_packing(place);
-  if (packing.solid != &*spec.solid || packing.size() != spec.particles)
+  if (packing.size() != spec.particles || !are_particles_of(packing, spec.solid))
     place.refuse("the packing is not one of this replicate",
                  fmt::format("{} of solid {}", spec.particles, to_string(spec.solid)));
   return packing;

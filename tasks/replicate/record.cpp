@@ -7,8 +7,8 @@
 #include "tasks/json/hash.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/measure/rearrangements.hpp"
+#include "tasks/packings/packing_json.hpp"
 #include "tasks/replicate/companion.hpp"
-#include "tasks/replicate/packing_json.hpp"
 #include "tasks/system/version.hpp"
 
 namespace isojam {
@@ -108,6 +108,7 @@ Json provenance(const ReplicateSpec& spec) {
   json["compiler"] = compiler();
   json["manifest_digest"] = spec.manifest_digest;
   json["seed"] = spec.seed;
+  if (spec.start) json["start"] = spec.start->files[static_cast<std::size_t>(spec.replicate)].path;
   return json;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "engine/vibration/settle.hpp"
 #include "tasks/measure/flag.hpp"
@@ -12,8 +13,14 @@ namespace isojam {
 namespace {
 
 Checkpoint begin(const ReplicateSpec& spec) {
+  if (spec.start) {
+    auto progress = begin_jam(begun_from(*spec.start, spec.replicate), spec.options);
+    progress.stage = spec.start->stage;
+    return {std::move(progress), {}};
+  }
   auto random = replicate_stream(spec, Purpose::placement);
-  return {begin_jam(random_packing(*spec.solid, spec.particles, spec.options.initial_density, random), spec.options),
+  return {begin_jam(random_packing(spec.solid.particles(spec.particles), spec.options.initial_density, random),
+                    spec.options),
           {}};
 }
 

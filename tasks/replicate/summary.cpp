@@ -9,7 +9,7 @@
 #include "tasks/json/place.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/replicate/record.hpp"
-#include "tasks/solids/solid_json.hpp"
+#include "tasks/solids/mixture_json.hpp"
 
 namespace isojam {
 namespace {
@@ -90,7 +90,7 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
   root.at("schema").choice(std::array{record_schema});
   const auto spec = root.at("spec");
   RecordSummary summary;
-  summary.solid = read_solid(spec);
+  summary.solid = read_mixture(spec);
   summary.particles = static_cast<int>(spec.at("particles").integer({1, 1e9}));
   summary.parameters = spec.at("parameters").value();
   spec.at("parameters").expect_object("an object");

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/geometry/solids/solid.hpp"
+#include "engine/packing/mixture/mixture.hpp"
 #include "tasks/json/json.hpp"
 #include "tasks/measure/flag.hpp"
 #include "tasks/measure/quantity.hpp"
@@ -24,7 +24,7 @@ struct StateValues {
 /// What a table needs of a record.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct RecordSummary {
-  Solid solid = SolidKind::tetrahedron;
+  Mixture solid = SolidKind::tetrahedron;
   int particles = 0;
   Json parameters;
   int replicate = 0;

@@ -64,8 +64,10 @@ Json random_record(const RandomAlignment& random) {
 
 }  // namespace
 
-Json angle_references(const ConvexSolid& solid) {
-  return {{"critical", critical_record(critical_angles(solid))}, {"random", random_record(RandomAlignment(solid))}};
+Json angle_references(const Mixture& mixture) {
+  Json json{{"critical", critical_record(critical_angles(mixture))}, {"random", Json::array()}};
+  if (mixture.is_one_solid()) json["random"] = random_record(RandomAlignment(*mixture.solid()));
+  return json;
 }
 
 Json thinned_cdf(std::span<const double> angles) {
@@ -82,7 +84,7 @@ Json thinned_cdf(std::span<const double> angles) {
   return steps;
 }
 
-std::optional<PaperDensity> paper_density(const Solid& solid, int particles) {
+std::optional<PaperDensity> paper_density(const Mixture& solid, int particles) {
   struct Entry {
     SolidKind solid;
     int particles;
@@ -95,7 +97,7 @@ std::optional<PaperDensity> paper_density(const Solid& solid, int particles) {
       Entry{SolidKind::icosahedron, 100, {.6953, .0003}},  Entry{SolidKind::icosahedron, 400, {.7008, .0003}},
   };
   const auto* found = std::find_if(table.begin(), table.end(), [&](const Entry& entry) {
-    return solid == Solid(entry.solid) && entry.particles == particles;
+    return solid == Mixture(entry.solid) && entry.particles == particles;
   });
   if (found == table.end()) return std::nullopt;
   return found->density;

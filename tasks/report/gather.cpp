@@ -286,9 +286,11 @@ Json solid_list(const Results& results) {
   for (const auto& replicate : results.replicates) {
     const auto name = std::string(to_string(replicate.summary.solid));
     if (solids.contains(name)) continue;
-    const ConvexSolid& solid = *replicate.summary.solid;
-    solids[name] = solid_shape(solid);
-    solids[name].update(angle_references(solid));
+    const auto& mixture = replicate.summary.solid;
+    solids[name] = mixture.is_one_solid() ? solid_shape(*mixture.solid()) : Json::object();
+    solids[name].update(angle_references(mixture));
+    if (mixture.is_one_solid()) continue;
+    for (const auto& kind : mixture.kinds()) solids[name]["shapes"].push_back(solid_shape(*kind.solid));
   }
   return solids;
 }

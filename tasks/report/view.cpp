@@ -79,8 +79,9 @@ void put_clusters(Json& json, const Packing& packing, const ClassifiedContacts& 
 }
 
 /// Coordinates (x, R·θ) become (x, θ), the greatest entry 1.
-Eigen::VectorXd displacements(Eigen::VectorXd mode, double gyration_radius) {
-  for (Eigen::Index i = 0; i < mode.size(); i += 6) mode.segment<3>(i + 3) /= gyration_radius;
+Eigen::VectorXd displacements(Eigen::VectorXd mode, const Composition& solids) {
+  for (Eigen::Index i = 0; i < mode.size(); i += 6)
+    mode.segment<3>(i + 3) /= solids[static_cast<std::size_t>(i / 6)].gyration_radius();
   return mode / mode.cwiseAbs().maxCoeff();
 }
 
@@ -91,7 +92,7 @@ void append_modes(Json& list, const ModeSet& set, std::string_view end, const Pa
     Json mode;
     mode["end"] = end;
     mode["omega"] = lambda > 0 ? Json(std::sqrt(lambda)) : Json(nullptr);
-    mode["u"] = shortened_list(displacements(moves.col(k), packing.solid->gyration_radius()), mode_unit);
+    mode["u"] = shortened_list(displacements(moves.col(k), packing.solids), mode_unit);
     list.push_back(std::move(mode));
   }
 }
@@ -143,11 +144,25 @@ std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& 
   return chosen;
 }
 
+namespace {
+
+/// Which shape and in which size each particle is.
+void put_solids(Json& json, const Composition& solids, int particles) {
+  json["kind"] = json["size"] = Json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(particles); ++i) {
+    json["kind"].push_back(solids.kind(i));
+    json["size"].push_back(shortened(solids[i].scale(), length_unit));
+  }
+}
+
+}  // namespace
+
 Json packing_view(const Packing& packing, int modes) {
   PackingEnergy energy;
   const auto classified = classified_contacts(packing, energy);
   Json json;
-  json["solid"] = packing.solid->name();
+  json["solid"] = packing.solids.unit(0).name();  // a mixture has its name from elsewhere
+  if (!packing.solids.is_uniform()) put_solids(json, packing.solids, packing.size());
   json["phi"] = packing.density();
   json["side"] = packing.cell.side();
   json["cell"] = vectors_of(packing.cell);

@@ -28,7 +28,7 @@ std::vector<Vector3d> box_vertices(const JsonPlace& place) {
   for (std::size_t c = 0; c < 3; ++c) edges[static_cast<Eigen::Index>(c)] = place.at(c).number(edge_range);
   std::vector<Vector3d> vertices;
   for (int k = 0; k < 8; ++k)
-    vertices.push_back(edges.cwiseProduct(Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+    vertices.emplace_back(edges.cwiseProduct(Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
   return vertices;
 }
 
@@ -59,8 +59,9 @@ Solid read_definition(const JsonPlace& place, const std::string& name) {
   return solid_from(place.at("vertices"), name, read_vertices(place.at("vertices")));
 }
 
-/// A name stands in names of files, and between others in the names of replicates.
-void check_name(const JsonPlace& place, const std::string& name) {
+}  // namespace
+
+void check_solid_name(const JsonPlace& place, const std::string& name) {
   const auto allowed = fmt::format("1 to {} letters, digits and '_', the first a letter", longest_name);
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto may_follow = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; };
@@ -70,8 +71,6 @@ void check_name(const JsonPlace& place, const std::string& name) {
   if (Solid::named(name)) place.refuse("a solid of the program has that name", "another name");
 }
 
-}  // namespace
-
 SolidDefinitions read_definitions(const JsonPlace& place) {
   place.expect_object("names and definitions of solids");
   SolidDefinitions definitions;
@@ -79,7 +78,7 @@ SolidDefinitions read_definitions(const JsonPlace& place) {
     const auto& name = item.key();
     definitions.emplace(name, stand_in(name));
     place.attempt([&] {
-      check_name(place.at(name), name);
+      check_solid_name(place.at(name), name);
       definitions.insert_or_assign(name, read_definition(place.at(name), name));
     });
   }

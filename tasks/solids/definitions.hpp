@@ -20,6 +20,10 @@ SolidDefinitions read_definitions(const JsonPlace& place);
 /// The solid of the name at `place`: one of the document's, or one with a name of its own.
 Solid read_solid_name(const JsonPlace& place, const SolidDefinitions& definitions);
 
+/// Refuses what cannot be the name of a solid: a name stands in names of files, and between others in the names of
+/// replicates.
+void check_solid_name(const JsonPlace& place, const std::string& name);
+
 /// Definitions by vertices of those that need one; null if none does.
 Json definitions_json(const std::vector<Solid>& solids);
 

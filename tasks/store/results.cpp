@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "tasks/replicate/packing_json.hpp"
+#include "tasks/packings/packing_json.hpp"
 #include "tasks/system/file.hpp"
 
 namespace isojam {

@@ -47,7 +47,7 @@ struct Differences {
 /// One sweep point.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct Row {
-  Solid solid = SolidKind::tetrahedron;
+  Mixture solid = SolidKind::tetrahedron;
   int particles = 0;
   Json parameters;     ///< the other swept values
   int replicates = 0;  ///< recorded, the failed ones included
@@ -101,7 +101,7 @@ class Aggregation {
 
     bool counts() const { return !failed && !excluded; }
   };
-  using PointKey = std::tuple<Solid, int, Json>;
+  using PointKey = std::tuple<Mixture, int, Json>;
   using ReplicateKey = std::pair<std::string, int>;  // manifest digest, replicate
   // NOLINTNEXTLINE(bugprone-exception-escape): as above.
   struct Point {

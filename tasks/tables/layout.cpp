@@ -135,7 +135,8 @@ Cells cells_of(const TableLine& line, const Group& group, const std::vector<std:
   // What a second line has in common with the first is not said again.
   const bool of_all = line.over == Over::all;
   const auto once = [&](const std::string& text) { return of_all ? "" : text; };
-  Cells cells{of_all ? indent + "all" : std::string(to_string(row.solid)), once(std::to_string(row.particles))};
+  Cells cells{of_all ? indent + "all" : spelt(std::string(to_string(row.solid)), format),
+              once(std::to_string(row.particles))};
   for (const auto& name : parameters) cells.push_back(once(spelt(parameter_text(row, name), format)));
   if (view == View::series) cells.push_back(once(fmt::format("{:g}", *line.delta_phi)));
   if (counts_replicates(group, view)) {
@@ -155,9 +156,10 @@ std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
                             head("ef edge-edge", "\\theta_{ef}^{ee}"), head("ff vertex-face", "\\theta_{ff}^{vf}"),
                             head("ff edge-edge", "\\theta_{ff}^{ee}"), head("ff edge-face", "\\theta_{ff}^{ef}")}};
   for (const auto& row : table.rows) {
-    if (lines.back().front() == to_string(row.solid)) continue;
-    const auto angles = critical_angles(*row.solid);
-    lines.push_back({std::string(to_string(row.solid))});
+    const auto name = spelt(std::string(to_string(row.solid)), format);
+    if (lines.back().front() == name) continue;
+    const auto angles = critical_angles(row.solid);
+    lines.push_back({name});
     for (const double angle :
          {angles.ef_vertex_face, angles.ef_edge_edge, angles.ff_vertex_face, angles.ff_edge_edge, angles.ff_edge_face})
       lines.back().push_back(fmt::format("{:.2f}", angle * 180 / std::numbers::pi));
@@ -173,7 +175,7 @@ Cells point_head(const std::vector<std::string>& parameters, Format format) {
 }
 
 Cells point_cells(const Row& row, const std::vector<std::string>& parameters, Format format) {
-  Cells cells{std::string(to_string(row.solid)), std::to_string(row.particles)};
+  Cells cells{spelt(std::string(to_string(row.solid)), format), std::to_string(row.particles)};
   for (const auto& name : parameters) cells.push_back(spelt(parameter_text(row, name), format));
   return cells;
 }

@@ -77,8 +77,8 @@ Json to_json(const GoalOutcome& outcome) {
 }
 
 /// Degrees.
-Json critical_angle_record(const Solid& solid) {
-  const auto angles = critical_angles(*solid);
+Json critical_angle_record(const Mixture& solid) {
+  const auto angles = critical_angles(solid);
   const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
   Json json;
   json["ef_vertex_face"] = degrees(angles.ef_vertex_face);

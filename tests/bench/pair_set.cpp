@@ -51,7 +51,7 @@ PairSet random_pairs(SolidKind kind, bool touching) {
 }
 
 PairSet pairs_of(const std::vector<Packing>& packings) {
-  const ConvexSolid& solid = *packings.front().solid;
+  const ConvexSolid& solid = packings.front().solids.only();
   const int n = packings.front().size();
   PairSet set;
   set.placed.resize(solid, packings.size() * static_cast<std::size_t>(n), false);

@@ -4,11 +4,13 @@
 //   residual differs from the true one by less than residual_floor, which is not more than some hundred times larger
 //   than the difference;
 //   energy and its differences are right to energy_noise;
-//   the Hessian agrees with differences of the gradient in quadruple precision to 1e-9, far from jamming and near it.
+//   the Hessian agrees with differences of the gradient in quadruple precision to 1e-9, far from jamming and near it;
+//   of mixtures of shapes and sizes, energy, gradient, stress and Hessian agree as well.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -108,8 +110,8 @@ TEST(DoubleDoubleEnergy, ReachesResidualsThatDoubleDoesNot) {
   EXPECT_TRUE(near);
 }
 
-VectorXd random_direction(RandomStream& random) {
-  VectorXd direction(6 * particles);
+VectorXd random_direction(RandomStream& random, int size = particles) {
+  VectorXd direction(6 * size);
   for (double& x : direction) x = random.normal();
   return direction.normalized();
 }
@@ -138,7 +140,7 @@ TEST(DoubleDoubleEnergy, FloorAndNoiseBoundTheErrors) {
 VectorXd turned_gradient(const Packing& packing, const VectorXd& gradient, const VectorXd& direction) {
   VectorXd result = VectorXd::Zero(direction.size());
   for (int i = 0; i < packing.size(); ++i) {
-    const Vector3d theta = direction.segment<3>(6 * i + 3) / packing.solid->gyration_radius();
+    const Vector3d theta = direction.segment<3>(6 * i + 3) / packing.solids[i].gyration_radius();
     result.segment<3>(6 * i + 3) = theta.cross(Vector3d(gradient.segment<3>(6 * i + 3))) / 2;
   }
   return result;
@@ -163,6 +165,60 @@ TEST(DoubleDoubleEnergy, HessianIsTheDifferenceOfGradientsInQuadruplePrecision) 
     }
   }
   std::printf("Hessian against differences in quadruple precision: largest relative error %.1e\n", worst);
+}
+
+/// Three shapes in four sizes, the largest seven times the least.
+Packing mixed_packing() {
+  RandomStream random{70, 5};
+  std::vector<Particle> list;
+  double volume = 0;
+  constexpr int count = 120;
+  for (int i = 0; i < count; ++i) {
+    constexpr std::array kinds{SolidKind::octahedron, SolidKind::cube, SolidKind::tetrahedron, SolidKind::octahedron};
+    constexpr std::array sizes{1.0, 1.4, 0.6, 0.2};
+    const int kind = i % 4;
+    list.push_back({&platonic(kinds[static_cast<std::size_t>(kind)]), sizes[static_cast<std::size_t>(kind)], kind});
+    volume += std::pow(list.back().scale, 3);
+  }
+  for (Particle& particle : list) particle.scale *= std::cbrt(count / volume);
+  return random_packing(list, .8, random);
+}
+
+TEST(DoubleDoubleEnergy, OfMixturesIsThatOfQuadruplePrecision) {
+  RandomStream random{70, 6};
+  const Packing packing = mixed_packing();
+  PackingEnergy energy;
+  const Evaluation here = energy.evaluate(packing, Precision::double_double);
+  const QuadEvaluation right = evaluate_in_quad(packing);
+  EXPECT_EQ(here.contacts, right.contacts);
+  EXPECT_GT(here.contacts, packing.size());
+  EXPECT_LE(std::abs(static_cast<double>(Quad(here.energy) - right.energy)), here.energy_noise);
+  EXPECT_NEAR(here.residual, static_cast<double>(right.residual), 1e-12 * here.residual);
+  const std::vector<Quad> gradient = gradient_of(right, packing);
+  double worst_gradient = 0, worst_stress = 0, worst_hessian = 0;
+  for (Eigen::Index k = 0; k < here.gradient.size(); ++k)
+    worst_gradient = std::max(worst_gradient, std::abs(static_cast<double>(Quad(here.gradient[k]) - gradient[k])));
+  worst_gradient /= here.gradient.norm();
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c)
+      worst_stress = std::max(
+          worst_stress,
+          std::abs(static_cast<double>(Quad(here.stress(r, c) * packing.cell.volume()) -
+                                       right.virial[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)])));
+  }
+  worst_stress /= here.pressure * packing.cell.volume();
+  const BlockMatrix hessian = energy.hessian(packing, Precision::double_double);
+  for (int k = 0; k < 4; ++k) {
+    const VectorXd direction = random_direction(random, packing.size());
+    const VectorXd differences =
+        difference_of_gradients(packing, direction, 1e-17) - turned_gradient(packing, here.gradient, direction);
+    worst_hessian = std::max(worst_hessian, (hessian * direction - differences).norm() / differences.norm());
+  }
+  std::printf("mixture against quadruple precision: gradient %.1e, stress %.1e, Hessian %.1e\n", worst_gradient,
+              worst_stress, worst_hessian);
+  EXPECT_LE(worst_gradient, 1e-14);
+  EXPECT_LE(worst_stress, 1e-13);
+  EXPECT_LE(worst_hessian, 1e-9);
 }
 
 TEST(DoubleDoubleEnergy, AgreesWithDoubleFarFromJamming) {

@@ -32,7 +32,7 @@ Packing skewed(SolidKind kind, std::uint64_t seed) {
     }
     if (f.high.determinant() <= .9 || f.high.determinant() > 1.2) continue;
     const Packing candidate = deformed(packing, f);
-    if (is_legal(candidate.cell, *candidate.solid)) return candidate;
+    if (is_legal(candidate.cell, candidate.solids.only())) return candidate;
   }
 }
 
@@ -74,7 +74,7 @@ VectorXd out_of_balance(const Case& at, const Evaluation& here) {
   VectorXd result = VectorXd::Zero(at.along.size());
   Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
   for (int i = 0; i < packing.size(); ++i) {
-    const Eigen::Vector3d theta = at.along.segment<3>(6 * i + 3) / packing.solid->gyration_radius();
+    const Eigen::Vector3d theta = at.along.segment<3>(6 * i + 3) / packing.solids.only().gyration_radius();
     const Eigen::Vector3d slope = here.gradient.segment<3>(6 * i), torque = here.gradient.segment<3>(6 * i + 3);
     result.segment<3>(6 * i + 3) = theta.cross(torque) / 2;
     virial += slope * at.along.segment<3>(6 * i).transpose();

@@ -24,14 +24,14 @@ Quad determinant(const QuadMatrix& m) { return dot(m[0], cross(m[1], m[2])); }
 }  // namespace
 
 QuadEvaluation evaluate_in_quad(const Packing& packing) {
-  const ConvexSolid& solid = *packing.solid;
   QuadEvaluation sum;
   sum.force.resize(packing.poses.size());
   sum.torque.resize(packing.poses.size());
-  for (const NeighbourPair& pair : find_neighbours_brute_force(packing, 2.001 * solid.circumradius())) {
+  for (const NeighbourPair& pair :
+       find_neighbours_brute_force(packing, 2.001 * packing.solids.greatest_circumradius())) {
     const Pose &a = packing.poses[pair.a], &b = packing.poses[pair.b];
     const Quad3 r = quad_displacement(packing, pair);
-    const QuadOverlap overlap = clipped_overlap(solid, solid, relative_pose(a, b, r));
+    const QuadOverlap overlap = clipped_overlap(packing.solids[pair.a], packing.solids[pair.b], relative_pose(a, b, r));
     if (!(overlap.volume > 0)) continue;
     const QuadMatrix q = quad_rotation(a);
     const Quad3 force = -overlap.volume / 2 * (q * overlap.area);
@@ -50,7 +50,8 @@ QuadEvaluation evaluate_in_quad(const Packing& packing) {
   sum.mean_force /= sum.contacts;
   Quad imbalance = 0;
   for (const Quad3& force : sum.force) imbalance = std::max(imbalance, norm(force));
-  for (const Quad3& torque : sum.torque) imbalance = std::max(imbalance, norm(torque) / solid.gyration_radius());
+  for (std::size_t i = 0; i < sum.torque.size(); ++i)
+    imbalance = std::max(imbalance, norm(sum.torque[i]) / packing.solids[i].gyration_radius());
   sum.residual = imbalance / sum.mean_force;
   return sum;
 }
@@ -59,7 +60,7 @@ std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& p
   std::vector<Quad> gradient;
   for (std::size_t i = 0; i < packing.poses.size(); ++i) {
     for (const Quad f : evaluation.force[i]) gradient.push_back(-f);
-    for (const Quad t : evaluation.torque[i]) gradient.push_back(-t / packing.solid->gyration_radius());
+    for (const Quad t : evaluation.torque[i]) gradient.push_back(-t / packing.solids[i].gyration_radius());
   }
   return gradient;
 }

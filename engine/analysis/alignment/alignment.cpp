@@ -67,28 +67,28 @@ std::optional<EdgeFace> best_edge_face(const std::vector<Direction>& edges, cons
 
 }  // namespace
 
-Alignment alignment(const ConvexSolid& solid, const Contact& contact) {
+Alignment alignment(const ConvexSolid& a, const ConvexSolid& b, const Contact& contact) {
   const Overlap& overlap = contact.overlap;
   const Matrix3d identity = Matrix3d::Identity();
-  const std::vector<Direction> faces_a = normals(solid, overlap.faces_a, identity);
-  const std::vector<Direction> faces_b = normals(solid, overlap.faces_b, contact.pose.rotation);
+  const std::vector<Direction> faces_a = normals(a, overlap.faces_a, identity);
+  const std::vector<Direction> faces_b = normals(b, overlap.faces_b, contact.pose.rotation);
 
   Alignment result;
   result.face_face = std::numbers::pi;
-  for (const Direction& a : faces_a) {
-    for (const Direction& b : faces_b) {
-      const double angle = opposing_angle(a.unit, b.unit);
+  for (const Direction& of_a : faces_a) {
+    for (const Direction& of_b : faces_b) {
+      const double angle = opposing_angle(of_a.unit, of_b.unit);
       if (result.face_a < 0 || angle < result.face_face) {
         result.face_face = angle;
-        result.face_a = a.index;
-        result.face_b = b.index;
+        result.face_a = of_a.index;
+        result.face_b = of_b.index;
       }
     }
   }
 
   result.edge_face = std::numbers::pi / 2;
-  const auto of_a = best_edge_face(edge_directions(solid, overlap.edges_a, identity), faces_b);
-  const auto of_b = best_edge_face(edge_directions(solid, overlap.edges_b, contact.pose.rotation), faces_a);
+  const auto of_a = best_edge_face(edge_directions(a, overlap.edges_a, identity), faces_b);
+  const auto of_b = best_edge_face(edge_directions(b, overlap.edges_b, contact.pose.rotation), faces_a);
   if (!of_a && !of_b) return result;
   result.edge_of_a = of_a && (!of_b || of_a->angle <= of_b->angle);
   const EdgeFace& best = result.edge_of_a ? *of_a : *of_b;
@@ -98,10 +98,11 @@ Alignment alignment(const ConvexSolid& solid, const Contact& contact) {
   return result;
 }
 
-std::vector<Alignment> alignments(const ConvexSolid& solid, std::span<const Contact> contacts) {
+std::vector<Alignment> alignments(const Composition& solids, std::span<const Contact> contacts) {
   std::vector<Alignment> result;
   result.reserve(contacts.size());
-  for (const Contact& contact : contacts) result.push_back(alignment(solid, contact));
+  for (const Contact& contact : contacts)
+    result.push_back(alignment(solids[contact.pair.a], solids[contact.pair.b], contact));
   return result;
 }
 

@@ -18,9 +18,13 @@ struct Alignment {
 
 /// Returns the angles of one contact. θ_ef = π/2 if no edge of either body has a segment inside the other, θ_ff = π if
 /// a body has no face in the contact (one inside the other).
-Alignment alignment(const ConvexSolid& solid, const Contact& contact);
+Alignment alignment(const ConvexSolid& a, const ConvexSolid& b, const Contact& contact);
+/// Of a contact of two alike.
+inline Alignment alignment(const ConvexSolid& solid, const Contact& contact) {
+  return alignment(solid, solid, contact);
+}
 
 /// Alignments of all contacts, in their order.
-std::vector<Alignment> alignments(const ConvexSolid& solid, std::span<const Contact> contacts);
+std::vector<Alignment> alignments(const Composition& solids, std::span<const Contact> contacts);
 
 }  // namespace isojam

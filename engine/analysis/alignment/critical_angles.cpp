@@ -200,4 +200,32 @@ CriticalAngles critical_angles_of_cones(const ConvexSolid& solid) {
   return critical;
 }
 
+CriticalAngles critical_angles(const ConvexSolid& a, const ConvexSolid& b) {
+  const CriticalAngles of_a = critical_angles(a);
+  if (&a == &b) return of_a;
+  const CriticalAngles of_b = critical_angles(b);
+  return {.ef_vertex_face = std::min(of_a.ef_vertex_face, of_b.ef_vertex_face),
+          .ef_edge_edge = std::min(of_a.ef_edge_edge, of_b.ef_edge_edge),
+          .ff_vertex_face = std::min(of_a.ff_vertex_face, of_b.ff_vertex_face),
+          .ff_edge_edge = std::acos(std::cos(of_a.ff_edge_face) * std::cos(of_b.ff_edge_face)),
+          .ff_edge_face = std::min(of_a.ff_edge_face, of_b.ff_edge_face)};
+}
+
+void CriticalAngles::take_lesser(const CriticalAngles& other) {
+  ef_vertex_face = std::min(ef_vertex_face, other.ef_vertex_face);
+  ef_edge_edge = std::min(ef_edge_edge, other.ef_edge_edge);
+  ff_vertex_face = std::min(ff_vertex_face, other.ff_vertex_face);
+  ff_edge_edge = std::min(ff_edge_edge, other.ff_edge_edge);
+  ff_edge_face = std::min(ff_edge_face, other.ff_edge_face);
+}
+
+CriticalAngles critical_angles(const Mixture& mixture) {
+  const std::vector<MixtureKind>& kinds = mixture.kinds();
+  CriticalAngles least = critical_angles(*mixture.solid());
+  for (std::size_t a = 0; a < kinds.size(); ++a) {
+    for (std::size_t b = a; b < kinds.size(); ++b) least.take_lesser(critical_angles(*kinds[a].solid, *kinds[b].solid));
+  }
+  return least;
+}
+
 }  // namespace isojam

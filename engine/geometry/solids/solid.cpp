@@ -69,7 +69,7 @@ std::strong_ordering operator<=>(const Solid& a, const Solid& b) {
   const auto key = [](const Solid& solid) {
     return std::tuple(solid.is_defined(), place_of(solid->name()), solid->name());
   };
-  if (const auto order = key(a) <=> key(b); order != 0) return order;
+  if (const auto order = key(a) <=> key(b); std::is_neq(order)) return order;
   return numbers(a->given()) < numbers(b->given()) ? std::strong_ordering::less : std::strong_ordering::greater;
 }
 

@@ -65,8 +65,9 @@ EnvelopeEvaluation summed(std::vector<EnvelopeContact> contacts, int particles) 
 void EnvelopeEnergy::place(const Packing& packing) {
   list_.refresh(packing);
   const std::size_t n = packing.poses.size();
-  const bool same = placed_.size() == n && placed_.solid() == packing.solid;
-  placed_.resize(*packing.solid, n, true);
+  const bool same = placed_.size() == n && solids_ == packing.solids;
+  make_room(packing, Precision::double_double, placed_);
+  solids_ = packing.solids;
   poses_.resize(n);
   for_each_slot(n, [&](std::size_t k) {
     if (same && poses_[k] == packing.poses[k]) return;
@@ -116,18 +117,20 @@ EnvelopeEvaluation EnvelopeEnergy::evaluate(const Packing& packing, std::span<co
   return evaluate_pairs(packing, near, [&](std::size_t slot, const DoubleDoubleVector& r, EnvelopeContact& out) {
     Vector6d start = Vector6d::Zero();
     if (const ContactForce* force = force_of[near[slot]]) out.multiplier = force->multiplier, start = force->shift;
-    out.at = proximal_contact(placed_[out.pair.a], packing.poses[out.pair.b], r, {out.multiplier, stiffness}, start);
+    out.at = proximal_contact(placed_[out.pair.a], packing.solids[out.pair.b], packing.poses[out.pair.b], r,
+                              {out.multiplier, stiffness}, start);
   });
 }
 
 EnvelopeEvaluation EnvelopeEnergy::unshifted(const Packing& packing, double stiffness) {
   place(packing);
   const std::vector<const ContactForce*> none(list_.pairs().size(), nullptr);
-  return evaluate_pairs(packing, near_pairs(packing, none, {}),
-                        [&](std::size_t, const DoubleDoubleVector& r, EnvelopeContact& out) {
-                          out.at = unshifted_contact(placed_[out.pair.a], packing.poses[out.pair.b], r, stiffness);
-                          out.multiplier = out.at.wrench;
-                        });
+  return evaluate_pairs(
+      packing, near_pairs(packing, none, {}), [&](std::size_t, const DoubleDoubleVector& r, EnvelopeContact& out) {
+        out.at =
+            unshifted_contact(placed_[out.pair.a], packing.solids[out.pair.b], packing.poses[out.pair.b], r, stiffness);
+        out.multiplier = out.at.wrench;
+      });
 }
 
 EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only) {

@@ -41,12 +41,12 @@ struct EnvelopeEvaluation {
   long overlaps = 0;  ///< with Hessian, that finding the shifts took
 };
 
-/// Evaluates envelopes of packings of one solid. Holds caches only, as PackingEnergy does.
+/// Evaluates envelopes of packings. Holds caches only, as PackingEnergy does.
 class EnvelopeEnergy {
  public:
   /// `forces` in order of (a, b, shift); pairs without one have μ = 0. With `only`, one flag for each particle,
   /// contacts without a flagged particle are left out. Throws std::invalid_argument unless
-  /// is_legal(cell, solid).
+  /// is_legal(cell, solids.widest()).
   EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactForce> forces, double stiffness,
                               std::span<const char> only = {});
   /// The touching pairs as they are, each with the multiplier ∇e: no contact is shifted and Φ = E.
@@ -61,6 +61,7 @@ class EnvelopeEnergy {
 
   NeighbourList list_;
   PlacedSolids placed_;
+  std::optional<Composition> solids_;
   std::vector<Pose> poses_;  ///< that placed_ were made of
 };
 

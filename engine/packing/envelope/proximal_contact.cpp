@@ -56,14 +56,16 @@ struct Ghost {
 
 class Proximal {
  public:
-  Proximal(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r, const ProximalTerms& terms)
+  Proximal(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b, const DoubleDoubleVector& r,
+           const ProximalTerms& terms)
       : a_(a),
         b_(b),
         r_(r),
         stiffness_(terms.stiffness),
-        radius_(a.solid().gyration_radius()),
+        inradius_(std::min(a.solid().inradius(), solid_b.inradius())),
+        radius_(solid_b.gyration_radius()),
         multiplier_(to_lab(b, terms.multiplier)) {
-    placed_.resize(a.solid(), 1, true);
+    placed_.resize(solid_b, 1, true);
   }
 
   ProximalContact unshifted() { return result(at(Vector6d::Zero()), true); }
@@ -120,7 +122,7 @@ class Proximal {
   Vector6d newton(const Ghost& here) const {
     const Vector6d step = -factorised(matrix(here), stiffness_).solve(here.gradient);
     const double length = std::max(step.head<3>().norm(), step.tail<3>().norm());
-    return std::min(1.0, longest_step * a_.solid().inradius() / length) * step;
+    return std::min(1.0, longest_step * inradius_ / length) * step;
   }
 
   /// ∇_w e.
@@ -178,7 +180,7 @@ class Proximal {
   const PlacedSolid& a_;
   const Pose& b_;
   const DoubleDoubleVector& r_;
-  double stiffness_, radius_;
+  double stiffness_, inradius_, radius_;
   Vector6d multiplier_;  // lab frame
   PlacedSolids placed_;  // the ghost
   int iterations_ = 0;
@@ -217,13 +219,14 @@ Vector6d ProximalContact::shift_change(const Vector6d& a, const Vector6d& b) con
   return -lower.transpose().solve(lower.solve(ghost.ab.transpose() * a + ghost.bb * b));
 }
 
-ProximalContact proximal_contact(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r,
-                                 const ProximalTerms& terms, const Vector6d& start) {
-  return Proximal(a, b, r, terms).minimise(start);
+ProximalContact proximal_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
+                                 const DoubleDoubleVector& r, const ProximalTerms& terms, const Vector6d& start) {
+  return Proximal(a, solid_b, b, r, terms).minimise(start);
 }
 
-ProximalContact unshifted_contact(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r, double stiffness) {
-  return Proximal(a, b, r, {Vector6d::Zero(), stiffness}).unshifted();
+ProximalContact unshifted_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
+                                  const DoubleDoubleVector& r, double stiffness) {
+  return Proximal(a, solid_b, b, r, {Vector6d::Zero(), stiffness}).unshifted();
 }
 
 Vector6d to_lab(const Pose& b, const Vector6d& w) {

@@ -9,9 +9,9 @@
 namespace isojam {
 
 // Notation. A contact has the energy e of its relative pose, V²/4 (Smith, Fisher, Alam 2011). The ghost of B is B moved
-// rigidly by a shift w = (translation, R times twice the vector part of the unit quaternion) in B's body frame, R the
-// radius of gyration. It is fixed to B: moving A and B together as one body takes the ghost along and leaves w as it
-// is. A wrench is conjugate to w, and so is given in B's body frame too; in Y·V_p^(2/3).
+// rigidly by a shift w = (translation, R_B times twice the vector part of the unit quaternion) in B's body frame,
+// R_B its radius of gyration. It is fixed to B: moving A and B together as one body takes the ghost along and leaves w
+// as it is. A wrench is conjugate to w, and so is given in B's body frame too; in Y·V_p^(2/3).
 
 /// What the Moreau envelope of a contact is taken with: a force of its own, the multiplier μ, and a stiffness ρ beyond
 /// which the contact gives way,
@@ -48,14 +48,15 @@ struct ProximalContact {
   Vector6d shift_change(const Vector6d& a, const Vector6d& b) const;
 };
 
-/// Finds the envelope of the contact of A with B, whose centre is at r = x_B − x_A; `b` gives B's orientation, in
-/// double-double as A was placed. `start`: first guess of the shift. Newton's method in six unknowns, in double-double
-/// but for its linear algebra: flat contacts bear their force at a depth of 1e-10.
-ProximalContact proximal_contact(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r,
-                                 const ProximalTerms& terms, const Vector6d& start);
+/// Finds the envelope of the contact of A with `solid_b`, whose centre is at r = x_B − x_A; `b` gives its orientation,
+/// in double-double as A was placed. `start`: first guess of the shift. Newton's method in six unknowns, in
+/// double-double but for its linear algebra: flat contacts bear their force at a depth of 1e-10.
+ProximalContact proximal_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
+                                 const DoubleDoubleVector& r, const ProximalTerms& terms, const Vector6d& start);
 
 /// The contact as it is: with the multiplier ∇e, which leaves the ghost in its place.
-ProximalContact unshifted_contact(const PlacedSolid& a, const Pose& b, const DoubleDoubleVector& r, double stiffness);
+ProximalContact unshifted_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
+                                  const DoubleDoubleVector& r, double stiffness);
 
 /// A shift or wrench from B's body frame to the lab frame and back.
 Vector6d to_lab(const Pose& b, const Vector6d& w);

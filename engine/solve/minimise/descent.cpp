@@ -80,7 +80,7 @@ std::optional<StopReason> Descent::verdict() {
 
 Evaluation Descent::probe(const Packing& from, const Eigen::VectorXd& step, Packing& there) {
   there = moved(from, step);
-  if (options_.control.cell != CellFreedom::fixed && !is_legal(there.cell, *there.solid)) {
+  if (options_.control.cell != CellFreedom::fixed && !is_legal(there.cell, there.solids.widest())) {
     cell_limit_ = true;
     there = from;
     Evaluation nowhere = here_;
@@ -97,7 +97,7 @@ void Descent::accept(Packing there, Evaluation value) {
   ++iterations_;
 }
 
-double Descent::longest_displacement() const { return trust_in_inradii * packing_.solid->inradius(); }
+double Descent::longest_displacement() const { return trust_in_inradii * packing_.solids.least_inradius(); }
 
 bool Descent::advance(const Eigen::VectorXd& direction, double first_step, double curvature) {
   const double reach = largest_displacement(direction);

@@ -98,7 +98,7 @@ class Newton {
   }
 
   StepModel model_at(const Packing& packing, const Evaluation& value) {
-    const double inradius = packing.solid->inradius();
+    const double inradius = packing.solids.least_inradius();
     const double probe_distance =
         std::clamp(probe_per_step * last_step_, least_probe * inradius, most_probe * inradius);
     return StepModel(descent_.second_order(packing, probe_distance), value.gradient, descent_.longest_displacement());

@@ -70,7 +70,7 @@ constexpr double updates_per_particle = 1.0 / 6;
 constexpr double steeper = 2;
 
 double tilt_energy(const IncipientContact& pair, const Eigen::VectorXd& step) {
-  const Eigen::Vector3d tilt = step.segment<3>(6 * pair.b + 3) - step.segment<3>(6 * pair.a + 3);
+  const Eigen::Vector3d tilt = pair.relative_turn(step);
   return tilt.dot(pair.tilt * tilt);
 }
 
@@ -86,10 +86,11 @@ bool contains(const std::vector<std::pair<int, int>>& sorted, const IncipientCon
   return std::binary_search(sorted.begin(), sorted.end(), std::pair(pair.a, pair.b));
 }
 
-void add_tilt(const Eigen::Matrix3d& stiffness, BlockMatrix& matrix, BlockMatrix::Block& block) {
-  matrix.diagonal[block.row].bottomRightCorner<3, 3>() += stiffness;
-  matrix.diagonal[block.column].bottomRightCorner<3, 3>() += stiffness;
-  block.value.bottomRightCorner<3, 3>() -= stiffness;
+void add_tilt(double weight, const IncipientContact& pair, BlockMatrix& matrix, BlockMatrix::Block& block) {
+  const Eigen::Matrix3d stiffness = weight * pair.tilt;
+  matrix.diagonal[block.row].bottomRightCorner<3, 3>() += pair.turn_a * pair.turn_a * stiffness;
+  matrix.diagonal[block.column].bottomRightCorner<3, 3>() += pair.turn_b * pair.turn_b * stiffness;
+  block.value.bottomRightCorner<3, 3>() -= pair.turn_a * pair.turn_b * stiffness;
 }
 
 /// The v of S = Σ v vᵀ.
@@ -198,7 +199,7 @@ BlockMatrix StepModel::assembled(double shift) const {
         sum.corner += closed.slope_strains * closed.slope_strains.transpose() / 2;
       }
     }
-    add_tilt(tilt_weight(pair, state, shift) * pair.tilt, sum, blocks.back());
+    add_tilt(tilt_weight(pair, state, shift), pair, sum, blocks.back());
   }
   return sum;
 }

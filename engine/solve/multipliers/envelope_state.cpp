@@ -22,7 +22,7 @@ constexpr double least_change = 0.2;
 
 EnvelopeState EnvelopeEvaluator::at(Packing packing, const std::vector<ContactForce>& forces,
                                     const std::vector<char>& only) {
-  if (load_.control().cell != CellFreedom::fixed && !is_legal(packing.cell, *packing.solid)) {
+  if (load_.control().cell != CellFreedom::fixed && !is_legal(packing.cell, packing.solids.widest())) {
     cell_limit_ = true;
     EnvelopeEvaluation nowhere;
     nowhere.value = std::numeric_limits<double>::infinity();

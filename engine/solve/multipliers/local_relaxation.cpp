@@ -97,7 +97,7 @@ bool relax_locally(const std::vector<char>& flags, double shift, double promised
                    EnvelopeState& state, MinimiseWork& work) {
   const Part part(flags);
   if (part.empty()) return false;
-  const double longest = longest_step * state.packing.solid->inradius();
+  const double longest = longest_step * state.packing.solids.least_inradius();
   EnvelopeState here{state.packing, part_of(state.value, flags)};
   BlockCholesky factor;
   bool moved_at_all = false;

@@ -180,7 +180,7 @@ class Multipliers {
     const EnvelopeState from = evaluator_.unshifted(packing_);
     const double fall = std::pow(ratio, 5);
     shift_ = first_shift * k0_;
-    Tangent answer = tangent(from, imposed, tangent_shift * k0_, longest_tangent * packing_.solid->inradius(),
+    Tangent answer = tangent(from, imposed, tangent_shift * k0_, longest_tangent * packing_.solids.least_inradius(),
                              evaluator_, factor_, summary_.work);
     for (ContactForce& force : answer.forces) force.multiplier *= fall;
     set_scales(fall * first_force_, distance);
@@ -253,7 +253,7 @@ class Multipliers {
         if (verdict()) return;
       }
       const Eigen::VectorXd& gradient = here_.value.gradient;
-      const Eigen::VectorXd step = limited(-factor_.solve(gradient), longest_step * packing_.solid->inradius());
+      const Eigen::VectorXd step = limited(-factor_.solve(gradient), longest_step * packing_.solids.least_inradius());
       const double promised = -gradient.dot(step) - step.dot(matrix * step) / 2;
       EnvelopeState there = evaluator_.at(moved(here_.packing, step), forces_after(here_, step));
       bool relaxed = false;
@@ -294,7 +294,7 @@ class Multipliers {
     while (!verdict()) {
       ++summary_.work.hessians;
       auto there = lifted_step(here_, lifted_stiffening * k0_, lifted_shift * k0_,
-                               longest_step * packing_.solid->inradius(), evaluator_, factor_, summary_.work);
+                               longest_step * packing_.solids.least_inradius(), evaluator_, factor_, summary_.work);
       if (!there) break;
       const bool better = wrong(there->value) < wrong(here_.value) / 2;
       const bool balanced = wrong(there->value) < nearly_balanced * there->value.mean_force;

@@ -13,9 +13,9 @@ constexpr int farthest_image = 3;
 
 double pair_energy(const Packing& packing, const Pose& a, const Pose& b, const Eigen::Vector3i& shift) {
   const Eigen::Vector3d r = b.position - a.position + packing.cell.side() * shift.cast<double>();
-  if (r.norm() >= 2 * packing.solid->circumradius()) return 0;
+  if (r.norm() >= 2 * packing.solids.only().circumradius()) return 0;
   const RelativePose pose = relative_pose(a.orientation, b.orientation, r);
-  const double volume = clipped_overlap(*packing.solid, *packing.solid, pose).volume;
+  const double volume = clipped_overlap(packing.solids.only(), packing.solids.only(), pose).volume;
   return volume * volume / 4;
 }
 
@@ -61,7 +61,7 @@ double energy_of_nearest_images(const Packing& packing) {
 
 Packing cornered(int n, double side) {
   RandomStream random{7, static_cast<std::uint64_t>(n)};
-  Packing packing{&platonic(SolidKind::tetrahedron), PeriodicCell(side), {}};
+  Packing packing{platonic(SolidKind::tetrahedron), PeriodicCell(side), {}};
   for (int k = 0; k < n; ++k) {
     Pose pose = random_pose(random, 0.3);
     for (double& x : pose.position) x += x < 0 ? side : 0;
@@ -72,7 +72,7 @@ Packing cornered(int n, double side) {
 
 Packing cluster(SolidKind kind) {
   RandomStream random{11, static_cast<std::uint64_t>(kind)};
-  Packing packing{&platonic(kind), PeriodicCell(12), {}};
+  Packing packing{platonic(kind), PeriodicCell(12), {}};
   for (int k = 0; k < 12; ++k) packing.poses.push_back(random_pose(random, 0.8));
   return packing;
 }

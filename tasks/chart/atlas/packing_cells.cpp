@@ -31,7 +31,7 @@ AtlasRow energy_row(const std::string& regime, const std::string& setting, const
     const double energy = PackingEnergy().evaluate(packing).energy, exact = energy_over_images(packing);
     return judged(row, std::abs(energy - exact) / exact, tolerance, "relative error of E");
   } catch (const std::invalid_argument& error) {
-    row.figure = fmt::format("L = {:.3f}, least {:.3f}", packing.cell.side(), least_side(*packing.solid));
+    row.figure = fmt::format("L = {:.3f}, least {:.3f}", packing.cell.side(), least_side(packing.solids.only()));
     return refused(row, error.what());
   }
 }
@@ -122,7 +122,7 @@ Twin turned(const Packing& packing, double angle) {
 /// The twin's solid is built from vertices in other units; it must outlive the twin.
 Twin in_units(const Packing& packing, const ConvexSolid& solid) {
   Twin twin = twin_of(packing);
-  twin.seen.solid = &solid;
+  twin.seen.solids = solid;
   return twin;
 }
 

@@ -62,8 +62,8 @@ void describe(const Packing& packing, EndState& state) {
   const Evaluation value = energy.evaluate(packing, Precision::double_double);
   const double density = packing.density();
   state.energy = {density, value.energy / packing.size(), value.pressure / (density * density)};
-  const auto angles = alignments(*packing.solid, energy.contacts(packing));
-  const ContactAnalysis analysis = analyse_contacts(*packing.solid, packing.size(), angles);
+  const auto angles = alignments(packing.solids, energy.contacts(packing));
+  const ContactAnalysis analysis = analyse_contacts(packing.solids.only(), packing.size(), angles);
   const auto decided = [](const CdfFit& fit) { return fit.has_cutoff(); };
   state.numbers = analysis.numbers;
   state.classes_known = decided(analysis.face_face) && decided(analysis.edge_face);

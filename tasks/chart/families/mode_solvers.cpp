@@ -29,11 +29,11 @@ struct Found {
 };
 
 template <class Operation>
-Found solve(Operation& operation, LanczosRequest request) {
+Found solve(const BlockMatrix& matrix, Operation& operation, LanczosRequest request) {
   request.modes = wanted;
   request.restarts = restarts;
   request.tolerance = tolerance;
-  request.start = lanczos_start(operation.rows());
+  request.start = lanczos_start(matrix);
   LanczosModes modes = lanczos(LanczosOperation(operation), request);
   if (modes.ended == LanczosEnd::small_problem_failed) return {"small eigenproblem did not converge", {}};
   if (modes.ended == LanczosEnd::restarts_spent) return {"restarts spent", {}};
@@ -43,9 +43,9 @@ Found solve(Operation& operation, LanczosRequest request) {
 
 Found by_inversion(const BlockMatrix& matrix, double shift, Index subspace) {
   ShiftInvert inverse(matrix);
-  Deflated<ShiftInvert> operation(inverse);
+  Deflated<ShiftInvert> operation(inverse, matrix);
   try {
-    return solve(operation, {.subspace = subspace, .shift = shift});
+    return solve(matrix, operation, {.subspace = subspace, .shift = shift});
   } catch (const std::domain_error&) {
     return {"shift hit an eigenvalue", {}};
   }
@@ -57,28 +57,30 @@ class Raised {
  public:
   using Scalar = double;
 
-  Raised(const BlockMatrix& matrix, double lambda_max) : product_(matrix), lambda_max_(lambda_max) {}
+  Raised(const BlockMatrix& matrix, double lambda_max)
+      : product_(matrix), root_masses_(matrix.root_masses), lambda_max_(lambda_max) {}
 
   Index rows() const { return product_.rows(); }
   void set_shift(double) {}
   void perform_op(const double* x, double* y) const {
     const Eigen::Map<const VectorXd> in(x, rows());
     VectorXd rest = in;
-    remove_translations(rest);
+    remove_translations(root_masses_, rest);
     product_.perform_op(rest.data(), y);
     Eigen::Map<VectorXd> out(y, rows());
-    remove_translations(out);
+    remove_translations(root_masses_, out);
     out += lambda_max_ * (in - rest);
   }
 
  private:
   Product product_;
+  const VectorXd& root_masses_;
   double lambda_max_;
 };
 
 Found by_products(const BlockMatrix& matrix, double lambda_max, Index subspace) {
   Raised operation(matrix, lambda_max);
-  return solve(operation, {.wanted = LanczosWanted::least, .subspace = subspace});
+  return solve(matrix, operation, {.wanted = LanczosWanted::least, .subspace = subspace});
 }
 
 /// Points of a task, by (method, setting) in the order met.

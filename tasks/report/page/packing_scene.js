@@ -17,10 +17,11 @@ function buffer(length) {
 }
 
 /// All particles as one geometry for the faces and one for the edges: two draw calls whatever N is.
-function particleObjects(mesh, count) {
+function particleObjects(meshes, particles) {
   const faces = new THREE.BufferGeometry(), edges = new THREE.BufferGeometry();
-  for (const name of ['position', 'normal', 'color']) faces.setAttribute(name, buffer(mesh.corners.length * count));
-  edges.setAttribute('position', buffer(mesh.edges.length * count));
+  const total = (part) => particles.reduce((sum, {kind}) => sum + meshes[kind][part].length, 0);
+  for (const name of ['position', 'normal', 'color']) faces.setAttribute(name, buffer(total('corners')));
+  edges.setAttribute('position', buffer(total('edges')));
   const solid = new THREE.Mesh(faces, new THREE.MeshLambertMaterial({
     vertexColors: THREE.VertexColors, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1}));
   const outline = new THREE.LineSegments(edges,
@@ -30,15 +31,16 @@ function particleObjects(mesh, count) {
 }
 
 /// Writes poses and colours of the particles shown into the two geometries.
-function fill({solid, outline}, mesh, particles) {
+function fill({solid, outline}, meshes, particles) {
   const {position, normal, color} = solid.geometry.attributes;
   const ends = outline.geometry.attributes.position;
   let corner = 0, turnedNormal = 0, end = 0, tint = 0;
-  for (const {at, orientation, colour} of particles) {
-    const rotation = rotationOf(orientation);
-    corner = place(position.array, corner, mesh.corners, rotation, at);
+  for (const {at, orientation, colour, kind, size} of particles) {
+    const rotation = rotationOf(orientation), mesh = meshes[kind];
+    const stretched = size === 1 ? rotation : rotation.map((x) => x * size);
+    corner = place(position.array, corner, mesh.corners, stretched, at);
     turnedNormal = place(normal.array, turnedNormal, mesh.normals, rotation, [0, 0, 0]);
-    end = place(ends.array, end, mesh.edges, rotation, at);
+    end = place(ends.array, end, mesh.edges, stretched, at);
     for (let k = 0; k < mesh.corners.length; k += 3) {
       color.array.set([colour.r, colour.g, colour.b], tint);
       tint += 3;
@@ -128,13 +130,13 @@ function followWidth(canvas, renderer, camera, draw) {
   }).observe(canvas.parentElement);
 }
 
-/// A canvas with a scene that is drawn only when something changed. `show` takes a solid's shape, the cell ({cell, side})
-/// and the particles ({at, orientation, colour}); `update` the same particles elsewhere.
+/// A canvas with a scene that is drawn only when something changed. `show` takes the shapes of the kinds, the cell ({cell,
+/// side}) and the particles ({at, orientation, colour, kind, size}); `update` the same particles elsewhere.
 function packingScene(canvas, antialias) {
   const renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: true, preserveDrawingBuffer: true});
   renderer.setPixelRatio(antialias ? Math.min(devicePixelRatio, 2) : 1);
   const scene = new THREE.Scene();
-  let waiting = false, objects = null, mesh = null, box = null, shown = null, frames = 0, resting = 0;
+  let waiting = false, objects = null, meshes = null, box = null, shown = null, frames = 0, resting = 0;
   let sparing = false;
   const orbit = orbitCamera(canvas, () => move());
   const draw = () => {
@@ -165,22 +167,22 @@ function packingScene(canvas, antialias) {
     event.preventDefault();
   });
   return {
-    show(shape, view, particles, keepCamera) {
+    show(shapes, view, particles, keepCamera) {
       if (objects) {
         const old = [objects.solid, objects.outline, box];
         scene.remove(...old);
         dispose(old);
       }
-      [mesh, shown] = [solidMesh(shape), view];
-      [objects, box] = [particleObjects(mesh, particles.length), cellOutline(view.cell)];
+      [meshes, shown] = [shapes.map(solidMesh), view];
+      [objects, box] = [particleObjects(meshes, particles), cellOutline(view.cell)];
       scene.add(objects.solid, objects.outline, box);
-      sparing = !antialias && (mesh.edges.length / 3) * particles.length > slowOutlines;
-      fill(objects, mesh, particles);
+      sparing = !antialias && objects.outline.geometry.attributes.position.count > slowOutlines;
+      fill(objects, meshes, particles);
       if (!keepCamera) orbit.reset(view.cell, view.side);
       draw();
     },
     update(particles) {
-      fill(objects, mesh, particles);
+      fill(objects, meshes, particles);
       move();
     },
   };

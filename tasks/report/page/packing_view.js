@@ -32,10 +32,11 @@ function particlesOf(view, {colouring, alone, mode, phase}) {
     const at = alone && view.largest ? view.largest.positions[k] : view.positions[index];
     const colour = colouring?.colours[index] ?? new THREE.Color(unknownColour);
     const orientation = view.orientations[index];
-    if (!displacement || phase === 0) return {at, orientation, colour};
+    const still = {at, orientation, colour, kind: view.kind?.[index] ?? 0, size: view.size?.[index] ?? 1};
+    if (!displacement || phase === 0) return still;
     const part = (offset) => displacement.slice(6 * index + offset, 6 * index + offset + 3)
       .map((x) => x * phase * modeAmplitude);
-    return {at: part(0).map((x, c) => x + at[c]), orientation: turned(orientation, part(3)), colour};
+    return {...still, at: part(0).map((x, c) => x + at[c]), orientation: turned(orientation, part(3))};
   });
 }
 
@@ -127,7 +128,8 @@ function connect(data, views, controls, scene, {key, status}) {
     const view = current();
     colouring = colouringOf(view, controls.colour.value);
     key.replaceChildren(keyOf(colouring, controls.colour.value));
-    scene.show(data.solids[view.solid], view, particlesOf(view, state()), keepCamera);
+    const solid = data.solids[view.solid];
+    scene.show(solid.shapes ?? [solid], view, particlesOf(view, state()), keepCamera);
   };
   const choose = (keepCamera) => {
     const view = current();

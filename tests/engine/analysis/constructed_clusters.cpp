@@ -6,7 +6,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 
 Structure at(double side, const std::vector<Vector3d>& centres) {
-  Structure structure{{&platonic(SolidKind::cube), PeriodicCell(side), {}}, {}};
+  Structure structure{{platonic(SolidKind::cube), PeriodicCell(side), {}}, {}};
   for (const Vector3d& centre : centres) structure.packing.poses.push_back({.position = centre});
   return structure;
 }

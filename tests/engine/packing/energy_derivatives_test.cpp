@@ -96,7 +96,7 @@ double strained_energy(const Packing& packing, const std::vector<Contact>& conta
   for (const Contact& contact : contacts) {
     const Vector3d d = contact.displacement + strain * contact.displacement;
     const Overlap o = relative_overlap(
-        *packing.solid, *packing.solid,
+        packing.solids.only(), packing.solids.only(),
         relative_pose(packing.poses[contact.pair.a].orientation, packing.poses[contact.pair.b].orientation, d));
     energy += o.volume * o.volume / 4;
   }
@@ -129,7 +129,7 @@ TEST(EnergyDerivativesTest, StressIsTheSlopeInEveryStrain) {
 VectorXd turned_gradient(const Packing& packing, const VectorXd& gradient, const VectorXd& direction) {
   VectorXd result = VectorXd::Zero(direction.size());
   for (int i = 0; i < packing.size(); ++i) {
-    const Vector3d theta = direction.segment<3>(6 * i + 3) / packing.solid->gyration_radius();
+    const Vector3d theta = direction.segment<3>(6 * i + 3) / packing.solids.only().gyration_radius();
     result.segment<3>(6 * i + 3) = theta.cross(gradient.segment<3>(6 * i + 3)) / 2;
   }
   return result;

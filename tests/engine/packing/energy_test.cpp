@@ -45,11 +45,11 @@ struct Sums {
 Sums sums_over_pairs(const Packing& packing) {
   Sums sums;
   sums.gradient = VectorXd::Zero(6 * packing.size());
-  const double radius = packing.solid->gyration_radius();
-  for (const NeighbourPair& pair : find_neighbours_brute_force(packing, 2 * packing.solid->circumradius())) {
+  const double radius = packing.solids.only().gyration_radius();
+  for (const NeighbourPair& pair : find_neighbours_brute_force(packing, 2 * packing.solids.only().circumradius())) {
     const Vector3d r = displacement(packing, pair);
     const Quaterniond &qa = packing.poses[pair.a].orientation, &qb = packing.poses[pair.b].orientation;
-    const Overlap o = clipped_overlap(*packing.solid, *packing.solid, relative_pose(qa, qb, r));
+    const Overlap o = clipped_overlap(packing.solids.only(), packing.solids.only(), relative_pose(qa, qb, r));
     if (!o.touching()) continue;
     const Vector3d s = qa * o.area, m = qa * o.moment;
     sums.energy += o.volume * o.volume / 4;
@@ -85,7 +85,7 @@ TEST(PackingEnergyTest, ForcesBalanceAndTorquesMatchTheStress) {
     Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
     for (int i = 0; i < packing.size(); ++i) {
       force += got.gradient.segment<3>(6 * i);
-      torque += got.gradient.segment<3>(6 * i + 3) * packing.solid->gyration_radius();
+      torque += got.gradient.segment<3>(6 * i + 3) * packing.solids.only().gyration_radius();
     }
     const double all_forces = got.mean_force * static_cast<double>(got.contacts);
     EXPECT_LE(force.norm(), 64 * epsilon * all_forces) << describe(packing);
@@ -175,7 +175,7 @@ TEST(PackingEnergyTest, TurningTheCellTurnsForcesAndStress) {
 }
 
 TEST(PackingEnergyTest, WithoutContactsAllIsZero) {
-  Packing packing{&platonic(SolidKind::octahedron), PeriodicCell(8), std::vector<Pose>(8)};
+  Packing packing{platonic(SolidKind::octahedron), PeriodicCell(8), std::vector<Pose>(8)};
   for (int i = 0; i < 8; ++i) packing.poses[i].position = Vector3d(4 * (i & 1), 4 * (i >> 1 & 1), 4 * (i >> 2));
   const Evaluation got = PackingEnergy().evaluate(packing);
   EXPECT_EQ(got.contacts, 0);

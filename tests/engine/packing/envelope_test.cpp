@@ -49,7 +49,7 @@ class EnvelopeOf : public testing::TestWithParam<SolidKind> {
  protected:
   void SetUp() override { packing_ = testing_packings::sample(GetParam(), 60, density, 311); }
 
-  Packing packing_{nullptr, PeriodicCell(1), {}};
+  Packing packing_{platonic(SolidKind::cube), PeriodicCell(1), {}};
 };
 INSTANTIATE_TEST_SUITE_P(Solids, EnvelopeOf, testing::ValuesIn(all_solids),
                          [](const auto& test) { return std::string(to_string(test.param)); });

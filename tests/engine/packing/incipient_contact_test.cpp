@@ -37,7 +37,7 @@ double volume_at(const ConvexSolid& solid, const Packing& packing, const Incipie
 
 /// Two unit cubes face to face along x, `gap` apart, in a cell that they do not feel.
 Packing two_cubes(double gap, const Vector3d& tilt = Vector3d::Zero()) {
-  Packing packing{&cube(), PeriodicCell(10), std::vector<Pose>(2)};
+  Packing packing{cube(), PeriodicCell(10), std::vector<Pose>(2)};
   packing.poses[0].position = Vector3d(4, 5, 5);
   packing.poses[1].position = Vector3d(5 + gap, 5, 5);
   packing.poses[1].orientation = rotated(packing.poses[1].orientation, tilt);
@@ -56,7 +56,7 @@ TEST(IncipientContactTest, ProbingAddsPairs) {
   for (const Packing& packing : samples(51, 100, .6)) {
     PackingEnergy energy;
     const long contacts = energy.evaluate(packing).contacts;
-    const double probe_distance = 0.02 * packing.solid->inradius();
+    const double probe_distance = 0.02 * packing.solids.only().inradius();
     const std::vector<IncipientContact> now = energy.second_order(packing, 0).pairs;
     const std::vector<IncipientContact> probed = energy.second_order(packing, probe_distance).pairs;
     EXPECT_EQ(static_cast<long>(now.size()), contacts) << describe(packing);
@@ -70,8 +70,8 @@ TEST(IncipientContactTest, ProbingAddsPairs) {
         continue;
       }
       const Vector3d r = packing.cell.nearest_image(packing.poses[pair.b].position - packing.poses[pair.a].position);
-      EXPECT_EQ(volume_at(*packing.solid, packing, pair, Vector3d::Zero()), 0) << pair.a << ' ' << pair.b;
-      EXPECT_GT(volume_at(*packing.solid, packing, pair, -probe_distance * r.normalized()), 0)
+      EXPECT_EQ(volume_at(packing.solids.only(), packing, pair, Vector3d::Zero()), 0) << pair.a << ' ' << pair.b;
+      EXPECT_GT(volume_at(packing.solids.only(), packing, pair, -probe_distance * r.normalized()), 0)
           << pair.a << ' ' << pair.b;
     }
     EXPECT_EQ(matched, now.size()) << describe(packing);
@@ -83,7 +83,7 @@ TEST(IncipientContactTest, ProbingAddsPairs) {
 TEST(IncipientContactTest, BothAreTangents) {
   RandomStream random{52};
   for (const Packing& packing : samples(52, 100, .65)) {
-    const double probe_distance = 0.01 * packing.solid->inradius(), h = 1e-6;
+    const double probe_distance = 0.01 * packing.solids.only().inradius(), h = 1e-6;
     const VectorXd direction = random_step(random, packing.size());
     const Packing ahead = moved(packing, h * direction), behind = moved(packing, -h * direction);
     PackingEnergy energy;
@@ -94,8 +94,9 @@ TEST(IncipientContactTest, BothAreTangents) {
         const LinearisedOverlap& tangent = closed ? pair.closed : pair.now;
         if (!(tangent.at_rest > 1e-5)) continue;  // deep enough for steps of h
         const Vector3d shift = closed ? Vector3d(-probe_distance * r.normalized()) : Vector3d::Zero();
-        const double difference =
-            (volume_at(*packing.solid, ahead, pair, shift) - volume_at(*packing.solid, behind, pair, shift)) / (2 * h);
+        const double difference = (volume_at(packing.solids.only(), ahead, pair, shift) -
+                                   volume_at(packing.solids.only(), behind, pair, shift)) /
+                                  (2 * h);
         const double slope = tangent.at(direction, pair.a, pair.b) - tangent.at_rest;
         const double scale = direction.norm() * (tangent.slope_a.norm() + tangent.slope_b.norm());
         EXPECT_NEAR(slope, difference, 1e-6 * scale) << describe(packing) << (closed ? " closed" : " now");

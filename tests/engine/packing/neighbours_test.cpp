@@ -35,7 +35,7 @@ std::vector<Key> keys(const std::vector<NeighbourPair>& pairs) {
 /// Points of which some lie whole sides outside of the cell. Neighbours do not ask whether the solids would fit.
 Packing points(int n, double side, std::uint64_t seed) {
   RandomStream random{8, seed};
-  Packing packing{&platonic(SolidKind::cube), PeriodicCell(side), std::vector<Pose>(static_cast<std::size_t>(n))};
+  Packing packing{platonic(SolidKind::cube), PeriodicCell(side), std::vector<Pose>(static_cast<std::size_t>(n))};
   for (Pose& pose : packing.poses) {
     for (double& x : pose.position) {
       x = side * random.uniform();
@@ -179,7 +179,7 @@ TEST(NeighboursTest, DoNotDependOnTheVectorsThatSpanTheLattice) {
 TEST(NeighboursTest, LatticePointsOnTheBordersOfCellsAreSeen) {
   const int m = 6;
   const double spacing = 1.25;
-  Packing lattice{&platonic(SolidKind::cube), PeriodicCell(m * spacing), {}};
+  Packing lattice{platonic(SolidKind::cube), PeriodicCell(m * spacing), {}};
   for (int k = 0; k < m * m * m; ++k) {
     Pose pose;
     // Some a whole side away, and so that a few are negative zeros or just below a border.

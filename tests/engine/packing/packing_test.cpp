@@ -85,10 +85,10 @@ TEST(RandomPackingTest, RefusesACellTooSmall) {
 TEST(PackingEnergyTest, RefusesACellTooSmall) {
   for (Packing& packing : samples(4, 80, .5)) {
     PackingEnergy energy;
-    packing.cell = PeriodicCell(least_side(*packing.solid));
+    packing.cell = PeriodicCell(least_side(packing.solids.only()));
     EXPECT_THROW(energy.evaluate(packing), std::invalid_argument) << describe(packing);
     EXPECT_THROW(energy.second_order(packing, 0), std::invalid_argument) << describe(packing);
-    packing.cell = PeriodicCell(least_side(*packing.solid) * (1 + epsilon));
+    packing.cell = PeriodicCell(least_side(packing.solids.only()) * (1 + epsilon));
     EXPECT_GT(energy.evaluate(packing).contacts, 0) << describe(packing);
   }
 }
@@ -128,7 +128,7 @@ TEST(MovedTest, AddsTheStepAndTurns) {
   EXPECT_EQ(result.cell.side(), packing.cell.side());
   for (int i = 0; i < packing.size(); ++i) {
     EXPECT_EQ(result.poses[i].position, packing.poses[i].position + step.segment<3>(6 * i)) << "particle " << i;
-    const Vector3d theta = step.segment<3>(6 * i + 3) / packing.solid->gyration_radius();
+    const Vector3d theta = step.segment<3>(6 * i + 3) / packing.solids.only().gyration_radius();
     const Matrix3d turned =
         Eigen::AngleAxisd(theta.norm(), theta.normalized()).toRotationMatrix() * packing.poses[i].orientation;
     EXPECT_LE((result.poses[i].orientation.toRotationMatrix() - turned).norm(), 32 * epsilon * (1 + theta.norm()))

@@ -37,7 +37,7 @@ Eigen::MatrixXd dense(const BlockMatrix& matrix) {
 
 std::string describe(const Packing& packing) {
   std::ostringstream text;
-  text << packing.solid->name() << ", N " << packing.size() << ", L " << packing.cell.side();
+  text << packing.solids.only().name() << ", N " << packing.size() << ", L " << packing.cell.side();
   return text.str();
 }
 

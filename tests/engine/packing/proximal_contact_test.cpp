@@ -38,7 +38,7 @@ DoubleDoubleVector displacement(const Pose& a, const Pose& b) {
 }
 
 ProximalContact envelope(const Pair& pair, const ProximalTerms& terms, const Vector6d& start = Vector6d::Zero()) {
-  return proximal_contact(placed(pair), pair.b, displacement(pair.a, pair.b), terms, start);
+  return proximal_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), terms, start);
 }
 
 double normal_below(RandomStream& random, double size) { return size * random.normal(); }
@@ -223,7 +223,7 @@ TEST_P(ProximalContactOf, ItsOwnForceLeavesItUnshifted) {
     const PairEnergy e =
         pair_energy(placed(pair), LonePlacedSolid(*pair.solid, rotation_matrix(pair.b)), displacement(pair.a, pair.b));
     const ProximalContact direct =
-        unshifted_contact(placed(pair), pair.b, displacement(pair.a, pair.b), terms.stiffness);
+        unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), terms.stiffness);
     EXPECT_EQ(direct.energy, e.energy);
     EXPECT_EQ(direct.value, e.energy);
     EXPECT_EQ((direct.gradient_a - e.gradient_a).norm() + (direct.gradient_b - e.gradient_b).norm(), 0);
@@ -242,7 +242,8 @@ TEST(ProximalContact, PressedFacesAreASpringInClosedForm) {
     pair.b.position = {1, 0, 0};
     pair.b.position_low = {-depth, 0, 0};
     pair.b.orientation = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitX());
-    const double k = unshifted_contact(placed(pair), pair.b, displacement(pair.a, pair.b), 1).wrench.norm() / depth;
+    const double k =
+        unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 1).wrench.norm() / depth;
     EXPECT_GT(k, 0.1) << "A²/2";
     // Softer, and the section, which shrinks where it slides, would give way sideways.
     for (const double stiffness : {100 * depth * depth * k, 1e-3 * k, k}) {
@@ -275,10 +276,12 @@ TEST(ProximalContact, FacesSlideFreelyHoweverFlat) {
       pair.a.orientation = frame;
       pair.b.orientation = frame * Eigen::AngleAxisd(random.uniform(), Eigen::Vector3d::UnitX());
       pair.b.position = frame * Eigen::Vector3d(1 - depth, 0.3 * random.uniform(), 0.3 * random.uniform());
-      force = unshifted_contact(placed(pair), pair.b, displacement(pair.a, pair.b), 1).wrench.head<3>().norm();
+      force =
+          unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 1).wrench.head<3>().norm();
       // Lower-order contacts with that force are as deep as its fifth root.
       const double soft = force / std::pow(force, 0.2);
-      const ProximalContact contact = unshifted_contact(placed(pair), pair.b, displacement(pair.a, pair.b), 300 * soft);
+      const ProximalContact contact =
+          unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 300 * soft);
       const Matrix6d curvature = contact.curvature().bb;
       least = std::min(least, Eigen::SelfAdjointEigenSolver<Matrix6d>(curvature).eigenvalues()[0] / soft);
       const Vector6d step = random_vector(random, 1);

@@ -124,7 +124,8 @@ TEST(ReproducibilityTest, AnotherSolidBeforeChangesNothing) {
     PackingEnergy used;
     // Everything but the solid is the same; the dodecahedron has the least reach.
     Packing other = packing;
-    other.solid = &platonic(packing.solid->name() == "dodecahedron" ? SolidKind::icosahedron : SolidKind::dodecahedron);
+    other.solids =
+        platonic(packing.solids.only().name() == "dodecahedron" ? SolidKind::icosahedron : SolidKind::dodecahedron);
     used.evaluate(other);
     expect_same_bits(answer(used, packing), fresh(packing));
   }

@@ -38,8 +38,8 @@ struct Known {
     PackingEnergy energy;
     gradient = energy.evaluate(state).gradient;
     contacts = energy.contacts(state);
-    angles = alignments(*state.solid, contacts);
-    analysis = analyse_contacts(*state.solid, state.size(), angles);
+    angles = alignments(state.solids.only(), contacts);
+    analysis = analyse_contacts(state.solids.only(), state.size(), angles);
   }
   RigidityMatrix normals() const { return normal_constraints(state, contacts); }
   RigidityMatrix by_class() const { return class_constraints(state, contacts, angles, analysis.classes); }
@@ -84,7 +84,7 @@ TEST(RigidityMatrixTest, RowsAreUnitAndForcesGiveTheGradient) {
 /// Two bodies in touch, A turned at random, and the motions of B about the point of touch.
 struct Pair {
   Pair(const ConvexSolid& solid, const Contact& in_frame_of_a, const Vector3d& touch, RandomStream& random)
-      : packing{&solid, PeriodicCell(100), std::vector<Pose>(2)},
+      : packing{solid, PeriodicCell(100), std::vector<Pose>(2)},
         contact(constructed::overlapped(solid, in_frame_of_a)) {
     packing.poses[0].orientation = constructed::random_orientation(random);
     const Eigen::Quaterniond& q = packing.poses[0].orientation;
@@ -99,7 +99,7 @@ struct Pair {
     const Vector3d theta = q * turn;
     VectorXd step = VectorXd::Zero(12);
     step.segment<3>(6) = q * slide - theta.cross(lever);
-    step.segment<3>(9) = packing.solid->gyration_radius() * theta;
+    step.segment<3>(9) = packing.solids.only().gyration_radius() * theta;
     return (matrix.rows * step.normalized()).norm();
   }
 

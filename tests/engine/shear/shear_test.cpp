@@ -165,7 +165,7 @@ TEST_P(ShearOf, FarEnoughThePackingGivesWay) {
 }
 
 TEST(ShearTest, RefusesWhatIsNotJammedAndStepsThatLeadNowhere) {
-  Packing loose{&platonic(SolidKind::octahedron), PeriodicCell(9), {Pose{}, Pose{}}};
+  Packing loose{platonic(SolidKind::octahedron), PeriodicCell(9), {Pose{}, Pose{}}};
   loose.poses[1].position.setConstant(4);
   EXPECT_THROW(shear(loose, {}), std::invalid_argument);
   const Packing& packing = jammed(SolidKind::octahedron);

@@ -49,7 +49,8 @@ Packing sized_packing(SolidKind kind, int n, double density, std::uint64_t seed)
 /// Two particles that touch.
 Packing pair_packing(SolidKind kind) {
   Packing packing = sized_packing(kind, 2, 0.02, 7);
-  packing.poses[1].position = packing.poses[0].position + Eigen::Vector3d(0.3, 0.4, 1.1) * packing.solid->inradius();
+  packing.poses[1].position =
+      packing.poses[0].position + Eigen::Vector3d(0.3, 0.4, 1.1) * packing.solids.only().inradius();
   return packing;
 }
 

@@ -174,7 +174,7 @@ TEST(FreeCellTest, ACellThatBecomesTooSmallEndsTheRunWithThatReason) {
   PackingEnergy energy;
   const MinimiseSummary summary = minimise(packing, energy, options);
   EXPECT_EQ(summary.reason, StopReason::cell_limit);
-  EXPECT_TRUE(is_legal(packing.cell, *packing.solid));
+  EXPECT_TRUE(is_legal(packing.cell, packing.solids.only()));
   EXPECT_TRUE(std::isfinite(summary.energy) && std::isfinite(summary.residual));
 }
 

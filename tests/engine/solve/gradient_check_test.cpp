@@ -42,7 +42,7 @@ std::vector<WrongGradient> wrong_gradients(Eigen::Index largest) {
   return {
       {"one per cent too large", [](const Packing&, PackingEnergy&, Eigen::VectorXd& g) { g *= 1.01; }},
       {"torque without 1/R", each_torque([](const Packing& packing, int i, Eigen::VectorXd& g) {
-         g.segment<3>(6 * i + 3) *= packing.solid->gyration_radius();
+         g.segment<3>(6 * i + 3) *= packing.solids.only().gyration_radius();
        })},
       {"torque of the wrong sign",
        each_torque([](const Packing&, int i, Eigen::VectorXd& g) { g.segment<3>(6 * i + 3) *= -1; })},
@@ -55,7 +55,7 @@ std::vector<WrongGradient> wrong_gradients(Eigen::Index largest) {
          for (const Contact& c : energy.contacts(packing)) {
            const Eigen::Quaterniond& q = packing.poses[static_cast<std::size_t>(c.pair.a)].orientation;
            const Eigen::Vector3d dx = q * Eigen::Vector3d(c.overlap.volume / 2 * c.overlap.area);
-           g.segment<3>(6 * c.pair.b + 3) -= c.displacement.cross(dx) / packing.solid->gyration_radius();
+           g.segment<3>(6 * c.pair.b + 3) -= c.displacement.cross(dx) / packing.solids.only().gyration_radius();
          }
        }},
       {"one entry missing", [=](const Packing&, PackingEnergy&, Eigen::VectorXd& g) { g[largest] = 0; }},
@@ -78,7 +78,7 @@ TEST_P(GradientOf, PassesOnlyWhenItIsRight) {
       options.max_evaluations = evaluations;
       minimise(packing, energy, options);
     }
-    const double step = 1e-6 * packing.solid->inradius();
+    const double step = 1e-6 * packing.solids.only().inradius();
     const GradientCheck good = check_gradient(right(energy), packing, step, random);
     EXPECT_TRUE(good.passes()) << "after " << evaluations << " evaluations: off by " << good.worst
                                << " tolerances in entry " << good.entry;

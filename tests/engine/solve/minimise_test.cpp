@@ -36,7 +36,7 @@ void expect_agreement(const MinimiseSummary& summary, const Packing& packing, co
   EXPECT_EQ(summary.residual_floor, fresh.residual_floor);
   EXPECT_LT(summary.energy, PackingEnergy().evaluate(start).energy);
   EXPECT_EQ(packing.cell.side(), start.cell.side());
-  EXPECT_EQ(packing.solid, start.solid);
+  EXPECT_TRUE(packing.solids == start.solids);
   for (const Pose& pose : packing.poses)
     EXPECT_NEAR(pose.orientation.norm(), 1, 4 * std::numeric_limits<double>::epsilon());
 }

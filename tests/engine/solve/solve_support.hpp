@@ -37,7 +37,7 @@ inline Packing small_packing(SolidKind kind, double density, std::uint64_t seed,
 inline double over_compressed(SolidKind kind) { return kind == SolidKind::cube ? 0.85 : 0.75; }
 
 inline bool same_bits(const Packing& p, const Packing& q) {
-  return p.solid == q.solid && p.cell.side() == q.cell.side() &&
+  return p.solids == q.solids && p.cell.side() == q.cell.side() &&
          std::equal(p.poses.begin(), p.poses.end(), q.poses.begin(), q.poses.end(), [](const Pose& a, const Pose& b) {
            return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
                   a.position_low == b.position_low && a.orientation_low == b.orientation_low;
@@ -82,8 +82,8 @@ inline Balance balance_of(const Packing& packing) {
   }
   if (balance.contacts == 0) return balance;
   const double mean = sum_of_forces / static_cast<double>(balance.contacts);
-  const double radius = packing.solid->gyration_radius();
-  balance.residual = std::max(force.colwise().norm().maxCoeff(), torque.colwise().norm().maxCoeff() / radius) / mean;
+  for (int i = 0; i < packing.size(); ++i) torque.col(i) /= packing.solids[i].gyration_radius();
+  balance.residual = std::max(force.colwise().norm().maxCoeff(), torque.colwise().norm().maxCoeff()) / mean;
   return balance;
 }
 

@@ -30,7 +30,7 @@ constexpr double unlimited = std::numeric_limits<double>::max();
 
 /// Three unit cubes in a row along x: the first two overlap by `depth`, the third stands `gap` away.
 Packing row_of_cubes(double depth, double gap) {
-  Packing packing{&platonic(SolidKind::cube), PeriodicCell(10), std::vector<Pose>(3)};
+  Packing packing{platonic(SolidKind::cube), PeriodicCell(10), std::vector<Pose>(3)};
   packing.poses[0].position = Vector3d(3, 5, 5);
   packing.poses[1].position = Vector3d(4 - depth, 5, 5);
   packing.poses[2].position = Vector3d(5 - depth + gap, 5, 5);
@@ -134,8 +134,8 @@ TEST(StepModel, StepsAreTheSameFromEitherGuess) {
   for (const SolidKind kind : all_solids) {
     for (const std::uint64_t seed : {41, 42}) {
       const Packing packing = relaxed_and_strained(kind, seed);
-      const Case state = case_of(packing, 2e-3 * packing.solid->inradius());
-      StepModel model(state.second, state.value.gradient, 0.05 * packing.solid->inradius());
+      const Case state = case_of(packing, 2e-3 * packing.solids.only().inradius());
+      StepModel model(state.second, state.value.gradient, 0.05 * packing.solids.only().inradius());
       double shift = 1e-9 * model.largest_diagonal();  // so small that not every contact has its tilt term
       StepFactor factor;
       ActivePairs from_none;

@@ -130,7 +130,7 @@ TEST(Work, TheKernelSeesNoPairThatIsApart) {
                 to_string(kind).data(), cold.listed, cold.out_of_reach, cold.overlapped, overlapped, cold.touching);
     EXPECT_GT(cold.overlapped, cold.touching) << "nothing to be spared";
     EXPECT_EQ(overlapped, cold.touching);
-    const double reach = 2 * packing.solid->circumradius();
+    const double reach = 2 * packing.solids.only().circumradius();
     const auto near = static_cast<long>(find_neighbours_brute_force(packing, reach).size());
     EXPECT_EQ(cold.listed - cold.out_of_reach, near);
     EXPECT_LT(cold.out_of_reach, near / 2) << "the list's skin is as thick as what it covers";

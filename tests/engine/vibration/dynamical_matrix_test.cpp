@@ -32,7 +32,7 @@ const Packing& octahedra() { return nearest_state(jammed(SolidKind::octahedron, 
 
 /// Depth V/|S| of the shallowest contact: face to face.
 double shallowest_depth(const Packing& packing) {
-  double least = packing.solid->inradius();
+  double least = packing.solids.only().inradius();
   for (const Contact& contact : PackingEnergy().contacts(packing))
     least = std::min(least, contact.overlap.volume / contact.overlap.area.norm());
   return least;
@@ -59,9 +59,9 @@ TEST(DynamicalMatrix, FormsAgree) {
 TEST(DynamicalMatrix, TranslationsAreNullVectors) {
   for (const SolidKind kind : all_solids) {
     const Packing packing = small_packing(kind, 0.7, 52);
-    const MatrixXd moves = translations(packing.size());
-    EXPECT_LE((moves.transpose() * moves - MatrixXd::Identity(3, 3)).norm(), 64 * eps);
     const BlockMatrix blocks = PackingEnergy().hessian(packing);
+    const MatrixXd moves = translations(blocks);
+    EXPECT_LE((moves.transpose() * moves - MatrixXd::Identity(3, 3)).norm(), 64 * eps);
     const double lambda_max = spectrum(dense_matrix(blocks)).cwiseAbs().maxCoeff();
     for (int c = 0; c < 3; ++c)
       EXPECT_LE((blocks * moves.col(c)).norm(), rounding_bound(blocks, lambda_max)) << to_string(kind);
@@ -127,6 +127,44 @@ TEST(DynamicalMatrix, OfSphericalTopsIsTheHessian) {
   const BlockMatrix hessian = PackingEnergy().hessian(packing);
   EXPECT_EQ(dense_matrix(dynamical_matrix(packing, hessian)), dense_matrix(hessian));
   EXPECT_EQ(greatest_inverse_mass(packing), 1);
+}
+
+/// Solves H m = λ M m, M the masses and moments of cubes of two sizes: a³ and a⁵/6.
+TEST(DynamicalMatrix, OfMixturesHasTheirMasses) {
+  RandomStream random{56};
+  std::vector<Particle> particles;
+  const double unit = std::cbrt(2 / (1 + std::pow(1.7, 3)));
+  for (int i = 0; i < 100; ++i) particles.push_back({&platonic(SolidKind::cube), i % 2 ? unit : 1.7 * unit, i % 2});
+  const Packing packing = random_packing(particles, 0.8, random);
+  const BlockMatrix hessian = PackingEnergy().hessian(packing), matrix = dynamical_matrix(packing, hessian);
+  VectorXd mass(6 * packing.size());
+  double lightest = 1;
+  for (int i = 0; i < packing.size(); ++i) {
+    const double a = packing.solids[static_cast<std::size_t>(i)].scale();
+    const double radius = packing.solids[static_cast<std::size_t>(i)].gyration_radius();
+    mass.segment<3>(6 * i).setConstant(a * a * a);
+    mass.segment<3>(6 * i + 3).setConstant(std::pow(a, 5) / 6 / (radius * radius));
+    lightest = std::min(lightest, a * a * a);
+  }
+  EXPECT_NEAR(greatest_inverse_mass(packing), 1 / lightest, 1e-13 / lightest);
+  const SymmetricEigen modes = symmetric_eigen(dense_matrix(matrix));
+  const MatrixXd moves = mode_displacements(packing, modes.vectors);
+  const MatrixXd full = dense_matrix(hessian);
+  const double scale = modes.values.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < moves.cols(); ++k) {
+    const VectorXd left = full * moves.col(k), right = modes.values[k] * mass.cwiseProduct(moves.col(k));
+    EXPECT_LE((left - right).norm(), 1e-12 * scale * mass.maxCoeff()) << "mode " << k;
+  }
+  const MatrixXd still = translations(matrix);
+  EXPECT_LE((still.transpose() * still - MatrixXd::Identity(3, 3)).norm(), 64 * eps);
+  for (int c = 0; c < 3; ++c) EXPECT_LE((matrix * still.col(c)).norm(), rounding_bound(matrix, scale));
+  // Lanczos keeps translations out by the same masses: its ends are those of the dense solver.
+  const SpectrumEnds ends = spectrum_ends(matrix);
+  const ModeSet dense = dense_modes(matrix);
+  EXPECT_NEAR(ends.lambda_max, scale, 1e-10 * scale);
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(4, ends.lowest.size()); ++k)
+    EXPECT_NEAR(ends.lowest.eigenvalues[k], dense.eigenvalues[k], 1e-9 * scale) << k;
+  EXPECT_LE((still.transpose() * ends.lowest.vectors).cwiseAbs().maxCoeff(), 1e5 * eps);
 }
 
 /// Solves H m = λ M m, M the mass of (x, R·θ) from the moments of a box in its own axes.

@@ -86,12 +86,13 @@ struct Strained {
 
 Strained strained(const Measured& measured, const Matrix3d& deformation) {
   const Packing& packing = measured.state;
-  const double radius = packing.solid->gyration_radius();
+  const double radius = packing.solids.only().gyration_radius();
   Strained sum{0, VectorXd::Zero(6 * packing.size())};
   for (const Contact& contact : measured.contacts) {
     const Pose &a = packing.poses[contact.pair.a], &b = packing.poses[contact.pair.b];
     const Eigen::Vector3d d = deformation * contact.displacement;
-    const Overlap o = relative_overlap(*packing.solid, *packing.solid, relative_pose(a.orientation, b.orientation, d));
+    const Overlap o =
+        relative_overlap(packing.solids.only(), packing.solids.only(), relative_pose(a.orientation, b.orientation, d));
     const Eigen::Vector3d push = a.orientation * (o.volume / 2 * o.area),
                           turn = a.orientation * (o.volume / 2 * o.moment);
     sum.energy += o.volume * o.volume / 4;

@@ -12,7 +12,7 @@ inline Packing lattice(SolidKind kind, int side, double density, std::uint64_t s
   Eigen::Quaterniond orientation(random.normal(), random.normal(), random.normal(), random.normal());
   orientation.normalize();
   const int n = side * side * side;
-  Packing packing{&platonic(kind), PeriodicCell(side_at(n, density)), {}};
+  Packing packing{platonic(kind), PeriodicCell(side_at(n, density)), {}};
   const double spacing = packing.cell.side() / side;
   for (int k = 0; k < n; ++k) {
     Pose pose;

@@ -48,7 +48,7 @@ BlockMatrix hessian_of(const Packing& packing) { return PackingEnergy().hessian(
 void expect_eigenpairs(const BlockMatrix& matrix, const ModeSet& modes, double lambda_max, double tolerance) {
   const MatrixXd unity = MatrixXd::Identity(modes.size(), modes.size());
   EXPECT_LE((modes.vectors.transpose() * modes.vectors - unity).cwiseAbs().maxCoeff(), 1e4 * eps);
-  EXPECT_LE((translations(matrix.size()).transpose() * modes.vectors).cwiseAbs().maxCoeff(), 1e4 * eps);
+  EXPECT_LE((translations(matrix).transpose() * modes.vectors).cwiseAbs().maxCoeff(), 1e4 * eps);
   double worst = 0;
   for (Index k = 0; k < modes.size(); ++k) {
     const VectorXd u = modes.vectors.col(k);

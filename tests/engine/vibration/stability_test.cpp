@@ -47,14 +47,13 @@ TEST(StabilityTest, JammedStatesAreStrictMinima) {
                                   &jammed(SolidKind::icosahedron, 32, .01)}) {
     for (const Packing& state : result->states) {
       PackingEnergy energy;
-      const double torque =
-          unbalanced_torque(energy.evaluate(state, Precision::double_double), state.solid->gyration_radius());
+      const double torque = unbalanced_torque(energy.evaluate(state, Precision::double_double), state.solids);
       const BlockMatrix matrix = energy.hessian(state, Precision::double_double);
       const SpectrumEnds ends = spectrum_ends(matrix);
       const Stability stability = assess(matrix, ends, torque);
       std::printf(
           "%s φ %.4f: %s, zero %d, negative %d, lowest %.1e, tolerance %.1e, of which torque %.1e; near-rattlers",
-          state.solid->name().data(), state.density(), to_string(stability.verdict).data(), stability.zero,
+          state.solids.only().name().data(), state.density(), to_string(stability.verdict).data(), stability.zero,
           stability.negative, ends.lowest.eigenvalues[0], stability.tolerance, torque);
       for (const NearRattler& found : stability.near_rattlers)
         std::printf(" %d (%s, %d contacts, %.1e)", found.particle, to_string(found.reason).data(), found.contacts,
@@ -167,7 +166,8 @@ TEST(StabilityTest, ToleranceIsRoundingAndTorque) {
   evaluation.gradient = VectorXd::Zero(12);
   evaluation.gradient.segment<3>(9) << 0, 3, -4;  // T/R of the second particle
   evaluation.gradient.segment<3>(6) << 100, 0, 0;
-  EXPECT_EQ(unbalanced_torque(evaluation, 0.5), 10);
+  const ConvexSolid& cube = platonic(SolidKind::cube);
+  EXPECT_EQ(unbalanced_torque(evaluation, cube), 5 / cube.gyration_radius());
   // A tolerance that swallows modes calls them zero.
   const SpectrumEnds ends = spectrum_ends(matrix);
   const double between = (ends.lowest.eigenvalues[4] + ends.lowest.eigenvalues[5]) / 2;

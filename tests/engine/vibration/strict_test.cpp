@@ -129,7 +129,7 @@ TEST_P(Strict, AFreedCellIsStrictlyJammedAndFreesNoFurther) {
 
 TEST(StrictTest, APackingThatItsBoxHoldsIsToldFromOneThatIsStrictlyJammed) {
   // A simple cubic lattice of cubes, each overlapping six others: rows slide along rows.
-  Packing lattice{&platonic(SolidKind::cube), PeriodicCell(4 * .98), {}};
+  Packing lattice{platonic(SolidKind::cube), PeriodicCell(4 * .98), {}};
   for (int k = 0; k < 64; ++k) {
     Pose pose;
     const Eigen::Vector3i place(k % 4, k / 4 % 4, k / 16);

@@ -62,7 +62,7 @@ ConstructedPairs constructed_pairs(std::uint64_t seed) {
   RandomStream random({seed});
   const int faces = static_cast<int>(solid.faces().size());
   const double spacing = 7 * solid.circumradius();
-  ConstructedPairs made{{&solid, PeriodicCell(spacing * pairs_a_side), {}}, {}};
+  ConstructedPairs made{{solid, PeriodicCell(spacing * pairs_a_side), {}}, {}};
   for (int k = 0; k < pairs; ++k) {
     const auto kind = kind_of(k);
     const auto on_a = constructed::face_site(solid, k % faces);
@@ -92,7 +92,7 @@ TEST(ExportFrame, ConstructedContactsMarkTheirFaces) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const auto made = constructed_pairs(seed);
     const auto frame = make_frame(made.packing, std::nullopt);
-    const auto faces = made.packing.solid->faces().size();
+    const auto faces = made.packing.solids.only().faces().size();
     ASSERT_EQ(frame.faces.size(), made.packing.poses.size() * faces);
     for (int i = 0; i < made.packing.size(); ++i) {
       const auto contact = kind_of(i / 2);
@@ -111,7 +111,7 @@ TEST(ExportFrame, ConstructedContactsMarkTheirFaces) {
 
 TEST(ExportFrame, TheStrongestContactOfAFaceShows) {
   auto made = constructed_pairs(1);
-  const auto& solid = *made.packing.solid;
+  const auto& solid = made.packing.solids.only();
   // Particle 0 has another flush on its face 0. A third, a vertex in the same face, comes on top of that or before.
   const auto& host = made.packing.poses[0];
   const auto weak = constructed::contact(constructed::face_site(solid, 0), constructed::vertex_site(solid, 0), 0.3,

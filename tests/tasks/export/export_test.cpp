@@ -16,10 +16,10 @@
 
 #include "tasks/export/exported_files.hpp"
 #include "tasks/export/formats.hpp"
-#include "tasks/export/gsd_layer.hpp"
 #include "tasks/json/parse.hpp"
 #include "tasks/json/sealed.hpp"
-#include "tasks/replicate/packing_json.hpp"
+#include "tasks/packings/gsd_layer.hpp"
+#include "tasks/packings/packing_json.hpp"
 #include "tasks/store/store.hpp"
 #include "tasks/system/file.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
@@ -90,9 +90,10 @@ T at(const std::string& bytes, std::size_t offset) {
 TEST(GsdLayer, TheIndexIsInOrderAndPointsAtTheData) {
   const std::vector<std::int32_t> two{1, -2};
   const std::vector<double> six{1, 2, 3, 4, 5, 6};
+  const std::vector<std::string> text{"text"}, other{"other"};
   const std::vector<std::vector<GsdChunk>> frames{
-      {gsd_chunk("a", std::span(two)), gsd_chunk("longer name", std::span(six), 3), gsd_chunk("c", "text")},
-      {gsd_chunk("c", "other"), gsd_chunk("a", std::span(two))}};
+      {gsd_chunk("a", std::span(two)), gsd_chunk("longer name", std::span(six), 3), gsd_chunk("c", std::span(text))},
+      {gsd_chunk("c", std::span(other)), gsd_chunk("a", std::span(two))}};
   const auto bytes = gsd_bytes({"me", "scheme", 3, 7}, frames);
   const auto index = at<std::uint64_t>(bytes, 8), entries = at<std::uint64_t>(bytes, 16);
   const auto names = at<std::uint64_t>(bytes, 24), name_blocks = at<std::uint64_t>(bytes, 32);

@@ -48,7 +48,7 @@ TEST(Plan, IsTheProductOfTheListsInOrder) {
   const auto plan = plan_of(large_sweep());
   ASSERT_EQ(plan.size(), 3U * 2 * 2 * 2 * 3);
   std::set<std::string> names;
-  std::vector<std::tuple<Solid, int, Json, int>> keys;
+  std::vector<std::tuple<Mixture, int, Json, int>> keys;
   for (const auto& spec : plan) {
     names.insert(replicate_name(spec));
     keys.emplace_back(spec.solid, spec.particles, spec.parameters, spec.replicate);
@@ -115,7 +115,7 @@ TEST(Plan, AReplicateDrawsTheSameBitsInEverySweep) {
 }
 
 /// What of a specification the random numbers depend on.
-using Origin = std::tuple<std::uint64_t, Solid, int, int>;
+using Origin = std::tuple<std::uint64_t, Mixture, int, int>;
 Origin origin_of(const ReplicateSpec& spec) { return {spec.seed, spec.solid, spec.particles, spec.replicate}; }
 
 TEST(Plan, StreamsDifferByOriginAndPurposeAlone) {

@@ -122,7 +122,7 @@ TEST(Measure, CountsConstraintsByContactsAndSingularValues) {
                    static_cast<int>(contacts.size()), state.at("Z"));
     if (state.at("C").is_null()) continue;
     ++decided;
-    const auto angles = alignments(*packing.solid, contacts);
+    const auto angles = alignments(packing.solids.only(), contacts);
     const auto face_face_below = state.at("face_face_fit").at("cutoff").get<double>();
     const auto edge_face_below = state.at("edge_face_fit").at("cutoff").get<double>();
     int constraints = 0;
@@ -163,7 +163,7 @@ JamResult result_of(const Packing& packing) {
 
 /// `n` solids in a row along x, `spacing` apart, in a cell of side `side`.
 Packing row(SolidKind kind, int n, double spacing, double side) {
-  Packing packing{&platonic(kind), PeriodicCell(side), std::vector<Pose>(static_cast<std::size_t>(n))};
+  Packing packing{platonic(kind), PeriodicCell(side), std::vector<Pose>(static_cast<std::size_t>(n))};
   for (int k = 0; k < n; ++k)
     packing.poses[static_cast<std::size_t>(k)].position = Eigen::Vector3d(1 + spacing * k, side / 2, side / 2);
   return packing;
@@ -173,7 +173,7 @@ Packing row(SolidKind kind, int n, double spacing, double side) {
 Packing crystal_of_cubes() {
   constexpr int cells = 4;
   constexpr double spacing = 0.999;
-  Packing packing{&platonic(SolidKind::cube), PeriodicCell(cells * spacing), {}};
+  Packing packing{platonic(SolidKind::cube), PeriodicCell(cells * spacing), {}};
   for (int k = 0; k < cells * cells * cells; ++k) {
     packing.poses.emplace_back();
     const int x = k % cells, y = k / cells % cells, z = k / (cells * cells);

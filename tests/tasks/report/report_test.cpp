@@ -203,7 +203,7 @@ TEST(ReportCurves, ThinnedCdfsAreExactWhereTheyHaveAPoint) {
 
 TEST(ReportCurves, RandomCurvesEndAtOneForEverySolid) {
   for (const auto kind : all_solids) {
-    const auto references = angle_references(platonic(kind));
+    const auto references = angle_references(kind);
     ASSERT_EQ(references["random"].size(), 2U) << to_string(kind);
     for (const auto& random : references["random"]) {
       for (const auto* angle : {"face_face", "edge_face"})
@@ -285,7 +285,7 @@ TEST(ReportViews, ModesAreThoseOfTheHessian) {
 
 TEST(ReportViews, ClustersHangTogetherInSpace) {
   // Cubes in a row through the boundary, and one apart from them.
-  Packing packing{&platonic(SolidKind::cube), PeriodicCell(6), {}};
+  Packing packing{platonic(SolidKind::cube), PeriodicCell(6), {}};
   for (const double x : {4.6, 5.58, 0.56, 1.54}) packing.poses.push_back({.position = {x, 3, 3}});
   packing.poses.push_back({.position = {3, 0.5, 0.5}});
   PackingEnergy energy;

@@ -16,7 +16,7 @@
 #include "tasks/json/input_error.hpp"
 #include "tasks/manifest/manifest.hpp"
 #include "tasks/manifest/plan.hpp"
-#include "tasks/replicate/packing_json.hpp"
+#include "tasks/packings/packing_json.hpp"
 #include "tasks/solids/solid_file.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -58,7 +58,7 @@ TEST(SolidDefinitions, AreSweptByTheirNames) {
   std::vector<std::string> names;
   for (const auto& solid : manifest.solids) names.emplace_back(to_string(solid));
   EXPECT_EQ(names, (std::vector<std::string>{"cube", "truncated_tetrahedron", "prism6", "brick", "mine"}));
-  const ConvexSolid& brick = *manifest.solids[3];
+  const ConvexSolid& brick = *manifest.solids[3].solid();
   const double scale = std::cbrt(3.0);
   EXPECT_NEAR(brick.inradius(), .5 / scale, 1e-15);
   EXPECT_NEAR(brick.circumradius(), std::sqrt(1 + 2.25 + 4) / 2 / scale, 1e-15);
@@ -194,9 +194,9 @@ TEST(SolidFiles, GiveTheSolidOfTheirManifestsDirectory) {
                     {"d", {{"box", {1, 2, 3}}}}};
   const auto manifest = parse(swept(solids, {"a", "b", "c", "d"}), (directory / "m.json").string());
   for (const auto& solid : manifest.solids) {
-    EXPECT_EQ(solid->faces().size(), 6U) << to_string(solid);
-    EXPECT_NEAR(solid->inradius(), .5 / std::cbrt(6.0), 1e-15) << to_string(solid);
-    EXPECT_NEAR(solid->diameter(), std::sqrt(14.0) / std::cbrt(6.0), 1e-15) << to_string(solid);
+    EXPECT_EQ(solid.solid()->faces().size(), 6U) << to_string(solid);
+    EXPECT_NEAR(solid.solid()->inradius(), .5 / std::cbrt(6.0), 1e-15) << to_string(solid);
+    EXPECT_NEAR(solid.solid()->diameter(), std::sqrt(14.0) / std::cbrt(6.0), 1e-15) << to_string(solid);
   }
   EXPECT_EQ(parse(to_json(manifest)).solids, manifest.solids) << "without the files";
 }
@@ -233,12 +233,12 @@ TEST(SolidPackings, ComeBackBitForBit) {
   const auto manifest = parse(swept({{"brick", {{"box", {1, 1.5, 2}}}}}, {"brick", "rhombic_dodecahedron"}));
   for (const auto& solid : manifest.solids) {
     RandomStream random{81};
-    const auto packing = random_packing(*solid, 100, .5, random);
+    const auto packing = random_packing(*solid.solid(), 100, .5, random);
     const auto json = to_json(packing);
     EXPECT_EQ(json.contains("vertices"), to_string(solid) == "brick");
     const auto text = Json::parse(json.dump());
     const auto again = read_packing(JsonPlace(text, "p.json"));
-    EXPECT_EQ(again.solid, packing.solid);
+    EXPECT_TRUE(again.solids == packing.solids);
     EXPECT_EQ(again.poses, packing.poses);
   }
 }

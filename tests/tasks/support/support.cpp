@@ -164,7 +164,7 @@ Outcome made_up_outcome(const ReplicateSpec& spec) {
   // Unlike real ones, which begin alike at every swept parameter: rows are to differ.
   RandomStream random{spec.seed, hash_of(point_text(spec)), static_cast<std::uint64_t>(spec.replicate),
                       static_cast<std::uint64_t>(Purpose::placement)};
-  const auto start = random_packing(*spec.solid, spec.particles, 0.5, random);
+  const auto start = random_packing(spec.solid.particles(spec.particles), 0.5, random);
   Outcome outcome;
   outcome.spec = spec;
   outcome.timing = {random.uniform(), random.uniform()};

@@ -66,7 +66,7 @@ TEST(Aggregate, OrderAndRepetitionDoNotMatter) {
 TEST(Aggregate, RowsAreInCanonicalOrder) {
   const auto table = aggregate(summaries());
   ASSERT_EQ(table.rows.size(), 8U);
-  std::vector<std::tuple<Solid, int, double>> keys;
+  std::vector<std::tuple<Mixture, int, double>> keys;
   for (const auto& row : table.rows) {
     keys.emplace_back(row.solid, row.particles, row.parameters.at("target_energy").get<double>());
     EXPECT_EQ(row.replicates, 5);

@@ -78,7 +78,7 @@ class AlignmentAccuracyOf : public testing::TestWithParam<SolidKind> {
     const Vector3d axis = a.outward.cross(constructed::random_direction(random)).normalized();
     const Contact contact = constructed::contact(a, b, 6 * random.uniform(), tilt * axis, depth);
     const Quaterniond lab = constructed::random_orientation(random);
-    Packing packing{&solid, PeriodicCell(2.1 * least_side(solid)), {}};
+    Packing packing{solid, PeriodicCell(2.1 * least_side(solid)), {}};
     packing.poses.push_back({.position = Vector3d(0.3, -0.2, 0.1), .orientation = lab});
     packing.poses.push_back({.position = Vector3d(0.3, -0.2, 0.1) + lab * contact.pose.displacement,
                              .orientation = (lab * Quaterniond(contact.pose.rotation)).normalized()});

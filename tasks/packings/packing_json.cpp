@@ -1,7 +1,8 @@
-#include "tasks/replicate/packing_json.hpp"
+#include "tasks/packings/packing_json.hpp"
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -96,9 +97,53 @@ JsonPlace list_of(const JsonPlace& place, const std::string& key, std::size_t si
 
 }  // namespace
 
+namespace {
+
+/// Particles alike have one solid; others kinds, each with its solid, and which kind and in which size each particle
+/// is.
+void put_solids(Json& json, const Composition& solids) {
+  if (solids.is_uniform()) return put_solid(json, Solid::of(solids.only()));
+  std::vector<Json> kinds(static_cast<std::size_t>(solids.kinds()));
+  for (const auto& particle : solids.particles()) {
+    auto& kind = kinds[static_cast<std::size_t>(particle.kind)];
+    if (kind.is_null()) put_solid(kind, Solid::of(*particle.unit));
+  }
+  json["kinds"] = std::move(kinds);
+  json["kind"] = json["size"] = Json::array();
+  for (const auto& particle : solids.particles()) {
+    json["kind"].push_back(particle.kind);
+    json["size"].push_back(particle.scale);
+  }
+}
+
+/// Of so many particles.
+Composition read_solids(const JsonPlace& place, std::size_t n) {
+  if (!place.has("kinds")) return *read_solid(place);
+  constexpr Range size_range{0, 1e3, true};
+  // Sums of as many volumes as there can be are right to this.
+  constexpr double rounding = 1e-9;
+  const auto list = place.at("kinds");
+  std::vector<const ConvexSolid*> units(list.expect_list("a list of solids"));
+  for (std::size_t k = 0; k < units.size(); ++k) units[k] = &*read_solid(list.at(k));
+  const auto kind = list_of(place, "kind", n), size = list_of(place, "size", n);
+  std::vector<Particle> particles;
+  double volume = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto which = kind.at(i).integer({0, static_cast<double>(units.size()) - 1});
+    const double scale = size.at(i).number(size_range);
+    particles.push_back({units[static_cast<std::size_t>(which)], scale, static_cast<int>(which)});
+    volume += scale * scale * scale;
+  }
+  if (!(std::abs(volume / static_cast<double>(n) - 1) <= rounding))
+    size.refuse(fmt::format("the mean volume is {}", volume / static_cast<double>(n)), "sizes whose cubes have mean 1");
+  return Composition(particles);
+}
+
+}  // namespace
+
 Json to_json(const Packing& packing) {
   Json json;
-  put_solid(json, Solid::of(*packing.solid));
+  put_solids(json, packing.solids);
   json["phi"] = packing.density();
   put_cell(json, packing.cell);
   for (const auto* key : {"positions", "orientations", "positions_low", "orientations_low"}) json[key] = Json::array();
@@ -112,11 +157,11 @@ Json to_json(const Packing& packing) {
 }
 
 Packing read_packing(const JsonPlace& place) {
-  const ConvexSolid& solid = *read_solid(place);
-  Packing packing{&solid, read_cell(place, solid), {}};
   const auto n = place.at("positions").expect_list("a list of positions");
   if (n == 0 || static_cast<double>(n) > most_particles)
     place.at("positions").refuse("no packing", fmt::format("1 to {:.0f} particles", most_particles));
+  const auto solids = read_solids(place, n);
+  Packing packing{solids, read_cell(place, solids.widest()), {}};
   const auto positions = list_of(place, "positions", n), positions_low = list_of(place, "positions_low", n);
   const auto orientations = list_of(place, "orientations", n);
   const auto orientations_low = list_of(place, "orientations_low", n);

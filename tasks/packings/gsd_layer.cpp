@@ -1,4 +1,4 @@
-#include "tasks/export/gsd_layer.hpp"
+#include "tasks/packings/gsd_layer.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -120,11 +120,15 @@ GsdChunk gsd_chunk(std::string name, std::span<const std::uint64_t> values, std:
 GsdChunk gsd_chunk(std::string name, std::span<const std::uint8_t> values, std::uint32_t columns) {
   return chunk_of(std::move(name), GsdType::uint8, values, columns);
 }
-GsdChunk gsd_chunk(std::string name, std::string_view text) {
-  std::string data(text);
-  data.push_back('\0');
-  const auto columns = static_cast<std::uint32_t>(data.size());
-  return {std::move(name), GsdType::int8, 1, columns, std::move(data)};
+GsdChunk gsd_chunk(std::string name, std::span<const std::string> rows) {
+  std::size_t columns = 1;
+  for (const auto& row : rows) columns = std::max(columns, row.size() + 1);
+  std::string data;
+  for (const auto& row : rows) {
+    data += row;
+    data.append(columns - row.size(), '\0');
+  }
+  return {std::move(name), GsdType::int8, rows.size(), static_cast<std::uint32_t>(columns), std::move(data)};
 }
 
 std::string gsd_bytes(const GsdIdentity& identity, std::span<const std::vector<GsdChunk>> frames) {

@@ -27,8 +27,8 @@ GsdChunk gsd_chunk(std::string name, std::span<const std::int32_t> values, std::
 GsdChunk gsd_chunk(std::string name, std::span<const std::uint32_t> values, std::uint32_t columns = 1);
 GsdChunk gsd_chunk(std::string name, std::span<const std::uint64_t> values, std::uint32_t columns = 1);
 GsdChunk gsd_chunk(std::string name, std::span<const std::uint8_t> values, std::uint32_t columns = 1);
-/// One row of text, ended by a zero.
-GsdChunk gsd_chunk(std::string name, std::string_view text);
+/// Rows of text, each ended by zeros.
+GsdChunk gsd_chunk(std::string name, std::span<const std::string> rows);
 
 /// What the file says of itself.
 struct GsdIdentity {

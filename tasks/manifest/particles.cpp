@@ -1,0 +1,73 @@
+#include "tasks/manifest/particles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/packing/cell/periodic_cell.hpp"
+
+namespace isojam {
+namespace {
+
+/// Pointer of a particle number in the user's own order.
+JsonPlace place_of_particles(const JsonPlace& root, int particles) {
+  const auto list = root.at("sweep").at("particles");
+  const auto found = std::find(list.value().begin(), list.value().end(), Json(particles));
+  return list.at(static_cast<std::size_t>(found - list.value().begin()));
+}
+
+/// The greatest density of four decimals at which the cell of so many particles is legal.
+double densest(const Mixture& mixture, int particles) {
+  double diameter = 0;
+  for (const auto& each : mixture.particles(particles))
+    diameter = std::max(diameter, each.scale * each.unit->diameter());
+  auto steps = std::floor(particles / std::pow(2 * diameter, 3) * 1e4);
+  while (steps > 0 && side_at(particles, steps / 1e4) <= 2 * diameter) --steps;
+  return steps / 1e4;
+}
+
+/// Every kind of a mixture has particles.
+void check_kinds(const JsonPlace& root, const Manifest& manifest) {
+  for (const auto& mixture : manifest.solids) {
+    double rarest = 1;
+    for (const auto& kind : mixture.kinds()) rarest = std::min(rarest, kind.fraction);
+    for (const int particles : manifest.particles) {
+      const auto counts = mixture.counts(particles);
+      if (*std::min_element(counts.begin(), counts.end()) > 0) continue;
+      root.attempt([&] {
+        place_of_particles(root, particles)
+            .refuse(fmt::format("of {} particles of {} none is of its rarest kind", particles, to_string(mixture)),
+                    fmt::format("{:.0f} or more", std::ceil(1 / rarest - 1e-9)));
+      });
+    }
+  }
+}
+
+}  // namespace
+
+void check_particles(const JsonPlace& root, const Manifest& manifest, const std::vector<OptionSet>& sets) {
+  check_kinds(root, manifest);
+  double density = 0, start = 0;
+  for (const auto& set : sets) {
+    density = std::max(density, set.options.max_density);
+    start = std::max(start, set.options.initial_density);
+  }
+  const auto needs = [&](const Mixture& mixture) { return least_particles(mixture, density); };
+  const auto neediest = *std::max_element(manifest.solids.begin(), manifest.solids.end(),
+                                          [&](const Mixture& a, const Mixture& b) { return needs(a) < needs(b); });
+  for (const int particles : manifest.particles) {
+    if (particles >= needs(neediest)) continue;
+    const double allowed = densest(neediest, particles);
+    root.attempt([&] {
+      place_of_particles(root, particles)
+          .refuse(fmt::format("{} particles are too few for the periodic cell: at max_density {} one {} would touch "
+                              "two images of another",
+                              particles, density, to_string(neediest)),
+                  fmt::format("{} or more{}", needs(neediest),
+                              allowed > start ? fmt::format(", or a max_density of {} or less", allowed) : ""));
+    });
+  }
+}
+
+}  // namespace isojam

@@ -1,0 +1,137 @@
+#include "tasks/manifest/start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "engine/packing/energy.hpp"
+#include "tasks/manifest/manifest.hpp"
+#include "tasks/system/file.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr std::string_view allowed_file = "the path of a packing: isojam's own JSON, GSD or extended XYZ";
+/// Of the smaller of two particles: deeper ones are no packing, and no minimiser finds what was meant.
+constexpr double deepest_overlap = 0.5;
+constexpr std::size_t most_files = 10000;
+
+StartFile read_file_place(const JsonPlace& place) {
+  const std::filesystem::path given = place.text(allowed_file);
+  auto path = given.is_absolute() ? given : std::filesystem::path(place.file()).parent_path() / given;
+  return {std::filesystem::absolute(path).lexically_normal().string(), -1, "", {}};
+}
+
+void refuse_overlaps(const JsonPlace& place, const Packing& packing) {
+  try {
+    for (const auto& contact : PackingEnergy().contacts(packing)) {
+      const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
+      const double least = std::min(packing.solids[a].volume(), packing.solids[b].volume());
+      if (contact.overlap.volume <= deepest_overlap * least) continue;
+      place.refuse(fmt::format("particles {} and {} overlap by {:.0f} % of the smaller", a, b,
+                               100 * contact.overlap.volume / least),
+                   "a packing whose particles overlap by no more than half of one");
+    }
+  } catch (const std::invalid_argument& error) {
+    place.refuse(error.what(), fmt::format("a cell whose translations are longer than {}, two diameters",
+                                           least_side(packing.solids.widest())));
+  }
+}
+
+void load_file(const JsonPlace& place, StartFile& file, const Manifest& manifest) {
+  const auto expected = file.digest;
+  try {
+    load(file, manifest.solids.front(), manifest.particles.front());
+  } catch (const NoPackingFile& error) {
+    place.refuse(fmt::format("{}: {}", file.path, error.what()), std::string(allowed_file));
+  } catch (const FileError& error) {
+    if (error.reason() == FileError::Reason::shortage) throw;  // which says nothing of the manifest
+    place.refuse(error.what(), std::string(allowed_file));
+  }
+  if (!expected.empty() && file.digest != expected)
+    place.refuse(fmt::format("{}: the file has changed", file.path), "the file that the first replicates began from");
+}
+
+void check_density(const JsonPlace& place, const Start& start, const Packing& packing, const Manifest& manifest) {
+  const double density = start.density.value_or(packing.density());
+  for (const auto& set : option_sets(manifest)) {
+    if (density < set.options.max_density) continue;
+    place.refuse(fmt::format("it begins at density {:.6g}, max_density is {}", density, set.options.max_density),
+                 "a density below max_density");
+  }
+  if (packing.cell.is_cube()) return;
+  for (const auto& set : option_sets(manifest)) {
+    if (set.options.cell == CellShape::free) continue;
+    place.refuse("its cell is no cube", "a packing in a cube, or /protocol/cell \"free\"");
+  }
+}
+
+}  // namespace
+
+Start read_start(const JsonPlace& place) {
+  place.expect_keys(std::array<std::string_view, 5>{"packing", "frame", "density", "stage", "digests"});
+  Start start;
+  const auto packing = place.at("packing");
+  if (packing.value().is_array()) {
+    const auto count = packing.expect_list("paths of packings");
+    if (count < 1 || count > most_files) packing.refuse("the list has another length", "one or more paths");
+    for (std::size_t k = 0; k < count; ++k) start.files.push_back(read_file_place(packing.at(k)));
+  } else {
+    start.files.push_back(read_file_place(packing));
+  }
+  const int frame = place.has("frame") ? static_cast<int>(place.at("frame").integer({-1e9, 1e9})) : -1;
+  for (auto& file : start.files) file.frame = frame;
+  if (place.has("digests")) {
+    const auto digests = place.at("digests");
+    if (digests.expect_list("one for each file") != start.files.size())
+      digests.refuse("the list has another length", "one for each file");
+    for (std::size_t k = 0; k < start.files.size(); ++k) start.files[k].digest = digests.at(k).text();
+  }
+  if (place.has("density")) start.density = place.at("density").number({0, 1, true});
+  if (place.has("stage")) start.stage = place.at("stage").choice<JamStage>();
+  return start;
+}
+
+Json to_json(const Start& start) {
+  Json json;
+  for (const auto& file : start.files) json["packing"].push_back(file.path);
+  json["frame"] = start.files.front().frame;
+  if (start.density) json["density"] = *start.density;
+  json["stage"] = to_string(start.stage);
+  for (const auto& file : start.files) json["digests"].push_back(file.digest);
+  return json;
+}
+
+void load_start(const JsonPlace& place, Manifest& manifest) {
+  auto& start = *manifest.start;
+  const auto packing = place.at("packing");
+  if (manifest.solids.size() != 1 || manifest.particles.size() != 1)
+    place.refuse("a start is of particles of one kind and number", "one entry in /sweep/solid and in /sweep/particles");
+  if (static_cast<int>(start.files.size()) < manifest.replicates.max)
+    packing.refuse(fmt::format("{} files for {} replicates", start.files.size(), manifest.replicates.max),
+                   "a file for each replicate");
+  for (std::size_t k = 0; k < start.files.size(); ++k) {
+    auto& file = start.files[k];
+    if (file.packing) continue;
+    const auto here = packing.value().is_array() ? packing.at(k) : packing;
+    load_file(here, file, manifest);
+    check_density(here, start, *file.packing, manifest);
+    refuse_overlaps(here, begun_from(start, static_cast<int>(k)));
+  }
+}
+
+void load_start(Manifest& manifest) {
+  if (!manifest.start) return;
+  Json document;
+  document["start"] = to_json(*manifest.start);
+  load_start(JsonPlace(document, manifest.name).at("start"), manifest);
+}
+
+Packing begun_from(const Start& start, int replicate) {
+  const Packing& packing = *start.files[static_cast<std::size_t>(replicate)].packing;
+  return start.density ? strained_to(packing, *start.density) : packing;
+}
+
+}  // namespace isojam

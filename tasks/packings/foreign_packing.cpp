@@ -1,0 +1,116 @@
+#include "tasks/packings/foreign_packing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "tasks/packings/similarity.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Of a size: what single precision leaves, and a shape's vertices.
+constexpr double size_tolerance = 1e-3;
+
+/// A type as one of a mixture's solids.
+struct Match {
+  const ConvexSolid* solid = nullptr;
+  Similarity place;  ///< of the solid in the body frame of the type
+};
+
+std::optional<Match> match_of(const ForeignPacking::Type& type, const Mixture& mixture) {
+  for (const auto& kind : mixture.kinds()) {
+    const ConvexSolid& solid = *kind.solid;
+    if (type.vertices.empty()) {
+      if (solid.name() == type.name) return Match{&solid, {}};
+    } else if (const auto found = similarity(solid, type.vertices)) {
+      return Match{&solid, *found};
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Match> matches_of(const ForeignPacking& foreign, const Mixture& mixture) {
+  std::vector<Match> matches;
+  for (std::size_t t = 0; t < foreign.types.size(); ++t) {
+    const auto used = std::any_of(foreign.bodies.begin(), foreign.bodies.end(),
+                                  [&](const auto& body) { return body.type == static_cast<int>(t); });
+    const auto match = match_of(foreign.types[t], mixture);
+    if (used && !match)
+      throw NoPackingFile(
+          fmt::format("its particles \"{}\" are none of {}", foreign.types[t].name, to_string(mixture)));
+    matches.push_back(match.value_or(Match{}));
+  }
+  return matches;
+}
+
+/// The mixture's particles in the order of the file's: those of one solid have its sizes in order of size.
+std::vector<Particle> assigned(const Mixture& mixture, const std::vector<Particle>& in_file) {
+  auto own = mixture.particles(static_cast<int>(in_file.size()));
+  const auto before = [](const Particle& a, const Particle& b) {
+    return std::pair(a.unit->name(), a.scale) < std::pair(b.unit->name(), b.scale);
+  };
+  std::stable_sort(own.begin(), own.end(), before);
+  std::vector<std::size_t> order(in_file.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return before(in_file[a], in_file[b]); });
+  auto result = in_file;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    auto& particle = result[order[k]];
+    if (particle.unit != own[k].unit || std::abs(particle.scale - own[k].scale) > size_tolerance * own[k].scale)
+      throw NoPackingFile(
+          fmt::format("its {} particles are not those of {}: one is a {} of size {:.6g}, which has {} of "
+                      "size {:.6g}",
+                      in_file.size(), to_string(mixture), particle.unit->name(), particle.scale, own[k].unit->name(),
+                      own[k].scale));
+    particle = own[k];
+  }
+  return result;
+}
+
+PeriodicCell cell_of(const Eigen::Matrix3d& vectors) {
+  const double side = vectors(0, 0);
+  const Eigen::Matrix3d cube = side * Eigen::Matrix3d::Identity();
+  // Single precision has a cube's sides equal or nearly so, and what a tilt of 0 became.
+  if ((vectors - cube).cwiseAbs().maxCoeff() <= 1e-6 * std::abs(side)) return PeriodicCell(side);
+  DoubleDoubleMatrix cell;
+  cell.high = vectors;
+  return PeriodicCell(cell);
+}
+
+}  // namespace
+
+Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
+  const auto matches = matches_of(foreign, mixture);
+  std::vector<Particle> particles;
+  double volume = 0;
+  for (const auto& body : foreign.bodies) {
+    const auto& match = matches[static_cast<std::size_t>(body.type)];
+    particles.push_back({match.solid, body.size * match.place.scale});
+    volume += std::pow(particles.back().scale, 3);
+  }
+  const double unit = std::cbrt(volume / static_cast<double>(particles.size()));
+  for (auto& particle : particles) particle.scale /= unit;
+  try {
+    Packing packing{Composition(assigned(mixture, particles)), cell_of(foreign.cell / unit), {}};
+    for (const auto& body : foreign.bodies) {
+      const auto& place = matches[static_cast<std::size_t>(body.type)].place;
+      Pose pose;
+      pose.position = (body.position + body.orientation * (body.size * place.shift)) / unit;
+      pose.orientation = (body.orientation * place.rotation).normalized();
+      packing.poses.push_back(pose);
+    }
+    return packing;
+  } catch (const std::invalid_argument& error) {
+    throw NoPackingFile(fmt::format("its cell is none: {}", error.what()));
+  }
+}
+
+}  // namespace isojam

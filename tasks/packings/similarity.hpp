@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+
+#include "engine/geometry/convex_solid.hpp"
+
+namespace isojam {
+
+/// How a solid of unit volume stands in a frame of others: y = shift + scale·rotation·x.
+struct Similarity {
+  double scale = 1;
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+};
+
+/// The one that takes the solid to the hull of these points, which are its vertices in any order, to 1e-4 of its size;
+/// nullopt if there is none but mirrored.
+std::optional<Similarity> similarity(const ConvexSolid& solid, std::span<const Eigen::Vector3d> points);
+
+}  // namespace isojam

@@ -1,0 +1,55 @@
+#include "tasks/packings/start_packing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "tasks/json/hash.hpp"
+#include "tasks/json/input_error.hpp"
+#include "tasks/json/sealed.hpp"
+#include "tasks/packings/foreign_packing.hpp"
+#include "tasks/packings/packing_json.hpp"
+#include "tasks/system/file.hpp"
+
+namespace isojam {
+namespace {
+
+Packing read_any(const std::string& bytes, const StartFile& file, const Mixture& mixture) {
+  constexpr std::string_view gsd_magic = "\xDF\x65\xDF\x65\xDF\x65\xDF\x65";
+  if (bytes.starts_with(gsd_magic)) return packing_of(read_gsd_packing(bytes, file.frame), mixture);
+  if (!bytes.starts_with('{')) return packing_of(read_xyz_packing(bytes, file.frame), mixture);
+  try {
+    const auto json = parse_sealed(bytes, file.path);
+    return read_packing(JsonPlace(json, file.path));
+  } catch (const InputError& error) {
+    throw NoPackingFile(error.what());
+  }
+}
+
+}  // namespace
+
+bool are_particles_of(const Packing& packing, const Mixture& mixture) {
+  std::vector<Particle> own(packing.solids.particles().begin(), packing.solids.particles().end());
+  if (packing.solids.is_uniform()) own.assign(packing.poses.size(), Particle{&packing.solids.only()});
+  auto expected = mixture.particles(packing.size());
+  const auto key = [](const Particle& p) { return std::tuple(p.kind, p.scale, p.unit->name(), p.unit); };
+  const auto before = [&](const Particle& a, const Particle& b) { return key(a) < key(b); };
+  std::sort(own.begin(), own.end(), before);
+  std::sort(expected.begin(), expected.end(), before);
+  return own == expected;
+}
+
+void load(StartFile& file, const Mixture& mixture, int n) {
+  const auto bytes = read_text(file.path);
+  auto packing = read_any(bytes, file, mixture);
+  if (packing.size() != n || !are_particles_of(packing, mixture)) {
+    throw NoPackingFile(fmt::format("its {} particles are not {} of {}", packing.size(), n, to_string(mixture)));
+  }
+  file.digest = hex_hash(bytes);
+  file.packing = std::make_shared<const Packing>(std::move(packing));
+}
+
+}  // namespace isojam

@@ -1,0 +1,304 @@
+// Facts proved here:
+// - a GSD of another program's making, its solid in its own units, turned, shifted and in another order of vertices, in
+// a
+//   mixture of shapes and sizes too, gives the packing that was meant, to single precision; so does an extended XYZ, to
+//   the last digits; so does one that Python's gsd wrote;
+// - files that are cut, hold other particles or none, are refused, and no byte of them is trusted;
+// - replicates begin from packings instead of at random: the program's own bit for bit, so that an expansion goes on
+// from
+//   the state that was stored, nearer to jamming; the record says from what;
+// - what cannot be begun from is refused before anything runs, at its place.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/packing/energy.hpp"
+#include "tasks/export/formats.hpp"
+#include "tasks/json/input_error.hpp"
+#include "tasks/manifest/plan.hpp"
+#include "tasks/packings/foreign_packing.hpp"
+#include "tasks/packings/gsd_layer.hpp"
+#include "tasks/packings/packing_json.hpp"
+#include "tasks/packings/similarity.hpp"
+#include "tasks/system/file.hpp"
+#include "tests/tasks/support/schema.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+Mixture shapes_and_sizes() {
+  return {{{SolidKind::cube, .5, {.from = 1.3}},
+           {SolidKind::tetrahedron, .25},
+           {*Solid::named("truncated_tetrahedron"), .25, {.law = SizeLaw::uniform, .from = .8, .to = 1.2}}},
+          "three"};
+}
+
+Packing sample(const Mixture& mixture, int n = 120) {
+  RandomStream random{91};
+  return random_packing(mixture.particles(n), .4, random);
+}
+
+/// How another program has a solid: y = unit·(shift + turn·x), vertices the other way round.
+struct Frame {
+  double unit = 3.7;
+  Quaterniond turn = Quaterniond(.3, -.5, .7, .2).normalized();
+  Vector3d shift = Vector3d(.4, -.1, .2);
+};
+
+GsdChunk chunk(const std::string& name, const std::vector<double>& values, std::uint32_t columns) {
+  const std::vector<float> narrow(values.begin(), values.end());
+  return gsd_chunk(name, std::span<const float>(narrow), columns);
+}
+
+/// The packing as a user of that program would have it.
+std::string foreign_gsd(const Packing& packing, const Frame& frame) {
+  std::vector<std::string> names, shapes;
+  std::vector<const ConvexSolid*> types;
+  std::vector<std::uint32_t> of;
+  std::vector<double> positions, orientations;
+  for (std::size_t i = 0; i < packing.poses.size(); ++i) {
+    const ConvexSolid* solid = &packing.solids[i];
+    auto found = std::find(types.begin(), types.end(), solid);
+    if (found == types.end()) {
+      Json shape{{"type", "ConvexPolyhedron"}};
+      for (auto v = solid->vertices().rbegin(); v != solid->vertices().rend(); ++v) {
+        const Vector3d y = frame.unit * (frame.shift + frame.turn * *v);
+        shape["vertices"].push_back({y[0], y[1], y[2]});
+      }
+      names.push_back(fmt::format("T{}", types.size()));
+      shapes.push_back(shape.dump());
+      found = types.insert(types.end(), solid);
+    }
+    of.push_back(static_cast<std::uint32_t>(found - types.begin()));
+    // x + q x₀ = x' + q' y₀, y₀ = unit (shift + turn x₀)
+    const Quaterniond q = packing.poses[i].orientation * frame.turn.conjugate();
+    const Vector3d x = frame.unit * (packing.poses[i].position - q * frame.shift);
+    positions.insert(positions.end(), x.begin(), x.end());
+    for (const double c : {q.w(), q.x(), q.y(), q.z()}) orientations.push_back(c);
+  }
+  const double side = frame.unit * packing.cell.side();
+  const std::vector<std::uint32_t> number{static_cast<std::uint32_t>(packing.size())};
+  const std::vector<std::vector<GsdChunk>> frames{
+      {chunk("configuration/box", {side, side, side, 0, 0, 0}, 1),
+       gsd_chunk("particles/N", std::span<const std::uint32_t>(number)),
+       gsd_chunk("particles/types", std::span<const std::string>(names)),
+       gsd_chunk("particles/type_shapes", std::span<const std::string>(shapes)),
+       gsd_chunk("particles/typeid", std::span<const std::uint32_t>(of)), chunk("particles/position", positions, 3),
+       chunk("particles/orientation", orientations, 4)}};
+  return gsd_bytes({"elsewhere", "hoomd", 1, 4}, frames);
+}
+
+/// Worst distance between corners of the same particles, images apart.
+double farthest_corner(const Packing& a, const Packing& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.poses.size(); ++i) {
+    const Vector3d d = a.cell.nearest_image(b.poses[i].position - a.poses[i].position);
+    for (const Vector3d& v : a.solids[i].vertices()) {
+      const Vector3d corner = a.poses[i].orientation * v;
+      double least = 1e300;
+      for (const Vector3d& w : b.solids[i].vertices())
+        least = std::min(least, (d + b.poses[i].orientation * w - corner).norm());
+      worst = std::max(worst, least);
+    }
+  }
+  return worst;
+}
+
+TEST(ForeignPackings, OfGsdAreWhatWasMeant) {
+  for (const Mixture& mixture : {Mixture(SolidKind::tetrahedron), Mixture(SolidKind::cube), shapes_and_sizes()}) {
+    const Packing packing = sample(mixture);
+    const Packing again = packing_of(read_gsd_packing(foreign_gsd(packing, {}), -1), mixture);
+    ASSERT_EQ(again.size(), packing.size());
+    EXPECT_TRUE(again.cell.is_cube());
+    EXPECT_NEAR(again.density(), packing.density(), 1e-6);
+    for (std::size_t i = 0; i < packing.poses.size(); ++i)
+      EXPECT_TRUE(&again.solids.unit(i) == &packing.solids.unit(i) &&
+                  again.solids[i].scale() == packing.solids[i].scale());
+    EXPECT_LT(farthest_corner(packing, again), 1e-5) << mixture.name();
+    const double energy = PackingEnergy().evaluate(packing).energy;
+    EXPECT_NEAR(PackingEnergy().evaluate(again).energy, energy, 1e-4 * energy) << mixture.name();
+  }
+}
+
+TEST(ForeignPackings, OfXyzAreWhatWasMeant) {
+  for (const Mixture& mixture : {Mixture(SolidKind::octahedron), shapes_and_sizes()}) {
+    const Packing packing = sample(mixture);
+    const std::vector<ExportFrame> frames{make_frame(packing, std::nullopt), make_frame(packing, std::nullopt)};
+    const auto text = xyz_file(frames);
+    for (const int frame : {0, 1, -1}) {
+      const Packing again = packing_of(read_xyz_packing(text, frame), mixture);
+      EXPECT_LT(farthest_corner(packing, again), 1e-12) << mixture.name();
+    }
+    EXPECT_THROW(read_xyz_packing(text, 2), NoPackingFile);
+    // Our own GSD, in single precision.
+    EXPECT_LT(farthest_corner(packing, packing_of(read_gsd_packing(gsd_file(frames), 1), mixture)), 1e-5);
+  }
+}
+
+TEST(ForeignPackings, AreNotTrusted) {
+  const Packing packing = sample(SolidKind::cube);
+  const auto whole = foreign_gsd(packing, {});
+  RandomStream random{92};
+  int refused = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    auto bytes = whole;
+    if (trial % 2 == 0) bytes.resize(static_cast<std::size_t>(static_cast<double>(bytes.size()) * random.uniform()));
+    for (int k = 0; k < 3 && !bytes.empty(); ++k)
+      bytes[static_cast<std::size_t>(static_cast<double>(bytes.size()) * random.uniform())] =
+          static_cast<char>(256 * random.uniform());
+    try {
+      packing_of(read_gsd_packing(bytes, -1), SolidKind::cube);
+    } catch (const NoPackingFile&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 150) << "those that were cut, at least";
+  EXPECT_THROW(packing_of(read_gsd_packing(whole, -1), SolidKind::octahedron), NoPackingFile);
+  EXPECT_THROW(read_gsd_packing(whole, 1), NoPackingFile);
+  EXPECT_THROW(read_xyz_packing("", -1), NoPackingFile);
+  EXPECT_THROW(read_xyz_packing("2\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=species:S:1:pos:R:3\ncube 0 0 0\n", -1),
+               NoPackingFile);
+  // A mirrored solid is another.
+  const std::vector<Vector3d> chiral{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {.9, 1.1, 1.6}};
+  std::vector<Vector3d> mirrored;
+  for (const Vector3d& v : chiral) mirrored.emplace_back(-v[0], v[1], v[2]);
+  const auto solid = Solid::made_of("chiral", chiral);
+  EXPECT_TRUE(similarity(*solid, chiral).has_value());
+  EXPECT_FALSE(similarity(*solid, mirrored).has_value());
+}
+
+Json started(const Json& start, int particles) {
+  auto manifest = test::tiny_manifest();
+  manifest["name"] = "started";
+  manifest["sweep"] = {{"solid", {"octahedron"}}, {"particles", {particles}}};
+  manifest["replicates"] = 1;
+  manifest["start"] = start;
+  return manifest;
+}
+
+TEST(Starts, GoOnFromWhatWasStored) {
+  const test::TemporaryDirectory directory;
+  auto first = started(nullptr, 48);
+  first.erase("start");
+  first["protocol"] = {{"final_distance", .02}};
+  test::write_text(directory / "first.json", first.dump());
+  ASSERT_EQ(test::isojam({"run", "first.json", "-o", "r"}, directory.path()).exit_code, 0);
+  const std::string stored = "r/packings/octahedron-N48-r0000.json";
+  auto second = started({{"packing", stored}, {"stage", "expansion"}}, 48);
+  second["protocol"] = {{"final_distance", .008}};
+  test::write_text(directory / "second.json", second.dump());
+  EXPECT_EQ(test::violations("manifest", second), "");
+  const auto run = test::isojam({"run", "second.json", "-o", "s"}, directory.path());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto record = [&](const std::string& where) {
+    return Json::parse(read_file(directory / where / "records" / "octahedron-N48-r0000.json"));
+  };
+  const auto before = record("r"), after = record("s");
+  EXPECT_EQ(test::violations("replicate", after), "");
+  EXPECT_LT(after.at("nearest").at("delta_phi").get<double>(), .0081);
+  EXPECT_EQ(after.at("path").at(0).at("stage"), "expansion");
+  EXPECT_EQ(after.at("path").at(0).at("phi"), before.at("nearest").at("phi")) << "to the last bit";
+  EXPECT_NEAR(after.at("phi_j").at("phi_j").get<double>(), before.at("phi_j").at("phi_j").get<double>(), .005);
+  EXPECT_TRUE(after.at("provenance").at("start").get<std::string>().ends_with(stored));
+  EXPECT_FALSE(before.at("provenance").contains("start"));
+  // The directory's own copy is enough to redo it; a file that has changed is told.
+  EXPECT_EQ(test::isojam({"rerun", "s", "octahedron-N48-r0000"}, directory.path()).exit_code, 0);
+  EXPECT_EQ(test::isojam({"aggregate", "s"}, directory.path()).exit_code, 0);
+  auto packing = Json::parse(read_file(directory / stored));
+  std::filesystem::rename(directory / stored, directory / "gone.json");
+  EXPECT_EQ(test::isojam({"aggregate", "s"}, directory.path()).exit_code, 0) << "needs the records alone";
+  EXPECT_EQ(test::isojam({"rerun", "s", "octahedron-N48-r0000"}, directory.path()).exit_code, 65);
+}
+
+TEST(Starts, AreRefusedAtTheirPlace) {
+  const test::TemporaryDirectory directory;
+  Packing packing = strained_to(sample(SolidKind::octahedron, 64), .2);
+  for (int i = 0; i < 64; ++i) packing.poses[i].position = packing.cell.side() / 4 * Vector3d(i % 4, i / 4 % 4, i / 16);
+  const std::vector<ExportFrame> frames{make_frame(packing, std::nullopt)};
+  test::write_text(directory / "a.gsd", gsd_file(frames));
+  test::write_text(directory / "a.xyz", xyz_file(frames));
+  Packing deep = packing;
+  deep.poses[1].position = deep.poses[0].position;
+  test::write_text(directory / "deep.xyz", xyz_file(std::vector{make_frame(deep, std::nullopt)}));
+  const auto said = [&](const Json& manifest) -> std::string {
+    try {
+      parse_manifest(manifest.dump(), (directory / "m.json").string());
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  const auto expect = [&](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << "wanted: " << part << "\nsaid: " << text;
+  };
+  EXPECT_EQ(said(started({{"packing", "a.gsd"}, {"density", .25}}, 64)), "");
+  expect(said(started({{"packing", "deep.xyz"}}, 64)), "particles 0 and 1 overlap by");
+  expect(said(started({{"packing", "deep.xyz"}}, 64)), "/start/packing");
+  expect(said(started({{"packing", "none.gsd"}}, 64)), "/start/packing");
+  expect(said(started({{"packing", "a.xyz"}}, 65)), "64 particles are not 65 of octahedron");
+  expect(said(started({{"packing", {"a.xyz", "m.json"}}}, 64)), "/start/packing/1");
+  expect(said(started({{"packing", "a.xyz"}, {"density", .97}}, 64)), "max_density");
+  expect(said(started({{"packing", "a.xyz"}, {"stage", "later"}}, 64)), "/start/stage");
+  auto many = started({{"packing", "a.xyz"}}, 64);
+  many["replicates"] = 2;
+  expect(said(many), "1 files for 2 replicates");
+  many = started({{"packing", "a.xyz"}}, 64);
+  many["sweep"]["solid"] = {"octahedron", "cube"};
+  expect(said(many), "one entry in /sweep/solid");
+  expect(said([&] {
+           auto cubes = started({{"packing", "a.xyz"}}, 64);
+           cubes["sweep"]["solid"] = {"cube"};
+           return cubes;
+         }()),
+         "none of cube");
+}
+
+/// As a user of HOOMD-blue writes it: lengths in edges, the solid's vertices about no particular point.
+TEST(Starts, FromAFileThatPythonWrote) {
+  const test::TemporaryDirectory directory;
+  test::write_text(directory / "write.py", R"(import itertools, math, random
+import gsd.hoomd
+random.seed(3)
+snapshot = (gsd.hoomd.Frame if hasattr(gsd.hoomd, 'Frame') else gsd.hoomd.Snapshot)()
+n, edge = 4, 2.2
+L = n * edge
+snapshot.configuration.box = [L, L, L, 0, 0, 0]
+cells = list(itertools.product(range(n), repeat=3))
+snapshot.particles.N = len(cells)
+snapshot.particles.types = ['box']
+snapshot.particles.type_shapes = [{'type': 'ConvexPolyhedron', 'rounding_radius': 0,
+    'vertices': [[x, y, z] for x in (0, 1) for y in (0, 1.2) for z in (0, 1.4)]}]
+snapshot.particles.position = [[(c + .5) * edge - L / 2 for c in cell] for cell in cells]
+quaternions = []
+for _ in cells:
+    q = [random.gauss(0, 1) for _ in range(4)]
+    r = math.sqrt(sum(c * c for c in q))
+    quaternions.append([c / r for c in q])
+snapshot.particles.orientation = quaternions
+opened = gsd.hoomd.open('written.gsd', 'wb')
+opened.append(snapshot)
+opened.close()
+)");
+  const auto python = test::shell("/usr/bin/python3 -B write.py", directory.path());
+  ASSERT_EQ(python.exit_code, 0) << python.err;
+  auto manifest = started({{"packing", "written.gsd"}}, 64);
+  manifest["solids"] = {{"brick", {{"box", {1, 1.2, 1.4}}}}};
+  manifest["sweep"]["solid"] = {"brick"};
+  test::write_text(directory / "m.json", manifest.dump());
+  const auto parsed = parse_manifest(manifest.dump(), (directory / "m.json").string());
+  const auto& packing = *parsed.start->files[0].packing;
+  EXPECT_NEAR(packing.density(), 1.2 * 1.4 / std::pow(2.2, 3), 1e-6);
+  const auto run = test::isojam({"run", "m.json", "-o", "r"}, directory.path());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+}  // namespace
+}  // namespace isojam
