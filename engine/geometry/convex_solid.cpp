@@ -104,23 +104,25 @@ double height(const Plane& plane, const Loop& face, const Quad3& vertex, int v) 
   return static_cast<double>(dot(plane.normal, vertex) - plane.offset);
 }
 
+std::uint64_t bit(int feature) { return std::uint64_t{1} << feature; }
+
 void flatten_edges(const std::vector<Edge>& edges, SolidArrays& flat) {
+  const auto byte = [](auto value) { return static_cast<std::uint8_t>(value); };
   flat.edges = static_cast<int>(edges.size());
-  for (int k = 0; k < SolidArrays::capacity; ++k) {
+  for (int k = 0; k < SolidArrays::max_edges; ++k) {
     const Edge& e = flat.edge[k] = edges[k < flat.edges ? k : 0];
-    flat.tail[k] = static_cast<std::uint8_t>(e.tail), flat.head[k] = static_cast<std::uint8_t>(e.head);
+    flat.tail[k] = byte(e.tail), flat.head[k] = byte(e.head);
     const auto left = static_cast<std::uint32_t>(e.left), right = static_cast<std::uint32_t>(e.right);
     flat.record[k] = {flat.tail[k],
                       flat.head[k],
-                      static_cast<std::uint16_t>(left),
-                      static_cast<std::uint16_t>(right),
-                      static_cast<std::uint16_t>(SolidArrays::at(flat.tail[k])),
-                      static_cast<std::uint16_t>(SolidArrays::at(flat.head[k])),
-                      std::uint32_t{1} << left | std::uint32_t{1} << right,
-                      {left << 5 | right << 21, right | left << 16}};
+                      byte(left),
+                      byte(right),
+                      byte(SolidArrays::at(flat.tail[k])),
+                      byte(SolidArrays::at(flat.head[k])),
+                      {left << 5 | right << 21, right | left << 16},
+                      bit(e.left) | bit(e.right)};
     if (k >= flat.edges) continue;
-    const Parts edge{std::uint32_t{1} << e.tail | std::uint32_t{1} << e.head, std::uint32_t{1} << k,
-                     flat.record[k].faces};
+    const Parts edge{bit(e.tail) | bit(e.head), bit(k), flat.record[k].faces};
     flat.star[e.tail] |= edge, flat.star[e.head] |= edge;
   }
 }
@@ -195,6 +197,7 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Quad3> vertices) : na
     faces_.push_back({rounded(planes[f].normal), static_cast<double>(planes[f].offset), loops[f]});
     inradius_ = std::min(inradius_, faces_.back().offset);
   }
+  fine_below_ = edges_.size() <= SolidArrays::narrow_edges ? inradius_ : 4 * circumradius_;
   const Moments about_centroid = moments(points, loops);
   gyration_radius_ = static_cast<double>(square_root(2 * about_centroid.second / 3));
   inertia_ = inertia_tensor(about_centroid);

@@ -36,19 +36,20 @@ struct Edge {
   int left = 0, right = 0;
 };
 
-/// An edge as the contact loop needs it. A pair of faces (i of a solid A, j of a solid B) is 32i + j. Where an edge
-/// leaves the other solid, one segment of the loop begins and another ends; their pairs, with 0 for the face pierced:
+/// An edge as the contact loop needs it. A pair of faces (i of a solid A, j of a solid B) is 32i + j here. Where an
+/// edge leaves the other solid, one segment of the loop begins and another ends; their pairs, with 0 for the face
+/// pierced:
 struct EdgeRecord {
-  std::uint16_t tail, head, left, right;
-  std::uint16_t tail_at, head_at;  ///< SolidArrays::at() of its ends
-  std::uint32_t faces;             ///< left and right, as bits
+  std::uint8_t tail, head, left, right;
+  std::uint8_t tail_at, head_at;  ///< SolidArrays::at() of its ends
   /// Pairs, [0] as an edge of A: 32·left + 2^16·32·right; [1] as an edge of B: right + 2^16·left.
   std::uint32_t pairs[2];
+  std::uint64_t faces;  ///< left and right, as bits
 };
 
 /// Parts of a solid, as bits: edges, the vertices at their ends, faces. Four words, so that one operation joins them.
-struct alignas(16) Parts {
-  std::uint32_t vertices = 0, edges = 0, faces = 0, none = 0;
+struct alignas(32) Parts {
+  std::uint64_t vertices = 0, edges = 0, faces = 0, none = 0;
 
   Parts& operator|=(const Parts& other) {
     vertices |= other.vertices, edges |= other.edges, faces |= other.faces, none |= other.none;
@@ -59,7 +60,10 @@ struct alignas(16) Parts {
 /// A solid as flat arrays for the kernels. Vertices and edges are padded with copies of the first, faces with
 /// planes 0·y = far that everything lies inside of.
 struct SolidArrays {
-  static constexpr int capacity = 32;
+  static constexpr int max_edges = 64;
+  static constexpr int narrow_edges = 32;  ///< so many of either of two solids are bits of one word
+  /// Of vertices and of faces. Three edges end at every vertex and surround every face: 64 edges allow 42 of each.
+  static constexpr int capacity = 44;
   static constexpr double far = 1e300;
   /// Vectors of placed solids come in blocks of four, x of all four, then y, then z. Where the k-th begins:
   static constexpr int block = 12;  ///< doubles
@@ -71,10 +75,10 @@ struct SolidArrays {
   /// Low parts, what rounding left of each: value = entry + low entry to 1e-32.
   alignas(32) double x_low[capacity], y_low[capacity], z_low[capacity];
   alignas(32) double nx_low[capacity], ny_low[capacity], nz_low[capacity], offset_low[capacity];
-  Edge edge[capacity];
-  EdgeRecord record[capacity];                              ///< of the edges, for the kernels
-  alignas(32) std::uint8_t tail[capacity], head[capacity];  ///< of the edges
-  Parts star[capacity];                                     ///< per vertex: it, and what meets there
+  Edge edge[max_edges];
+  EdgeRecord record[max_edges];                               ///< of the edges, for the kernels
+  alignas(32) std::uint8_t tail[max_edges], head[max_edges];  ///< of the edges
+  Parts star[capacity];                                       ///< per vertex: it, and what meets there
   /// Heights of the solid's own vertices over its own face planes, [face][vertex]: exactly 0 for the vertices of the
   /// face.
   alignas(32) double height[capacity][capacity];
@@ -90,11 +94,11 @@ struct SolidArrays {
 };
 
 /// An immutable convex polyhedron, centred on its centroid, of density of mass 1, and of unit volume (V_p = 1) unless
-/// it was made in another size. Lengths in V_p^(1/3). At most 32 vertices, faces and edges each, so that sets of them
-/// are 32-bit masks.
+/// it was made in another size. Lengths in V_p^(1/3). At most 64 edges, hence fewer vertices and faces, so that sets of
+/// them are 64-bit masks.
 class ConvexSolid {
  public:
-  static constexpr int max_features = SolidArrays::capacity;
+  static constexpr int max_features = SolidArrays::max_edges;
 
   /// Hull of `vertices` (all of them extreme), moved and scaled to unit volume and centroid 0.
   /// Throws NoSolid (hull.hpp), a std::invalid_argument, if a vertex is not extreme or the limits are exceeded.
@@ -119,6 +123,9 @@ class ConvexSolid {
   double diameter() const { return diameter_; }               ///< greatest distance between two vertices
   /// Radius of gyration about an axis, R = sqrt(I/m), I the mean principal moment of inertia, m the mass.
   double gyration_radius() const { return gyration_radius_; }
+  /// Of the solid of unit volume, what a contact is small against if double-double is of use: the inradius; of solids
+  /// with more than narrow_edges, which may be flat, or blunt everywhere, four circumradii.
+  double fine_below() const { return fine_below_; }
   /// Tensor of inertia about the centroid, ∫ (|x|² − x xᵀ) dV, body frame: m R² of a spherical top.
   const Eigen::Matrix3d& inertia() const { return inertia_; }
   /// Whether all moments of inertia are equal, to within rounding: the Platonic solids and all of their symmetry.
@@ -131,7 +138,7 @@ class ConvexSolid {
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
   SolidArrays arrays_;
-  double scale_ = 1, inradius_ = 0, circumradius_ = 0, diameter_ = 0, gyration_radius_ = 0;
+  double scale_ = 1, inradius_ = 0, circumradius_ = 0, fine_below_ = 0, diameter_ = 0, gyration_radius_ = 0;
   Eigen::Matrix3d inertia_ = Eigen::Matrix3d::Zero();
   bool is_spherical_top_ = false;
 };

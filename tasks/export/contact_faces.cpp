@@ -11,10 +11,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-std::uint32_t bit(int feature) { return std::uint32_t{1} << feature; }
+std::uint64_t bit(int feature) { return std::uint64_t{1} << feature; }
 
 template <class Use>
-void for_each_bit(std::uint32_t mask, const Use& use) {
+void for_each_bit(std::uint64_t mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(std::countr_zero(mask));
 }
 
@@ -23,7 +23,7 @@ struct Body {
   const ConvexSolid& solid;
   Matrix3d rotation;
   Vector3d centre;
-  std::uint32_t faces, edges;
+  std::uint64_t faces, edges;
 
   Vector3d normal(int face) const { return rotation * solid.faces()[face].normal; }
   /// Of a point under the plane of the face.

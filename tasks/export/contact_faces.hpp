@@ -8,7 +8,7 @@ namespace isojam {
 
 /// Faces of A and of B, as bits, that a contact takes place on.
 struct ContactFaces {
-  std::uint32_t of_a = 0, of_b = 0;
+  std::uint64_t of_a = 0, of_b = 0;
 };
 
 /// Angles below which a face lies in a face, and an edge in a face (radians).

@@ -23,7 +23,7 @@ FaceContact strength_of(ContactClass contact_class) {
   return FaceContact::lower_order;
 }
 
-void mark_faces(ExportFrame& frame, int particle, std::uint32_t faces, FaceContact strength) {
+void mark_faces(ExportFrame& frame, int particle, std::uint64_t faces, FaceContact strength) {
   const auto first = frame.first_face[static_cast<std::size_t>(particle)];
   for (; faces != 0; faces &= faces - 1) {
     auto& face = frame.faces[first + static_cast<std::size_t>(std::countr_zero(faces))];

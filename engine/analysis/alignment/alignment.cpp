@@ -27,7 +27,7 @@ struct EdgeFace {
 };
 
 template <class UnitVector>
-std::vector<Direction> directions(std::uint32_t mask, const Matrix3d& rotation, const UnitVector& unit) {
+std::vector<Direction> directions(std::uint64_t mask, const Matrix3d& rotation, const UnitVector& unit) {
   std::vector<Direction> result;
   result.reserve(std::popcount(mask));
   for (; mask != 0; mask &= mask - 1) {
@@ -37,12 +37,12 @@ std::vector<Direction> directions(std::uint32_t mask, const Matrix3d& rotation, 
   return result;
 }
 
-std::vector<Direction> normals(const ConvexSolid& solid, std::uint32_t mask, const Matrix3d& rotation) {
+std::vector<Direction> normals(const ConvexSolid& solid, std::uint64_t mask, const Matrix3d& rotation) {
   assert(std::bit_width(mask) <= solid.faces().size());
   return directions(mask, rotation, [&](int i) -> Vector3d { return solid.faces()[i].normal; });
 }
 
-std::vector<Direction> edge_directions(const ConvexSolid& solid, std::uint32_t mask, const Matrix3d& rotation) {
+std::vector<Direction> edge_directions(const ConvexSolid& solid, std::uint64_t mask, const Matrix3d& rotation) {
   assert(std::bit_width(mask) <= solid.edges().size());
   return directions(mask, rotation, [&](int e) -> Vector3d {
     const Edge& edge = solid.edges()[e];

@@ -84,7 +84,7 @@ class Features {
   double least_elevation(const Vector3d& direction) const {
     const auto outermost = greatest(solid_.vertices(), [&](const Vector3d& vertex) { return vertex.dot(direction); });
     double least = 1;
-    std::uint32_t mask = solid_.arrays().star[outermost - solid_.vertices().begin()].edges;
+    std::uint64_t mask = solid_.arrays().star[outermost - solid_.vertices().begin()].edges;
     for (; mask != 0; mask &= mask - 1)
       least = std::min(least, std::abs(edges_[std::countr_zero(mask)].dot(direction)));
     return std::asin(least);

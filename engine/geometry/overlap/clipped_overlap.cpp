@@ -152,11 +152,11 @@ void integrate(const CutSolid& solid, QuadOverlap& sum) {
   }
 }
 
-std::uint32_t edges_between(const ConvexSolid& solid, const std::vector<std::pair<int, int>>& face_pairs) {
-  std::uint32_t mask = 0;
+std::uint64_t edges_between(const ConvexSolid& solid, const std::vector<std::pair<int, int>>& face_pairs) {
+  std::uint64_t mask = 0;
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
     const std::pair<int, int> faces{solid.edges()[e].left, solid.edges()[e].right};
-    if (std::find(face_pairs.begin(), face_pairs.end(), faces) != face_pairs.end()) mask |= std::uint32_t{1} << e;
+    if (std::find(face_pairs.begin(), face_pairs.end(), faces) != face_pairs.end()) mask |= std::uint64_t{1} << e;
   }
   return mask;
 }
@@ -164,7 +164,7 @@ std::uint32_t edges_between(const ConvexSolid& solid, const std::vector<std::pai
 void mark_features(const ConvexSolid& a, const ConvexSolid& b, const CutSolid& solid, QuadOverlap& result) {
   std::map<std::pair<int, int>, const CutFace*> face_of;
   for (const CutFace& face : solid.faces) {
-    (face.of_a ? result.faces_a : result.faces_b) |= std::uint32_t{1} << face.face;
+    (face.of_a ? result.faces_a : result.faces_b) |= std::uint64_t{1} << face.face;
     for (std::size_t k = 0; k < face.loop.size(); ++k)
       face_of[{face.loop[k], face.loop[(k + 1) % face.loop.size()]}] = &face;
   }
@@ -192,7 +192,7 @@ bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose, Q
 QuadOverlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose) {
   // Between the rounding of quadruple precision (1e-34 of a coordinate) and the least distance that the rounding of
   // doubles leaves between planes that do not coincide.
-  const Quad exact = Quad(a.circumradius()) * Quad(1e-28);
+  const Quad exact = Quad(a.circumradius() * std::max(1.0, b.scale() / a.scale())) * Quad(1e-28);
   CutSolid solid;
   if (!cut_all(a, b, pose, exact, solid)) {
     // With everything on every plane nothing is cut: the loop ends.

@@ -13,8 +13,8 @@ namespace isojam {
 struct QuadOverlap {
   Quad volume = 0;
   Quad3 area{}, moment{};
-  std::uint32_t faces_a = 0, faces_b = 0;
-  std::uint32_t edges_a = 0, edges_b = 0;
+  std::uint64_t faces_a = 0, faces_b = 0;
+  std::uint64_t edges_a = 0, edges_b = 0;
 };
 
 /// The nearest doubles; its path is OverlapPath::clip unless the volume is 0.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "engine/geometry/overlap/small_distances.hpp"
 
@@ -23,13 +24,28 @@ namespace isojam {
 
 namespace {
 
-constexpr int capacity = SolidArrays::capacity;
-constexpr std::size_t none = 2 * capacity;
+constexpr std::size_t none = 2 * SolidArrays::capacity;
+
+/// A number for every edge that one of the two solids may have: `room` for those of A, then as many of B.
+template <int room>
+struct Numbers {
+  /// Whether the edges of both are bits of one word.
+  static constexpr bool in_one_word = 2 * room <= 64;
+  /// A pair of faces (i, j) is room·i + j: so many bits are j's.
+  static constexpr int bits = std::countr_zero(unsigned{room});
+  static constexpr std::uint32_t all_pairs = room * room;
+  static constexpr int corners = 4 * room;
+
+  /// EdgeRecord::pairs, which are numbered with room for 32.
+  static std::uint32_t pairs(const EdgeRecord& edge, std::uint32_t of_b) {
+    return edge.pairs[of_b] << (bits - 5) * (of_b ^ 1);
+  }
+};
 
 /// A vertex on a plane, to within rounding, and not certainly outside of another one.
 bool has_vertex_on_plane(const Distances& d, double tolerance) {
   if (d.nearest >= tolerance) return false;
-  for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
+  for (std::uint64_t rows = d.rows; rows; rows &= rows - 1) {
     const double* row = d.row(std::countr_zero(rows));
     bool on = false, outside = false;
     for (int f = 0; f < d.planes; ++f) {
@@ -54,7 +70,8 @@ struct Side {
 };
 
 /// Chooses the plane that heights are measured from, and fills what the solids bring.
-void prepare(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop, Side* sides) {
+inline void prepare(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop,
+                    Side* sides) {
   const PlacedSolid* solid[2] = {&a, &b};
   const Distances* table[2] = {&loop.of_a, &loop.of_b};
   const Lanes half = Lanes::of(r.x() / 2, r.y() / 2, r.z() / 2, 0);
@@ -87,7 +104,7 @@ struct Interval {
 };
 
 template <class Count>
-Interval clip(Count vectors, const double* tail, const double* head) {
+inline Interval clip(Count vectors, const double* tail, const double* head) {
   const Lanes start = Lanes::all(at_tail), end = Lanes::all(at_head);
   Lanes enter = start, leave = end;
   repeat(vectors, [&](int k) {
@@ -99,14 +116,15 @@ Interval clip(Count vectors, const double* tail, const double* head) {
   return {greatest(enter), least(leave)};
 }
 
-/// Of the edges `alive` (of B from bit 32 on). Returns the number of crossings found so far.
-template <class Count>
-int find_crossings(Count vectors, const Side* sides, std::uint64_t alive, ContactLoop& loop, int count) {
+/// Of the edges `alive`, bit 0 the one with the number `first`. Returns the number of crossings found so far.
+template <int room, class Count>
+int find_crossings(Count vectors, const Side* sides, std::uint64_t alive, std::uint32_t first, ContactLoop& loop,
+                   int count) {
   const Lanes untouched = Lanes::of(at_tail, at_tail, at_head, at_head);
   for (; alive; alive &= alive - 1) {
-    const auto at = static_cast<std::uint32_t>(std::countr_zero(alive));
-    const Side& side = sides[at / capacity];
-    const EdgeRecord& edge = side.edge[at % capacity];
+    const std::uint32_t at = first + static_cast<std::uint32_t>(std::countr_zero(alive));
+    const Side& side = sides[at / room];
+    const EdgeRecord& edge = side.edge[at % room];
     const std::size_t planes = 4 * static_cast<std::size_t>(vectors);
     const Interval inside = clip(vectors, side.distance + planes * edge.tail, side.distance + planes * edge.head);
     const auto byte = [](std::uint32_t value) { return static_cast<std::uint8_t>(value); };
@@ -160,43 +178,62 @@ struct Piercings {
   }
 };
 
+/// Edges by number, as bits.
+template <int room>
+class EdgeSet {
+ public:
+  void add(std::uint32_t edge) { word_[in_one_word ? 0 : edge / 64] |= std::uint64_t{1} << edge % 64; }
+  /// Of one solid.
+  std::uint64_t of(int side) const {
+    if constexpr (in_one_word) return static_cast<std::uint32_t>(word_[0] >> room * side);
+    return word_[side];
+  }
+
+ private:
+  static constexpr bool in_one_word = Numbers<room>::in_one_word;
+  std::uint64_t word_[in_one_word ? 1 : 2] = {};
+};
+
 /// `vectors[0]` of the planes that edges of A are clipped by, [1] of B.
-template <class Vectors>
+template <int room, class Vectors>
 void place_spans(const Vectors& vectors, const Side* sides, int spans, ContactLoop& loop, Piercings& piercings) {
-  std::uint64_t edges = 0, faces[2] = {};
+  EdgeSet<room> edges;
+  std::uint64_t faces[2] = {};
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(spans); ++k) {
     ContactLoop::Crossing& c = loop.crossing[k];
-    const std::uint32_t of_b = c.edge / std::uint32_t{capacity};
+    const std::uint32_t of_b = c.edge / std::uint32_t{room};
     const Side& side = sides[of_b];
-    const EdgeRecord& edge = side.edge[c.edge % capacity];
+    const EdgeRecord& edge = side.edge[c.edge % room];
     place_corners(side, edge, 4 * static_cast<std::size_t>(vectors(of_b)), c, loop.corner + 2 * k);
     c.into = side.face[c.into], c.out_of = side.face[c.out_of];
     const std::uint32_t enters = c.enters(), leaves = c.leaves();
-    const std::uint32_t leaving = edge.pairs[of_b], step = std::uint32_t{0x00010001} << 5 * of_b;
+    const std::uint32_t leaving = Numbers<room>::pairs(edge, of_b);
+    const std::uint32_t step = std::uint32_t{0x00010001} << Numbers<room>::bits * of_b;
     piercings.add(std::rotl(leaving, 16) + step * c.into, 2 * k, enters);
     piercings.add(leaving + step * c.out_of, 2 * k + 1, leaves);
-    const std::uint32_t first = c.edge & std::uint32_t{capacity}, left = first + edge.left, right = first + edge.right;
+    const std::uint32_t first = (c.edge & std::uint32_t{room}) * (ContactLoop::face_of_b / room);
+    const std::uint32_t left = first + edge.left, right = first + edge.right;
     loop.span[k] = {static_cast<std::uint8_t>(left), static_cast<std::uint8_t>(right)};
     loop.hub[left] = loop.hub[right] = static_cast<std::uint16_t>(2 * k);
-    edges |= std::uint64_t{1} << c.edge;
+    edges.add(c.edge);
     faces[of_b] |= edge.faces;
-    faces[of_b ^ 1] |= enters << c.into | leaves << c.out_of;
+    faces[of_b ^ 1] |= std::uint64_t{enters} << c.into | std::uint64_t{leaves} << c.out_of;
   }
   loop.spans = spans;
-  for (int s = 0; s < 2; ++s) {
-    loop.edges[s] = static_cast<std::uint32_t>(edges >> capacity * s);
-    loop.faces[s] = static_cast<std::uint32_t>(faces[s]);
-  }
+  loop.edge_of_b = room;
+  for (int s = 0; s < 2; ++s) loop.edges[s] = edges.of(s), loop.faces[s] = faces[s];
 }
 
 /// Joins every end to the beginning of the same pair of faces. False if the loop does not close.
+template <int room>
 bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
-  alignas(32) std::uint8_t beginning[capacity * capacity];  // corner + 1; 0: none
-  std::memset(beginning, 0, std::size_t{capacity} * static_cast<std::size_t>(faces_a));
+  using Entry = std::conditional_t<(Numbers<room>::corners < 256), std::uint8_t, std::uint16_t>;
+  alignas(32) Entry beginning[Numbers<room>::all_pairs];  // corner + 1; 0: none
+  std::memset(beginning, 0, sizeof(Entry) * room * static_cast<std::size_t>(faces_a));
   for (std::size_t k = 0; k < piercings.count; ++k) {
     const std::uint32_t pair = piercings.at[k].pairs & 0xFFFF, corner = piercings.at[k].corner;
-    beginning[pair] = static_cast<std::uint8_t>(corner + 1);
-    loop.hub[pair / capacity] = loop.hub[capacity + pair % capacity] = static_cast<std::uint16_t>(corner);
+    beginning[pair] = static_cast<Entry>(corner + 1);
+    loop.hub[pair / room] = loop.hub[ContactLoop::face_of_b + pair % room] = static_cast<std::uint16_t>(corner);
   }
   bool open = false;
   for (std::size_t k = 0; k < piercings.count; ++k) {
@@ -206,7 +243,7 @@ bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
     open |= from == 0;
     // One store: four bytes would be stored in loops of their own, one after the other.
     static_assert(std::endian::native == std::endian::little);
-    const std::uint32_t faces = pair % capacity | pair / capacity << 8;
+    const std::uint32_t faces = pair % room | pair / room << 8;
     const std::uint32_t corners = (from - 1) % ContactLoop::max_corners | piercings.at[k].corner << 8;
     loop.segment[k] = std::bit_cast<ContactLoop::Segment>(faces | corners << 16);
   }
@@ -214,30 +251,38 @@ bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
   return !open;
 }
 
+/// The loop for both solids at once where their edges are in one word, so that its end is mispredicted once.
+template <int room, class Count>
+int find_all_crossings(Count vectors, const Side* sides, ContactLoop& loop) {
+  const std::uint64_t of_a = loop.of_a.edges, of_b = loop.of_b.edges;
+  if constexpr (Numbers<room>::in_one_word)
+    return find_crossings<room>(vectors, sides, of_a | of_b << room, 0, loop, 0);
+  return find_crossings<room>(vectors, sides, of_b, room, loop, find_crossings<room>(vectors, sides, of_a, 0, loop, 0));
+}
+
 /// Phase 2.
+template <int room>
 void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   Side sides[2];
   prepare(a, b, r, loop, sides);
-  const std::uint64_t alive_a = loop.of_a.edges, alive_b = std::uint64_t{loop.of_b.edges} << capacity;
   const auto vectors_of = [](const Distances& d) { return static_cast<int>(static_cast<std::uint32_t>(d.planes) / 4); };
   const int vectors_a = vectors_of(loop.of_a), vectors_b = vectors_of(loop.of_b);
   Piercings piercings;
   if (vectors_a == vectors_b) {
     with_vectors(vectors_a, [&](auto vectors) {
-      // One loop for both solids, so that its end is mispredicted once.
-      const int spans = find_crossings(vectors, sides, alive_a | alive_b, loop, 0);
-      place_spans([=](std::uint32_t) { return vectors; }, sides, spans, loop, piercings);
+      const int spans = find_all_crossings<room>(vectors, sides, loop);
+      place_spans<room>([=](std::uint32_t) { return vectors; }, sides, spans, loop, piercings);
     });
   } else {
-    const int of_a = find_crossings(vectors_a, sides, alive_a, loop, 0);
-    const int spans = find_crossings(vectors_b, sides, alive_b, loop, of_a);
-    place_spans([=](std::uint32_t of_b) { return of_b ? vectors_b : vectors_a; }, sides, spans, loop, piercings);
+    const int of_a = find_crossings<room>(vectors_a, sides, loop.of_a.edges, 0, loop, 0);
+    const int spans = find_crossings<room>(vectors_b, sides, loop.of_b.edges, room, loop, of_a);
+    place_spans<room>([=](std::uint32_t of_b) { return of_b ? vectors_b : vectors_a; }, sides, spans, loop, piercings);
   }
   if (piercings.count == 0) {
     // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
     loop.verdict = loop.spans == 0 ? LoopVerdict::separated : LoopVerdict::degenerate;
   } else {
-    loop.verdict = close_loop(piercings, a.faces(), loop) ? LoopVerdict::closed : LoopVerdict::degenerate;
+    loop.verdict = close_loop<room>(piercings, a.faces(), loop) ? LoopVerdict::closed : LoopVerdict::degenerate;
   }
 }
 
@@ -278,26 +323,39 @@ void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d&
 }
 
 /// Phase 2; distances below `tolerance` may be zero.
+template <int room>
 void judge(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, double tolerance, ContactLoop& loop) {
   loop.verdict = LoopVerdict::separated;
   if (separated_by_face(a, b, r, loop)) return;
   loop.verdict = LoopVerdict::degenerate;
   if (has_vertex_on_plane(loop.of_a, tolerance) || has_vertex_on_plane(loop.of_b, tolerance)) return;
-  trace(a, b, r, loop);
+  trace<room>(a, b, r, loop);
 }
 
 }  // namespace
 
+template <int edges>
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   tabulate(a, b, r, loop);
-  judge(a, b, r, gap_tolerance(a.solid(), b.solid(), r), loop);
+  judge<edges>(a, b, r, gap_tolerance(a.solid(), b.solid(), r), loop);
 }
 
+template <int edges>
 void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, ContactLoop& loop) {
   tabulate(a, b, r.high, loop);
   correct_small_distances(a, b, r, loop.of_a);
   correct_small_distances(b, a, -r, loop.of_b);
-  judge(a, b, r.high, std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high), loop);
+  judge<edges>(a, b, r.high, std::numeric_limits<double>::epsilon() * gap_tolerance(a.solid(), b.solid(), r.high),
+               loop);
 }
+
+template void find_contact_loop<narrow_edges>(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&,
+                                              ContactLoop&);
+template void find_contact_loop<wide_edges>(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&,
+                                            ContactLoop&);
+template void find_contact_loop<narrow_edges>(const PlacedSolid&, const PlacedSolid&, const DoubleDoubleVector&,
+                                              ContactLoop&);
+template void find_contact_loop<wide_edges>(const PlacedSolid&, const PlacedSolid&, const DoubleDoubleVector&,
+                                            ContactLoop&);
 
 }  // namespace isojam

@@ -13,19 +13,19 @@ namespace {
 
 constexpr int capacity = SolidArrays::capacity;
 
-std::uint32_t first_bits(int n) { return static_cast<std::uint32_t>((std::uint64_t{1} << n) - 1); }
+std::uint64_t first_bits(int n) { return (std::uint64_t{1} << n) - 1; }
 
 /// Vertices that reach into the circumsphere of the other solid, at `to_other` from this one's centre.
-std::uint32_t within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_other, double other_radius) {
+std::uint64_t within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_other, double other_radius) {
   const double distance = to_other.norm();
-  // The slack is far more than rounding and far less than anything that would cost time.
+  // The slack is far more than rounding, of sizes 1e5 apart too, and far less than anything that would cost time.
   const Lanes least = Lanes::all(distance * (distance - other_radius * (1 + 1e-9)));
   const Lanes x = Lanes::all(to_other.x()), y = Lanes::all(to_other.y()), z = Lanes::all(to_other.z());
-  std::uint32_t below = 0;
+  std::uint64_t below = 0;
   for (int v = 0; v < body.vertices(); v += 4) {
     const double* p = body.vertex_block(v / 4);
     const Lanes along = fma(x, Lanes::load(p), fma(y, Lanes::load(p + 4), z * Lanes::load(p + 8)));
-    below |= sign_bits(along - least) << v;
+    below |= std::uint64_t{sign_bits(along - least)} << v;
   }
   return ~below & first_bits(body.vertices());
 }
@@ -40,13 +40,13 @@ class Scan {
 
   /// Adds vertex v, at `distance(k)` from planes 4k..; the planes it lies inside of, one bit each.
   template <class Row>
-  std::uint32_t add(const Row& distance) {
-    std::uint32_t inside = 0;
+  std::uint64_t add(const Row& distance) {
+    std::uint64_t inside = 0;
     repeat(vectors_, [&](int k) {
       const Lanes d = distance(k);
       lowest_[k] = min(lowest_[k], d);
       nearest_ = min(nearest_, absolute(d));
-      inside |= sign_bits(d) << 4 * k;
+      inside |= std::uint64_t{sign_bits(d)} << 4 * k;
     });
     return inside;
   }
@@ -70,27 +70,26 @@ template <class Counts, class Row>
 void scan_all(const Counts& counts, const SolidArrays& solid, const Row& row, Distances& d) {
   Scan scan(counts.vectors);
   std::uint64_t inside = 0;
-  for (int v = 0; v < counts.vertices; ++v)
-    inside |= std::uint64_t{scan.add([&](int k) { return row(v, k); })} << 8 * v;
+  for (int v = 0; v < counts.vertices; ++v) inside |= scan.add([&](int k) { return row(v, k); }) << 8 * v;
   scan.finish(d);
-  d.edges = equal_unions(inside, solid.tail, solid.head, first_bits(4 * counts.vectors)) & d.candidates;
+  d.edges = equal_unions(inside, solid.tail, solid.head, (1U << 4 * counts.vectors) - 1) & d.candidates;
 }
 
 /// Rows of d.rows and edges of d.candidates only.
 template <class Vectors, class Row>
 void scan_rows(Vectors vectors, const SolidArrays& solid, const Row& row, Distances& d) {
   Scan scan(vectors);
-  std::uint32_t inside[capacity];
-  for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
+  std::uint64_t inside[capacity];
+  for (std::uint64_t rows = d.rows; rows; rows &= rows - 1) {
     const int v = std::countr_zero(rows);
     inside[v] = scan.add([&](int k) { return row(v, k); });
   }
   scan.finish(d);
-  const std::uint32_t all = first_bits(4 * vectors);
+  const std::uint64_t all = first_bits(4 * vectors);
   d.edges = 0;
-  for (std::uint32_t candidates = d.candidates; candidates; candidates &= candidates - 1) {
+  for (std::uint64_t candidates = d.candidates; candidates; candidates &= candidates - 1) {
     const int e = std::countr_zero(candidates);
-    d.edges |= std::uint32_t{(inside[solid.tail[e]] | inside[solid.head[e]]) == all} << e;
+    d.edges |= std::uint64_t{(inside[solid.tail[e]] | inside[solid.head[e]]) == all} << e;
   }
 }
 
@@ -179,7 +178,7 @@ class Rows {
 };
 
 /// What has one of these vertices.
-Parts parts_at(std::uint32_t vertices, const SolidArrays& solid) {
+Parts parts_at(std::uint64_t vertices, const SolidArrays& solid) {
   Parts all;
   for (; vertices; vertices &= vertices - 1) all |= solid.star[std::countr_zero(vertices)];
   return all;
@@ -225,9 +224,9 @@ Slab slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vecto
       Lanes::all(1e-9 * r.lpNorm<1>() * (r.lpNorm<1>() + a.solid().circumradius() + b.solid().circumradius()));
   const Lanes top = greatest(highest) + slack, bottom = least(lowest) - slack;
   if (top.first() < bottom.first()) return {};
-  std::uint32_t out_a = 0, out_b = 0;
-  for (int k = 0; k < blocks_a; ++k) out_a |= sign_bits(along_a[k] - bottom) << 4 * k;
-  for (int k = 0; k < blocks_b; ++k) out_b |= sign_bits(top - along_b[k]) << 4 * k;
+  std::uint64_t out_a = 0, out_b = 0;
+  for (int k = 0; k < blocks_a; ++k) out_a |= std::uint64_t{sign_bits(along_a[k] - bottom)} << 4 * k;
+  for (int k = 0; k < blocks_b; ++k) out_b |= std::uint64_t{sign_bits(top - along_b[k])} << 4 * k;
   return {parts_at(~out_a & first_bits(a.vertices()), a.solid().arrays()),
           parts_at(~out_b & first_bits(b.vertices()), b.solid().arrays())};
 }
@@ -242,7 +241,7 @@ void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, 
                              const Slab& slab, Distances& d) {
   assert(slab.of_b.faces != 0);
   int count = 0;
-  for (std::uint32_t faces = slab.of_b.faces; faces; faces &= faces - 1)
+  for (std::uint64_t faces = slab.of_b.faces; faces; faces &= faces - 1)
     d.near_face[count++] = static_cast<std::uint8_t>(std::countr_zero(faces));
   const int vectors = (count + 3) / 4;
   // One plane more than once changes nothing.

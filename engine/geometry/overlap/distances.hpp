@@ -22,14 +22,13 @@ Slab slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vecto
 /// lie certainly outside, with every edge that ends there, may have no row, and planes that bound nothing of the
 /// intersection no column.
 struct Distances {
-  /// The largest table: three edges end at every vertex and surround every face, so that 32 edges allow 21 of each.
-  static constexpr int max_size = 21 * 24;
+  static constexpr int max_size = SolidArrays::capacity * SolidArrays::capacity;  ///< of a table
 
   int planes = 0;                ///< columns, padded to a multiple of 4 with planes that change nothing
   const std::uint8_t* face;      ///< of the other solid, by column
-  std::uint32_t rows = 0;        ///< vertices that have a row
-  std::uint32_t candidates = 0;  ///< edges with an end that is not certainly outside: both ends have rows
-  std::uint32_t edges = 0;       ///< of these, the ones that no plane has both ends outside of
+  std::uint64_t rows = 0;        ///< vertices that have a row
+  std::uint64_t candidates = 0;  ///< edges with an end that is not certainly outside: both ends have rows
+  std::uint64_t edges = 0;       ///< of these, the ones that no plane has both ends outside of
   double nearest = 0;            ///< least |distance| in the table
   int least_penetrated = 0;      ///< column of the plane that the vertices reach behind least,
   double least_penetration = 0;  ///< and how deep; not positive if it separates. Its last bits are noise
@@ -66,16 +65,26 @@ struct AnyCounts {
 };
 
 template <class Function>
-void with_counts(const SolidArrays& body, int planes, const Function& function) {
+inline void with_counts(const SolidArrays& body, int planes, const Function& function) {
   const int vectors = (planes + 3) / 4;
   switch (64 * body.vertices + vectors) {
     case 64 * 4 + 1: return function(Counts<4, 1, 6>{});
-    case 64 * 8 + 2: return function(Counts<8, 2, 12>{});
-    case 64 * 6 + 2: return function(Counts<6, 2, 12>{});
-    case 64 * 20 + 3: return function(Counts<20, 3, 30>{});
-    case 64 * 12 + 5: return function(Counts<12, 5, 30>{});
-    default: return function(AnyCounts{body.vertices, vectors, body.edges});
+    // Other solids have as many vertices, and more edges or fewer.
+    case 64 * 8 + 2:
+      if (body.edges == 12) return function(Counts<8, 2, 12>{});
+      break;
+    case 64 * 6 + 2:
+      if (body.edges == 12) return function(Counts<6, 2, 12>{});
+      break;
+    case 64 * 20 + 3:
+      if (body.edges == 30) return function(Counts<20, 3, 30>{});
+      break;
+    case 64 * 12 + 5:
+      if (body.edges == 30) return function(Counts<12, 5, 30>{});
+      break;
+    default: break;
   }
+  function(AnyCounts{body.vertices, vectors, body.edges});
 }
 
 /// Calls function(k) for k < n, without a loop if n is known: what it accumulates stays in registers.

@@ -1,6 +1,7 @@
 #include "engine/geometry/overlap/overlap.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
@@ -74,6 +75,15 @@ bool refined(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVecto
   return refine_small_corners(a, b, r, rough.area, loop);
 }
 
+template <class Displacement>
+void find_loop(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, ContactLoop& loop) {
+  if (std::max(a.solid().arrays().edges, b.solid().arrays().edges) <= narrow_edges) {
+    find_contact_loop<narrow_edges>(a, b, r, loop);
+  } else {
+    find_contact_loop<wide_edges>(a, b, r, loop);
+  }
+}
+
 void set_zero(OverlapHessian& hessian) {
   hessian.aa.setZero();
   hessian.ab.setZero();
@@ -85,7 +95,7 @@ template <class Displacement>
 Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis,
                    OverlapHessian* hessian) {
   ContactLoop loop;
-  find_contact_loop(a, b, r, loop);
+  find_loop(a, b, r, loop);
   Overlap result;
   if (loop.verdict == LoopVerdict::separated) {
     axis = loop.axis;

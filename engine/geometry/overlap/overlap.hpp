@@ -26,8 +26,8 @@ struct Overlap {
   double volume = 0;
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  std::uint32_t faces_a = 0, faces_b = 0;
-  std::uint32_t edges_a = 0, edges_b = 0;
+  std::uint64_t faces_a = 0, faces_b = 0;
+  std::uint64_t edges_a = 0, edges_b = 0;
   OverlapPath path = OverlapPath::separated;
 
   bool touching() const { return volume > 0; }

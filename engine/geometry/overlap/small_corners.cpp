@@ -14,7 +14,7 @@ namespace isojam {
 
 namespace {
 
-/// Of the inradius, for |S| over the width of the loop.
+/// Of fine_below(), for |S| over the width of the loop.
 constexpr double refined_below = 1e-2;
 
 DoubleDoubleVector operator+(const DoubleDoubleVector& p, const DoubleDoubleVector& q) {
@@ -61,7 +61,7 @@ double width(const ContactLoop& loop) {
 
 bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
                           const Eigen::Vector3d& area, ContactLoop& loop) {
-  if (area.norm() >= refined_below * std::min(a.solid().inradius(), b.solid().inradius()) * width(loop)) return false;
+  if (area.norm() >= refined_below * fine_below(a.solid(), b.solid()) * width(loop)) return false;
   const Side sides[2] = {{&a, &b, r, {}}, {&b, &a, -r, r}};
   const DoubleDoubleVector up = loop.of_a.least_penetration < loop.of_b.least_penetration
                                     ? b.normal_double_double(loop.of_a.least_penetrated_face())
@@ -69,8 +69,8 @@ bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const Doub
   DoubleDoubleVector origin;
   for (int k = 0; k < loop.spans; ++k) {
     const ContactLoop::Crossing& crossing = loop.crossing[k];
-    const Side& side = sides[crossing.edge / SolidArrays::capacity];
-    const EdgeRecord& edge = side.body->solid().arrays().record[crossing.edge % SolidArrays::capacity];
+    const Side& side = sides[crossing.edge / loop.edge_of_b];
+    const EdgeRecord& edge = side.body->solid().arrays().record[crossing.edge % loop.edge_of_b];
     const DoubleDoubleVector ends[2] = {
         crossing.enters() ? side.at_plane(edge, static_cast<int>(crossing.into)) : side.at_vertex(edge.tail),
         crossing.leaves() ? side.at_plane(edge, static_cast<int>(crossing.out_of)) : side.at_vertex(edge.head)};

@@ -25,17 +25,14 @@ DoubleDouble distance_double_double(const PlacedSolid& body, int vertex, const P
 
 namespace {
 
-std::uint32_t columns_below(double near, const double* row, int columns) {
-  std::uint32_t below = 0;
-  for (int k = 0; k < columns; k += 4) below |= sign_bits(absolute(Lanes::load(row + k)) - Lanes::all(near)) << k;
+std::uint64_t columns_below(double near, const double* row, int columns) {
+  std::uint64_t below = 0;
+  for (int k = 0; k < columns; k += 4)
+    below |= std::uint64_t{sign_bits(absolute(Lanes::load(row + k)) - Lanes::all(near))} << k;
   return below;
 }
 
 }  // namespace
-
-double double_double_below(const ConvexSolid& a, const ConvexSolid& b) {
-  return 2e-3 * std::min(a.inradius(), b.inradius());
-}
 
 void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, const DoubleDoubleVector& to_other,
                              Distances& d) {
@@ -43,10 +40,10 @@ void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, 
   if (d.nearest >= near) return;
   bool changed_side = false;
   d.nearest = near;
-  for (std::uint32_t rows = d.rows; rows; rows &= rows - 1) {
+  for (std::uint64_t rows = d.rows; rows; rows &= rows - 1) {
     const int v = std::countr_zero(rows);
     double* row = d.row(v);
-    for (std::uint32_t small = columns_below(near, row, d.planes); small; small &= small - 1) {
+    for (std::uint64_t small = columns_below(near, row, d.planes); small; small &= small - 1) {
       const int f = std::countr_zero(small);
       const double distance = distance_double_double(body, v, other, d.face[f], to_other).high;
       changed_side |= std::signbit(distance) != std::signbit(row[f]);

@@ -1,13 +1,20 @@
 #pragma once
 
+#include <algorithm>
+
 #include "engine/geometry/overlap/distances.hpp"
 #include "engine/geometry/placed_solid.hpp"
 
 namespace isojam {
 
-/// Distance below which a double-double overlap takes distances in double-double too: 2e-3 of the inradius. The
-/// rounding of larger ones, gap_tolerance(), is below 1e-11 of themselves.
-double double_double_below(const ConvexSolid& a, const ConvexSolid& b);
+/// The lesser fine_below() of the two, in the size of the larger one, whose coordinates are rounded most.
+inline double fine_below(const ConvexSolid& a, const ConvexSolid& b) {
+  return std::max(a.scale(), b.scale()) * std::min(a.fine_below(), b.fine_below());
+}
+
+/// Distance below which a double-double overlap takes distances in double-double too: 2e-3 of fine_below().
+/// The rounding of larger ones, gap_tolerance(), is below 1e-11 of themselves.
+inline double double_double_below(const ConvexSolid& a, const ConvexSolid& b) { return 2e-3 * fine_below(a, b); }
 
 /// Distance of a vertex from a face plane of the other solid, n·(y − to_other) − offset, negative inside, to 1e-31.
 /// Both solids are placed in double-double.

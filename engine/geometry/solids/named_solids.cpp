@@ -91,6 +91,28 @@ std::vector<Quad3> rhombic_dodecahedron() {
   return points;
 }
 
+/// The permutations of (0, ±1, ±2).
+std::vector<Quad3> truncated_octahedron() {
+  std::vector<Quad3> points;
+  add_rectangles(points, 1, 2);
+  add_rectangles(points, 2, 1);
+  return points;
+}
+
+/// What is cut off an edge at either end leaves √2 − 1 of it, as long as the cuts are.
+std::vector<Quad3> truncated_cube() {
+  std::vector<Quad3> points;
+  for (Quad3 point : cube()) {
+    for (Quad& coordinate : point) {
+      const Quad whole = coordinate;
+      coordinate *= square_root(2) - 1;
+      points.push_back(point);
+      coordinate = whole;
+    }
+  }
+  return points;
+}
+
 /// The point at the angle 2π k/n of the unit circle. Newton's method on z^n = 1 doubles the digits of its guess.
 std::array<Quad, 2> root_of_unity(int k, int n) {
   const long double angle = 2 * std::numbers::pi_v<long double> * k / n;
@@ -137,10 +159,16 @@ struct Named {
   std::string_view name;
   std::vector<Quad3> (*vertices)();
 };
-constexpr std::array list{Named{"tetrahedron", tetrahedron},     Named{"cube", cube},
-                          Named{"octahedron", octahedron},       Named{"dodecahedron", dodecahedron},
-                          Named{"icosahedron", icosahedron},     Named{"truncated_tetrahedron", truncated_tetrahedron},
-                          Named{"cuboctahedron", cuboctahedron}, Named{"rhombic_dodecahedron", rhombic_dodecahedron}};
+constexpr std::array list{Named{"tetrahedron", tetrahedron},
+                          Named{"cube", cube},
+                          Named{"octahedron", octahedron},
+                          Named{"dodecahedron", dodecahedron},
+                          Named{"icosahedron", icosahedron},
+                          Named{"truncated_tetrahedron", truncated_tetrahedron},
+                          Named{"cuboctahedron", cuboctahedron},
+                          Named{"rhombic_dodecahedron", rhombic_dodecahedron},
+                          Named{"truncated_octahedron", truncated_octahedron},
+                          Named{"truncated_cube", truncated_cube}};
 
 /// A family of solids with a number behind its name.
 struct Family {

@@ -14,7 +14,7 @@ namespace isojam {
 std::span<const std::string_view> named_solids();
 
 /// What the names of prisms and antiprisms look like, for messages.
-inline constexpr std::string_view prism_names = "prism3 to prism10 and antiprism4 to antiprism8";
+inline constexpr std::string_view prism_names = "prism3 to prism21 and antiprism4 to antiprism16";
 
 /// Vertices of a solid with a name of its own, in any units; nullopt for other names. All of its edges are of one
 /// length, those of prisms and antiprisms with a regular polygon of n sides for a base included (prism6, antiprism5);

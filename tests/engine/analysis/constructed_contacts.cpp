@@ -20,8 +20,8 @@ Site vertex_site(const ConvexSolid& solid, int vertex) {
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
     const Edge& edge = solid.edges()[e];
     if (edge.tail != vertex && edge.head != vertex) continue;
-    site.edges |= 1u << e;
-    site.faces |= 1u << edge.left | 1u << edge.right;
+    site.edges |= std::uint64_t{1} << e;
+    site.faces |= std::uint64_t{1} << edge.left | std::uint64_t{1} << edge.right;
   }
   return site;
 }
@@ -30,20 +30,20 @@ Site edge_site(const ConvexSolid& solid, int edge) {
   const Edge& e = solid.edges()[edge];
   const Vector3d bisector = solid.faces()[e.left].normal + solid.faces()[e.right].normal;
   return {(solid.vertices()[e.tail] + solid.vertices()[e.head]) / 2, bisector.normalized(),
-          1u << e.left | 1u << e.right, 1u << edge};
+          std::uint64_t{1} << e.left | std::uint64_t{1} << e.right, std::uint64_t{1} << edge};
 }
 
 Site face_site(const ConvexSolid& solid, int face) {
   const Face& f = solid.faces()[face];
   Vector3d centre = Vector3d::Zero();
   for (const int v : f.vertices) centre += solid.vertices()[v] / static_cast<double>(f.vertices.size());
-  return {centre, f.normal, 1u << face, 0};
+  return {centre, f.normal, std::uint64_t{1} << face, 0};
 }
 
 Site face_and_edges_site(const ConvexSolid& solid, int face) {
   Site site = face_site(solid, face);
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
-    if (solid.edges()[e].left == face || solid.edges()[e].right == face) site.edges |= 1u << e;
+    if (solid.edges()[e].left == face || solid.edges()[e].right == face) site.edges |= std::uint64_t{1} << e;
   }
   return site;
 }

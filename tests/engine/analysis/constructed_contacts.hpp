@@ -12,7 +12,7 @@ namespace isojam::constructed {
 struct Site {
   Eigen::Vector3d point;
   Eigen::Vector3d outward;
-  std::uint32_t faces = 0, edges = 0;
+  std::uint64_t faces = 0, edges = 0;
 };
 
 /// The vertex with its faces and edges, outward along its axis.

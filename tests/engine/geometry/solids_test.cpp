@@ -2,6 +2,7 @@
 //   the named solids have the numbers of faces, edges and vertices of their definitions, edges of one length, to 1e-30,
 //   and the volume that closed forms give for that length; prisms and antiprisms are those of their n;
 //   a hull of points in general position has each of them for a vertex, and every face supports;
+//   a hull with more than 64 vertices, faces or edges is refused in words, one with 64 edges is not;
 //   of points that are no solid the one to blame is named: twins, and points on an edge, on a face, and inside;
 //   the tensor of inertia of a box is that of the textbooks, and which solids are spherical tops;
 //   a Solid is one and the same for one name and one set of vertices, and ordered by what it is.
@@ -39,12 +40,14 @@ std::vector<Expected> expected_solids() {
   const double root2 = std::sqrt(2.0);
   std::vector<Expected> list{{"truncated_tetrahedron", 12, 18, 8, 23 * root2 / 12},
                              {"cuboctahedron", 12, 24, 14, 5 * root2 / 3},
-                             {"rhombic_dodecahedron", 14, 24, 12, 16 * std::sqrt(3.0) / 9}};
-  for (const std::size_t n : {3, 5, 6, 7, 8, 9, 10}) {
+                             {"rhombic_dodecahedron", 14, 24, 12, 16 * std::sqrt(3.0) / 9},
+                             {"truncated_octahedron", 24, 36, 14, 8 * root2},
+                             {"truncated_cube", 24, 36, 14, (21 + 14 * root2) / 3}};
+  for (const std::size_t n : {3, 5, 6, 7, 8, 9, 10, 11, 15, 16, 20, 21}) {
     const auto m = static_cast<double>(n);
     list.push_back({"prism" + std::to_string(n), 2 * n, 3 * n, n + 2, m / 4 / std::tan(pi / m)});
   }
-  for (const std::size_t n : {4, 5, 6, 7, 8}) {
+  for (const std::size_t n : {4, 5, 6, 7, 8, 9, 12, 15, 16}) {
     const auto m = static_cast<double>(n);
     const double root = std::sqrt(4 * std::pow(std::cos(pi / (2 * m)), 2) - 1);
     list.push_back({"antiprism" + std::to_string(n), 2 * n, 4 * n, 2 * n + 2,
@@ -78,8 +81,8 @@ TEST(NamedSolids, HaveEdgesOfOneLengthToTheLastDigit) {
 }
 
 TEST(NamedSolids, HaveNoOtherNames) {
-  for (const char* name : {"", "sphere", "prism", "prism4", "prism2", "prism11", "prism06", "prism6a", "prism-6",
-                           "antiprism3", "antiprism9", "Cube", "prism99999999999999999999"})
+  for (const char* name : {"", "sphere", "prism", "prism4", "prism2", "prism22", "prism06", "prism6a", "prism-6",
+                           "antiprism3", "antiprism17", "Cube", "prism99999999999999999999"})
     EXPECT_FALSE(Solid::named(name)) << name;
 }
 
@@ -124,9 +127,43 @@ TEST(Hull, BlamesThePointThatIsNoVertex) {
   EXPECT_EQ(blamed(with({0, .1, .8})), -2) << "outside: another solid";
   EXPECT_EQ(blamed(with({.6, .6, .6})), 8) << "a corner comes to lie inside";
   EXPECT_EQ(blamed({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), -1) << "flat";
+}
+
+/// Why there is no such solid; empty if there is.
+std::string refusal(const Points& points) {
+  try {
+    const ConvexSolid solid("x", points);
+    return {};
+  } catch (const NoSolid& error) {
+    EXPECT_EQ(error.vertex(), -1) << "none of them more than another";
+    return error.what();
+  }
+}
+
+TEST(Hull, IsRefusedWithMoreThanSixtyFourFeatures) {
+  RandomStream random{62};
+  Points points;
+  while (points.size() < 22) {
+    const Vector3d point = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+    if (point.z() < .7) points.push_back(point);
+  }
+  const auto with_top = [&](int corners) {
+    Points all = points;
+    for (int k = 0; k < corners; ++k)
+      all.emplace_back(.6 * std::cos(2 * pi * k / corners), .6 * std::sin(2 * pi * k / corners), .8);
+    return all;
+  };
+  // All triangles but the top: E = 3V − 6 − (corners − 3).
+  EXPECT_EQ(refusal(with_top(1)), "") << "63 edges";
+  points.erase(points.end() - 1);
+  EXPECT_EQ(refusal(with_top(3)), "a solid has at most 64 faces and edges, not 44 and 66");
+  points.erase(points.end() - 1);
+  EXPECT_EQ(refusal(with_top(4)), "a solid has at most 64 faces and edges, not 43 and 65");
+  points.erase(points.end() - 1);
+  EXPECT_EQ(refusal(with_top(5)), "") << "64 edges";
   Points many;
-  for (int k = 0; k < 33; ++k) many.emplace_back(std::cos(k), std::sin(k), .01 * k);
-  EXPECT_EQ(blamed(many), -1) << "33 vertices";
+  for (int k = 0; k < 65; ++k) many.emplace_back(std::cos(k), std::sin(k), .01 * k);
+  EXPECT_EQ(refusal(many), "a solid has 4 to 64 vertices, not 65");
 }
 
 TEST(Inertia, OfABoxIsThatOfTextbooks) {

@@ -32,7 +32,7 @@ using Eigen::Vector3d;
 /// enough to lie in a face, where those of the others reach over into neighbouring faces.
 struct ConstructedPairs {
   Packing packing;
-  std::vector<std::uint32_t> faces;  ///< per particle, as bits
+  std::vector<std::uint64_t> faces;  ///< per particle, as bits
 };
 
 constexpr int pairs_a_side = 4, pairs = pairs_a_side * pairs_a_side * pairs_a_side;

@@ -66,7 +66,8 @@ TEST(Refusals, AllAtOnceInTheOrderOfTheDocument) {
       refusals(text).at(4),
       "m.json: /sweep/solid/0: unknown value \"octahedra\"; allowed: \"tetrahedron\", \"cube\", \"octahedron\", "
       "\"dodecahedron\", \"icosahedron\", \"truncated_tetrahedron\", \"cuboctahedron\", \"rhombic_dodecahedron\", "
-      "prism3 to prism10 and antiprism4 to antiprism8, or a name that /solids defines; did you mean \"octahedron\"?");
+      "\"truncated_octahedron\", \"truncated_cube\", prism3 to prism21 and antiprism4 to antiprism16, or a name that "
+      "/solids defines; did you mean \"octahedron\"?");
 }
 
 TEST(Refusals, NothingThatFollowsFromAnotherError) {

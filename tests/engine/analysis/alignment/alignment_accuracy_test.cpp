@@ -33,7 +33,7 @@ Alignment in_quad(const ConvexSolid& solid, const Packing& packing, const Contac
     const Quad3 along = arrays.vertex(arrays.edge[e].head) - arrays.vertex(arrays.edge[e].tail);
     return rotation * ((1 / norm(along)) * along);
   };
-  const auto each = [](std::uint32_t mask, const auto& action) {
+  const auto each = [](std::uint64_t mask, const auto& action) {
     for (; mask != 0; mask &= mask - 1) action(std::countr_zero(mask));
   };
   Alignment best;

@@ -130,7 +130,7 @@ class CriticalAnglesOf : public testing::TestWithParam<SolidKind> {
       Site site = constructed::vertex_site(solid, 0);
       site.outward.setZero();
       std::size_t k = 0;
-      for (std::uint32_t mask = site.faces; mask != 0; mask &= mask - 1) {
+      for (std::uint64_t mask = site.faces; mask != 0; mask &= mask - 1) {
         site.outward += t[k++] * solid.faces()[std::countr_zero(mask)].normal;
       }
       // All weights 0 is no direction.

@@ -70,26 +70,26 @@ TEST(Slab, KeepsWhatBoundsTheIntersection) {
 }
 
 /// Vertices of a solid at `centre` whose place along u is above `bound`, below if `sign` is −1.
-std::uint32_t beyond(const PlacedSolid& solid, const Vector3d& centre, const Vector3d& u, double sign, double bound) {
-  std::uint32_t found = 0;
+std::uint64_t beyond(const PlacedSolid& solid, const Vector3d& centre, const Vector3d& u, double sign, double bound) {
+  std::uint64_t found = 0;
   for (int v = 0; v < solid.vertices(); ++v)
-    found |= std::uint32_t{sign * u.dot(centre + solid.vertex(v)) >= sign * bound} << v;
+    found |= std::uint64_t{sign * u.dot(centre + solid.vertex(v)) >= sign * bound} << v;
   return found;
 }
 
 /// Parts with one of the vertices.
-Parts parts_with(const ConvexSolid& solid, std::uint32_t vertices) {
+Parts parts_with(const ConvexSolid& solid, std::uint64_t vertices) {
   Parts parts;
   const auto has = [&](int v) { return (vertices >> v & 1) != 0; };
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
     const Edge& edge = solid.edges()[e];
     if (!has(edge.tail) && !has(edge.head)) continue;
-    parts.edges |= std::uint32_t{1} << e;
-    parts.vertices |= std::uint32_t{1} << edge.tail | std::uint32_t{1} << edge.head;
+    parts.edges |= std::uint64_t{1} << e;
+    parts.vertices |= std::uint64_t{1} << edge.tail | std::uint64_t{1} << edge.head;
   }
   for (std::size_t f = 0; f < solid.faces().size(); ++f) {
     const auto& corners = solid.faces()[f].vertices;
-    if (std::any_of(corners.begin(), corners.end(), has)) parts.faces |= std::uint32_t{1} << f;
+    if (std::any_of(corners.begin(), corners.end(), has)) parts.faces |= std::uint64_t{1} << f;
   }
   return parts;
 }
@@ -135,10 +135,10 @@ TEST(NearDistances, AreThoseOfTheWholeTable) {
     tabulate_near_distances(a, b, placed.r, slab, near);
     EXPECT_EQ(near.rows, slab.of_a.vertices);
     EXPECT_EQ(near.candidates, slab.of_a.edges);
-    std::uint32_t faces = 0;
-    for (int k = 0; k < near.planes; ++k) faces |= std::uint32_t{1} << near.face[k];
+    std::uint64_t faces = 0;
+    for (int k = 0; k < near.planes; ++k) faces |= std::uint64_t{1} << near.face[k];
     EXPECT_EQ(faces, slab.of_b.faces) << describe(pair);
-    for (std::uint32_t rows = near.rows; rows; rows &= rows - 1) {
+    for (std::uint64_t rows = near.rows; rows; rows &= rows - 1) {
       const int v = std::countr_zero(rows);
       for (int k = 0; k < near.planes; ++k) {
         const double distance = b.normal(near.face[k]).dot(a.vertex(v) - placed.r) - b.offset()[near.face[k]];

@@ -78,7 +78,7 @@ struct Contact {
   Quaterniond orientation;
   Vector3d start;   ///< x_B at depth 0
   Vector3d normal;  ///< outward from A
-  std::uint32_t faces_a = 0, faces_b = 0, edges_a = 0, edges_b = 0;
+  std::uint64_t faces_a = 0, faces_b = 0, edges_a = 0, edges_b = 0;
 
   Pair at(double depth) const { return {kind, kind, {}, {start - depth * normal, orientation}}; }
   double volume(double depth) const { return overlap(at(depth)).volume; }
@@ -98,7 +98,7 @@ Contact facing(SolidKind kind, const Vector3d& on, const Vector3d& normal, const
   return {kind, q.normalized(), on - q.normalized() * feature, normal};
 }
 
-std::uint32_t bit(int k) { return std::uint32_t{1} << k; }
+std::uint64_t bit(int k) { return std::uint64_t{1} << k; }
 
 Contact vertex_on_face(SolidKind kind, double spin) {
   const ConvexSolid& solid = platonic(kind);

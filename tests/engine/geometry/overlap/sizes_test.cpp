@@ -1,0 +1,176 @@
+// Facts proved here, of solids of unlike sizes, 1 : 1.4, 1 : 3 and 1 : 10, narrow and wide ones, the smaller of unit
+// volume and either of them A, overlap() in double-double against clipping in quadruple precision:
+//   V, S and M of faces in contact, depth 1e-4 … 1e-12 and tilted by as much, are right to 1e-13, half of them to
+//   1e-15; of corners over faces and edges over edges, V 1e-3 … 1e-15, to 1e-12; the Hessian is the difference of S in
+//   quadruple precision, to 1e-8 of the block of translations; of a solid inside another V is its volume, to 1e-14, and
+//   S and M are 0, to 1e-14 of its area and of that times the distance;
+// and of pairs made larger or smaller as a whole, s times: that V, S, M and the Hessian are what they were times their
+// powers of s, to the last bit for powers of two, and to 1e-12 for others.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/geometry/solids/solid.hpp"
+#include "tests/engine/geometry/overlap/exact_pairs.hpp"
+#include "tests/engine/geometry/overlap/pairs.hpp"
+
+namespace isojam {
+namespace {
+
+using namespace testing_pairs;
+using Eigen::Vector3d;
+
+constexpr double ratios[] = {1.4, 3, 10};
+
+const std::vector<Solid>& unit_solids() {
+  static const std::vector<Solid> solids{*Solid::named("tetrahedron"),
+                                         *Solid::named("cube"),
+                                         *Solid::named("octahedron"),
+                                         *Solid::named("truncated_tetrahedron"),
+                                         Solid::made_of("rock", points_on_sphere(10, 71)),
+                                         *Solid::named("truncated_octahedron"),
+                                         Solid::made_of("stone", points_on_sphere(22, 81))};
+  return solids;
+}
+
+/// Every pair of kinds at every ratio, A the larger one in every other.
+template <class Visit>
+void for_each_pair(const Visit& visit) {
+  bool a_is_large = false;
+  for (const double ratio : ratios) {
+    for (const Solid& kind : unit_solids()) {
+      const ConvexSolid large(*kind, ratio);
+      for (const Solid& small : unit_solids()) {
+        const std::string what = "large " + large.name() + ", small " + small->name() + ", " + std::to_string(ratio);
+        a_is_large = !a_is_large;
+        a_is_large ? visit(large, *small, what) : visit(*small, large, what);
+      }
+    }
+  }
+}
+
+TEST(UnlikeSizes, AreRightWhereFacesMeet) {
+  RandomStream random{91};
+  std::vector<double> errors;
+  int clipped = 0;
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b, const std::string& what) {
+    for (double depth = 1e-4; depth > 5e-13; depth /= 10) {
+      const PosedPair pair = flat_contact(a, b, depth, depth * random.uniform(), random);
+      clipped += found(pair).path == OverlapPath::clip;
+      const double here = error(pair);
+      EXPECT_LE(here, 1e-13) << what << ", depth " << depth;
+      errors.push_back(here);
+    }
+  });
+  std::sort(errors.begin(), errors.end());
+  const double middle = errors[errors.size() / 2];
+  std::printf("%zu flat contacts: %.1e at worst, %.1e in the middle, %d of them clipped\n", errors.size(),
+              errors.back(), middle, clipped);
+  EXPECT_LE(middle, 1e-15);
+  EXPECT_LT(clipped, static_cast<int>(errors.size()) / 50);
+}
+
+TEST(UnlikeSizes, AreRightWhereCornersAndEdgesMeet) {
+  RandomStream random{92};
+  double worst = 0;
+  int pairs = 0, skipped = 0, clipped = 0;
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b, const std::string& what) {
+    for (const double volume : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
+      const auto approach = (pairs + skipped) % 2 == 0 ? corner_over_face : edge_over_edge;
+      const auto touching = at_volume(approach(a, b, random), volume);
+      if (!touching) ++skipped;
+      if (!touching) continue;
+      ++pairs;
+      clipped += found(*touching).path == OverlapPath::clip;
+      const double here = error(*touching);
+      EXPECT_LE(here, 1e-12) << what << ", V " << volume;
+      worst = std::max(worst, here);
+    }
+  });
+  std::printf("%d pointed contacts: %.1e at worst, %d clipped, %d not made\n", pairs, worst, clipped, skipped);
+  EXPECT_GT(pairs, 600);
+  EXPECT_LT(clipped, pairs / 50);
+}
+
+TEST(UnlikeSizes, HaveTheHessiansOfDifferences) {
+  RandomStream random{93};
+  double worst = 0;
+  int pairs = 0;
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b, const std::string& what) {
+    const auto touching = at_volume(random_approach(a, b, random), 1e-3);
+    if (!touching) return;
+    ++pairs;
+    const double here = hessian_error(*touching);
+    EXPECT_LE(here, 1e-8) << what;
+    worst = std::max(worst, here);
+  });
+  std::printf("slopes of S of %d pairs: %.1e at worst\n", pairs, worst);
+  EXPECT_GT(pairs, 100);
+}
+
+TEST(UnlikeSizes, AreRightWhereOneHoldsTheOther) {
+  RandomStream random{94};
+  double worst = 0;
+  int inside = 0;
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b, const std::string& what) {
+    const double room = std::max(a.inradius(), b.inradius()) - std::min(a.circumradius(), b.circumradius());
+    if (room <= 0) return;
+    for (const double distance : {0.0, 1e-9, .5, .999}) {
+      PosedPair pair{a, b, {}, {}};
+      pair.at_a.orientation = random_orientation(random), pair.at_b.orientation = random_orientation(random);
+      pair.at_b.position = distance * room * random_direction(random);
+      const Overlap got = found(pair);
+      const double here = std::max({std::abs(got.volume - 1), got.area.norm(), got.moment.norm() / (1 + room)});
+      EXPECT_LE(here, 1e-14) << what << ", " << distance << " of the way to the surface";
+      worst = std::max(worst, here);
+      ++inside;
+    }
+  });
+  std::printf("%d inside: %.1e at worst\n", inside, worst);
+  EXPECT_GT(inside, 200);
+}
+
+/// Largest difference of what `larger` has from what `pair` has, in powers of s, over |V|, |S|, |M| and |H|.
+double difference(const PosedPair& pair, const PosedPair& larger, double s) {
+  OverlapHessian h, scaled_h;
+  const Overlap one = found(pair, h), other = found(larger, scaled_h);
+  const auto off = [](const auto& p, const auto& q) { return (p - q).norm() / p.norm(); };
+  const auto rows = [s](const Matrix6d& block) {
+    const Vector6d powers = joined(Vector3d::Ones(), Vector3d::Constant(s));
+    return Matrix6d(powers.asDiagonal() * block * powers.asDiagonal() * s);
+  };
+  return std::max({std::abs(other.volume / (one.volume * s * s * s) - 1), off(Vector3d(one.area * s * s), other.area),
+                   off(Vector3d(one.moment * s * s * s), other.moment), off(rows(h.aa), scaled_h.aa),
+                   off(rows(h.ab), scaled_h.ab), off(rows(h.bb), scaled_h.bb)});
+}
+
+TEST(ScaledPairs, HaveThePowersOfTheScale) {
+  RandomStream random{95};
+  double worst = 0;
+  int pairs = 0;
+  for (const auto& [s, limit] : {std::pair(2.0, 0.0), {.25, 0.0}, {1.7, 1e-12}, {.03, 1e-12}}) {
+    for (const Solid& kind_a : unit_solids()) {
+      for (const Solid& kind_b : unit_solids()) {
+        const ConvexSolid a(*kind_a, s), b(*kind_b, s);
+        const auto touching = at_volume(random_approach(*kind_a, *kind_b, random), pairs % 2 == 0 ? 1e-3 : 1e-8);
+        if (!touching) continue;
+        const PosedPair larger{a, b, scaled(touching->at_a, s), scaled(touching->at_b, s)};
+        const double here = difference(*touching, larger, s);
+        EXPECT_LE(here, limit) << to_string(kind_a) << " and " << to_string(kind_b) << " × " << s;
+        worst = std::max(worst, here);
+        ++pairs;
+      }
+    }
+  }
+  std::printf("%d scaled pairs: %.1e at worst\n", pairs, worst);
+  EXPECT_GT(pairs, 150);
+}
+
+}  // namespace
+}  // namespace isojam
