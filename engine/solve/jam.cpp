@@ -154,7 +154,7 @@ class StrainStep {
     const bool first = result_.states.empty();
     const JamStep& step = first ? relax(next) : strained_down(next);
     if (must_end(step)) return;
-    if (first && result_.path.size() > 1 && gave_way_at_the_top(step)) {
+    if (first && !progress_.jammed && gave_way_at_the_top(step)) {
       progress_.stage = JamStage::consolidation;
       progress_.packing = std::move(next);
       return;
@@ -306,6 +306,10 @@ std::vector<EnergyPoint> energy_points(const JamResult& result) {
 
 JamProgress begin_jam(Packing start, const JamOptions& options) {
   return {std::move(start), JamStage::consolidation, options.step_fraction, 0, -1, {}};
+}
+
+JamProgress begin_expansion(Packing jammed, const JamOptions& options) {
+  return {std::move(jammed), JamStage::expansion, options.step_fraction, 0, -1, {}, true};
 }
 
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop) {

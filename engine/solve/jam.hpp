@@ -160,12 +160,16 @@ struct JamProgress {
   /// again. −1: none did.
   int lost = -1;
   JamResult result;  ///< so far; not_called while steps remain
+  /// Before the first step: the packing counts as jammed, however low its energy, and that step is one of expansion.
+  bool jammed = false;
 
   bool ended() const { return result.status != JamStatus::not_called; }
 };
 
 /// Progress of a run before its first strain step.
 JamProgress begin_jam(Packing start, const JamOptions& options);
+/// The same of a packing that is jammed already, to be expanded from where it stands.
+JamProgress begin_expansion(Packing jammed, const JamOptions& options);
 
 /// Makes the next strain step of a run that has not ended: minimised and appended to the path, its state kept if it is
 /// one of the expansion and an equilibrium, or ended by minimise.energy_change. After a stop request the run ends as

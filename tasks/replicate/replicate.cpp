@@ -14,9 +14,9 @@ namespace {
 
 Checkpoint begin(const ReplicateSpec& spec) {
   if (spec.start) {
-    auto progress = begin_jam(begun_from(*spec.start, spec.replicate), spec.options);
-    progress.stage = spec.start->stage;
-    return {std::move(progress), {}};
+    auto packing = begun_from(*spec.start, spec.replicate);
+    const bool jammed = spec.start->stage == JamStage::expansion;
+    return {jammed ? begin_expansion(std::move(packing), spec.options) : begin_jam(std::move(packing), spec.options), {}};
   }
   auto random = replicate_stream(spec, Purpose::placement);
   return {begin_jam(random_packing(spec.solid.particles(spec.particles), spec.options.initial_density, random),

@@ -161,7 +161,7 @@ TEST(DynamicalMatrix, OfMixturesHasTheirMasses) {
   // Lanczos keeps translations out by the same masses: its ends are those of the dense solver.
   const SpectrumEnds ends = spectrum_ends(matrix);
   const ModeSet dense = dense_modes(matrix);
-  EXPECT_NEAR(ends.lambda_max, scale, 1e-10 * scale);
+  EXPECT_NEAR(ends.lambda_max, modes.values.maxCoeff(), 1e-10 * scale);
   for (Eigen::Index k = 0; k < std::min<Eigen::Index>(4, ends.lowest.size()); ++k)
     EXPECT_NEAR(ends.lowest.eigenvalues[k], dense.eigenvalues[k], 1e-9 * scale) << k;
   EXPECT_LE((still.transpose() * ends.lowest.vectors).cwiseAbs().maxCoeff(), 1e5 * eps);

@@ -261,7 +261,7 @@ TEST(Starts, AreRefusedAtTheirPlace) {
          "none of cube");
 }
 
-/// As a user of HOOMD-blue writes it: lengths in edges, the solid's vertices about no particular point.
+/// As a user of HOOMD-blue writes it: lengths in edges, the solid's vertices not about its centroid.
 TEST(Starts, FromAFileThatPythonWrote) {
   const test::TemporaryDirectory directory;
   test::write_text(directory / "write.py", R"(import itertools, math, random
@@ -275,7 +275,7 @@ cells = list(itertools.product(range(n), repeat=3))
 snapshot.particles.N = len(cells)
 snapshot.particles.types = ['box']
 snapshot.particles.type_shapes = [{'type': 'ConvexPolyhedron', 'rounding_radius': 0,
-    'vertices': [[x, y, z] for x in (0, 1) for y in (0, 1.2) for z in (0, 1.4)]}]
+    'vertices': [[x, y, z] for x in (-.4, .6) for y in (-.5, .7) for z in (-.6, .8)]}]
 snapshot.particles.position = [[(c + .5) * edge - L / 2 for c in cell] for cell in cells]
 quaternions = []
 for _ in cells:

@@ -92,14 +92,14 @@ TEST(SolidDefinitions, RefuseWhatIsNoSolidAllAtOnce) {
 
 TEST(SolidDefinitions, AreHeldToTheFeaturesThatThereIsRoomFor) {
   Json sphere = Json::array();
-  for (int k = 0; k < 20; ++k) {
-    const double z = (2.0 * k + 1) / 20 - 1, turn = 2.4 * k, r = std::sqrt(1 - z * z);
+  for (int k = 0; k < 24; ++k) {
+    const double z = (2.0 * k + 1) / 24 - 1, turn = 2.4 * k, r = std::sqrt(1 - z * z);
     sphere.push_back({r * std::cos(turn), r * std::sin(turn), z});
   }
   std::string all;
   EXPECT_EQ(refused(swept({{"ball", {{"vertices", sphere}}}}, {"ball"}), &all),
             std::vector<std::string>{"/solids/ball/vertices"});
-  EXPECT_NE(all.find("36 and 54"), std::string::npos) << "faces and edges of 20 points: " << all;
+  EXPECT_NE(all.find("44 and 66"), std::string::npos) << "faces and edges of 24 points: " << all;
 }
 
 TEST(SolidDefinitions, NeedParticlesForTheirOwnSize) {
