@@ -16,7 +16,8 @@ Checkpoint begin(const ReplicateSpec& spec) {
   if (spec.start) {
     auto packing = begun_from(*spec.start, spec.replicate);
     const bool jammed = spec.start->stage == JamStage::expansion;
-    return {jammed ? begin_expansion(std::move(packing), spec.options) : begin_jam(std::move(packing), spec.options), {}};
+    return {jammed ? begin_expansion(std::move(packing), spec.options) : begin_jam(std::move(packing), spec.options),
+            {}};
   }
   auto random = replicate_stream(spec, Purpose::placement);
   return {begin_jam(random_packing(spec.solid.particles(spec.particles), spec.options.initial_density, random),

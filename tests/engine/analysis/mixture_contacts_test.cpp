@@ -2,9 +2,9 @@
 //   every contact is classified by the cut-offs of its own pair of shapes, which are fitted to their contacts alone;
 //   of one shape in several sizes all contacts are fitted together, as if it had one;
 //   numbers of kinds, weighted by how many there are, are those of all;
-//   critical angles of two shapes do not depend on their order, are the solid's own for two alike, and where edges cross
-//   are the largest that a search over turns of both edges finds;
-//   alignment is of the features that each of the two has.
+//   critical angles of two shapes do not depend on their order, are the solid's own for two alike, and where edges
+//   cross are the largest that a search over turns of both edges finds; alignment is of the features that each of the
+//   two has.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,8 @@ TEST(MixtureContacts, AreClassifiedByTheirPairOfShapes) {
     }
     EXPECT_EQ(static_cast<long>(members.size()), pair.contacts);
     const CriticalAngles critical = critical_angles(*pair.a, *pair.b);
-    const double ff = fit_cdf(face_face, critical.ff_min() / 2).cutoff, ef = fit_cdf(edge_face, critical.ef_min() / 2).cutoff;
+    const double ff = fit_cdf(face_face, critical.ff_min() / 2).cutoff,
+                 ef = fit_cdf(edge_face, critical.ef_min() / 2).cutoff;
     EXPECT_EQ(pair.cutoffs.face_face.cutoff, ff);
     EXPECT_EQ(pair.cutoffs.edge_face.cutoff, ef);
     EXPECT_EQ(&analysis.cutoffs_of(*pair.b, *pair.a), &pair.cutoffs);
@@ -133,7 +134,8 @@ double searched_crossing(double alpha, double beta) {
           for (const int q : {-1, 1}) {
             const double a = turn_a + p * alpha, b = turn_b + q * beta;
             const Vector3d n(0, std::sin(a), std::cos(a));  // A's edge lies along x
-            const Vector3d m = -Vector3d(-std::sin(between) * std::sin(b), std::cos(between) * std::sin(b), std::cos(b));
+            const Vector3d m =
+                -Vector3d(-std::sin(between) * std::sin(b), std::cos(between) * std::sin(b), std::cos(b));
             least = std::min(least, std::atan2(n.cross(m).norm(), -n.dot(m)));
           }
         }
