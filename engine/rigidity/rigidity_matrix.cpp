@@ -29,10 +29,11 @@ class Rows {
 
   /// Turns of A against B about `axis`, a unit vector in the frame of A.
   void add_tilt(const Contact& contact, const Vector3d& axis) {
-    // θ_A − θ_B = R·θ_A/R_A − R·θ_B/R_B.
-    const double a = radius(contact.pair.a), b = radius(contact.pair.b), both = std::hypot(a, b);
-    const Vector3d turn = orientation(contact.pair.a) * axis;
-    add(contact, joined(Vector3d::Zero(), b / both * turn), joined(Vector3d::Zero(), -a / both * turn));
+    // θ_A − θ_B = R·θ_A/R_A − R·θ_B/R_B; the row has unit length.
+    const double ratio = radius(contact.pair.a) / radius(contact.pair.b);
+    const Vector3d turn =
+        std::sqrt(2 / (1 + ratio * ratio)) * (orientation(contact.pair.a) * axis / std::numbers::sqrt2);
+    add(contact, joined(Vector3d::Zero(), turn), joined(Vector3d::Zero(), -ratio * turn));
     forces_.push_back(0);
   }
 

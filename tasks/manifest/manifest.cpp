@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "tasks/json/hash.hpp"
 #include "tasks/json/input_error.hpp"
@@ -105,6 +106,11 @@ void read_sweep(const JsonPlace& place, const SolidDefinitions& definitions, Man
   place.read("solid", [&](const JsonPlace& list) {
     manifest.solids = read_sweep_list(list, "the name of a solid or a mixture",
                                       [&](const JsonPlace& entry) { return read_sweep_entry(entry, definitions); });
+    std::set<std::string_view> taken;
+    for (const auto& mixture : manifest.solids) {
+      if (!taken.insert(to_string(mixture)).second)
+        list.refuse(fmt::format("two entries have the name {}", to_string(mixture)), "names that differ");
+    }
   });
   place.read("particles", [&](const JsonPlace& list) {
     manifest.particles = read_sweep_list(list, integer_in(particle_range), [](const JsonPlace& entry) {

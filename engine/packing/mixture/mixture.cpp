@@ -88,8 +88,9 @@ int least_particles(const Mixture& mixture, double density) {
       widest = std::max(widest, particle.scale * particle.unit->diameter());
     return side_at(n, density) > 2 * widest;
   };
+  constexpr int most = 1 << 17;
   int few = 0, enough = 1;
-  while (!is_legal_for(enough) && enough < 1 << 24) few = enough, enough *= 2;
+  while (!is_legal_for(enough) && enough < most) few = enough, enough *= 2;
   while (enough - few > 1) {
     const int middle = few + (enough - few) / 2;
     (is_legal_for(middle) ? enough : few) = middle;

@@ -53,7 +53,7 @@ class Mixture {
 
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
-/// Least number of particles of a mixture whose cubic cell is legal up to density φ.
+/// Least number of particles of a mixture whose cubic cell is legal up to density φ; 2^17 if that is not enough.
 int least_particles(const Mixture& mixture, double density);
 
 }  // namespace isojam

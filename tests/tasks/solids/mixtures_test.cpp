@@ -101,6 +101,9 @@ TEST(Mixtures, AreRefusedAtTheirPlace) {
   named["name"] = "cube";
   expect(said(named), "/sweep/solid/0/name");
   expect(refused(swept({two_sizes, two_sizes})), "/sweep/solid");
+  auto one = two_sizes, other = two_shapes;
+  one["name"] = other["name"] = "twice";
+  expect(refused(swept({one, other})), "two entries have the name twice");
 }
 
 TEST(Mixtures, PackingsComeBackBitForBit) {
