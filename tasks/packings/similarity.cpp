@@ -76,7 +76,7 @@ std::optional<Similarity> similarity(const ConvexSolid& solid, std::span<const E
   const auto rotation = rotation_onto(own.points, others.points);
   if (!rotation) return std::nullopt;
   const double scale = others.size / own.size;
-  return Similarity{scale, Eigen::Quaterniond(*rotation).normalized(), others.mean - scale * (*rotation * own.mean)};
+  return Similarity{Eigen::Quaterniond(*rotation).normalized(), others.mean - scale * (*rotation * own.mean), scale};
 }
 
 }  // namespace isojam

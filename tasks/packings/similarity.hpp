@@ -11,9 +11,9 @@ namespace isojam {
 
 /// How a solid of unit volume stands in a frame of others: y = shift + scale·rotation·x.
 struct Similarity {
-  double scale = 1;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  double scale = 1;
 };
 
 /// The one that takes the solid to the hull of these points, which are its vertices in any order, to 1e-4 of its size;

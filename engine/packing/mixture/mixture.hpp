@@ -17,6 +17,7 @@ struct MixtureKind {
   double fraction = 1;  ///< of the particles, by number
   Sizes sizes{};
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): it takes the 0 of a defaulted comparison for a pointer
   friend auto operator<=>(const MixtureKind&, const MixtureKind&) = default;
 };
 

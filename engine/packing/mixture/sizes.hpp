@@ -19,6 +19,7 @@ inline constexpr std::array enum_names<SizeLaw>{
 struct SizeShare {
   double size = 1, fraction = 1;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): it takes the 0 of a defaulted comparison for a pointer
   friend auto operator<=>(const SizeShare&, const SizeShare&) = default;
 };
 
@@ -36,6 +37,7 @@ struct Sizes {
   /// For names: "" of a fixed size of 1, otherwise as "1.4", "0.8to1.2" or "1ln0.3".
   std::string text() const;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): it takes the 0 of a defaulted comparison for a pointer
   friend auto operator<=>(const Sizes&, const Sizes&) = default;
 };
 
