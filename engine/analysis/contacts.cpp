@@ -108,7 +108,9 @@ std::vector<ContactNumbers> numbers_of_kinds(const Composition& solids, int part
   std::vector<ContactNumbers> numbers;
   for (const Counts& kind : counts) {
     const auto [ff, ef, l] = kind.ends;
-    const auto mean = [&](long ends) { return static_cast<double>(ends) / static_cast<double>(kind.particles); };
+    // A kind without particles has no contacts either.
+    const auto per = static_cast<double>(std::max(kind.particles, 1L));
+    const auto mean = [per](long ends) { return static_cast<double>(ends) / per; };
     numbers.push_back(
         {.Z = mean(ff + ef + l), .Z_ff = mean(ff), .Z_ef = mean(ef), .Z_l = mean(l), .C = mean(3 * ff + 2 * ef + l)});
   }

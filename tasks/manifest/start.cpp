@@ -21,7 +21,12 @@ constexpr std::size_t most_files = 10000;
 StartFile read_file_place(const JsonPlace& place) {
   const std::filesystem::path given = place.text(allowed_file);
   auto path = given.is_absolute() ? given : std::filesystem::path(place.file()).parent_path() / given;
-  return {std::filesystem::absolute(path).lexically_normal().string(), -1, "", {}};
+  const auto whole = std::filesystem::absolute(path).lexically_normal().string();
+  // The manifest's own path may hold bytes that no document can.
+  constexpr auto ignored = Json::error_handler_t::ignore;
+  if (Json::parse(Json(whole).dump(-1, ' ', false, ignored)) != Json(whole))
+    place.refuse("the path of the file is no UTF-8, so that no record could name it", "a path in UTF-8");
+  return {whole, -1, "", {}};
 }
 
 void refuse_overlaps(const JsonPlace& place, const Packing& packing) {

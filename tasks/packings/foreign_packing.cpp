@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 
 /// Of a size: what single precision leaves, and a shape's vertices.
 constexpr double size_tolerance = 1e-3;
+/// Numbers of images stay far from what an int can hold.
+constexpr double most_cells = 1e6;
 
 /// A type as one of a mixture's solids.
 struct Match {
@@ -64,7 +66,7 @@ std::vector<Particle> assigned(const Mixture& mixture, const std::vector<Particl
   auto result = in_file;
   for (std::size_t k = 0; k < order.size(); ++k) {
     auto& particle = result[order[k]];
-    if (particle.unit != own[k].unit || std::abs(particle.scale - own[k].scale) > size_tolerance * own[k].scale)
+    if (particle.unit != own[k].unit || !(std::abs(particle.scale - own[k].scale) <= size_tolerance * own[k].scale))
       throw NoPackingFile(
           fmt::format("its {} particles are not those of {}: one is a {} of size {:.6g}, which has {} of "
                       "size {:.6g}",
@@ -97,6 +99,7 @@ Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
     volume += std::pow(particles.back().scale, 3);
   }
   const double unit = std::cbrt(volume / static_cast<double>(particles.size()));
+  if (!std::isfinite(unit) || !(unit > 0)) throw NoPackingFile("its particles have no size that a number can hold");
   for (auto& particle : particles) particle.scale /= unit;
   try {
     Packing packing{Composition(assigned(mixture, particles)), cell_of(foreign.cell / unit), {}};
@@ -105,6 +108,9 @@ Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
       Pose pose;
       pose.position = (body.position + body.orientation * (body.size * place.shift)) / unit;
       pose.orientation = (body.orientation * place.rotation).normalized();
+      // Written so that what is not a number is refused too.
+      if (!(packing.cell.fractional(pose.position).cwiseAbs().maxCoeff() <= most_cells))
+        throw NoPackingFile(fmt::format("particle {} lies more than {} cells away", packing.size(), most_cells));
       packing.poses.push_back(pose);
     }
     return packing;

@@ -162,6 +162,12 @@ TEST(ForeignPackings, AreNotTrusted) {
   }
   EXPECT_GT(refused, 150) << "those that were cut, at least";
   EXPECT_THROW(packing_of(read_gsd_packing(whole, -1), SolidKind::octahedron), NoPackingFile);
+  // What overflows on the way is told, and not carried on.
+  auto far = read_gsd_packing(whole, -1), huge = far;
+  far.bodies[3].position[1] = 3e38;
+  EXPECT_THROW(packing_of(far, SolidKind::cube), NoPackingFile);
+  for (auto& vertex : huge.types[0].vertices) vertex *= 1e140;
+  EXPECT_THROW(packing_of(huge, SolidKind::cube), NoPackingFile);
   EXPECT_THROW(read_gsd_packing(whole, 1), NoPackingFile);
   EXPECT_THROW(read_xyz_packing("", -1), NoPackingFile);
   EXPECT_THROW(read_xyz_packing("2\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=species:S:1:pos:R:3\ncube 0 0 0\n", -1),
@@ -259,6 +265,19 @@ TEST(Starts, AreRefusedAtTheirPlace) {
            return cubes;
          }()),
          "none of cube");
+}
+
+TEST(Starts, AreRefusedWhereNoRecordCouldNameThem) {
+  const test::TemporaryDirectory directory;
+  const auto odd = directory / "\xFF\xFE";
+  std::filesystem::create_directory(odd);
+  const std::vector<ExportFrame> frames{make_frame(sample(SolidKind::octahedron, 64), std::nullopt)};
+  test::write_text(odd / "a.xyz", xyz_file(frames));
+  test::write_text(odd / "m.json", started({{"packing", "a.xyz"}}, 64).dump());
+  const auto run = test::isojam({"run", "m.json", "-o", "r"}, odd);
+  EXPECT_EQ(run.exit_code, 65) << run.err;
+  EXPECT_NE(run.err.find("/start/packing"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("no UTF-8"), std::string::npos) << run.err;
 }
 
 /// As a user of HOOMD-blue writes it: lengths in edges, the solid's vertices not about its centroid.
