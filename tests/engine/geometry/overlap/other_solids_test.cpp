@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/geometry/solids/solid.hpp"
-#include "tests/engine/geometry/overlap/exact_pairs.hpp"
+#include "tests/engine/geometry/overlap/pair_truth.hpp"
 
 namespace isojam {
 namespace {
@@ -47,43 +47,27 @@ const std::vector<Solid>& others() {
 template <class Visit>
 void for_each_pair(const Visit& visit) {
   for (std::size_t i = 0; i < others().size(); ++i) {
-    for (std::size_t j = i; j < others().size(); ++j) visit(others()[i], others()[j]);
+    for (std::size_t j = i; j < others().size(); ++j) visit(*others()[i], *others()[j]);
   }
 }
 
 TEST(OtherSolids, AreRightWhereFacesMeet) {
   RandomStream random{72};
-  std::vector<double> errors;
-  int clipped = 0;
-  for_each_pair([&](const Solid& a, const Solid& b) {
-    for (double depth = 1e-4; depth > 5e-13; depth /= 10) {
-      const PosedPair pair = flat_contact(*a, *b, depth, depth * random.uniform(), random);
-      clipped += found(pair).path == OverlapPath::clip;
-      const double here = error(pair);
-      EXPECT_LE(here, 1e-13) << to_string(a) << " " << to_string(b) << " depth " << depth;
-      errors.push_back(here);
-    }
-  });
-  std::sort(errors.begin(), errors.end());
-  const double middle = errors[errors.size() / 2];
-  std::printf("%zu flat contacts: %.1e at worst, %.1e in the middle, %d of them clipped\n", errors.size(),
-              errors.back(), middle, clipped);
-  EXPECT_LE(middle, 1e-15);
-  EXPECT_LT(clipped, static_cast<int>(errors.size()) / 50);
+  expect_flat_contacts_right([](const auto& visit) { for_each_pair(visit); }, random);
 }
 
 TEST(OtherSolids, AreRightWhereCornersAndEdgesMeet) {
   RandomStream random{73};
   double worst = 0;
   int pairs = 0, skipped = 0;
-  for_each_pair([&](const Solid& a, const Solid& b) {
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
     for (const double volume : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
-      const auto touching = at_volume(random_approach(*a, *b, random), volume);
+      const auto touching = at_volume(random_approach(a, b, random), volume);
       if (!touching) ++skipped;
       if (!touching) continue;
       ++pairs;
       const double here = error(*touching);
-      EXPECT_LE(here, 1e-12) << to_string(a) << " " << to_string(b) << " V " << volume;
+      EXPECT_LE(here, 1e-12) << names(a, b) << ", V " << volume;
       worst = std::max(worst, here);
     }
   });
@@ -93,15 +77,7 @@ TEST(OtherSolids, AreRightWhereCornersAndEdgesMeet) {
 
 TEST(OtherSolids, HaveTheHessiansOfDifferences) {
   RandomStream random{74};
-  double worst = 0;
-  for_each_pair([&](const Solid& a, const Solid& b) {
-    const auto touching = at_volume(random_approach(*a, *b, random), 1e-3);
-    if (!touching) return;
-    const double here = hessian_error(*touching);
-    EXPECT_LE(here, 1e-8) << to_string(a) << " " << to_string(b);
-    worst = std::max(worst, here);
-  });
-  std::printf("slopes of S: %.1e at worst\n", worst);
+  expect_hessians_of_differences([](const auto& visit) { for_each_pair(visit); }, random, 40);
 }
 
 TEST(OtherSolids, AreRightWhereTheyCoincide) {

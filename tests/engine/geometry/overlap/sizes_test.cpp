@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "engine/geometry/solids/solid.hpp"
-#include "tests/engine/geometry/overlap/exact_pairs.hpp"
+#include "tests/engine/geometry/overlap/pair_truth.hpp"
 #include "tests/engine/geometry/overlap/pairs.hpp"
 
 namespace isojam {
@@ -47,9 +47,8 @@ void for_each_pair(const Visit& visit) {
     for (const Solid& kind : unit_solids()) {
       const ConvexSolid large(*kind, ratio);
       for (const Solid& small : unit_solids()) {
-        const std::string what = "large " + large.name() + ", small " + small->name() + ", " + std::to_string(ratio);
         a_is_large = !a_is_large;
-        a_is_large ? visit(large, *small, what) : visit(*small, large, what);
+        a_is_large ? visit(large, *small) : visit(*small, large);
       }
     }
   }
@@ -57,30 +56,14 @@ void for_each_pair(const Visit& visit) {
 
 TEST(UnlikeSizes, AreRightWhereFacesMeet) {
   RandomStream random{91};
-  std::vector<double> errors;
-  int clipped = 0;
-  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b, const std::string& what) {
-    for (double depth = 1e-4; depth > 5e-13; depth /= 10) {
-      const PosedPair pair = flat_contact(a, b, depth, depth * random.uniform(), random);
-      clipped += found(pair).path == OverlapPath::clip;
-      const double here = error(pair);
-      EXPECT_LE(here, 1e-13) << what << ", depth " << depth;
-      errors.push_back(here);
-    }
-  });
-  std::sort(errors.begin(), errors.end());
-  const double middle = errors[errors.size() / 2];
-  std::printf("%zu flat contacts: %.1e at worst, %.1e in the middle, %d of them clipped\n", errors.size(),
-              errors.back(), middle, clipped);
-  EXPECT_LE(middle, 1e-15);
-  EXPECT_LT(clipped, static_cast<int>(errors.size()) / 50);
+  expect_flat_contacts_right([](const auto& visit) { for_each_pair(visit); }, random);
 }
 
 TEST(UnlikeSizes, AreRightWhereCornersAndEdgesMeet) {
   RandomStream random{92};
   double worst = 0;
   int pairs = 0, skipped = 0, clipped = 0;
-  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b, const std::string& what) {
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
     for (const double volume : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
       const auto approach = (pairs + skipped) % 2 == 0 ? corner_over_face : edge_over_edge;
       const auto touching = at_volume(approach(a, b, random), volume);
@@ -89,7 +72,7 @@ TEST(UnlikeSizes, AreRightWhereCornersAndEdgesMeet) {
       ++pairs;
       clipped += found(*touching).path == OverlapPath::clip;
       const double here = error(*touching);
-      EXPECT_LE(here, 1e-12) << what << ", V " << volume;
+      EXPECT_LE(here, 1e-12) << names(a, b) << ", V " << volume;
       worst = std::max(worst, here);
     }
   });
@@ -100,25 +83,14 @@ TEST(UnlikeSizes, AreRightWhereCornersAndEdgesMeet) {
 
 TEST(UnlikeSizes, HaveTheHessiansOfDifferences) {
   RandomStream random{93};
-  double worst = 0;
-  int pairs = 0;
-  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b, const std::string& what) {
-    const auto touching = at_volume(random_approach(a, b, random), 1e-3);
-    if (!touching) return;
-    ++pairs;
-    const double here = hessian_error(*touching);
-    EXPECT_LE(here, 1e-8) << what;
-    worst = std::max(worst, here);
-  });
-  std::printf("slopes of S of %d pairs: %.1e at worst\n", pairs, worst);
-  EXPECT_GT(pairs, 100);
+  expect_hessians_of_differences([](const auto& visit) { for_each_pair(visit); }, random, 100);
 }
 
 TEST(UnlikeSizes, AreRightWhereOneHoldsTheOther) {
   RandomStream random{94};
   double worst = 0;
   int inside = 0;
-  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b, const std::string& what) {
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
     const double room = std::max(a.inradius(), b.inradius()) - std::min(a.circumradius(), b.circumradius());
     if (room <= 0) return;
     for (const double distance : {0.0, 1e-9, .5, .999}) {
@@ -127,7 +99,7 @@ TEST(UnlikeSizes, AreRightWhereOneHoldsTheOther) {
       pair.at_b.position = distance * room * random_direction(random);
       const Overlap got = found(pair);
       const double here = std::max({std::abs(got.volume - 1), got.area.norm(), got.moment.norm() / (1 + room)});
-      EXPECT_LE(here, 1e-14) << what << ", " << distance << " of the way to the surface";
+      EXPECT_LE(here, 1e-14) << names(a, b) << ", " << distance << " of the way to the surface";
       worst = std::max(worst, here);
       ++inside;
     }

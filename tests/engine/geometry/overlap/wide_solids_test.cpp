@@ -20,7 +20,7 @@
 #include "engine/geometry/overlap/contact_loop.hpp"
 #include "engine/geometry/solids/named_solids.hpp"
 #include "engine/geometry/solids/solid.hpp"
-#include "tests/engine/geometry/overlap/exact_pairs.hpp"
+#include "tests/engine/geometry/overlap/pair_truth.hpp"
 #include "tests/engine/geometry/overlap/pairs.hpp"
 
 namespace isojam {
@@ -61,8 +61,6 @@ void for_each_pair(const Visit& visit) {
   }
 }
 
-std::string names(const ConvexSolid& a, const ConvexSolid& b) { return a.name() + " and " + b.name(); }
-
 TEST(WideSolids, AreWide) {
   int most_vertices = 0, most_faces = 0, most_edges = 0;
   for (const ConvexSolid* solid : wide_solids()) {
@@ -78,23 +76,7 @@ TEST(WideSolids, AreWide) {
 
 TEST(WideSolids, AreRightWhereFacesMeet) {
   RandomStream random{83};
-  std::vector<double> errors;
-  int clipped = 0;
-  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
-    for (double depth = 1e-4; depth > 5e-13; depth /= 10) {
-      const PosedPair pair = flat_contact(a, b, depth, depth * random.uniform(), random);
-      clipped += found(pair).path == OverlapPath::clip;
-      const double here = error(pair);
-      EXPECT_LE(here, 1e-13) << names(a, b) << ", depth " << depth;
-      errors.push_back(here);
-    }
-  });
-  std::sort(errors.begin(), errors.end());
-  const double middle = errors[errors.size() / 2];
-  std::printf("%zu flat contacts: %.1e at worst, %.1e in the middle, %d of them clipped\n", errors.size(),
-              errors.back(), middle, clipped);
-  EXPECT_LE(middle, 1e-15);
-  EXPECT_LT(clipped, static_cast<int>(errors.size()) / 50);
+  expect_flat_contacts_right([](const auto& visit) { for_each_pair(visit); }, random);
 }
 
 TEST(WideSolids, AreRightWhereCornersAndEdgesMeet) {
@@ -131,18 +113,7 @@ TEST(WideSolids, AreRightWhereCornersAndEdgesMeet) {
 
 TEST(WideSolids, HaveTheHessiansOfDifferences) {
   RandomStream random{85};
-  double worst = 0;
-  int pairs = 0;
-  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
-    const auto touching = at_volume(random_approach(a, b, random), 1e-3);
-    if (!touching) return;
-    ++pairs;
-    const double here = hessian_error(*touching);
-    EXPECT_LE(here, 1e-8) << names(a, b);
-    worst = std::max(worst, here);
-  });
-  std::printf("slopes of S: %.1e at worst\n", worst);
-  EXPECT_GT(pairs, 30);
+  expect_hessians_of_differences([](const auto& visit) { for_each_pair(visit); }, random, 30);
 }
 
 TEST(WideSolids, AreRightWhereTheyCoincide) {

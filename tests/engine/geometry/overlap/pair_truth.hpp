@@ -1,0 +1,61 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "tests/engine/geometry/overlap/exact_pairs.hpp"
+
+// What is asked of overlap() for every family of solids. A family is a function that visits its pairs of solids.
+
+namespace isojam::testing_pairs {
+
+/// "cube (1) and rock (0.1)", sizes in brackets.
+inline std::string names(const ConvexSolid& a, const ConvexSolid& b) {
+  return a.name() + " (" + std::to_string(a.scale()) + ") and " + b.name() + " (" + std::to_string(b.scale()) + ")";
+}
+
+/// V, S and M of faces in contact, depth 1e-4 … 1e-12 and tilted by as much, right to 1e-13 and half of them to 1e-15;
+/// by the loop, but for one in fifty.
+template <class Family>
+void expect_flat_contacts_right(const Family& for_each_pair, RandomStream& random) {
+  std::vector<double> errors;
+  int clipped = 0;
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
+    for (double depth = 1e-4; depth > 5e-13; depth /= 10) {
+      const PosedPair pair = flat_contact(a, b, depth, depth * random.uniform(), random);
+      clipped += found(pair).path == OverlapPath::clip;
+      const double here = error(pair);
+      EXPECT_LE(here, 1e-13) << names(a, b) << ", depth " << depth;
+      errors.push_back(here);
+    }
+  });
+  std::sort(errors.begin(), errors.end());
+  const double middle = errors[errors.size() / 2];
+  std::printf("%zu flat contacts: %.1e at worst, %.1e in the middle, %d of them clipped\n", errors.size(),
+              errors.back(), middle, clipped);
+  EXPECT_LE(middle, 1e-15);
+  EXPECT_LT(clipped, static_cast<int>(errors.size()) / 50);
+}
+
+/// Slopes of S are those of differences in quadruple precision, to 1e-8, in more than `least` pairs.
+template <class Family>
+void expect_hessians_of_differences(const Family& for_each_pair, RandomStream& random, int least) {
+  double worst = 0;
+  int pairs = 0;
+  for_each_pair([&](const ConvexSolid& a, const ConvexSolid& b) {
+    const auto touching = at_volume(random_approach(a, b, random), 1e-3);
+    if (!touching) return;
+    ++pairs;
+    const double here = hessian_error(*touching);
+    EXPECT_LE(here, 1e-8) << names(a, b);
+    worst = std::max(worst, here);
+  });
+  std::printf("slopes of S of %d pairs: %.1e at worst\n", pairs, worst);
+  EXPECT_GT(pairs, least);
+}
+
+}  // namespace isojam::testing_pairs
