@@ -68,8 +68,6 @@ class PlacedSolids {
   /// The same for solids of several kinds.
   void resize(std::span<const ConvexSolid* const> solids, bool low);
   std::size_t size() const { return count_; }
-  /// Of any of them, which are alike; null before the first resize() and where there are several kinds.
-  const ConvexSolid* solid() const { return solid_; }
 
   /// `rotation`: body frame → lab frame.
   void place(std::size_t k, const Eigen::Matrix3d& rotation);
@@ -96,7 +94,7 @@ class PlacedSolids {
   /// What it is, and where it begins.
   std::pair<const ConvexSolid*, double*> room_of(std::size_t k);
 
-  const ConvexSolid* solid_ = nullptr;
+  const ConvexSolid* solid_ = nullptr;  ///< of all of them, if they are alike
   std::size_t count_ = 0;
   std::size_t stride_ = 0;  ///< lines of one solid
   std::ptrdiff_t to_normals_ = 0, to_low_ = 0;

@@ -33,13 +33,11 @@ void Composition::measure(Mixed& mixed) {
   const ConvexSolid& first = *mixed.solids.front();
   mixed.widest = &first;
   mixed.least_inradius = first.inradius();
-  mixed.least_gyration_radius = first.gyration_radius();
   for (std::size_t i = 0; i < mixed.solids.size(); ++i) {
     const ConvexSolid& solid = *mixed.solids[i];
     if (solid.diameter() > mixed.widest->diameter()) mixed.widest = &solid;
     mixed.kinds = std::max(mixed.kinds, mixed.particles[i].kind + 1);
     mixed.least_inradius = std::min(mixed.least_inradius, solid.inradius());
-    mixed.least_gyration_radius = std::min(mixed.least_gyration_radius, solid.gyration_radius());
     mixed.greatest_circumradius = std::max(mixed.greatest_circumradius, solid.circumradius());
     mixed.mean_circumradius += solid.circumradius() / static_cast<double>(mixed.solids.size());
     mixed.greatest_lever = std::max(mixed.greatest_lever, solid.circumradius() / solid.gyration_radius());

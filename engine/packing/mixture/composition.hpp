@@ -47,7 +47,6 @@ class Composition {
   double least_inradius() const { return one_ ? one_->inradius() : mixed_->least_inradius; }
   double greatest_circumradius() const { return one_ ? one_->circumradius() : mixed_->greatest_circumradius; }
   double mean_circumradius() const { return one_ ? one_->circumradius() : mixed_->mean_circumradius; }
-  double least_gyration_radius() const { return one_ ? one_->gyration_radius() : mixed_->least_gyration_radius; }
   /// Circumradius over radius of gyration: how far from the centre a force may act.
   double greatest_lever() const {
     return one_ ? one_->circumradius() / one_->gyration_radius() : mixed_->greatest_lever;
@@ -63,8 +62,7 @@ class Composition {
     std::vector<std::unique_ptr<const ConvexSolid>> sized;  ///< what `solids` points to
     const ConvexSolid* widest = nullptr;
     int kinds = 1;
-    double least_inradius = 0, greatest_circumradius = 0, mean_circumradius = 0, least_gyration_radius = 0;
-    double greatest_lever = 0;
+    double least_inradius = 0, greatest_circumradius = 0, mean_circumradius = 0, greatest_lever = 0;
   };
   static void measure(Mixed& mixed);
 

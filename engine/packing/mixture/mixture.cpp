@@ -12,7 +12,7 @@ namespace isojam {
 
 namespace {
 
-/// "octahedron_0.5+octahedron1.4_0.5"
+/// "octahedron_0.5+octahedronx1.4_0.5"
 std::string text_of(const std::vector<MixtureKind>& kinds) {
   std::string text;
   for (const MixtureKind& kind : kinds) {
