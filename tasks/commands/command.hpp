@@ -86,13 +86,14 @@ void add_validate(CLI::App& app, Session& session);
 void add_aggregate(CLI::App& app, Session& session);
 void add_status(CLI::App& app, Session& session);
 void add_rerun(CLI::App& app, Session& session);
+void add_measure(CLI::App& app, Session& session);
 void add_export(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_chart(CLI::App& app, Session& session);
 
 /// Every command, in the order of the help.
-inline constexpr std::array<AddCommand, 8> all_commands{add_run,   add_validate, add_aggregate, add_status,
-                                                        add_rerun, add_export,   add_report,    add_chart};
+inline constexpr std::array<AddCommand, 9> all_commands{add_run,     add_validate, add_aggregate, add_status, add_rerun,
+                                                        add_measure, add_export,   add_report,    add_chart};
 
 /// Takes in the words that the program was called with: `session` gets its work. Where there is none, since help was
 /// asked for or a word is wrong, it is printed, and this is what to exit with.

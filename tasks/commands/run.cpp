@@ -139,14 +139,23 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
   return failed ? ExitCode::some_failed : code;
 }
 
+/// Measures that were added to the directory's manifest since are measured of new replicates too.
+void take_added_measures(const std::string& directory, Manifest& manifest, Console& console) {
+  const auto kept = stored_manifest(directory);
+  if (!kept || kept->measures == manifest.measures || !has_more_measures(manifest, *kept)) return;
+  manifest.measures = kept->measures;
+  console.info(fmt::format("{} has measures that were added to it, and so will what is run now", directory));
+}
+
 /// Validates, plans, runs what the directory does not hold yet, aggregates. The table goes to stdout; a shard leaves it
 /// to whoever runs when all are finished.
 ExitCode run(const RunArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
   auto manifest = read_manifest(arguments.manifest);
   load_start(manifest);
-  const Plan plan(manifest);
   const auto directory = arguments.directory.empty() ? "results/" + manifest.name : arguments.directory;
+  take_added_measures(directory, manifest, console);
+  const Plan plan(manifest);
   warn_about(manifest, arguments.manifest, console);
   const Warn warn = [&](const std::string& message) { console.warn(message); };
   if (arguments.dry_run) {

@@ -68,6 +68,9 @@ ExitCode status(const Arguments& arguments, Console&) {
                   totals.flagged, moving, stopped > 0 ? fmt::format(", {} stopped half way", stopped) : "");
   if (survey.unplanned > 0)
     text += fmt::format("{} beyond the plan\n", counted(static_cast<std::size_t>(survey.unplanned), "record"));
+  if (survey.lacking > 0)
+    text += fmt::format("  {} without measures that were added to the manifest: isojam measure {} adds them\n",
+                        counted(static_cast<std::size_t>(survey.lacking), "record"), arguments.directory);
   for (const auto& [flag, count] : survey.flags) text += fmt::format("  flagged {}: {}\n", to_string(flag), count);
   for (const auto& replicate : survey.under_way) {
     text += fmt::format("  {}: {}{}, density {:.4f}, {} steps, {} of CPU, last step {} ago\n", replicate.name,

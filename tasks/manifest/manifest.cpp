@@ -361,4 +361,28 @@ Json identity(const Manifest& manifest) {
 
 std::string digest(const Manifest& manifest) { return hex_hash(compact(identity(manifest))); }
 
+Manifest with_measures(Manifest manifest, const std::vector<Measure>& more) {
+  auto& all = manifest.measures;
+  all.insert(all.end(), more.begin(), more.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return manifest;
+}
+
+bool has_more_measures(const Manifest& manifest, const Manifest& more) {
+  return digest(with_measures(manifest, more.measures)) == digest(more);
+}
+
+std::optional<std::vector<Measure>> measures_lacking(const Manifest& manifest, const std::vector<Measure>& has,
+                                                     const std::string& record_digest) {
+  Manifest before = manifest;
+  before.measures = has;
+  if (digest(before) != record_digest) return std::nullopt;
+  std::vector<Measure> lacking;
+  for (const auto measure : manifest.measures) {
+    if (std::find(has.begin(), has.end(), measure) == has.end()) lacking.push_back(measure);
+  }
+  return lacking;
+}
+
 }  // namespace isojam

@@ -78,6 +78,15 @@ Json to_json(const Manifest& manifest);
 Json identity(const Manifest& manifest);
 std::string digest(const Manifest& manifest);
 
+/// The same sweep with these measures as well, in the order of records.
+Manifest with_measures(Manifest manifest, const std::vector<Measure>& more);
+/// Whether the second is the first with more measures, or with as many.
+bool has_more_measures(const Manifest& manifest, const Manifest& more);
+/// The measures that `manifest` has and `record_digest` lacks: that is the digest of the same sweep with none but
+/// `has`. nullopt if it is that of another.
+std::optional<std::vector<Measure>> measures_lacking(const Manifest& manifest, const std::vector<Measure>& has,
+                                                     const std::string& record_digest);
+
 /// By which keys two manifests of different digest differ, with both values: "/seed: 8 there, 7 here; ...", a handful
 /// and how many more. Empty if their digests are the same.
 std::string differences(const Manifest& theirs, const Manifest& ours);

@@ -39,6 +39,8 @@ class Plan {
   std::size_t points() const { return points_; }
   int replicates() const { return manifest_.replicates.max; }  ///< of a point, at most
   std::size_t size() const { return points_ * static_cast<std::size_t>(replicates()); }
+  const Manifest& manifest() const { return manifest_; }
+  const std::string& manifest_digest() const { return digest_; }  ///< the manifest's
   const std::vector<Flag>& exclude() const { return manifest_.exclude; }
 
   ReplicateSpec at(std::size_t point, int replicate) const;

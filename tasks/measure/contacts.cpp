@@ -229,8 +229,11 @@ Measurement measure_contacts(const JamResult& jam, const MeasureOptions&) {
   return measurement;
 }
 
+constexpr std::array flags{Flag::classes_undecided, Flag::classes_doubtful, Flag::crystalline};
+
 }  // namespace
 
-const MeasureDefinition measures::contacts{.quantities = quantities, .measure = measure_contacts, .by_default = true};
+const MeasureDefinition measures::contacts{
+    .quantities = quantities, .measure = measure_contacts, .flags = flags, .by_default = true};
 
 }  // namespace isojam

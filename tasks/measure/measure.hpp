@@ -9,6 +9,7 @@
 #include "engine/shear/shear.hpp"
 #include "engine/solve/jam.hpp"
 #include "tasks/json/json.hpp"
+#include "tasks/measure/flag.hpp"
 #include "tasks/measure/list.hpp"
 #include "tasks/measure/quantity.hpp"
 
@@ -30,8 +31,9 @@ struct Measurement {
 struct MeasureDefinition {
   std::span<const Quantity> quantities;
   Measurement (*measure)(const JamResult& jam, const MeasureOptions& options);
-  bool by_default = false;    ///< made where a manifest names none
-  bool needs_minima = false;  ///< means something at minima only: saddles are followed downhill first
+  std::span<const Flag> flags = {};  ///< that it may raise and no other measure does, in the order in which it does
+  bool by_default = false;           ///< made where a manifest names none
+  bool needs_minima = false;         ///< means something at minima only: saddles are followed downhill first
 };
 
 inline const MeasureDefinition& definition_of(Measure measure) {

@@ -130,9 +130,8 @@ Measurement measure_modes(const JamResult& jam, const MeasureOptions& options) {
   const auto nearest = nearest_state(jam);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
     const Packing& packing = jam.states[k];
-    const Precision precision = jam.path[jam.state_steps[k]].summary.precision;
-    const auto here = energy.evaluate(packing, precision);
-    const auto matrix = dynamical_matrix(packing, energy.hessian(packing, precision));
+    const auto here = energy.evaluate(packing, state_precision);
+    const auto matrix = dynamical_matrix(packing, energy.hessian(packing, state_precision));
     const auto vibrations = vibrations_of(packing, matrix, here, options.modes);
     auto state = mode_record(vibrations);
     put_share(state, vibrations.ends.highest, classified_contacts(packing, energy), packing.size());
@@ -149,8 +148,11 @@ Measurement measure_modes(const JamResult& jam, const MeasureOptions& options) {
   return measurement;
 }
 
+constexpr std::array flags{Flag::not_stable};
+
 }  // namespace
 
-const MeasureDefinition measures::modes{.quantities = quantities, .measure = measure_modes, .needs_minima = true};
+const MeasureDefinition measures::modes{
+    .quantities = quantities, .measure = measure_modes, .flags = flags, .needs_minima = true};
 
 }  // namespace isojam

@@ -50,8 +50,8 @@ Measurement measure_moduli(const JamResult& jam, const MeasureOptions&) {
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
     const Packing& packing = jam.states[k];
     const JamStep& step = jam.path[jam.state_steps[k]];
-    const auto here = energy.evaluate(packing, step.summary.precision);
-    const auto hessian = energy.hessian(packing, step.summary.precision);
+    const auto here = energy.evaluate(packing, state_precision);
+    const auto hessian = energy.hessian(packing, state_precision);
     const auto tensor = elastic_tensor(packing, hessian, energy.contacts(packing), here);
     auto state = moduli_record(tensor);
     if (k == nearest) put_slope(state["moduli"], packing);

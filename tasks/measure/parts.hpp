@@ -11,6 +11,9 @@
 
 namespace isojam {
 
+/// States are measured in all their digits, whatever was enough to find them: what is stored of them is that.
+inline constexpr Precision state_precision = Precision::double_double;
+
 /// The contacts of a state, their angles and their classes.
 struct ClassifiedContacts {
   std::vector<Contact> contacts;

@@ -22,10 +22,10 @@ constexpr std::array quantities{strictly_jammed, negative, deviator, freed_jamme
 constexpr std::string_view no_verdict = "inertia could not be had",
                            no_freed = "no equilibrium was found in a free cell";
 
-Json strict_record(const Packing& packing, Precision precision, PackingEnergy& energy) {
+Json strict_record(const Packing& packing, PackingEnergy& energy) {
   Json state;
-  const auto here = energy.evaluate(packing, precision);
-  const auto stability = strict_stability(packing, here, precision);
+  const auto here = energy.evaluate(packing, state_precision);
+  const auto stability = strict_stability(packing, here, state_precision);
   const bool known = stability.verdict != Verdict::undetermined;
   const auto value = [&](double x) { return known ? std::optional(x) : std::nullopt; };
   put(state, strictly_jammed, value(is_strictly_jammed(stability)), no_verdict);
@@ -76,8 +76,7 @@ Json freed_record(const Packing& packing, const JamStep& step, PackingEnergy& en
 Measurement measure_strict(const JamResult& jam, const MeasureOptions&) {
   Measurement measurement;
   PackingEnergy energy;
-  for (std::size_t k = 0; k < jam.states.size(); ++k)
-    measurement.states.push_back(strict_record(jam.states[k], jam.path[jam.state_steps[k]].summary.precision, energy));
+  for (const Packing& packing : jam.states) measurement.states.push_back(strict_record(packing, energy));
   const auto nearest = nearest_state(jam);
   if (nearest) measurement.replicate = freed_record(jam.states[*nearest], jam.path[jam.state_steps[*nearest]], energy);
   return measurement;

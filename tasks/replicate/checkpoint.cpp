@@ -8,6 +8,7 @@
 #include "tasks/packings/packing_json.hpp"
 #include "tasks/packings/start_packing.hpp"
 #include "tasks/replicate/record.hpp"
+#include "tasks/replicate/work_json.hpp"
 
 namespace isojam {
 namespace {
@@ -44,24 +45,6 @@ Json step_json(const JamStep& step) {
   return json;
 }
 
-long read_count(const JsonPlace& place) { return static_cast<long>(place.integer(count_range)); }
-
-MinimiseWork read_work(const JsonPlace& place) {
-  return {read_count(place.at("double_double_evaluations")),
-          read_count(place.at("hessians")),
-          read_count(place.at("factorisations")),
-          read_count(place.at("factor_updates")),
-          read_count(place.at("envelopes")),
-          read_count(place.at("envelope_overlaps")),
-          read_count(place.at("local_factorisations"))};
-}
-
-Rearrangement read_rearrangement(const JsonPlace& place) {
-  const auto contacts = [&](const std::string& key) { return static_cast<int>(place.at(key).integer({0, 1e9})); };
-  return {place.at("energy_ratio").number(any_number), contacts("contacts_lost"), contacts("contacts_gained"),
-          place.at("particles_moved").number(not_negative)};
-}
-
 JamStep read_step(const JsonPlace& place) {
   JamStep step;
   step.stage = place.at("stage").choice<JamStage>();
@@ -89,12 +72,6 @@ bool is_finite(const JamStep& step) {
   return std::isfinite(step.density) && std::isfinite(step.energy_per_particle) && std::isfinite(step.pressure) &&
          std::isfinite(step.deviator) && std::isfinite(summary.energy) && !std::isnan(summary.residual) &&
          !std::isnan(summary.residual_floor);
-}
-
-PairCounts read_counts(const JsonPlace& place) {
-  const auto count = [&](const std::string& key) { return read_count(place.at(key)); };
-  return {count("listed"),     count("out_of_reach"), count("by_axis"),
-          count("overlapped"), count("clipped"),      count("touching")};
 }
 
 Packing read_own_packing(const JsonPlace& place, const ReplicateSpec& spec) {

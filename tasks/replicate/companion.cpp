@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "tasks/json/input_error.hpp"
@@ -10,16 +11,25 @@
 namespace isojam {
 namespace {
 
-/// `text_at` gives the value of a key; empty if there is none.
+/// Where the head is not that of this owner; empty if it is. `text_at` gives the value of a key; empty if there is
+/// none.
 template <class TextAt>
-void check_head(const std::string& file, std::string_view schema, const Owner& owner, const TextAt& text_at) {
+std::string difference(std::string_view schema, const Owner& owner, const TextAt& text_at) {
   const Json expected = companion(schema, owner);
   for (const auto& item : expected.items()) {
-    const std::string found = text_at(item.key());
-    if (found == item.value()) continue;
-    throw InputError({file, pointer_step(item.key()), fmt::format("\"{}\" is not what its record says", found),
-                      item.value().dump(), ""});
+    if (text_at(item.key()) != item.value()) return item.key();
   }
+  return "";
+}
+
+template <class TextAt>
+void check_head(const std::string& file, std::string_view schema, std::span<const Owner> owners,
+                const TextAt& text_at) {
+  const auto is_own = [&](const Owner& owner) { return difference(schema, owner, text_at).empty(); };
+  if (std::any_of(owners.begin(), owners.end(), is_own)) return;
+  const auto key = difference(schema, owners.front(), text_at);
+  throw InputError({file, pointer_step(key), fmt::format("\"{}\" is not what its record says", text_at(key)),
+                    companion(schema, owners.front()).at(key).dump(), ""});
 }
 
 }  // namespace
@@ -33,17 +43,17 @@ Json companion(std::string_view schema, const Owner& owner) {
   return json;
 }
 
-void check_companion(const std::string& file, std::string_view schema, const Owner& owner) {
+void check_companion(const std::string& file, std::string_view schema, std::span<const Owner> owners) {
   const auto head = read_sealed_head(file);
-  check_head(file, schema, owner, [&](const std::string& key) {
+  check_head(file, schema, owners, [&](const std::string& key) {
     const auto found = head.find(key);
     return found == head.end() ? std::string() : found->second;
   });
 }
 
-Json read_companion(const std::string& file, std::string_view schema, const Owner& owner) {
+Json read_companion(const std::string& file, std::string_view schema, std::span<const Owner> owners) {
   auto json = read_sealed(file);
-  check_head(file, schema, owner, [&](const std::string& key) {
+  check_head(file, schema, owners, [&](const std::string& key) {
     const auto found = json.find(key);
     return found == json.end() || !found->is_string() ? std::string() : found->template get<std::string>();
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,10 +19,11 @@ struct Owner {
 Json companion(std::string_view schema, const Owner& owner);
 
 /// Reads as much of the file as it takes. Throws FileError if it is not there or cannot be read now, InputError if it
-/// is damaged, of another schema or belongs to another record.
-void check_companion(const std::string& file, std::string_view schema, const Owner& owner);
+/// is damaged, of another schema or belongs to another record. `owners`: the record as it is, and before that as it was
+/// until something was added to it.
+void check_companion(const std::string& file, std::string_view schema, std::span<const Owner> owners);
 
 /// Reads it all, with the same checks.
-Json read_companion(const std::string& file, std::string_view schema, const Owner& owner);
+Json read_companion(const std::string& file, std::string_view schema, std::span<const Owner> owners);
 
 }  // namespace isojam

@@ -9,6 +9,7 @@
 #include "tasks/measure/rearrangements.hpp"
 #include "tasks/packings/packing_json.hpp"
 #include "tasks/replicate/companion.hpp"
+#include "tasks/replicate/work_json.hpp"
 #include "tasks/system/version.hpp"
 
 namespace isojam {
@@ -116,38 +117,6 @@ Json to_json(const Timing& timing) {
   return {{"wall_seconds", timing.wall_seconds}, {"cpu_seconds", timing.cpu_seconds}};
 }
 
-Json to_json(const PairCounts& counts) {
-  Json json;
-  json["listed"] = counts.listed;
-  json["out_of_reach"] = counts.out_of_reach;
-  json["by_axis"] = counts.by_axis;
-  json["overlapped"] = counts.overlapped;
-  json["clipped"] = counts.clipped;
-  json["touching"] = counts.touching;
-  return json;
-}
-
-Json to_json(const MinimiseWork& work) {
-  Json json;
-  json["double_double_evaluations"] = work.double_double_evaluations;
-  json["hessians"] = work.hessians;
-  json["factorisations"] = work.factorisations;
-  json["factor_updates"] = work.factor_updates;
-  json["envelopes"] = work.envelopes;
-  json["envelope_overlaps"] = work.envelope_overlaps;
-  json["local_factorisations"] = work.local_factorisations;
-  return json;
-}
-
-Json to_json(const Rearrangement& rearrangement) {
-  Json json;
-  json["energy_ratio"] = rearrangement.energy_ratio;
-  json["contacts_lost"] = rearrangement.contacts_lost;
-  json["contacts_gained"] = rearrangement.contacts_gained;
-  json["particles_moved"] = rearrangement.particles_moved;
-  return json;
-}
-
 std::string result_digest(const Json& record) {
   // The text of the object that is left, without making a copy to leave something out of.
   std::string text;
@@ -190,6 +159,45 @@ Json make_record(const Outcome& outcome) {
   for (std::size_t i = 0; i < jam.states.size(); ++i) json["states"].push_back(state_record(outcome, i));
   json["path"] = Json::array();
   for (const auto& step : jam.path) json["path"].push_back(step_record(step, jam));
+  json["result_digest"] = result_digest(json);
+  return json;
+}
+
+Json with_added(Json record, const Json& before, const std::vector<Measure>& added) {
+  const auto now = record.at("provenance");
+  Json addition;
+  addition["measures"] = Json::array();
+  for (const auto measure : added) addition["measures"].push_back(to_string(measure));
+  for (const auto* key : {"version", "git", "compiler"}) addition[key] = now.at(key);
+  addition["before"]["manifest_digest"] = before.at("provenance").at("manifest_digest");
+  addition["before"]["result_digest"] = before.at("result_digest");
+  auto provenance = before.at("provenance");
+  provenance["manifest_digest"] = now.at("manifest_digest");
+  provenance["added"].push_back(std::move(addition));
+  record["provenance"] = std::move(provenance);
+  auto timing = before.at("timing");
+  for (const auto* key : {"wall_seconds", "cpu_seconds"})
+    timing[key] = timing.at(key).get<double>() + record.at("timing").at(key).get<double>();
+  for (const auto measure : added) {
+    const std::string name(to_string(measure));
+    const auto& stages = record.at("timing").at("stages");
+    if (stages.contains(name)) timing["stages"][name] = stages.at(name);
+  }
+  record["timing"] = std::move(timing);
+  return record;
+}
+
+Json failed_record(const Json& before, const ReplicateSpec& spec) {
+  Json json;
+  for (const auto& item : before.items()) {
+    if (item.key() == "checksum") continue;
+    json[item.key()] = item.key() == "spec" ? to_json(spec) : item.value();
+    if (item.key() == "work") break;
+  }
+  json["provenance"]["manifest_digest"] = spec.manifest_digest;
+  put_nothing(json, spec.measures);
+  json["states"] = before.at("states");
+  json["path"] = before.at("path");
   json["result_digest"] = result_digest(json);
   return json;
 }

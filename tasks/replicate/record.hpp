@@ -18,6 +18,13 @@ Json make_record(const Outcome& outcome);
 /// The hash of all of a record but timing, provenance and what vouches for it: equal for two runs of one replicate.
 std::string result_digest(const Json& record);
 
+/// The record of an outcome that was made of `before` by adding measures: what that one says of its run and of the time
+/// it took, and beside it what was added, by whom, and what the record was until then.
+Json with_added(Json record, const Json& before, const std::vector<Measure>& added);
+
+/// The record of a replicate that failed before anything was measured, as it would be if more had been asked for.
+Json failed_record(const Json& before, const ReplicateSpec& spec);
+
 /// The state nearest jamming of an outcome without failure, for the record that has this digest.
 Json make_packing(const Outcome& outcome, const std::string& result_digest);
 /// Every state of the expansion, in order, each with its Δφ.
@@ -26,8 +33,5 @@ Json make_path(const Outcome& outcome, const std::string& result_digest);
 /// Parts of records and checkpoints alike.
 Json provenance(const ReplicateSpec& spec);
 Json to_json(const Timing& timing);
-Json to_json(const PairCounts& counts);
-Json to_json(const MinimiseWork& work);
-Json to_json(const Rearrangement& rearrangement);
 
 }  // namespace isojam

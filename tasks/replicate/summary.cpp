@@ -70,6 +70,22 @@ void read_states(const JsonPlace& states, RecordSummary& summary) {
             [](const StateValues& a, const StateValues& b) { return a.delta_phi < b.delta_phi; });
 }
 
+void read_additions(const JsonPlace& added, RecordSummary& summary) {
+  const auto count = added.expect_list("a list of what was added");
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto before = added.at(k).at("before");
+    summary.before.push_back({before.at("manifest_digest").text(), before.at("result_digest").text()});
+  }
+}
+
+/// Those that this version knows.
+void read_measures(const JsonPlace& measures, RecordSummary& summary) {
+  const auto count = measures.expect_list("a list of measures");
+  for (std::size_t k = 0; k < count; ++k) {
+    if (const auto measure = from_string<Measure>(measures.at(k).text())) summary.measures.push_back(*measure);
+  }
+}
+
 void read_flags(const JsonPlace& flags, RecordSummary& summary) {
   summary.flagged = flags.expect_list("a list of flags") > 0;
   for (const auto& name : flags.value()) {
@@ -99,6 +115,8 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
   summary.manifest_digest = provenance.at("manifest_digest").text();
   summary.build = fmt::format("{} ({}, {})", provenance.at("version").text(), provenance.at("git").text(),
                               provenance.at("compiler").text());
+  if (provenance.has("added")) read_additions(provenance.at("added"), summary);
+  read_measures(spec.at("measure"), summary);
   for (const std::string key : {"protocol", "minimiser", "measure", "modes"})
     summary.settings[key] = spec.at(key).value();
   summary.failed = root.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 1;

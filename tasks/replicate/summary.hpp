@@ -29,9 +29,15 @@ struct RecordSummary {
   Json parameters;
   int replicate = 0;
   std::string manifest_digest;
-  Json settings;              ///< protocol, minimiser and measure
-  std::string build;          ///< version, sources and compiler of the program that made it
-  std::string result_digest;  ///< of all but timing and provenance: equal for two runs of the same replicate
+  /// What it was until measures were added to it.
+  struct Before {
+    std::string manifest_digest, result_digest;
+  };
+  std::vector<Before> before;
+  std::vector<Measure> measures;  ///< that it has, of those that this version knows
+  Json settings;                  ///< protocol, minimiser and measure
+  std::string build;              ///< version, sources and compiler of the program that made it
+  std::string result_digest;      ///< of all but timing and provenance: equal for two runs of the same replicate
   double cpu_seconds = 0;
   bool failed = false, flagged = false;
   std::vector<Flag> flags;          ///< of those that it is flagged with, the ones that this version knows

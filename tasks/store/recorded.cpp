@@ -30,8 +30,12 @@ std::string name_of(const RecordSummary& summary) {
   return replicate_name(spec);
 }
 
-Owner owner_of(const RecordedReplicate& replicate) {
-  return {replicate.name, replicate.summary.manifest_digest, replicate.summary.result_digest};
+/// Packings and paths stay as they are when something is added to their record.
+std::vector<Owner> owners_of(const RecordedReplicate& replicate) {
+  std::vector<Owner> owners{{replicate.name, replicate.summary.manifest_digest, replicate.summary.result_digest}};
+  for (const auto& before : replicate.summary.before)
+    owners.push_back({replicate.name, before.manifest_digest, before.result_digest});
+  return owners;
 }
 
 }  // namespace
@@ -47,6 +51,14 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
   return {name, std::move(record), std::move(summary)};
 }
 
+std::optional<std::vector<Measure>> lacking(const RecordedReplicate& replicate, const Manifest& manifest) {
+  const auto& summary = replicate.summary;
+  // The digest of a manifest is that of its whole text: most records are told apart without it.
+  if (summary.settings.at("measure").size() >= manifest.measures.size())
+    return summary.manifest_digest == digest(manifest) ? std::optional(std::vector<Measure>{}) : std::nullopt;
+  return measures_lacking(manifest, summary.measures, summary.manifest_digest);
+}
+
 void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
   if (replicate.record.at("spec") != to_json(spec))
     throw InputError({replicate.name, "/spec", "is not what its manifest plans", "", ""});
@@ -54,13 +66,13 @@ void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
 
 void check_companions(const fs::path& directory, const RecordedReplicate& replicate, bool with_path) {
   if (replicate.summary.failed) return;
-  check_companion(file_in(directory, "packings", replicate.name), packing_schema, owner_of(replicate));
-  if (with_path) check_companion(file_in(directory, "paths", replicate.name), path_schema, owner_of(replicate));
+  check_companion(file_in(directory, "packings", replicate.name), packing_schema, owners_of(replicate));
+  if (with_path) check_companion(file_in(directory, "paths", replicate.name), path_schema, owners_of(replicate));
 }
 
 Json read_companion_of(const fs::path& directory, const RecordedReplicate& replicate, const std::string& folder) {
   return read_companion(file_in(directory, folder, replicate.name), folder == "paths" ? path_schema : packing_schema,
-                        owner_of(replicate));
+                        owners_of(replicate));
 }
 
 bool failed_for_want(const RecordedReplicate& replicate) {

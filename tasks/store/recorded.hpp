@@ -23,6 +23,10 @@ struct RecordedReplicate {
 /// does not have the result digest that it states, or is of another replicate than its name says.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
+/// What the record lacks of the measures of a manifest that it is of: none, or those that were added to the manifest
+/// since. nullopt if it is of another manifest.
+std::optional<std::vector<Measure>> lacking(const RecordedReplicate& replicate, const Manifest& manifest);
+
 /// Throws InputError unless the record has all the settings of this specification.
 void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec);
 

@@ -45,7 +45,9 @@ void check_records(const fs::path& directory, const Manifest& manifest, bool all
     if (planned && !all) continue;
     std::string theirs;
     try {
-      theirs = read_record(directory, name).summary.manifest_digest;
+      const auto held = read_record(directory, name);
+      if (lacking(held, manifest)) continue;
+      theirs = held.summary.manifest_digest;
     } catch (const InputError& damage) {
       if (!planned) warn(fmt::format("{}; no replicate of this manifest, and left as it is", damage.what()));
       continue;
@@ -147,9 +149,11 @@ fs::path Store::file(const char* folder, const ReplicateSpec& spec) const {
 std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
   const auto path = record_path(spec).string();
   std::string theirs;
+  bool is_lacking = false;
   try {
     auto held = read_record(directory_, replicate_name(spec));
     theirs = held.summary.manifest_digest;
+    is_lacking = theirs != digest_ && lacking(held, kept_);
     if (theirs == digest_) {
       check_spec(held, spec);
       if (failed_for_want(held))
@@ -163,6 +167,9 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
     if (error.reason() != FileError::Reason::missing) throw;
     if (fs::exists(path)) warn_(fmt::format("{}; the replicate is redone", error.what()));
   }
+  if (is_lacking)
+    throw InputError({path, "/spec/measure", "lacks measures that were added to the manifest of its directory",
+                      fmt::format("isojam measure {} adds them", directory_.string()), ""});
   if (!theirs.empty() && theirs != digest_)
     refuse_other(path, "/provenance/manifest_digest", "digest " + theirs, digest_);
   return std::nullopt;
@@ -198,6 +205,42 @@ void Store::write(const Outcome& outcome) const {
   fs::remove(checkpoint_path(outcome.spec), ignored);
 }
 
+void Store::write_added(const Outcome& outcome, const RecordedReplicate& before, bool moved) const {
+  Outcome again = outcome;
+  again.spec.measures = before.summary.measures;
+  for (const auto& [what, measurement] : outcome.measured) {
+    const auto& had = before.summary.measures;
+    if (std::find(had.begin(), had.end(), what) == had.end()) again.measured.erase(what);
+  }
+  if (!moved && make_record(again).at("result_digest") != before.summary.result_digest)
+    throw InputError({record_path(outcome.spec).string(), "/result_digest",
+                      "what is stored does not give the same record again, so that nothing can be added to it",
+                      fmt::format("isojam rerun {} {}", directory_.string(), before.name), ""});
+  std::vector<Measure> added;
+  for (const auto& [what, measurement] : outcome.measured) {
+    if (!again.measured.contains(what)) added.push_back(what);
+  }
+  const auto record = with_added(make_record(outcome), before.record, added);
+  const auto digest = record.at("result_digest").get<std::string>();
+  if (moved) {
+    write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome, digest)));
+    write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
+  }
+  write_atomically(record_path(outcome.spec), sealed(record));
+}
+
+void Store::write_added(const ReplicateSpec& spec, const RecordedReplicate& failed) const {
+  const auto record = failed_record(failed.record, spec);
+  write_atomically(record_path(spec), sealed(with_added(record, failed.record, {})));
+}
+
+Manifest extend_manifest(const fs::path& directory, const std::vector<Measure>& more) {
+  const auto before = own_manifest(directory);
+  auto manifest = with_measures(before, more);
+  if (manifest.measures != before.measures) write_atomically(directory / "manifest.json", sealed(to_json(manifest)));
+  return manifest;
+}
+
 void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), sealed(tables)); }
 
 void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use) {
@@ -225,7 +268,7 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   in_order(names.size(), read, [&](Read one) {
     if (!one.held) {
       warn(one.damage + "; not of the plan, and left out");
-    } else if (manifest && one.held->summary.manifest_digest != own) {
+    } else if (manifest && one.held->summary.manifest_digest != own && !lacking(*one.held, *manifest)) {
       warn(fmt::format("{}: of another manifest, and left out",
                        (directory / "records" / (one.held->name + ".json")).string()));
     } else {

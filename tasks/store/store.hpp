@@ -44,6 +44,12 @@ class Store {
   void write_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) const;
   /// Packing and path first, so that a record vouches for them; the checkpoint goes last.
   void write(const Outcome& outcome) const;
+  /// Replaces a record by the same with measures added, `outcome` with all of them: what it says otherwise must come
+  /// out as it was. `moved`: states have changed on the way, as those do that are followed to minima first, and are
+  /// written again. Throws InputError if the record cannot be made again bit for bit.
+  void write_added(const Outcome& outcome, const RecordedReplicate& before, bool moved) const;
+  /// The same of a replicate that failed before anything was measured.
+  void write_added(const ReplicateSpec& spec, const RecordedReplicate& failed) const;
   void write_tables(const Json& tables) const;
 
   const std::filesystem::path& directory() const { return directory_; }
@@ -65,6 +71,10 @@ class Store {
   Warn warn_;
   Manifest kept_;
 };
+
+/// Makes these measures a part of the manifest that the directory keeps, which is returned: its records lack them until
+/// they are added. Throws as own_manifest does, FileError if it cannot be written.
+Manifest extend_manifest(const std::filesystem::path& directory, const std::vector<Measure>& more);
 
 /// Says that a directory is none, or holds no results.
 [[noreturn]] void throw_without_records(const std::filesystem::path& directory);

@@ -30,6 +30,7 @@ struct Survey {
   std::vector<Point> points;        ///< of the plan
   std::map<Flag, int> flags;        ///< replicates of the plan that have it
   std::vector<std::string> others;  ///< records that belong to another manifest
+  int lacking = 0;                  ///< records without measures that were added to the manifest since
   int unplanned = 0;                ///< records that the plan does not know
   std::vector<UnderWay> under_way;
   std::vector<std::string> damaged;  ///< one line for each file
