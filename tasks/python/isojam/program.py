@@ -52,6 +52,6 @@ def contacts(program, directory, replicate, path):
     words = ["export", directory, replicate, "--format", "contacts"] + (["--path"] if path else [])
     with tempfile.TemporaryFile("w+", newline="", encoding="utf-8") as output:
         for said in filter(None, run(program, *words, stdout=output).splitlines()):
-            warnings.warn(said, stacklevel=4)
+            warnings.warn(said, stacklevel=3)
         output.seek(0)
         return read_table(output, f"isojam {' '.join(map(str, words))}")
