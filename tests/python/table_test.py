@@ -1,5 +1,6 @@
 """Facts proved here, of tables in files and of how the program is asked for them:
 - numbers come back to the last bit, of whatever length; nothing is null; three columns _x, _y, _z are a vector;
+- flags are tuples, reasons dicts;
 - columns have the types that they are of, also where all values are whole numbers, or missing, and where there are no rows;
 - CSV, the same as an object on every line, and an open file give the same rows;
 - what is no such table is refused with file and line;
@@ -52,6 +53,11 @@ class Tables(support.Case):
         rows = table(HEAD)
         self.assertEqual((len(rows), rows["force"].shape, rows["class"].dtype.kind), (0, (0, 3), "U"))
 
+    def test_lists_and_truth(self):
+        rows = table("flags,excluded,Z_ff,S,reasons", 'a; b,true,,,"Z_ff: no cut-off; S: this; that: it"', ",false,1,2,")
+        self.assertEqual((list(rows["flags"]), list(rows["excluded"])), ([("a", "b"), ()], [True, False]))
+        self.assertEqual(list(rows["reasons"]), [{"Z_ff": "no cut-off", "S": "this; that: it"}, {}])
+
     def test_columns_unheard_of(self):
         rows = table("n,x,text,mixed,none", "1,1,a,1,", "2,2.5,b,c,")
         self.assertEqual([rows[name].dtype.kind for name in rows.columns], ["i", "f", "U", "U", "f"])
@@ -60,12 +66,39 @@ class Tables(support.Case):
         plain = table(HEAD, *LINES)
         whole = []
         for row in plain:
-            whole.append({name: (None if value == "" or value != value else value) if numpy.ndim(value) == 0 else value.tolist()
-                          for name, value in row.items()})
+            flat = {name: value for name, value in row.items() if numpy.ndim(value) == 0}
+            for name in row.keys() - flat:
+                flat.update(zip((name + "_x", name + "_y", name + "_z"), row[name].tolist()))
+            whole.append({name: None if flat.get(name) == "" or flat[name] != flat[name] else flat[name]
+                          for name in HEAD.split(",")})
         rows = table(*(json.dumps(row, default=lambda number: number.item()) for row in whole))
         self.assertEqual(rows.columns, plain.columns)
         for name in plain.columns:
             numpy.testing.assert_array_equal(rows[name], plain[name], name)
+
+    def test_replicates_and_states(self):
+        """The program's own tables of them have the columns of a study, the same values and reasons."""
+        said = subprocess.run([program.find(), "export", "--help"], check=True, capture_output=True, text=True).stdout
+        if "contacts" not in said:
+            self.skipTest("THIS PROGRAM EXPORTS NO TABLES OF RECORDS: they are not compared")
+        for directory in support.ALL:
+            for what in ("replicates", "states"):
+                text = subprocess.run([program.find(), "export", directory, "all", "--format", what], check=True,
+                                      capture_output=True, text=True).stdout
+                rows, own = table(*text.splitlines()), getattr(support.study(directory), what)
+                for name in rows.columns:
+                    if name in own:
+                        self.compare(name, rows[name], own)
+                    else:  # Of kinds that no mixture has.
+                        self.assertTrue(numpy.isnan(rows[name]).all(), name)
+                self.assertGreater(len(set(rows.columns).intersection(own.columns)), 25)
+
+    def compare(self, name, values, own):
+        if name != "reasons":
+            return numpy.testing.assert_array_equal(values, own[name], name)
+        for value, others in zip(values, own["reasons"]):
+            self.assertEqual(value, {key: why for key, why in others.items() if key in value})
+        return None
 
     def test_tables_of_aggregate(self):
         text = subprocess.run([program.find(), "aggregate", MIXED, "--format", "csv"], check=True, capture_output=True,

@@ -3,7 +3,7 @@
 import json
 import pathlib
 
-_HERE = pathlib.Path(__file__).parent
+_HERE = pathlib.Path(__file__).absolute().parent
 
 
 def _read():
@@ -24,7 +24,7 @@ usual_exclusions = tuple(_FACTS["exclude"])
 #: unit and group.
 quantities = _FACTS["quantities"]
 #: Where the program lies, from here.
-program = _HERE / _FACTS["program"]
+program = (_HERE / _FACTS["program"]).resolve()
 
 
 def names(of):

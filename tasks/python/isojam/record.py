@@ -11,11 +11,14 @@ _REASON = "_reason"
 _APART = {"schema", "checksum", "result_digest", "provenance", "spec", "status", "flags", "failure", "nearest", "states",
           "path"}
 #: What it cost, and by whom it was made: the last columns.
-_COST = ("evaluations", "work", "pairs", "timing")
+_COST = ("evaluations", "work", "pairs")
 _ORIGIN = ("version", "git", "compiler", "manifest_digest", "seed")
+#: Figures that every state has; a quantity that has the name of one is the same.
+_FIGURES = {"step", "phi", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual", "residual_floor",
+            "stopped", "descents"}
 #: Names of quantities by their paths, in a record and in a state.
 _NAMES = {of: facts.names(of) for of in ("replicate", "state")}
-_QUANTITIES = {name for names in _NAMES.values() for name in names.values()}
+_QUANTITIES = {name for names in _NAMES.values() for name in names.values()} - _FIGURES
 
 
 @functools.lru_cache(maxsize=None)
@@ -40,6 +43,8 @@ def flat(document, of, apart=()):
                 visit(value, (*path, key))
             elif not isinstance(value, list) and not (key.endswith(_REASON) and key[:-len(_REASON)] in node):
                 for name in _names_of((*path, key), of):
+                    if path and name in _FIGURES and name in values:
+                        continue
                     values[name] = value
                     if value is None and key + _REASON in node:
                         reasons[name] = node[key + _REASON]
@@ -66,23 +71,32 @@ def head_of(name, record, excluding):
 def replicate_row(head, record):
     """One row of everything that is one number per replicate, the state nearest jamming among it."""
     failure, provenance = record.get("failure") or {}, record["provenance"]
-    values, reasons = flat(record, "replicate", _APART.union(_COST))
+    values, reasons = flat(record, "replicate", _APART.union(_COST, ("timing",)))
     near, near_reasons = flat(record.get("nearest") or {}, "state")
-    cost, _ = flat({key: record[key] for key in _COST}, "replicate")
+    cost, _ = flat({**{key: record[key] for key in _COST}, **record["timing"]}, "replicate")
     for key in ("flags", "nearest"):
         if record.get(key) is None:
             reasons[key] = record.get(key + _REASON, "the replicate failed")
-    return {**head, "failed_in": failure.get("where", ""), "failed_why": failure.get("why", ""), **values, **near, **cost,
-            **{key: provenance[key] for key in _ORIGIN}, "reasons": {**reasons, **near_reasons}}
+    return {**head, "failed_in": failure.get("where", ""), "failure": failure.get("why", ""), **values,
+            "state": _index_of_nearest(record), **near, **cost, **{key: provenance[key] for key in _ORIGIN},
+            "reasons": {**reasons, **near_reasons}}
+
+
+def _index_of_nearest(record):
+    """Of the state nearest jamming among all states, which has its strain step; None of a replicate that failed."""
+    step = (record.get("nearest") or {}).get("step")
+    return next((k for k, state in enumerate(record["states"]) if state["step"] == step), None)
 
 
 def state_rows(head, record):
-    """One row for each state of the expansion, `state` its number in it; `nearest` is true for the one nearest jamming."""
-    nearest = (record.get("nearest") or {}).get("step")
-    rows = []
+    """One row for each state of the expansion, `state` its number in it; `nearest` is true for the one nearest jamming.
+    None of a replicate that failed."""
+    if record["status"] == "failed":
+        return []
+    nearest, rows = _index_of_nearest(record), []
     for index, state in enumerate(record["states"]):
         values, reasons = flat(state, "state")
-        rows.append({**head, "state": index, "nearest": state["step"] == nearest, **values, "reasons": reasons})
+        rows.append({**head, "state": index, "nearest": index == nearest, **values, "reasons": reasons})
     return rows
 
 

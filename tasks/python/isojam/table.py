@@ -11,13 +11,16 @@ from .errors import InputError
 from .rows import Rows, column_of
 
 #: What a column is of, where its values alone would not tell: 0 may stand for 0., and nothing for any null.
-_TEXT = {"replicate", "solid", "class", "kind", "solid_a", "solid_b", "status", "flags", "stopped", "failed_in",
-         "failed_why"}
+_TEXT = {"replicate", "solid", "class", "kind", "solid_a", "solid_b", "status", "stopped", "failed_in", "failure"}
+_LISTS = {"flags", "reasons"}
 _INTEGER = {"state", "a", "b", "image"}
 _FLOAT = {"delta_phi", "phi", "volume", "area", "force", "attack", "normal", "torque_a", "torque_b", "theta_ef",
           "theta_ff", "depth", "energy_per_particle", "pressure", "residual"}
 _FLOAT |= {quantity["name"] for quantity in facts.quantities}
 _AXES = ("_x", "_y", "_z")
+#: Divides what one cell lists.
+_BETWEEN = "; "
+_TRUTH = {"true": True, "false": False}
 
 
 def read_table(file, name=None):
@@ -43,7 +46,25 @@ def _read(opened, file):
         raise InputError(file, "line 1", "there is no table", "names of columns, or an object on every line")
     chained = (line for part in ([first], lines) for line in part)
     columns = _json_columns(chained, file) if first.startswith("{") else _csv_columns(chained, file)
+    for name in _LISTS.intersection(columns):
+        take = (lambda text: tuple(filter(None, text.split(_BETWEEN)))) if name == "flags" else _reasons(set(columns))
+        columns[name] = column_of([take(str(text or "")) for text in columns[name]])
     return Rows(_with_vectors(columns))
+
+
+def _reasons(names):
+    """What takes "Z_ff: no cut-off; S: …" apart into a dict by these names; a reason may hold what divides them."""
+    def take(text):
+        found, name = {}, None
+        for part in text.split(_BETWEEN):
+            head, colon, rest = part.partition(": ")
+            if colon and head in names:
+                name, found[head] = head, rest
+            elif name is not None:
+                found[name] += _BETWEEN + part
+        return found
+
+    return take
 
 
 def _csv_columns(lines, file):
@@ -65,11 +86,13 @@ def _csv_columns(lines, file):
 
 def _parsed(name, texts, file):
     """The array of a column's texts."""
-    plain = name[:-2] if name.endswith(_AXES) else name
-    if plain in _TEXT:
+    plain = _plain(name)
+    if plain in _TEXT | _LISTS:
         return numpy.array(texts, dtype=str)
-    kinds = [int] if plain in _INTEGER else [float] if plain in _FLOAT else [int, float]
-    if plain not in _FLOAT and "" in texts:
+    if texts and _TRUTH.keys() >= set(texts):
+        return numpy.array([_TRUTH[text] for text in texts])
+    kinds = [int] if plain in _INTEGER and "" not in texts else [float] if plain in _FLOAT else [int, float]
+    if "" in texts:
         kinds = [float]
     for kind in kinds:
         try:
@@ -81,6 +104,11 @@ def _parsed(name, texts, file):
         raise InputError(file, f"row {place + 1} of {name}", f'"{texts[place]}" is no number',
                          "a number, or nothing for null")
     return numpy.array(texts, dtype=str)
+
+
+def _plain(name):
+    """Without the axis, as which a vector's type is known."""
+    return name[:-2] if name.endswith(_AXES) else name
 
 
 def _is(kind, text):
@@ -103,19 +131,17 @@ def _json_columns(lines, file):
         if not isinstance(row, dict):
             raise InputError(file, f"line {number}", "is no object", "an object on every line")
         rows.append(row)
-    return {name: _gathered(name, [row.get(name) for row in rows]) for name in dict.fromkeys(key for row in rows for key in row)}
+    names = dict.fromkeys(key for row in rows for key in row)
+    return {name: _gathered(name, [row.get(name) for row in rows]) for name in names}
 
 
 def _gathered(name, values):
-    """The array of a column's JSON values; lists of three numbers are vectors, others tuples."""
-    if name in _TEXT and all(value is None for value in values):
+    """The array of a column's JSON values."""
+    if name in _TEXT | _LISTS and all(value is None for value in values):
         return numpy.array([""] * len(values))
-    if name in _FLOAT and all(value is None or isinstance(value, (int, float)) for value in values):
+    if _plain(name) in _FLOAT and all(value is None or isinstance(value, (int, float)) for value in values):
         return column_of([None if value is None else float(value) for value in values])
-    lists = [value for value in values if isinstance(value, list)]
-    if lists and len(lists) == len(values) and all(len(v) == 3 and all(isinstance(x, (int, float)) for x in v) for v in lists):
-        return numpy.array(values)
-    return column_of([tuple(value) if isinstance(value, list) else value for value in values])
+    return column_of(values)
 
 
 def _with_vectors(columns):
