@@ -203,8 +203,8 @@ BlockMatrix PackingEnergy::hessian(const Packing& packing, Precision precision) 
   return second_order(packing, 0, precision).hessian;
 }
 
-std::vector<Contact> PackingEnergy::contacts(const Packing& packing) {
-  overlap_all(packing, Precision::working);
+std::vector<Contact> PackingEnergy::contacts(const Packing& packing, Precision precision) {
+  overlap_all(packing, precision);
   std::vector<Contact> result;
   for (const auto& block : touching_.blocks) {
     for (const PairOverlap& at : block) {

@@ -79,8 +79,9 @@ class PackingEnergy {
   SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working,
                            CellFreedom cell = CellFreedom::fixed);
   BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working);
-  /// Touching pairs in order of (a, b, shift).
-  std::vector<Contact> contacts(const Packing& packing);
+  /// Touching pairs in order of (a, b, shift), as exact as the state: flat contacts near jamming have no force to speak
+  /// of in working precision.
+  std::vector<Contact> contacts(const Packing& packing, Precision precision = Precision::double_double);
 
   long evaluations() const { return evaluations_; }
   const PairCounts& counts() const { return totals_; }  ///< summed over all evaluations

@@ -14,18 +14,36 @@ namespace isojam {
 namespace fs = std::filesystem;
 namespace {
 
-std::vector<ExportedFile> collection_files(std::span<const ExportFrame> frames, fs::path output) {
-  if (output.extension() == ".vtp" || output.extension() == ".pvd") output.replace_extension();
+/// A file for each frame, and the collection that names them.
+template <class MakeFile>
+void append_collection(std::span<const ExportFrame> frames, const fs::path& stem, std::string_view suffix,
+                       const MakeFile& make, std::vector<ExportedFile>& files) {
   const bool timed = std::all_of(frames.begin(), frames.end(), [](const auto& frame) { return frame.delta_phi; });
-  std::vector<ExportedFile> files;
   std::vector<TimedFile> collection;
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    auto path = output;
-    path += fmt::format("_{:04}.vtp", k);
+    auto path = stem;
+    path += fmt::format("_{:04}{}.vtp", k, suffix);
     collection.push_back({path.filename().string(), timed ? *frames[k].delta_phi : static_cast<double>(k)});
-    files.push_back({std::move(path), vtp_file(frames[k])});
+    files.push_back({std::move(path), make(frames[k])});
   }
-  files.push_back({output += ".pvd", pvd_file(collection)});
+  auto path = stem;
+  files.push_back({path += fmt::format("{}.pvd", suffix), pvd_file(collection)});
+}
+
+constexpr std::string_view network_suffix = "-contacts";
+
+std::vector<ExportedFile> vtp_files(std::span<const ExportFrame> frames, bool collection, const fs::path& output) {
+  std::vector<ExportedFile> files;
+  const bool with_network = frames.front().network.has_value();
+  auto stem = output;
+  if (output.extension() == ".vtp" || output.extension() == ".pvd") stem.replace_extension();
+  if (collection) {
+    append_collection(frames, stem, "", vtp_file, files);
+    if (with_network) append_collection(frames, stem, network_suffix, vtp_lines_file, files);
+    return files;
+  }
+  files.push_back({output, vtp_file(frames.front())});
+  if (with_network) files.push_back({stem += fmt::format("{}.vtp", network_suffix), vtp_lines_file(frames.front())});
   return files;
 }
 
@@ -63,8 +81,7 @@ std::vector<ExportedFile> exported_files(std::span<const ExportFrame> frames, Ex
     case ExportFormat::xyz: return xyz_files(frames, output);
     case ExportFormat::vtp: break;
   }
-  if (collection) return collection_files(frames, output);
-  return {{output, vtp_file(frames.front())}};
+  return vtp_files(frames, collection, output);
 }
 
 }  // namespace isojam

@@ -24,7 +24,8 @@ struct ExportedFile {
 /// The files of one replicate in the order in which they are to be written, so that each refers to earlier ones only:
 /// gsd: `output`; xyz: `output`, and the solid beside it as .obj; vtp: `output`, or, if `collection`, one _0000.vtp,
 /// _0001.vtp, … for each frame and a .pvd, all named after `output` without its .vtp or .pvd, with Δφ (the number of
-/// the frame where a frame has none) for time. Throws FileError if two of them would have the same path.
+/// the frame where a frame has none) for time, and of frames with a network the same again with -contacts at the end of
+/// their names. Throws FileError if two of them would have the same path.
 std::vector<ExportedFile> exported_files(std::span<const ExportFrame> frames, ExportFormat format, bool collection,
                                          const std::filesystem::path& output);
 

@@ -8,20 +8,11 @@
 
 #include "engine/analysis/clusters.hpp"
 #include "engine/packing/energy.hpp"
-#include "tasks/export/contact_faces.hpp"
+#include "tasks/export/contacts/contact_faces.hpp"
 #include "tasks/measure/parts.hpp"
 
 namespace isojam {
 namespace {
-
-FaceContact strength_of(ContactClass contact_class) {
-  switch (contact_class) {
-    case ContactClass::face_face: return FaceContact::face_face;
-    case ContactClass::edge_face: return FaceContact::edge_face;
-    case ContactClass::lower_order: break;
-  }
-  return FaceContact::lower_order;
-}
 
 void mark_faces(ExportFrame& frame, int particle, std::uint64_t faces, FaceContact strength) {
   const auto first = frame.first_face[static_cast<std::size_t>(particle)];
@@ -44,7 +35,16 @@ std::vector<std::int32_t> clusters_of(const Packing& packing, const ClassifiedCo
 
 }  // namespace
 
-ExportFrame make_frame(Packing packing, std::optional<double> delta_phi) {
+FaceContact strength_of(ContactClass contact_class) {
+  switch (contact_class) {
+    case ContactClass::face_face: return FaceContact::face_face;
+    case ContactClass::edge_face: return FaceContact::edge_face;
+    case ContactClass::lower_order: break;
+  }
+  return FaceContact::lower_order;
+}
+
+ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network) {
   const auto n = packing.poses.size();
   PackingEnergy energy;
   const auto classified = classified_contacts(packing, energy);
@@ -72,6 +72,7 @@ ExportFrame make_frame(Packing packing, std::optional<double> delta_phi) {
     mark_faces(frame, contact.pair.a, faces.of_a, strength);
     mark_faces(frame, contact.pair.b, faces.of_b, strength);
   }
+  if (with_network) frame.network = contact_network(frame.packing, classified);
   return frame;
 }
 
@@ -141,15 +142,21 @@ WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3
   return cell.is_cube() ? into_centred_cube(cell, position) : into_any_cell(cell, position, -0.5);
 }
 
-Packing in_standard_frame(Packing packing) {
-  if (packing.cell.is_cube()) return packing;
-  const Eigen::Matrix3d h = packing.cell.vectors().high;
+Eigen::Matrix3d to_standard_frame(const PeriodicCell& cell) {
+  if (cell.is_cube()) return Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d& h = cell.vectors().high;
   Eigen::Matrix3d turn;  // rows: the new axes
   turn.row(0) = h.col(0).normalized();
   turn.row(2) = h.col(0).cross(h.col(1)).normalized();
   turn.row(1) = turn.row(2).cross(turn.row(0));
+  return turn;
+}
+
+Packing in_standard_frame(Packing packing) {
+  if (packing.cell.is_cube()) return packing;
+  const Eigen::Matrix3d turn = to_standard_frame(packing.cell);
   DoubleDoubleMatrix upper;
-  upper.high = (turn * h).triangularView<Eigen::Upper>();
+  upper.high = (turn * packing.cell.vectors().high).triangularView<Eigen::Upper>();
   packing.cell = PeriodicCell(upper);
   const Eigen::Quaterniond rotation(turn);
   for (auto& pose : packing.poses) pose = {turn * pose.position, rotation * pose.orientation, {0, 0, 0}, {0, 0, 0, 0}};

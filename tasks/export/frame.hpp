@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/packing/packing.hpp"
+#include "tasks/export/contacts/contact_network.hpp"
 
 namespace isojam {
 
@@ -17,6 +18,9 @@ enum class FaceContact : std::int32_t {
   edge_face = 2,
   face_face = 3
 };
+
+/// What a contact of this class counts for.
+FaceContact strength_of(ContactClass contact_class);
 
 /// One state of an expansion with what pictures of it show. Sizes: N particles.
 struct ExportFrame {
@@ -31,14 +35,16 @@ struct ExportFrame {
   /// Of face f of particle i at first_face[i] + f, by contact_faces; of undecided contacts all faces that bound the
   /// intersection.
   std::vector<FaceContact> faces;
-  std::vector<std::size_t> first_face{};  ///< N + 1, the number of all at the end
+  std::vector<std::size_t> first_face{};                 ///< N + 1, the number of all at the end
+  std::optional<std::vector<NetworkContact>> network{};  ///< of contacts, where it is wanted
 
   const ConvexSolid& solid(std::size_t particle) const { return packing.solids[particle]; }
 };
 
 /// Finds contacts, their classes and their clusters as the measurements do.
-/// Throws std::invalid_argument if the cell is not larger than least_side() of the widest solid.
-ExportFrame make_frame(Packing packing, std::optional<double> delta_phi);
+/// The network takes some 50 µs a contact. Throws std::invalid_argument if the cell is not larger than least_side() of
+/// the widest solid.
+ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network = false);
 
 /// Throws std::invalid_argument unless there is a frame, and all have the same particles.
 void check_frames(std::span<const ExportFrame> frames);
@@ -55,6 +61,8 @@ WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& posit
 /// and so is L.
 WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position);
 
+/// Rotation of a packing to the frame of formats with tilts; of a cube, none.
+Eigen::Matrix3d to_standard_frame(const PeriodicCell& cell);
 /// The packing turned so that its first lattice vector lies along x and the second in the plane of x and y, as formats
 /// with tilts have it. A cube stays as it is.
 Packing in_standard_frame(Packing packing);

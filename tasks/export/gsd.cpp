@@ -2,7 +2,9 @@
 
 #include <array>
 #include <map>
+#include <utility>
 
+#include "tasks/export/contacts/gsd_bonds.hpp"
 #include "tasks/export/formats.hpp"
 #include "tasks/json/json.hpp"
 #include "tasks/packings/gsd_layer.hpp"
@@ -117,6 +119,10 @@ std::vector<GsdChunk> chunks_of(const ExportFrame& frame, std::uint64_t step, bo
   if (with_distance) chunks.push_back(one("log/isojam/delta_phi", *frame.delta_phi));
   chunks.push_back(many("log/particles/isojam/Z", frame.Z));
   chunks.push_back(many("log/particles/isojam/cluster", frame.cluster));
+  if (frame.network) {
+    for (auto& chunk : bond_chunks(*frame.network, to_standard_frame(frame.packing.cell)))
+      chunks.push_back(std::move(chunk));
+  }
   return chunks;
 }
 

@@ -1,35 +1,16 @@
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "tasks/export/formats.hpp"
+#include "tasks/export/vtk_xml.hpp"
 
 namespace isojam {
 namespace {
-
-using Text = std::back_insert_iterator<std::string>;
 
 constexpr auto explanation =
     "<!-- particle: number from 0. Z: contacts of the particle. cluster: least number of a particle in the same "
     "cluster of face-face contacts; -1: no face-face contact, -2: classes of contacts undecided. contact_class: the "
     "strongest contact that the face takes part in; 3: face-face, 2: edge-face, 1: of lower order, 0: none, "
     "-1: touched, classes undecided. Lengths in the cube root of a particle's volume. -->\n";
-
-/// An array of `values(k)`, k < count; a line for each `per_line` of them.
-template <class Values>
-void append_array(std::string& xml, std::string_view type, std::string_view attributes, std::size_t count,
-                  std::size_t per_line, const Values& values) {
-  fmt::format_to(Text(xml), "<DataArray type=\"{}\" {} format=\"ascii\">\n", type, attributes);
-  for (std::size_t k = 0; k < count; ++k) {
-    fmt::format_to(Text(xml), "{}{}", values(k), (k + 1) % per_line == 0 || k + 1 == count ? '\n' : ' ');
-  }
-  xml += "</DataArray>\n";
-}
-
-void append_field(std::string& xml, std::string_view name, double value) {
-  append_array(xml, "Float64", fmt::format("Name=\"{}\" NumberOfTuples=\"1\"", name), 1, 1,
-               [&](std::size_t) { return value; });
-}
 
 std::vector<double> world_vertices(const Packing& packing) {
   std::vector<double> coordinates;
@@ -112,26 +93,13 @@ std::string escaped(std::string_view text) {
 
 std::string vtp_file(const ExportFrame& frame) {
   const auto& packing = frame.packing;
-  std::string xml = "<?xml version=\"1.0\"?>\n";
-  xml += explanation;
-  xml +=
-      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
-      "<FieldData>\n";
-  append_field(xml, "side", packing.cell.side());
-  if (!packing.cell.is_cube()) {
-    const Eigen::Matrix3d& h = packing.cell.vectors().high;
-    append_array(xml, "Float64", "Name=\"cell\" NumberOfComponents=\"9\" NumberOfTuples=\"1\"", 9, 9,
-                 [&](std::size_t k) { return h.data()[k]; });
-  }
-  append_field(xml, "phi", packing.density());
-  if (frame.delta_phi) append_field(xml, "delta_phi", *frame.delta_phi);
+  auto xml = vtk_head(frame, explanation);
   std::size_t vertices = 0;
   for (std::size_t i = 0; i < packing.poses.size(); ++i) vertices += packing.solids[i].vertices().size();
-  fmt::format_to(Text(xml), "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n", vertices,
-                 frame.faces.size());
+  fmt::format_to(Text(xml), "<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n", vertices, frame.faces.size());
   append_cell_data(xml, frame);
   append_geometry(xml, packing);
-  return xml + "</Piece>\n</PolyData>\n</VTKFile>\n";
+  return xml + std::string(vtk_foot);
 }
 
 std::string pvd_file(std::span<const TimedFile> files) {

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <random>
 #include <system_error>
@@ -118,27 +119,58 @@ bool write_exclusively(const fs::path& path, std::string_view content) {
   return true;
 }
 
-void write_output(const fs::path& path, std::string_view content) {
-  const auto target = followed(path);
-  // What a shell has opened for the output is written to where it stands, and not replaced by a file of that name.
-  if (const auto number = descriptor_at(target)) {
-    const Descriptor own(::dup(*number));
-    if (!own.valid() || !own.write(content)) throw FileError::of_errno(path, cannot_be_written);
-    return;
+struct OutputWriter::Target {
+  fs::path path;                        ///< as it was named
+  fs::path target;                      ///< where links end
+  std::optional<Descriptor> opened;     ///< a pipe, a device or what a shell has opened: written to where it stands
+  std::optional<struct stat> replaced;  ///< the file that stands there
+  std::optional<Temporary> temporary;
+
+  explicit Target(const fs::path& name) : path(name), target(followed(name)) {
+    if (const auto number = descriptor_at(target)) {
+      // Not replaced by a file of that name.
+      opened.emplace(::dup(*number));
+      require_open();
+      return;
+    }
+    struct stat status {};
+    const bool there = ::stat(target.c_str(), &status) == 0;
+    if (there && !S_ISREG(status.st_mode)) {
+      opened.emplace(target, O_WRONLY);
+      require_open();
+      return;
+    }
+    if (there && ::access(target.c_str(), W_OK) != 0) throw FileError::of_errno(path, cannot_be_written);
+    if (there) replaced = status;
+    temporary.emplace(target);
   }
-  struct stat status {};
-  const bool there = ::stat(target.c_str(), &status) == 0;
-  if (there && !S_ISREG(status.st_mode)) {
-    const Descriptor special(target, O_WRONLY);
-    if (!special.valid() || !special.write(content)) throw FileError::of_errno(path, cannot_be_written);
-    return;
+
+  void require_open() const {
+    if (!opened->valid()) throw FileError::of_errno(path, cannot_be_written);
   }
-  if (there && ::access(target.c_str(), W_OK) != 0) throw FileError::of_errno(path, cannot_be_written);
-  Temporary file(target);
-  file.write(content, Durability::synced);
-  if (there) file.take_after(status);
+};
+
+OutputWriter::OutputWriter(const fs::path& path) : target_(std::make_unique<Target>(path)) {}
+OutputWriter::~OutputWriter() = default;
+
+void OutputWriter::append(std::string_view content) {
+  if (target_->temporary) return target_->temporary->write(content, Durability::lossless);
+  if (!target_->opened->write(content)) throw FileError::of_errno(target_->path, cannot_be_written);
+}
+
+void OutputWriter::finish() {
+  if (!target_->temporary) return;
+  auto& file = *target_->temporary;
+  file.write("", Durability::synced);
+  if (target_->replaced) file.take_after(*target_->replaced);
   file.rename();
-  sync_directory_of(target);
+  sync_directory_of(target_->target);
+}
+
+void write_output(const fs::path& path, std::string_view content) {
+  OutputWriter writer(path);
+  writer.append(content);
+  writer.finish();
 }
 
 bool is_stream(const fs::path& path) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace isojam {
@@ -24,6 +25,23 @@ bool write_exclusively(const std::filesystem::path& path, std::string_view conte
 /// Writes what a person asked for under a name of theirs: atomically, but where a symbolic link points, with the mode
 /// and owner of the file that stands there, and into a pipe or device instead of replacing it. Throws FileError.
 void write_output(const std::filesystem::path& path, std::string_view content);
+
+/// write_output() of what is too long to be held at once. Nothing stands at the path before finish(), nor ever without
+/// it, unless it is a pipe or a device. Each function throws FileError.
+class OutputWriter {
+ public:
+  explicit OutputWriter(const std::filesystem::path& path);
+  ~OutputWriter();
+  OutputWriter(const OutputWriter&) = delete;
+  OutputWriter& operator=(const OutputWriter&) = delete;
+
+  void append(std::string_view content);
+  void finish();
+
+ private:
+  struct Target;
+  std::unique_ptr<Target> target_;
+};
 
 /// Whether what is written under that name goes into a pipe, a device or what a shell has opened: nothing can stand
 /// beside.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "tasks/json/rows.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/tables/lines.hpp"
 #include "tasks/tables/tables.hpp"
@@ -68,16 +69,8 @@ std::vector<std::size_t> quantities_in(const std::vector<TableLine>& lines, bool
   return list;
 }
 
-/// RFC 4180: quoted where it holds what divides fields and lines.
-std::string field_of(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
 std::string line_of(Cells cells) {
-  for (auto& cell : cells) cell = field_of(cell);
+  for (auto& cell : cells) cell = csv_field(cell);
   return joined(cells, ",") + '\n';
 }
 

@@ -22,20 +22,10 @@ struct Plane {
   Quad offset;
 };
 
-/// A face polygon, counter-clockwise seen from outside, on face `face` of A or of B.
-struct CutFace {
-  std::vector<int> loop;
-  int face = 0;
-  bool of_a = true;
-};
+using Polygon = QuadIntersection::Polygon;
 
-struct CutSolid {
-  std::vector<Quad3> points;
-  std::vector<CutFace> faces;
-};
-
-CutSolid whole(const ConvexSolid& a) {
-  CutSolid solid;
+QuadIntersection whole(const ConvexSolid& a) {
+  QuadIntersection solid;
   for (int v = 0; v < a.arrays().vertices; ++v) solid.points.push_back(a.arrays().vertex(v));
   for (std::size_t f = 0; f < a.faces().size(); ++f)
     solid.faces.push_back({a.faces()[f].vertices, static_cast<int>(f), true});
@@ -53,18 +43,18 @@ Plane placed_plane(const ConvexSolid& b, int face, const QuadPose& pose) {
 
 class PlaneCut {
  public:
-  PlaneCut(CutSolid& solid, const Plane& plane, Quad tolerance) : solid_(solid), tolerance_(tolerance) {
+  PlaneCut(QuadIntersection& solid, const Plane& plane, Quad tolerance) : solid_(solid), tolerance_(tolerance) {
     for (const Quad3& point : solid.points) distance_.push_back(dot(plane.normal, point) - plane.offset);
   }
 
   /// Cuts, and closes the hole by face `face` of B. False if the plane crosses a face more than once.
   [[nodiscard]] bool apply(int face) {
-    std::vector<CutFace> kept;
-    for (CutFace& f : solid_.faces) {
+    std::vector<Polygon> kept;
+    for (Polygon& f : solid_.faces) {
       trim(f);
       if (f.loop.size() >= 3) kept.push_back(std::move(f));
     }
-    CutFace cap{cap_loop(), face, false};
+    Polygon cap{cap_loop(), face, false};
     if (cap.loop.size() != cap_next_.size()) consistent_ = false;
     if (cap.loop.size() >= 3) kept.push_back(std::move(cap));
     solid_.faces = std::move(kept);
@@ -88,7 +78,7 @@ class PlaneCut {
     return slot->second;
   }
 
-  void trim(CutFace& face) {
+  void trim(Polygon& face) {
     std::vector<int> loop;
     int left = -1, entered = -1, departures = 0;
     const auto append = [&loop](int p) {
@@ -126,7 +116,7 @@ class PlaneCut {
     return p == start ? loop : std::vector<int>{};
   }
 
-  CutSolid& solid_;
+  QuadIntersection& solid_;
   Quad tolerance_;
   std::vector<Quad> distance_;
   std::map<std::pair<int, int>, int> crossings_;
@@ -135,10 +125,10 @@ class PlaneCut {
 };
 
 /// Volume, and S and M as those of the faces on B, reversed.
-void integrate(const CutSolid& solid, QuadOverlap& sum) {
+void integrate(const QuadIntersection& solid, QuadOverlap& sum) {
   if (solid.faces.empty()) return;
   const Quad3 origin = solid.points[static_cast<std::size_t>(solid.faces.front().loop.front())];
-  for (const CutFace& face : solid.faces) {
+  for (const Polygon& face : solid.faces) {
     const Quad3 p = solid.points[static_cast<std::size_t>(face.loop[0])];
     for (std::size_t k = 1; k + 1 < face.loop.size(); ++k) {
       const Quad3 q = solid.points[static_cast<std::size_t>(face.loop[k])];
@@ -161,9 +151,9 @@ std::uint64_t edges_between(const ConvexSolid& solid, const std::vector<std::pai
   return mask;
 }
 
-void mark_features(const ConvexSolid& a, const ConvexSolid& b, const CutSolid& solid, QuadOverlap& result) {
-  std::map<std::pair<int, int>, const CutFace*> face_of;
-  for (const CutFace& face : solid.faces) {
+void mark_features(const ConvexSolid& a, const ConvexSolid& b, const QuadIntersection& solid, QuadOverlap& result) {
+  std::map<std::pair<int, int>, const Polygon*> face_of;
+  for (const Polygon& face : solid.faces) {
     (face.of_a ? result.faces_a : result.faces_b) |= std::uint64_t{1} << face.face;
     for (std::size_t k = 0; k < face.loop.size(); ++k)
       face_of[{face.loop[k], face.loop[(k + 1) % face.loop.size()]}] = &face;
@@ -179,7 +169,8 @@ void mark_features(const ConvexSolid& a, const ConvexSolid& b, const CutSolid& s
 }
 
 /// A ∩ B; false if a cut was not consistent.
-bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose, Quad tolerance, CutSolid& solid) {
+bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose, Quad tolerance,
+             QuadIntersection& solid) {
   solid = whole(a);
   for (int f = 0; f < b.arrays().faces && !solid.faces.empty(); ++f) {
     if (!PlaneCut(solid, placed_plane(b, f, pose), tolerance).apply(f)) return false;
@@ -189,21 +180,29 @@ bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose, Q
 
 }  // namespace
 
-QuadOverlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose) {
+QuadIntersection clipped_intersection(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose) {
   // Between the rounding of quadruple precision (1e-34 of a coordinate) and the least distance that the rounding of
   // doubles leaves between planes that do not coincide.
   const Quad exact = Quad(a.circumradius() * std::max(1.0, b.scale() / a.scale())) * Quad(1e-28);
-  CutSolid solid;
+  QuadIntersection solid;
   if (!cut_all(a, b, pose, exact, solid)) {
     // With everything on every plane nothing is cut: the loop ends.
     Quad rounding = gap_tolerance(a, b, narrowed(pose));
     while (!cut_all(a, b, pose, rounding, solid)) rounding *= 2;
   }
+  return solid;
+}
+
+QuadOverlap overlap_of(const ConvexSolid& a, const ConvexSolid& b, const QuadIntersection& intersection) {
   QuadOverlap result;
-  integrate(solid, result);
+  integrate(intersection, result);
   if (!(result.volume > 0)) return {};
-  mark_features(a, b, solid, result);
+  mark_features(a, b, intersection, result);
   return result;
+}
+
+QuadOverlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose) {
+  return overlap_of(a, b, clipped_intersection(a, b, pose));
 }
 
 Overlap narrowed(const QuadOverlap& exact) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/overlap/overlap.hpp"
@@ -17,11 +18,29 @@ struct QuadOverlap {
   std::uint64_t edges_a = 0, edges_b = 0;
 };
 
+/// A ∩ B in quadruple precision: a convex polyhedron in A's body frame.
+struct QuadIntersection {
+  /// A polygon on face `face` of A or of B, counter-clockwise seen from outside.
+  struct Polygon {
+    std::vector<int> loop;  ///< indices of points
+    int face = 0;
+    bool of_a = true;
+  };
+  std::vector<Quad3> points;  ///< the polygons', and others that were cut away
+  std::vector<Polygon> faces;
+};
+
+/// A cut by the face planes of B one after another. Nothing is left of solids that are apart, and what is left of those
+/// that touch without a volume is flat.
+QuadIntersection clipped_intersection(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
+
+/// V, S_A and M_A by the divergence theorem over an intersection of A and B, and what of either bounds it.
+QuadOverlap overlap_of(const ConvexSolid& a, const ConvexSolid& b, const QuadIntersection& intersection);
+
 /// The nearest doubles; its path is OverlapPath::clip unless the volume is 0.
 Overlap narrowed(const QuadOverlap& exact);
 
-/// The slow path of overlap() and its oracle: A cut by the face planes of B one after another in quadruple precision,
-/// V, S_A and M_A by the divergence theorem over what is left, in A's body frame.
+/// The slow path of overlap() and its oracle: overlap_of() the clipped_intersection().
 QuadOverlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
 Overlap clipped_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 

@@ -1,4 +1,4 @@
-#include "tasks/export/contact_faces.hpp"
+#include "tasks/export/contacts/contact_faces.hpp"
 
 #include <Eigen/Geometry>
 #include <bit>

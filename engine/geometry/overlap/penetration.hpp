@@ -1,0 +1,19 @@
+#pragma once
+
+#include "engine/geometry/overlap/separating_axis.hpp"
+#include "engine/geometry/quad.hpp"
+
+namespace isojam {
+
+/// How far A and B reach into each other along an axis, and which: the shortest translation that parts them is `depth`
+/// long and goes along it.
+struct Penetration {
+  SeparatingAxis axis;
+  Quad depth = 0;  ///< V_p^(1/3); negative if they are apart, and then no more than their distance
+};
+
+/// The axis of least depth among all face normals and edge-edge products, told apart in quadruple precision where
+/// doubles cannot. Slow: every axis is tried.
+Penetration penetration(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
+
+}  // namespace isojam

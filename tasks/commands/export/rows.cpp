@@ -1,0 +1,67 @@
+#include <optional>
+
+#include "tasks/commands/export/export.hpp"
+#include "tasks/export/contacts/contact_network.hpp"
+#include "tasks/export/rows/record_rows.hpp"
+#include "tasks/export/stored_states.hpp"
+#include "tasks/store/store.hpp"
+#include "tasks/system/atomic_file.hpp"
+#include "tasks/system/standard_streams.hpp"
+
+namespace isojam {
+namespace {
+
+/// A file, or where none is named, standard output.
+class Output {
+ public:
+  explicit Output(const std::string& path) {
+    if (!path.empty()) file_.emplace(path);
+  }
+  void append(const std::string& text) {
+    if (file_) return file_->append(text);
+    print(text);
+  }
+  void finish() {
+    if (file_) file_->finish();
+  }
+
+ private:
+  std::optional<OutputWriter> file_;
+};
+
+RowFormat format_of(const std::string& output) {
+  return output.ends_with(".jsonl") ? RowFormat::json_lines : RowFormat::csv;
+}
+
+/// Lines of what a replicate has, one state at a time: an expansion has millions of contacts.
+void append_contacts(const ExportArguments& arguments, const RecordedReplicate& held, Output& output) {
+  for (const auto& state : stored_states(arguments.directory, held, arguments.path)) {
+    output.append(contact_lines(format_of(arguments.output), {held.name, state.index, state.delta_phi}, state.packing));
+  }
+}
+
+}  // namespace
+
+ExitCode export_rows(const ExportArguments& arguments, Console& console) {
+  // What is refused is refused before the first line.
+  const auto names = chosen_names(arguments);
+  const auto manifest = stored_manifest(arguments.directory);
+  const auto format = format_of(arguments.output);
+  const auto of = arguments.what == Exported::states ? RowOf::state : RowOf::replicate;
+  const RecordRows rows(of, format, manifest, own_record(arguments, manifest, names.front()));
+  const bool of_contacts = arguments.what == Exported::contacts;
+  Output output(arguments.output);
+  output.append(of_contacts ? head_line(format, contact_columns()) : rows.head());
+  for (const auto& name : names) {
+    const auto held = own_record(arguments, manifest, name);
+    if (!of_contacts) {
+      output.append(rows.lines(arguments.directory, held));
+    } else if (has_packing(arguments, held, console)) {
+      append_contacts(arguments, held, output);
+    }
+  }
+  output.finish();
+  return ExitCode::done;
+}
+
+}  // namespace isojam

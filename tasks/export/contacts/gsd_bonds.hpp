@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "tasks/export/contacts/contact_network.hpp"
+#include "tasks/packings/gsd_layer.hpp"
+
+namespace isojam {
+
+/// A network of contacts as bonds of the schema "hoomd": types face_face, edge_face, lower_order and undecided by the
+/// fits; logged per bond, log/bonds/isojam/: force (on the first particle, 3 columns), volume, area, depth, theta_ef,
+/// theta_ff, and kind (the numbers of ContactKind). `rotation` takes vectors of the packing to the frame of the file.
+std::vector<GsdChunk> bond_chunks(const std::vector<NetworkContact>& network, const Eigen::Matrix3d& rotation);
+
+}  // namespace isojam

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "tasks/export/frame.hpp"
+
+namespace isojam {
+
+// What the files for VTK have in common.
+
+using Text = std::back_insert_iterator<std::string>;
+
+/// An array of `values(k)`, k < count; a line for each `per_line` of them.
+template <class Values>
+void append_array(std::string& xml, std::string_view type, std::string_view attributes, std::size_t count,
+                  std::size_t per_line, const Values& values) {
+  fmt::format_to(Text(xml), "<DataArray type=\"{}\" {} format=\"ascii\">\n", type, attributes);
+  for (std::size_t k = 0; k < count; ++k) {
+    fmt::format_to(Text(xml), "{}{}", values(k), (k + 1) % per_line == 0 || k + 1 == count ? '\n' : ' ');
+  }
+  xml += "</DataArray>\n";
+}
+
+/// The beginning of a PolyData file, up to its piece, with the field data side, cell unless it is a cube, phi, and
+/// delta_phi if there is one. `explanation`: a comment, or nothing.
+std::string vtk_head(const ExportFrame& frame, std::string_view explanation);
+
+inline constexpr std::string_view vtk_foot = "</Piece>\n</PolyData>\n</VTKFile>\n";
+
+}  // namespace isojam

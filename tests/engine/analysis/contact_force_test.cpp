@@ -1,0 +1,237 @@
+// Facts proved here:
+//   1. forces and torques of all contacts sum up, particle by particle, to the gradient of the energy in double-double,
+//      to rounding, in random packings, in jammed ones, in mixtures and in sheared cells; V, S and M are the kernel's;
+//   2. the line of action: about the point of attack a force has no torque but along itself, seen from either solid,
+//      whose torques differ by r × F; the point lies half way between the ends of the intersection;
+//   3. two bricks face to face have the depth, area, force and point of attack that a ruler gives;
+//   4. kinds: vertices in faces, edges across edges, edges in faces and faces in faces, put together at random with
+//      every Platonic solid, are told apart, whichever solid comes first;
+//   5. exchange of the two solids, a lattice translation and a rotation of the whole change nothing but the frame;
+//   6. contacts are found in double-double unless asked otherwise: a flat one 1e-17 deep has its force to 1e-9 then.
+
+#include "engine/analysis/contact_force.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/geometry/overlap/penetration.hpp"
+#include "engine/geometry/solids/solid.hpp"
+#include "engine/packing/mixture/mixture.hpp"
+#include "engine/solve/minimise/minimise.hpp"
+#include "tests/engine/analysis/constructed_contacts.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double epsilon = 2.220446049250313e-16;
+
+Packing sample(SolidKind kind, int n, double density, std::uint64_t seed) {
+  RandomStream random{seed};
+  return random_packing(platonic(kind), n, density, random);
+}
+
+Packing relaxed(Packing packing) {
+  PackingEnergy energy;
+  MinimiseOptions options;
+  options.max_evaluations = 300;
+  minimise(packing, energy, options);
+  return packing;
+}
+
+Packing mixed() {
+  RandomStream random{5};
+  const Mixture mixture({{SolidKind::cube, .5}, {SolidKind::octahedron, .5, {.from = 1.4}}}, "");
+  return random_packing(mixture.particles(80), .7, random);
+}
+
+Packing sheared() {
+  DoubleDoubleMatrix f;
+  f.high(0, 1) = .15, f.high(1, 2) = -.1;
+  return deformed(sample(SolidKind::dodecahedron, 90, .65, 6), f);
+}
+
+std::vector<Packing> samples() {
+  std::vector<Packing> list;
+  for (const SolidKind kind : all_solids) list.push_back(relaxed(sample(kind, 64, .7, 1)));
+  list.push_back(mixed());
+  list.push_back(sheared());
+  return list;
+}
+
+std::string name_of(const Packing& packing) {
+  return packing.solids.unit(0).name() + ", N " + std::to_string(packing.size());
+}
+
+TEST(ContactForces, SumUpToTheGradient) {
+  for (const Packing& packing : samples()) {
+    SCOPED_TRACE(name_of(packing));
+    PackingEnergy energy;
+    const Evaluation expected = energy.evaluate(packing, Precision::double_double);
+    const auto contacts = energy.contacts(packing);
+    const auto forces = contact_forces(packing, contacts);
+    ASSERT_EQ(static_cast<long>(contacts.size()), expected.contacts);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(expected.gradient.size()), size = sum;
+    double sizes = 0;
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      const auto [a, b] = std::pair(contacts[k].pair.a, contacts[k].pair.b);
+      const auto radius = [&](int i) { return packing.solids[static_cast<std::size_t>(i)].gyration_radius(); };
+      sum.segment<3>(6 * a) -= forces[k].force_a, sum.segment<3>(6 * b) += forces[k].force_a;
+      sum.segment<3>(6 * a + 3) -= forces[k].torque_a / radius(a);
+      sum.segment<3>(6 * b + 3) -= forces[k].torque_b / radius(b);
+      const Overlap& overlap = contacts[k].overlap;
+      // What the kernel promises in double-double: contacts below V 1e-8 to 1e-15, others to 1e-12.
+      EXPECT_NEAR(forces[k].volume, overlap.volume, 1e-12 * overlap.volume) << "contact " << k;
+      EXPECT_NEAR(forces[k].area, overlap.area.norm(), 1e-12 * forces[k].area) << "contact " << k;
+      sizes += forces[k].force_a.norm();
+    }
+    const double worst = (sum - expected.gradient).cwiseAbs().maxCoeff(),
+                 scale = sizes / static_cast<double>(forces.size());
+    RecordProperty(packing.solids.unit(0).name(), std::to_string(worst / scale));
+    EXPECT_LT(worst, 1e-11 * scale) << "mean force " << scale;
+  }
+}
+
+TEST(ContactForces, ActAlongALineThroughTheirPointOfAttack) {
+  for (const Packing& packing : samples()) {
+    SCOPED_TRACE(name_of(packing));
+    const auto contacts = PackingEnergy().contacts(packing);
+    const auto forces = contact_forces(packing, contacts);
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      const ContactForce& f = forces[k];
+      const Vector3d xa = packing.poses[static_cast<std::size_t>(contacts[k].pair.a)].position;
+      const Vector3d r = displacement(packing, contacts[k].pair), arm_a = f.attack - xa, arm_b = arm_a - r;
+      const double lever = arm_a.norm() + arm_b.norm() + packing.cell.side(), scale = f.force_a.norm() * lever;
+      const double tolerance = 100 * epsilon * scale;
+      const Vector3d rest_a = f.torque_a - arm_a.cross(f.force_a), rest_b = f.torque_b + arm_b.cross(f.force_a);
+      EXPECT_LT(rest_a.cross(f.normal).norm(), tolerance) << k;
+      EXPECT_LT(rest_b.cross(f.normal).norm(), tolerance) << k;
+      EXPECT_LT((rest_a + rest_b).norm(), tolerance) << "the same screw from either side, " << k;
+      EXPECT_LT((f.force_a.normalized() + f.normal).norm(), 10 * epsilon) << k;
+      EXPECT_NEAR(f.force_a.norm(), f.volume / 2 * f.area, 10 * epsilon * f.force_a.norm()) << k;
+    }
+  }
+}
+
+/// Two solids alone in a large cell; the first stands at the origin as it is.
+Packing pair_of(const ConvexSolid& solid, const RelativePose& pose) {
+  Packing packing{solid, PeriodicCell(20), std::vector<Pose>(2)};
+  packing.poses[1].position = pose.displacement;
+  packing.poses[1].orientation = Eigen::Quaterniond(pose.rotation);
+  return packing;
+}
+
+TEST(ContactForces, OfTwoCubesAreThoseOfARuler) {
+  RelativePose pose;
+  pose.displacement = Vector3d(.25, -.5, .96875);  // exact in binary: 1/32 deep, 3/4 by 1/2 wide
+  const Packing packing = pair_of(platonic(SolidKind::cube), pose);
+  const ContactForce f = contact_force(packing, {0, 1, {0, 0, 0}});
+  // S = ∇V, V the product of the three widths; the pressure on three sides of the box goes through its middle.
+  const Vector3d width(.75, .5, 1. / 32),
+      gradient(width.y() * width.z(), -width.x() * width.z(), width.x() * width.y());
+  const double volume = width.prod(), area = gradient.norm();
+  EXPECT_NEAR(f.depth, width.z(), 4 * epsilon);
+  EXPECT_NEAR(f.area, area, 4 * epsilon);
+  EXPECT_NEAR(f.volume, volume, 4 * epsilon * volume);
+  EXPECT_LT((f.normal - gradient / area).norm(), 4 * epsilon) << f.normal.transpose();
+  EXPECT_LT((f.force_a + volume / 2 * gradient).norm(), 4 * epsilon * volume);
+  EXPECT_LT((f.attack - Vector3d(.125, -.25, .484375)).norm(), 8 * epsilon) << f.attack.transpose();
+  EXPECT_EQ(f.kind, ContactKind::face_face);
+}
+
+/// Of A and of B exchanged.
+std::array<ContactKind, 2> kinds_of(const ConvexSolid& solid, const Contact& contact) {
+  const Contact other = constructed::exchanged(contact);
+  const auto kind = [&](const QuadPose& pose) {
+    const QuadIntersection intersection = clipped_intersection(solid, solid, pose);
+    return contact_kind(solid, solid, pose, intersection, overlap_of(solid, solid, intersection).area);
+  };
+  return {kind(widened(contact.pose)), kind(widened(other.pose))};
+}
+
+TEST(ContactKinds, AreToldFromTheIntersection) {
+  RandomStream random{9};
+  const auto any = [&](std::size_t count) { return static_cast<int>(random.uniform() * static_cast<double>(count)); };
+  for (const SolidKind kind : all_solids) {
+    const ConvexSolid& solid = platonic(kind);
+    for (int k = 0; k < 40; ++k) {
+      const auto vertex = constructed::vertex_site(solid, any(solid.vertices().size()));
+      const auto face = constructed::face_site(solid, any(solid.faces().size()));
+      const auto edge = constructed::edge_site(solid, any(solid.edges().size()));
+      const auto other_edge = constructed::edge_site(solid, any(solid.edges().size()));
+      const double spin = 2 * std::numbers::pi * random.uniform(), depth = 1e-6 + 1e-5 * random.uniform();
+      const Vector3d tilt = .02 * constructed::random_direction(random), none = Vector3d::Zero();
+      const auto expect = [&](const Contact& contact, ContactKind expected) {
+        for (const ContactKind found : kinds_of(solid, contact))
+          EXPECT_EQ(to_string(found), to_string(expected)) << solid.name() << " " << k << " depth " << depth;
+      };
+      expect(constructed::contact(vertex, face, spin, tilt, depth), ContactKind::vertex_face);
+      expect(constructed::contact(face, face, spin, 1e-3 * depth * tilt, depth), ContactKind::face_face);
+      // A spin that keeps the edges well apart from parallel.
+      const double cross = std::numbers::pi * (.2 + .6 * random.uniform());
+      expect(constructed::contact(edge, other_edge, cross, none, depth), ContactKind::edge_edge);
+      expect(constructed::contact(edge, face, spin, 1e-3 * depth * tilt, depth), ContactKind::edge_face);
+    }
+  }
+}
+
+TEST(ContactForces, DoNotDependOnFrameImageOrOrder) {
+  for (const Packing& packing : {relaxed(sample(SolidKind::icosahedron, 64, .72, 3)), sheared()}) {
+    const auto contacts = PackingEnergy().contacts(packing);
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(.5, -.5, .1, .7).normalized();
+    const Eigen::Matrix3d q = turn.toRotationMatrix();
+    Packing turned = packing;
+    DoubleDoubleMatrix vectors;
+    vectors.high = q * packing.cell.vectors().high;
+    turned.cell = PeriodicCell(vectors);
+    for (Pose& pose : turned.poses) pose = {q * pose.position, turn * pose.orientation, Vector3d::Zero(), {0, 0, 0, 0}};
+    Packing shifted = packing;
+    const Eigen::Vector3i image(1, -2, 1);
+    shifted.poses[0].position += packing.cell.translation(image);
+    for (const Contact& contact : contacts) {
+      const ContactForce f = contact_force(packing, contact.pair), g = contact_force(turned, contact.pair);
+      // Turned coordinates are rounded to 1e-16 of the cell: faces move by that, and so does the depth.
+      const double loose = 1e3 * epsilon * packing.cell.side() / (f.volume / f.area);
+      EXPECT_NEAR(g.volume, f.volume, loose * f.volume);
+      EXPECT_LT((q * f.force_a - g.force_a).norm(), loose * f.force_a.norm());
+      EXPECT_LT((q * f.attack - g.attack).norm(), loose);
+      EXPECT_EQ(to_string(g.kind), to_string(f.kind));
+      const NeighbourPair back{contact.pair.b, contact.pair.a, -contact.pair.shift};
+      const ContactForce h = contact_force(packing, back);
+      EXPECT_LT((h.force_a + f.force_a).norm(), 10 * epsilon * f.force_a.norm());
+      EXPECT_LT((h.torque_a - f.torque_b).norm(), 10 * epsilon * (1 + packing.cell.side()) * f.force_a.norm());
+      EXPECT_NEAR(h.depth, f.depth, 10 * epsilon * f.depth);
+      EXPECT_EQ(to_string(h.kind), to_string(f.kind));
+      if (contact.pair.a != 0) continue;
+      NeighbourPair there = contact.pair;
+      there.shift += image;
+      const ContactForce s = contact_force(shifted, there);
+      EXPECT_LT((s.force_a - f.force_a).norm(), loose * f.force_a.norm());
+    }
+  }
+}
+
+TEST(Contacts, AreAsExactAsTheState) {
+  // Two cubes 1e-17 deep, a depth that the position of the second has in its low part only.
+  RelativePose pose;
+  pose.displacement = Vector3d(.25, .25, 1);
+  Packing packing = pair_of(platonic(SolidKind::cube), pose);
+  packing.poses[1].position_low = Vector3d(0, 0, -1e-17);
+  const double volume = .75 * .75 * 1e-17;
+  PackingEnergy energy;
+  EXPECT_TRUE(energy.contacts(packing, Precision::working).empty());
+  const auto contacts = energy.contacts(packing);
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_NEAR(contacts[0].overlap.volume, volume, 1e-9 * volume);
+  const ContactForce force = contact_force(packing, contacts[0].pair);
+  EXPECT_NEAR(force.volume, volume, 1e-9 * volume);
+  EXPECT_NEAR(force.depth, 1e-17, 1e-26);
+}
+
+}  // namespace
+}  // namespace isojam
