@@ -5,12 +5,10 @@ given way and mixtures:
 - a torque is that of the force at its point of attack, but for a couple along the force itself; the force is V/2 times the
   area against the normal; solids are those of the packing's particles;
 - angles are the record's; Δφ is the state's;
-- one replicate, all of them, and an exported file give the same rows; a replicate that failed is named in a warning.
-Skipped where the program has no such export."""
+- one replicate, all of them, and an exported file give the same rows; a replicate that failed is named in a warning."""
 
 import functools
 import subprocess
-import sys
 import tempfile
 import warnings
 
@@ -20,11 +18,6 @@ import support
 from support import CUBES, FREE, MIXED, isojam
 
 from isojam import program
-
-HELP = subprocess.run([program.find(), "export", "--help"], capture_output=True, text=True, check=True).stdout
-if "contacts" not in HELP:
-    print("THIS PROGRAM EXPORTS NO CONTACTS: they are not tested")
-    sys.exit(77)
 
 
 @functools.lru_cache(maxsize=None)
