@@ -1,7 +1,7 @@
 """usage: /usr/bin/python3 topology.py DIR [CONTACTS.csv STATES.csv]
 
-Draws of the results of 04-contact-topology the distribution of contact forces, the joint distribution of alignment angles
-and the number of constraints on the way to jamming: from the results directory DIR as forces.png, angles.png and
+Draws of the results of 04-contact-topology the distribution of contact forces, the joint distribution of alignment
+angles and the number of constraints on the way to jamming: from the results directory DIR as forces.png, angles.png and
 constraints.png, and the same from exported tables, without the module, as forces-csv.png and so on. Needs Debian's
 python3-matplotlib; isojam is in build/python."""
 
@@ -99,5 +99,6 @@ contacts = {name: column[numpy.isin(contacts["replicate"], states["replicate"])]
 force = numbers(contacts["force_x"], contacts["force_y"], contacts["force_z"])
 
 draw_forces("forces-csv.png", contacts["solid_a"], contacts["replicate"], force)
-draw_angles("angles-csv.png", contacts["solid_a"], contacts["class"], numbers(contacts["theta_ef"]), numbers(contacts["theta_ff"]))
+draw_angles("angles-csv.png", contacts["solid_a"], contacts["class"], numbers(contacts["theta_ef"]),
+            numbers(contacts["theta_ff"]))
 draw_constraints("constraints-csv.png", states["solid"], numbers(states["delta_phi"]), numbers(states["C"]))

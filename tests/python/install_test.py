@@ -28,8 +28,9 @@ print(len(study.names), [solid.name for name in study.names if "0.85" in name fo
 
 
 def python(text, module, *arguments, **environment):
-    return subprocess.run([sys.executable, "-B", "-E", "-s", "-c", f"import sys; sys.path.insert(0, {str(module)!r})\n{text}",
-                           *map(str, arguments)], env=environment, capture_output=True, text=True, check=False)
+    code = f"import sys; sys.path.insert(0, {str(module)!r})\n{text}"
+    return subprocess.run([sys.executable, "-B", "-E", "-s", "-c", code, *map(str, arguments)], env=environment,
+                          capture_output=True, text=True, check=False)
 
 
 class Install(unittest.TestCase):

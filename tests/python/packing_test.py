@@ -125,9 +125,11 @@ class Solids(support.Case):
             with gsd.hoomd.open(str(file), "rb") as trajectory:
                 particles = trajectory[0].particles
                 shapes = [numpy.array(shape["vertices"]) for shape in particles.type_shapes]
+        turns = packing.rotations()
         for i, kind in enumerate(particles.typeid):
-            own = packing.size[i] * packing.solids[packing.kind[i]].vertices
-            self.near(own, shapes[kind], 4 * results.FLOAT, f"particle {i}")
+            self.near(packing.size[i] * packing.solids[packing.kind[i]].vertices, shapes[kind], 4 * results.FLOAT, f"shape of {i}")
+            corners = (packing.corners(i) - packing.positions[i]) @ turns[i]
+            self.near(corners, shapes[kind], 4 * results.FLOAT, f"corners of {i}")
 
     def test_the_program_is_asked_once_for_a_solid(self):
         study = isojam.load(CUBES)

@@ -47,7 +47,8 @@ class Seals(support.Case):
 
     def test_a_flipped_byte(self):
         name = support.done(CUBES)[0]
-        reads = {f"records/{name}.json": lambda study: study.replicates, f"packings/{name}.json": lambda study: study.packing(name),
+        reads = {f"records/{name}.json": lambda study: study.replicates,
+                 f"packings/{name}.json": lambda study: study.packing(name),
                  f"paths/{name}.json": lambda study: study.path(name), "manifest.json": lambda study: study}
         random = numpy.random.default_rng(3)
         for file, read in reads.items():
@@ -60,7 +61,8 @@ class Seals(support.Case):
                 self.assertEqual((error.file, error.place), (str(where / file), "/checksum"))
             # With another digit in a number it is JSON all the same.
             digit = max(match.end() for match in re.finditer(rb"\.\d", whole)) - 1
-            (where / file).write_bytes(whole[:digit] + (b"1" if whole[digit:digit + 1] != b"1" else b"2") + whole[digit + 1:])
+            other = b"1" if whole[digit:digit + 1] != b"1" else b"2"
+            (where / file).write_bytes(whole[:digit] + other + whole[digit + 1:])
             self.refused(lambda: read(isojam.load(where)), file)
             read(isojam.load(where, check=False))
 

@@ -2,6 +2,7 @@
 - the mean of every quantity over replicates without the excluded, and over all, is that of tables.json, and so are their
   numbers, those of failed and excluded ones, and the rows themselves;
 - every quantity of every state is the number that its pointer finds in the record; null is NaN, and its reason is there;
+- a replicate that failed has no states, although its record may;
 - swept parameters, flags, failures and their reasons stand in columns; `residual` swept is apart from the one reached;
 - all but frames is there without pandas; a frame has the columns and values of its rows;
 - rows are chosen by masks and by values; a column that is not there is refused, with a near one;
@@ -108,10 +109,22 @@ class States(support.Case):
         print(f"{compared} values compared, {nulls} nulls")
         self.assertGreater(min(compared, 20 * nulls), 300)
 
+    def test_what_failed_later_has_no_states(self):
+        """A replicate that a measurement fails of has states in its record."""
+        where, name = self.copy(CUBES), support.done(CUBES)[0]
+        record = support.document(where, "records", name)
+        self.assertGreater(len(record["states"]), 1)
+        record.update(status="failed", failure={"where": "modes", "why": "no reason"}, nearest=None, flags=None, phi_j=None)
+        (where / f"records/{name}.json").write_text(json.dumps(record))
+        study = isojam.load(where, check=False)
+        self.assertEqual(set(study.states["replicate"]), set(study.names) - {name})
+        self.assertEqual(study.replicates[0]["failed_in"], "modes")
+
     def test_names_that_clash(self):
         """A state's own Q6 is not the quantity of that name, which is /order/Q6."""
         states = support.study(CUBES).states
-        expected = [state["Q6"] for name in support.done(CUBES) for state in support.document(CUBES, "records", name)["states"]]
+        records = [support.document(CUBES, "records", name) for name in support.done(CUBES)]
+        expected = [state["Q6"] for record in records for state in record["states"]]
         self.assertEqual(list(states["state.Q6"]), expected)
         self.assertNotIn("Q6", states)
 
@@ -122,8 +135,8 @@ class Columns(support.Case):
                 "try: study.replicates.frame()\nexcept ImportError: print('no frame')")
         for before in ("import sys; sys.modules['pandas'] = None", "import sys"):
             code = f"{before}; sys.path.insert(0, sys.argv[2]); {read}"
-            said = subprocess.run([sys.executable, "-B", "-E", "-s", "-c", code, MIXED, support.MODULE], capture_output=True,
-                                  text=True, check=True).stdout.split("\n", 1)
+            said = subprocess.run([sys.executable, "-B", "-E", "-s", "-c", code, MIXED, support.MODULE],
+                                  capture_output=True, text=True, check=True).stdout.split("\n", 1)
             self.assertEqual(said[0], "12")
             self.assertEqual("no frame" in said[1], "pandas" in before or not HAS_PANDAS)
 
@@ -143,7 +156,8 @@ class Columns(support.Case):
         self.assertEqual(list(vectors["force_y"]), [2, 5])
 
     def test_choosing(self):
-        rows = isojam.Rows({"solid": numpy.array(["b", "a", "b"]), "x": [1., numpy.nan, 3], "flags": isojam.rows.column_of([(), ("f",), ()])})
+        rows = isojam.Rows({"solid": numpy.array(["b", "a", "b"]), "x": [1., numpy.nan, 3],
+                            "flags": isojam.rows.column_of([(), ("f",), ()])})
         self.assertEqual([(value, list(of["x"])) for value, of in rows[[0, 2]].by("solid")], [("b", [1, 3])])
         self.assertEqual([value for value, _ in rows.by("x")], [1, 3])
         self.assertEqual([len(of) for _, of in rows.by("flags")], [2, 1])

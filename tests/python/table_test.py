@@ -61,6 +61,8 @@ class Tables(support.Case):
     def test_columns_unheard_of(self):
         rows = table("n,x,text,mixed,none", "1,1,a,1,", "2,2.5,b,c,")
         self.assertEqual([rows[name].dtype.kind for name in rows.columns], ["i", "f", "U", "U", "f"])
+        quantities = table("Z,omega_l,particles", "10,1,64")
+        self.assertEqual([quantities[name].dtype.kind for name in quantities.columns], ["f", "f", "i"])
 
     def test_objects_on_lines(self):
         plain = table(HEAD, *LINES)
@@ -148,7 +150,8 @@ class Program(support.Case):
         with self.assertWarnsRegex(UserWarning, "undecided") as warned:
             isojam.load(CUBES, program=self.stub(f"echo classes undecided >&2; echo {HEAD}\n")).contacts()
         self.assertEqual(os.path.basename(warned.filename), "table_test.py")
-        self.refused(lambda: isojam.load(CUBES, program=self.stub(f"echo {HEAD}; echo 1\n")).contacts(), "isojam export", "line 2")
+        short = self.stub(f"echo {HEAD}; echo 1\n")
+        self.refused(lambda: isojam.load(CUBES, program=short).contacts(), "isojam export", "line 2")
 
 
 if __name__ == "__main__":

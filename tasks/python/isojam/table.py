@@ -92,8 +92,6 @@ def _parsed(name, texts, file):
     if texts and _TRUTH.keys() >= set(texts):
         return numpy.array([_TRUTH[text] for text in texts])
     kinds = [int] if plain in _INTEGER and "" not in texts else [float] if plain in _FLOAT else [int, float]
-    if "" in texts:
-        kinds = [float]
     for kind in kinds:
         try:
             return numpy.array([kind(text) if text else numpy.nan for text in texts], dtype=kind)
