@@ -1,0 +1,104 @@
+"""usage: /usr/bin/python3 topology.py DIR [CONTACTS.csv STATES.csv]
+
+Draws of the results of 04-contact-topology the distribution of contact forces, the joint distribution of alignment
+angles and the number of constraints on the way to jamming: from the results directory DIR as forces.png, angles.png and
+constraints.png, and the same from exported tables, without the module, as forces-csv.png and so on. Needs Debian's
+python3-matplotlib; isojam is in build/python."""
+
+# %% Forces: P(f) of f over the mean of its packing
+import csv
+import sys
+
+import matplotlib
+import numpy
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+
+def draw_forces(file, solid, replicate, force):
+    size = numpy.linalg.norm(force, axis=1)
+    for name in numpy.unique(replicate):
+        size[replicate == name] /= size[replicate == name].mean()
+    figure, axes = pyplot.subplots(layout="constrained")
+    for name in numpy.unique(solid):
+        density, edges = numpy.histogram(size[solid == name], bins=30, range=(0, 9), density=True)
+        middle = (edges[1:] + edges[:-1]) / 2
+        axes.plot(middle[density > 0], density[density > 0], "o-", markersize=3, label=name)
+    axes.set(xlabel=r"$f/\langle f\rangle$", ylabel=r"$P$", yscale="log")
+    axes.legend()
+    figure.savefig(file, metadata={"Software": None})
+
+
+# %% Angles: edge-face against face-face, by the class that the fitted cut-offs give
+def draw_angles(file, solid, contact_class, theta_ef, theta_ff):
+    names = numpy.unique(solid)
+    figure, panels = pyplot.subplots(2, 2, sharex=True, sharey=True, figsize=(9, 8), layout="constrained")
+    for axes, name in zip(panels.flat, names):
+        for what in ("lower_order", "edge_face", "face_face"):
+            mask = (solid == name) & (contact_class == what)
+            axes.loglog(numpy.degrees(theta_ef[mask]), numpy.degrees(theta_ff[mask]), ".", markersize=2, label=what)
+        axes.set(title=name)
+    panels[0, 0].legend(markerscale=5)
+    figure.supxlabel(r"$\theta_{ef}$ (degrees)")
+    figure.supylabel(r"$\theta_{ff}$ (degrees)")
+    figure.savefig(file, metadata={"Software": None})
+
+
+# %% Constraints: C on the way to jamming, every packing and their running mean
+def draw_constraints(file, solid, delta_phi, constraints):
+    figure, axes = pyplot.subplots(layout="constrained")
+    known = ~numpy.isnan(constraints)
+    for name in numpy.unique(solid):
+        x, y = delta_phi[known & (solid == name)], constraints[known & (solid == name)]
+        points, = axes.semilogx(x, y, ".", markersize=4, alpha=.5)
+        ends = numpy.geomspace(x.min(), x.max() * (1 + 1e-9), 7)
+        bins = numpy.digitize(x, ends)
+        means = [(numpy.exp(numpy.log(x[bins == k]).mean()), y[bins == k].mean()) for k in numpy.unique(bins)]
+        axes.plot(*numpy.transpose(means), color=points.get_color(), label=name)
+    axes.axhline(12, color="black", linewidth=.8, label="isostatic")
+    axes.set(xlabel=r"$\Delta\phi$", ylabel=r"$C$")
+    axes.legend()
+    figure.savefig(file, metadata={"Software": None})
+
+
+# %% From the results directory
+import isojam  # noqa: E402
+
+study = isojam.load(sys.argv[1])
+states = study.states[~study.states["excluded"]]
+contacts = study.contacts()
+contacts = contacts[numpy.isin(contacts["replicate"], states["replicate"])]
+
+draw_forces("forces.png", contacts["solid_a"], contacts["replicate"], contacts["force"])
+draw_angles("angles.png", contacts["solid_a"], contacts["class"], contacts["theta_ef"], contacts["theta_ff"])
+draw_constraints("constraints.png", states["solid"], states["delta_phi"], states["C"])
+
+# %% From exported tables alone
+if len(sys.argv) < 4:
+    sys.exit()
+
+
+def read(file):
+    """Columns of texts by name."""
+    with open(file, newline="", encoding="utf-8") as lines:
+        names, *rows = csv.reader(lines)
+    return dict(zip(names, numpy.array(rows).T))
+
+
+def numbers(*columns):
+    """Of texts; nothing is not a number."""
+    values = [[float(text or "nan") for text in column] for column in columns]
+    return numpy.array(values).T if len(columns) > 1 else numpy.array(values[0])
+
+
+states = read(sys.argv[3])
+states = {name: column[states["excluded"] == "false"] for name, column in states.items()}
+contacts = read(sys.argv[2])
+contacts = {name: column[numpy.isin(contacts["replicate"], states["replicate"])] for name, column in contacts.items()}
+force = numbers(contacts["force_x"], contacts["force_y"], contacts["force_z"])
+
+draw_forces("forces-csv.png", contacts["solid_a"], contacts["replicate"], force)
+draw_angles("angles-csv.png", contacts["solid_a"], contacts["class"], numbers(contacts["theta_ef"]),
+            numbers(contacts["theta_ff"]))
+draw_constraints("constraints-csv.png", states["solid"], numbers(states["delta_phi"]), numbers(states["C"]))

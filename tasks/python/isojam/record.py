@@ -1,0 +1,121 @@
+"""Records as rows: numbers and texts of a record by the names that tables have for them."""
+
+import functools
+
+from . import facts
+from .errors import InputError
+from .rows import Rows, column_of
+
+_REASON = "_reason"
+#: Keys of a record whose content has columns of its own, or is no measurement.
+_APART = {"schema", "checksum", "result_digest", "provenance", "spec", "status", "flags", "failure", "nearest", "states",
+          "path"}
+#: What it cost, and by whom it was made: the last columns.
+_COST = ("evaluations", "work", "pairs")
+_ORIGIN = ("version", "git", "compiler", "manifest_digest", "seed")
+#: Figures that every state has; a quantity that has the name of one is the same.
+_FIGURES = {"step", "phi", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual", "residual_floor",
+            "stopped", "descents"}
+#: Names of quantities by their paths, in a record and in a state.
+_NAMES = {of: facts.names(of) for of in ("replicate", "state")}
+_QUANTITIES = {name for names in _NAMES.values() for name in names.values()} - _FIGURES
+
+
+@functools.lru_cache(maxsize=None)
+def _names_of(path, of):
+    """The name that tables have for it, or those of what is below it; else the path with dots, after "state." if it
+    is another quantity's name."""
+    known = [name for place, name in _NAMES[of].items() if place[:len(path)] == path]
+    if known:
+        return known
+    dotted = ".".join(path)
+    return [f"{of}.{dotted}" if dotted in _QUANTITIES else dotted]
+
+
+def flat(document, of, apart=()):
+    """Numbers, texts and nulls of a record or a state by column name, and the reasons of nulls by column name. Lists are
+    left out, and the keys in `apart`."""
+    values, reasons = {}, {}
+
+    def visit(node, path):
+        for key, value in node.items():
+            if isinstance(value, dict):
+                visit(value, (*path, key))
+            elif not isinstance(value, list) and not (key.endswith(_REASON) and key[:-len(_REASON)] in node):
+                for name in _names_of((*path, key), of):
+                    if path and name in _FIGURES and name in values:
+                        continue
+                    values[name] = value
+                    if value is None and key + _REASON in node:
+                        reasons[name] = node[key + _REASON]
+
+    visit({key: value for key, value in document.items() if key.removesuffix(_REASON) not in apart}, ())
+    return values, reasons
+
+
+def _parameters(spec):
+    """Swept values by the names that tables have for them: `residual` is a column of its own."""
+    for name, value in spec["parameters"].items():
+        group = next((group for group in ("protocol", "minimiser") if name in spec[group]), "parameters")
+        yield (f"{group}.{name}" if name == "residual" else name), value
+
+
+def head_of(name, record, excluding):
+    """What a row of a replicate or of one of its states begins with. `excluding`: flags whose replicates count nowhere."""
+    spec, flags = record["spec"], tuple(record.get("flags") or ())
+    head = {"replicate": name, "solid": spec["solid"], "particles": spec["particles"], **dict(_parameters(spec))}
+    return {**head, "number": spec["replicate"], "status": record["status"], "flags": flags,
+            "excluded": any(flag in excluding for flag in flags)}
+
+
+def replicate_row(head, record):
+    """One row of everything that is one number per replicate, the state nearest jamming among it."""
+    failure, provenance = record.get("failure") or {}, record["provenance"]
+    values, reasons = flat(record, "replicate", _APART.union(_COST, ("timing",)))
+    near, near_reasons = flat(record.get("nearest") or {}, "state")
+    cost, _ = flat({**{key: record[key] for key in _COST}, **record["timing"]}, "replicate")
+    for key in ("flags", "nearest"):
+        if record.get(key) is None:
+            reasons[key] = record.get(key + _REASON, "the replicate failed")
+    return {**head, "failed_in": failure.get("where", ""), "failure": failure.get("why", ""), **values,
+            "state": _index_of_nearest(record), **near, **cost, **{key: provenance[key] for key in _ORIGIN},
+            "reasons": {**reasons, **near_reasons}}
+
+
+def _index_of_nearest(record):
+    """Of the state nearest jamming among all states, which has its strain step; None of a replicate that failed."""
+    step = (record.get("nearest") or {}).get("step")
+    return next((k for k, state in enumerate(record["states"]) if state["step"] == step), None)
+
+
+def state_rows(head, record):
+    """One row for each state of the expansion, `state` its number in it; `nearest` is true for the one nearest jamming.
+    None of a replicate that failed."""
+    if record["status"] == "failed":
+        return []
+    nearest, rows = _index_of_nearest(record), []
+    for index, state in enumerate(record["states"]):
+        values, reasons = flat(state, "state")
+        rows.append({**head, "state": index, "nearest": index == nearest, **values, "reasons": reasons})
+    return rows
+
+
+def read_rows(name, record, file, excluding):
+    """The row of a replicate and those of its states. Raises InputError if the record lacks what every record has."""
+    try:
+        head = head_of(name, record, excluding)
+        return replicate_row(head, record), state_rows(head, record)
+    except (KeyError, TypeError, AttributeError) as error:
+        raise InputError(file, "", f"is not as a record is: {type(error).__name__} {error}",
+                         "a record of schema " + facts.schemas["record"]) from None
+
+
+def as_columns(rows):
+    """Rows of dicts, in which null and missing are the same; columns in the order of the rows that have most of them,
+    reasons last."""
+    fullest = sorted(rows, key=len, reverse=True)
+    names = dict.fromkeys(key for row in fullest for key in row if key != "reasons")
+    columns = {name: column_of([row.get(name) for row in rows]) for name in names}
+    if rows:
+        columns["reasons"] = column_of([row["reasons"] for row in rows])
+    return Rows(columns)

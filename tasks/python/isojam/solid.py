@@ -1,0 +1,39 @@
+"""Solids as the program writes them."""
+
+import dataclasses
+import pathlib
+
+import numpy
+
+from .errors import InputError
+
+
+@dataclasses.dataclass(frozen=True)
+class Solid:
+    """A convex polyhedron of unit volume in its body frame, its centroid at the origin.
+
+    vertices: (V, 3); faces: lists of indices of vertices, counter-clockwise seen from outside."""
+
+    name: str
+    vertices: numpy.ndarray
+    faces: list
+
+    def __repr__(self):
+        return f"<{self.name}: {len(self.vertices)} vertices, {len(self.faces)} faces>"
+
+
+def read_obj(file):
+    """The solid in a Wavefront OBJ file of `isojam export --format xyz`."""
+    name, vertices, faces = "", [], []
+    for number, line in enumerate(pathlib.Path(file).read_text().splitlines(), 1):
+        what, *words = line.split() or ["#"]
+        try:
+            if what == "o":
+                name, = words
+            elif what == "v":
+                vertices.append([float(word) for word in words])
+            elif what == "f":
+                faces.append([int(word) - 1 for word in words])
+        except ValueError:
+            raise InputError(file, f"line {number}", f'"{line}" cannot be read', "o NAME, v X Y Z, f V V V…") from None
+    return Solid(name, numpy.array(vertices).reshape(-1, 3), faces)

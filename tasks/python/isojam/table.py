@@ -1,0 +1,155 @@
+"""Tables that the program exports, as CSV or a JSON object per line."""
+
+import csv
+import json
+import pathlib
+
+import numpy
+
+from . import facts
+from .errors import InputError
+from .rows import Rows, column_of
+
+#: What a column is of, where its values alone would not tell: 0 may stand for 0., and nothing for any null.
+_TEXT = {"replicate", "solid", "class", "kind", "solid_a", "solid_b", "status", "stopped", "failed_in", "failure"}
+_LISTS = {"flags", "reasons"}
+_INTEGER = {"state", "a", "b", "image"}
+_FLOAT = {"delta_phi", "phi", "volume", "area", "force", "attack", "normal", "torque_a", "torque_b", "theta_ef",
+          "theta_ff", "depth", "energy_per_particle", "pressure", "residual"}
+_FLOAT |= {quantity["name"] for quantity in facts.quantities}
+_AXES = ("_x", "_y", "_z")
+#: Divides what one cell lists.
+_BETWEEN = "; "
+_TRUTH = {"true": True, "false": False}
+
+
+def read_table(file, name=None):
+    """The table in a file of `isojam export --format contacts`, `replicates` or `states`, or in an open text file; Rows.
+
+    Columns NAME_x, NAME_y, NAME_z become one of shape (rows, 3). Null is NaN among numbers and "" among text. Raises
+    InputError, with file and line, for what is no such table; `name` is what messages call an open file."""
+    if hasattr(file, "read"):
+        return _read(file, name or getattr(file, "name", "the table"))
+    try:
+        with pathlib.Path(file).open(newline="", encoding="utf-8") as opened:
+            return _read(opened, name or file)
+    except OSError as error:
+        raise InputError(file, "", f"cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(file, "", f"is no text: {error.reason}", "UTF-8") from None
+
+
+def _read(opened, file):
+    lines = iter(opened)
+    first = next(lines, "")
+    if not first.strip():
+        raise InputError(file, "line 1", "there is no table", "names of columns, or an object on every line")
+    chained = (line for part in ([first], lines) for line in part)
+    columns = _json_columns(chained, file) if first.startswith("{") else _csv_columns(chained, file)
+    for name in _LISTS.intersection(columns):
+        take = (lambda text: tuple(filter(None, text.split(_BETWEEN)))) if name == "flags" else _reasons(set(columns))
+        columns[name] = column_of([take(str(text or "")) for text in columns[name]])
+    return Rows(_with_vectors(columns))
+
+
+def _reasons(names):
+    """What takes "Z_ff: no cut-off; S: …" apart into a dict by these names; a reason may hold what divides them."""
+    def take(text):
+        found, name = {}, None
+        for part in text.split(_BETWEEN):
+            head, colon, rest = part.partition(": ")
+            if colon and head in names:
+                name, found[head] = head, rest
+            elif name is not None:
+                found[name] += _BETWEEN + part
+        return found
+
+    return take
+
+
+def _csv_columns(lines, file):
+    reader = csv.reader(lines, strict=True)
+    try:
+        names = next(reader)
+        rows = []
+        for row in reader:
+            if len(row) != len(names):
+                raise InputError(file, f"line {reader.line_num}", f"has {len(row)} fields", f"{len(names)}, as line 1 has")
+            rows.append(row)
+    except csv.Error as error:
+        raise InputError(file, f"line {reader.line_num}", f"is no CSV: {error}") from None
+    if len(set(names)) < len(names):
+        raise InputError(file, "line 1", "names a column twice", "different names")
+    columns = zip(*rows) if rows else [()] * len(names)
+    return {name: _parsed(name, column, file) for name, column in zip(names, columns)}
+
+
+def _parsed(name, texts, file):
+    """The array of a column's texts."""
+    plain = _plain(name)
+    if plain in _TEXT | _LISTS:
+        return numpy.array(texts, dtype=str)
+    if texts and _TRUTH.keys() >= set(texts):
+        return numpy.array([_TRUTH[text] for text in texts])
+    kinds = [int] if plain in _INTEGER and "" not in texts else [float] if plain in _FLOAT else [int, float]
+    for kind in kinds:
+        try:
+            return numpy.array([kind(text) if text else numpy.nan for text in texts], dtype=kind)
+        except ValueError:
+            continue
+    if plain in _INTEGER | _FLOAT:
+        place = next(i for i, text in enumerate(texts) if text and not _is(kinds[-1], text))
+        raise InputError(file, f"row {place + 1} of {name}", f'"{texts[place]}" is no number',
+                         "a number, or nothing for null")
+    return numpy.array(texts, dtype=str)
+
+
+def _plain(name):
+    """Without the axis, as which a vector's type is known."""
+    return name[:-2] if name.endswith(_AXES) else name
+
+
+def _is(kind, text):
+    try:
+        kind(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _json_columns(lines, file):
+    rows = []
+    for number, line in enumerate(lines, 1):
+        if not line.strip():
+            continue
+        try:
+            row = json.loads(line)
+        except ValueError as error:
+            raise InputError(file, f"line {number}", f"is no JSON: {error}", "an object on every line") from None
+        if not isinstance(row, dict):
+            raise InputError(file, f"line {number}", "is no object", "an object on every line")
+        rows.append(row)
+    names = dict.fromkeys(key for row in rows for key in row)
+    return {name: _gathered(name, [row.get(name) for row in rows]) for name in names}
+
+
+def _gathered(name, values):
+    """The array of a column's JSON values."""
+    if name in _TEXT | _LISTS and all(value is None for value in values):
+        return numpy.array([""] * len(values))
+    if _plain(name) in _FLOAT and all(value is None or isinstance(value, (int, float)) for value in values):
+        return column_of([None if value is None else float(value) for value in values])
+    return column_of(values)
+
+
+def _with_vectors(columns):
+    """One column for every three of which the names end with _x, _y and _z."""
+    merged = {}
+    for name, values in columns.items():
+        stem = name[:-2]
+        triple = [stem + axis for axis in _AXES]
+        if not (name.endswith(_AXES) and all(part in columns for part in triple)):
+            merged[name] = values
+        elif stem not in merged:
+            merged[stem] = numpy.stack([columns[part] for part in triple], axis=1)
+    return merged

@@ -1,0 +1,129 @@
+"""Facts proved here, of contacts as the program prints them, nearest jamming and along paths, in cubes, cells that have
+given way and mixtures:
+- there are as many as Z and its parts of the same state say, class by class;
+- forces on every particle cancel, and so do torques about its centre, to the residual in the record;
+- a torque is that of the force at its point of attack, but for a couple along the force itself; the force is V/2 times the
+  area against the normal; solids are those of the packing's particles;
+- angles are the record's; Δφ is the state's;
+- one replicate, all of them, and an exported file give the same rows; a replicate that failed is named in a warning."""
+
+import functools
+import subprocess
+import tempfile
+import warnings
+
+import numpy
+
+import support
+from support import CUBES, FREE, MIXED, isojam
+
+from isojam import program
+
+
+@functools.lru_cache(maxsize=None)
+def contacts(directory, name=None, path=False):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return support.study(directory).contacts(name, path)
+
+
+class Contacts(support.Case):
+    def states(self):
+        """Every packing with the row of its state and its contacts."""
+        for directory, whole in ((CUBES, False), (CUBES, True), (FREE, False), (MIXED, False)):
+            study = support.study(directory)
+            everything = contacts(directory, path=whole)
+            self.assertEqual(set(everything["replicate"]), set(support.done(directory)))
+            for name, of in everything.by("replicate"):
+                rows = study.states[study.states["replicate"] == name]
+                rows = rows if whole else rows[rows["nearest"]]
+                packings = study.path(name) if whole else [study.packing(name)]
+                self.assertEqual(list(dict.fromkeys(of["state"])), list(rows["state"]))
+                for packing, row in zip(packings, rows):
+                    yield packing, row, of[of["state"] == row["state"]]
+
+    def test_numbers(self):
+        seen = 0
+        for packing, row, of in self.states():
+            n = len(packing)
+            self.near(2 * len(of) / n, row["Z"], 1e-13, "Z")
+            self.assertTrue((of["delta_phi"] == row["delta_phi"]).all())
+            if numpy.isnan(row["Z_ff"]):
+                self.assertEqual(set(of["class"]), {""})
+                continue
+            for name, quantity in (("face_face", "Z_ff"), ("edge_face", "Z_ef"), ("lower_order", "Z_l")):
+                self.near(2 * (of["class"] == name).sum() / n, row[quantity], 1e-13, quantity)
+                seen += 1
+        print(f"{seen} numbers of contacts compared")
+        self.assertGreater(seen, 20)
+
+    def test_balance(self):
+        worst = 0
+        for packing, row, of in self.states():
+            force = numpy.zeros((len(packing), 3))
+            torque = numpy.zeros((len(packing), 3))
+            numpy.add.at(force, of["a"], of["force"])
+            numpy.add.at(force, of["b"], -of["force"])
+            numpy.add.at(torque, of["a"], of["torque_a"])
+            numpy.add.at(torque, of["b"], of["torque_b"])
+            mean = numpy.linalg.norm(of["force"], axis=1).mean()
+            reach = max(numpy.linalg.norm(solid.vertices, axis=1).max() for solid in packing.solids) * packing.size.max()
+            left = numpy.linalg.norm(force, axis=1).max() / mean, numpy.linalg.norm(torque, axis=1).max() / mean / reach
+            # What rounding leaves of sums of so many terms is far below.
+            self.assertLessEqual(max(left), 1.001 * row["residual"] + 1e-9, f"{packing}: {left}")
+            worst = max(worst, *left)
+        print(f"largest imbalance {worst:.2g} of the mean force")
+
+    def test_geometry(self):
+        for packing, _, of in self.states():
+            size = numpy.linalg.norm(packing.cell)
+            force = numpy.linalg.norm(of["force"], axis=1)
+            arm_a = of["attack"] - packing.positions[of["a"]]
+            arm_b = of["attack"] - packing.positions[of["b"]] - of["image"] @ packing.cell
+            for arm, torque, sign in ((arm_a, "torque_a", 1), (arm_b, "torque_b", -1)):
+                couple = (of[torque] - sign * numpy.cross(arm, of["force"])) / force[:, None]
+                across = numpy.cross(couple, of["normal"])
+                self.near(across, numpy.zeros_like(arm), 1e-12 * size, torque)
+            self.near(of["force"], -.5 * (of["volume"] * of["area"])[:, None] * of["normal"], 1e-14 * force.max(), "force")
+            for side in "ab":
+                names = numpy.array(packing.solid_names)[packing.kind[of[side]]]
+                self.assertEqual(list(of["solid_" + side]), list(names))
+
+    def test_angles(self):
+        for packing, row, of in self.states():
+            if not row["nearest"]:
+                continue
+            directory = next(d for d in support.ALL if packing.name in support.study(d).names)
+            angles = support.document(directory, "records", packing.name)["nearest"]["angles"]
+            for column, key in (("theta_ff", "face_face"), ("theta_ef", "edge_face")):
+                values = numpy.sort(of[column][~numpy.isnan(of[column])])
+                self.near(values, angles[key], 1e-12, f"{packing.name} {key}")
+
+
+class Ways(support.Case):
+    def same(self, rows, others):
+        self.assertEqual(rows.columns, others.columns)
+        for name in rows.columns:
+            numpy.testing.assert_array_equal(rows[name], others[name], name)
+
+    def test_one_and_all(self):
+        everything = contacts(MIXED)
+        for name in support.done(MIXED):
+            self.same(contacts(MIXED, name), everything[everything["replicate"] == name])
+
+    def test_an_exported_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            name, file = support.done(CUBES)[0], folder + "/contacts.csv"
+            subprocess.run([program.find(), "export", CUBES, name, "--format", "contacts", "-o", file], check=True,
+                           stdout=subprocess.DEVNULL)
+            self.same(isojam.read_table(file), contacts(CUBES, name))
+
+    def test_what_failed(self):
+        with self.assertWarnsRegex(UserWarning, "max_density"):
+            support.study(MIXED).contacts()
+        failed = next(name for name in support.study(MIXED).names if name not in support.done(MIXED))
+        self.refused(lambda: support.study(MIXED).contacts(failed), failed, "/status")
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,77 @@
+"""What the tests of the Python module share.
+
+usage of each: NAME_test.py MODULE RESULTS EXPORTED, where MODULE holds the package isojam, RESULTS the study of
+manifest.json, and EXPORTED what tests/export makes: results, exported/, free-results, free-exported/. Exits with 77 where
+there is no numpy."""
+
+import functools
+import json
+import pathlib
+import shutil
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy
+except ImportError:
+    print("NO NUMPY HERE: the Python module is not tested; its package is python3-numpy")
+    sys.exit(77)
+
+MODULE, RESULTS, EXPORTED = map(pathlib.Path, sys.argv[1:4])
+sys.path[:0] = [str(MODULE), str(pathlib.Path(__file__).parent.parent / "export")]
+
+import isojam  # noqa: E402
+
+#: Directories with cubes, with cells that gave way, and with mixtures and failures.
+CUBES, FREE, MIXED = EXPORTED / "results", EXPORTED / "free-results", RESULTS
+ALL = (CUBES, FREE, MIXED)
+
+
+@functools.lru_cache(maxsize=None)
+def study(directory):
+    return isojam.load(directory)
+
+
+def document(directory, folder, name):
+    """A file as json alone reads it."""
+    return json.loads(pathlib.Path(directory, folder, name + ".json").read_text())
+
+
+def done(directory):
+    """Names of the replicates that did not fail."""
+    return [name for name in study(directory).names if document(directory, "records", name)["status"] == "done"]
+
+
+def at(value, pointer):
+    """The value at a JSON pointer; None where it ends early."""
+    for key in pointer.split("/")[1:]:
+        value = value.get(key) if isinstance(value, dict) else None
+    return value
+
+
+class Case(unittest.TestCase):
+    def near(self, value, expected, tolerance, what):
+        """Largest absolute difference at most `tolerance`; shapes are the same."""
+        value, expected = numpy.asarray(value, dtype=float), numpy.asarray(expected, dtype=float)
+        self.assertEqual(value.shape, expected.shape, what)
+        worst = float(numpy.max(numpy.abs(value - expected), initial=0))
+        self.assertTrue(worst <= tolerance, f"{what}: off by {worst:.3g}, allowed {tolerance:.3g}")
+
+    def refused(self, call, *words):
+        """The InputError of a call, whose text has all these words."""
+        with self.assertRaises(isojam.InputError) as caught:
+            call()
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+        return caught.exception
+
+    def copy(self, directory):
+        """A results directory of one's own."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        return pathlib.Path(shutil.copytree(directory, pathlib.Path(folder.name, "copy")))
+
+
+def main():
+    unittest.main(argv=sys.argv[:1], module="__main__")
