@@ -253,6 +253,7 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   if (names.empty()) throw_without_records(directory);
   const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
   const auto own = manifest ? digest(*manifest) : "";
+  const auto measures = manifest ? to_json(*manifest).at("measure") : Json();
   struct Read {
     std::optional<RecordedReplicate> held;
     std::string damage;
@@ -272,6 +273,8 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
       warn(fmt::format("{}: of another manifest, and left out",
                        (directory / "records" / (one.held->name + ".json")).string()));
     } else {
+      // One that lacks a measure counts in tables where it can.
+      if (manifest) one.held->summary.settings["measure"] = measures;
       use(*std::move(one.held));
     }
   });

@@ -53,6 +53,22 @@ std::vector<std::string> swept_names(const std::optional<Manifest>& manifest, co
   return names;
 }
 
+/// The most that a packing has.
+std::size_t kinds_of(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
+  std::size_t most = first.summary.solid.kinds().size();
+  for (const auto& solid : manifest ? manifest->solids : std::vector<Mixture>{})
+    most = std::max(most, solid.kinds().size());
+  return most;
+}
+
+/// Whether a quantity is of a kind of particles that no packing has, or of the only one.
+bool is_of_no_kind(std::string_view pointer, std::size_t kinds) {
+  constexpr std::string_view of_kind = "/kind_";
+  if (!pointer.starts_with(of_kind)) return false;
+  const auto kind = static_cast<std::size_t>(pointer[of_kind.size()] - '0');
+  return kinds < 2 || kind > kinds;
+}
+
 std::vector<Measure> measures_of(const std::optional<Manifest>& manifest) {
   return manifest ? manifest->measures : std::vector<Measure>{all_measures.begin(), all_measures.end()};
 }
@@ -64,7 +80,7 @@ RecordRows::RecordRows(RowOf of, RowFormat format, const std::optional<Manifest>
     : of_(of), format_(format), exclude_(manifest ? manifest->exclude : usually_excluded()) {
   add_head(swept_names(manifest, first));
   add_state();
-  add_quantities(measures_of(manifest));
+  add_quantities(measures_of(manifest), kinds_of(manifest, first));
   if (of_ == RowOf::replicate) {
     add("evaluations", [](const Source& s) { return s.held.record.at("evaluations"); });
     add("cpu_seconds", [](const Source& s) { return s.held.record.at("timing").at("cpu_seconds"); });
@@ -110,14 +126,14 @@ void RecordRows::add_state() {
   }
 }
 
-void RecordRows::add_quantities(const std::vector<Measure>& measures) {
+void RecordRows::add_quantities(const std::vector<Measure>& measures, std::size_t kinds) {
   const auto all = all_quantities();
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto& quantity = all[k];
     const bool measured =
         !quantity.measure || std::find(measures.begin(), measures.end(), *quantity.measure) != measures.end();
     const bool of_replicate = quantity.of == Quantity::Of::replicate;
-    if (!measured || (of_replicate && of_ == RowOf::state)) continue;
+    if (!measured || (of_replicate && of_ == RowOf::state) || is_of_no_kind(quantity.pointer, kinds)) continue;
     quantities_.push_back(k);
     add(std::string(quantity.name), [of_replicate, pointer = quantity.pointer](const Source& s) {
       if (of_replicate) return copy_of(value_at(s.held.record, pointer));

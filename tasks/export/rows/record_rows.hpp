@@ -45,7 +45,7 @@ class RecordRows {
   void add(std::string name, Value value);
   void add_head(const std::vector<std::string>& parameters);
   void add_state();
-  void add_quantities(const std::vector<Measure>& measures);
+  void add_quantities(const std::vector<Measure>& measures, std::size_t kinds);
   std::string reasons(const Source& source) const;
   std::string line(const Source& source) const;
 
