@@ -159,6 +159,10 @@ TEST_F(Adding, LeavesADirectoryLikeAnyOther) {
     EXPECT_EQ(run.out, all_.out) << manifest;
     EXPECT_EQ(files_below(here_ / "few"), files) << manifest << " ran something again";
   }
+  for (const auto& name : names()) {
+    const auto path = read_sealed((here_ / "few" / "paths" / (name + ".json")).string());
+    EXPECT_EQ(test::violations("packing", path), "") << name;
+  }
   const auto exported = isojam({"export", "few", "all", "--format", "contacts", "--path"}, here_.path());
   EXPECT_EQ(exported.exit_code, 0) << exported.err;
   const auto rerun = isojam({"rerun", "few", names().front()}, here_.path());

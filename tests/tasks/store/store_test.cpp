@@ -1,6 +1,7 @@
 // Facts proved here:
 // - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
-// - a record without its packing is not held; a packing keeps every bit of its state, low parts included;
+// - a record without its packing is not held; a packing keeps every bit of its state, low parts included, and conforms to
+//   its schema, alike or a mixture, in a cube or not;
 // - a directory of another manifest is refused and left as it was, in whichever file the other manifest shows;
 // - more replicates may be asked for later, and fewer do not shrink the plan on disk;
 // - temporaries of a writer that was killed are not taken for results.
@@ -14,7 +15,10 @@
 #include <fstream>
 
 #include "tasks/json/input_error.hpp"
+#include "tasks/packings/packing_json.hpp"
+#include "tasks/replicate/record.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam {
@@ -63,6 +67,31 @@ TEST(Store, PackingsKeepEveryBit) {
       EXPECT_EQ(packing.at("orientations")[i][place].get<double>(), pose.orientation.coeffs()[c]);
       EXPECT_EQ(packing.at("orientations_low")[i][place].get<double>(), pose.orientation_low[c]);
     }
+  }
+}
+
+TEST(Store, PackingsConformToTheirSchema) {
+  RandomStream random{3};
+  const Mixture mixture({{SolidKind::cube, .5}, {SolidKind::octahedron, .5, {.from = 1.4}}}, "");
+  DoubleDoubleMatrix shear;
+  shear.high(0, 1) = .1;
+  shear.low(0, 1) = 1e-18;
+  const auto alike = random_packing(platonic(SolidKind::cube), 60, .5, random);
+  for (const auto& packing : {alike, random_packing(mixture.particles(60), .4, random), deformed(alike, shear)}) {
+    Json file;
+    file["schema"] = packing_schema;
+    file["checksum"] = file["manifest_digest"] = file["result_digest"] = "0123456789abcdef";
+    file["replicate"] = "cube-N60-r0000";
+    file.update(to_json(packing));
+    EXPECT_EQ(test::violations("packing", file), "");
+    for (const auto* needed : {"positions_low", "orientations", "phi", packing.cell.is_cube() ? "side" : "cell_low",
+                               packing.solids.is_uniform() ? "solid" : "size"}) {
+      auto without = file;
+      without.erase(needed);
+      EXPECT_NE(test::violations("packing", without), "") << needed;
+    }
+    file["delta_phi"] = 0.1;
+    EXPECT_NE(test::violations("packing", file), "") << "the record says that";
   }
 }
 
