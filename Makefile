@@ -80,6 +80,11 @@ paper: build
 	@/usr/bin/python3 -B examples/paper/gather.py $(BUILD)/isojam results results/paper
 	@/usr/bin/python3 -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
 
+# All that `run` and `test` install, and nothing else: for the layer of an image.
+.PHONY: packages
+packages:
+	$(call install,$(TEST_PACKAGES) $(BROWSER_PACKAGES))
+
 .PHONY: browser
 browser:
 	$(call install,$(BROWSER_PACKAGES))
