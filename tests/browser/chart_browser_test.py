@@ -133,6 +133,19 @@ class Chart(unittest.TestCase):
                 for point, label in zip(points, labels):
                     middle = (point["top"] + point["bottom"]) / 2
                     self.assertTrue(label["top"] < middle < label["bottom"], (width, label, point))
+            told = self.browser.run("""
+                const box = (mark) => mark.getBoundingClientRect();
+                const marks = (of) => [...document.querySelectorAll(`#chart-phi_j ${of}`)];
+                return {texts: marks('[class*=" setting_numbers"] text').map((mark) => mark.textContent),
+                  left: Math.min(...marks('[class*=" setting_numbers"] text').map((mark) => box(mark).left)),
+                  right: Math.max(...marks('g.mark-rule.role-mark line').map((mark) => box(mark).right))};""")
+            known = [point["further"] for point in family["points"] if point["further"]["phi_j"] is not None]
+            self.assertEqual(len(told["texts"]), len(known) if width > 1000 else 0, told)
+            if width > 1000:
+                self.assertLess(told["right"], told["left"], told)
+                window = next(point["further"] for point in family["points"] if point["setting"] == "fit_window 0.1")
+                number = float(told["texts"][settings.index("fit_window 0.1")].split(" ± ")[0].replace("−", "-"))
+                self.assertAlmostEqual(number / window["difference"], 1, delta=0.06)
             self.assertLessEqual(max(label["right"] for label in found["labels"]),
                                  min(point["left"] for point in found["costs"]), width)
 

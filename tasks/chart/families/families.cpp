@@ -61,7 +61,8 @@ ChartFamily phi_j_family() {
       "error of jamming density (95 % bound)",
       "Mean jamming density over replicates, one parameter of the protocol at a time moved away from the first "
       "setting. Dots and thin bars: the mean less that of the first setting, and its own 95 % interval; broad bars: "
-      "the 95 % interval of the difference replicate by replicate, where both began alike. Error in the list of "
+      "the 95 % interval of the difference replicate by replicate, where both began alike; numbers: of the broad bar, "
+      "or else of the thin one. Error in the list of "
       "points: the far end of the thin bar. Times are of all replicates together. That φ_J depends on the number "
       "of particles and on the target energy is physics, not error.",
       FamilyEnd::complete,

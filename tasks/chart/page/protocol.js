@@ -13,10 +13,13 @@ function protocolRows(family) {
     const ends = (middle, half) => (middle === null || half === null ? [null, null] : [middle - half, middle + half]);
     const [low, high] = ends(off, further.half_width);
     const [paired_low, paired_high] = ends(further.difference, further.difference_half_width);
+    const paired = further.difference !== null;
+    const [told, half] = paired ? [further.difference, further.difference_half_width] : [off, further.half_width];
     return {
       setting, seconds: seconds?.median ?? null, failed, stopped: failed ? `failed: ${stopped}` : '',
       phi_j: further.phi_j, replicates: further.replicates, off, low, high,
       difference: further.difference, difference_half_width: further.difference_half_width, paired_low, paired_high,
+      told: off === null ? '' : `${formatted(told, 2)} ± ${formatted(half, 2)}`,
     };
   });
 }
@@ -47,6 +50,14 @@ function settingMark(name, x, shape = 'circle') {
     }},
   };
 }
+
+/// In numbers what the broadest bar of a row shows: its ends may lie within its dot.
+const numbers = (width) => ({
+  name: 'setting_numbers', type: 'text', from: {data: 'known'}, encode: {enter: {
+    y: settingY, x: {value: width - 4}, align: {value: 'right'}, baseline: {value: 'middle'}, fontSize: {value: 11},
+    fill: {value: ink}, text: {field: 'told'},
+  }},
+});
 
 /// Crosses of settings that failed, where their means are, or at the edge; and why, beside those that have none.
 const failedMarks = () => [
@@ -83,7 +94,10 @@ function protocolFigure(family) {
   const settings = rows.map(({setting}) => setting), height = rowHeight * rows.length;
   const most = Math.max(...rows.map(({seconds}) => seconds ?? 0), 1e-9);
   const ends = rows.flatMap(({low, high, paired_low: a, paired_high: b}) => [low, high, a, b, 0]);
-  const off = domainOf(ends, {margin: 0.06});
+  const [least, greatest] = domainOf(ends, {margin: 0.06});
+  const wide = (width) => width > 330;
+  // Numbers have room of their own, where there is room.
+  const off = (width) => [least, wide(width) ? least + (greatest - least) / (1 - 125 / width) : greatest];
   const known = 'isValid(datum.off)', ticks = (width) => (width < 300 ? 3 : 6);
   const panels = (place) => [
     {
@@ -91,12 +105,13 @@ function protocolFigure(family) {
       data: [], marks: [settingMark('settings', {scale: 'x', field: 'seconds'})],
     },
     {
-      title: 'mean jamming density', x: {title: 'less that of the first setting', domain: off, ticks: ticks(place.width)},
+      title: 'mean jamming density', x: {title: 'less that of the first setting', domain: off(place.width), ticks: ticks(place.width)},
       data: [filtered('known', 'settings', known), filtered('paired', 'settings', 'isValid(datum.paired_low)'),
         filtered('good', 'settings', `!datum.failed && ${known}`), filtered('failed', 'settings', 'datum.failed'),
         filtered('missing', 'settings', `!${known}`)],
       marks: [zeroLine(height), settingRule('paired', 'paired_low', 'paired_high', 7),
-        settingRule('known', 'low', 'high', 1.5), settingMark('good', {scale: 'x', field: 'off'}), ...failedMarks()],
+        settingRule('known', 'low', 'high', 1.5), settingMark('good', {scale: 'x', field: 'off'}), ...failedMarks(),
+        ...(wide(place.width) ? [numbers(place.width)] : [])],
     },
   ].map((each) => ({...each, ...place, settings}));
   return {
