@@ -5,6 +5,12 @@
 
 const rowHeight = 22, rowLabels = 162;
 
+/// "−0.0011 ± 0.0005": to two digits of the half width.
+function withHalfWidth(value, half) {
+  const decimals = half > 0 ? Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(half)))) : 9;
+  return `${value.toFixed(decimals).replace('-', '−')} ± ${half.toFixed(decimals)}`;
+}
+
 /// Settings as rows, the first one first. Bars beyond are of means about that of the first setting.
 function protocolRows(family) {
   const first = family.points.find(({further}) => further.phi_j !== null)?.further.phi_j ?? null;
@@ -19,7 +25,7 @@ function protocolRows(family) {
       setting, seconds: seconds?.median ?? null, failed, stopped: failed ? `failed: ${stopped}` : '',
       phi_j: further.phi_j, replicates: further.replicates, off, low, high,
       difference: further.difference, difference_half_width: further.difference_half_width, paired_low, paired_high,
-      told: off === null ? '' : `${formatted(told, 2)} ± ${formatted(half, 2)}`,
+      told: off === null ? '' : withHalfWidth(told, half),
     };
   });
 }
