@@ -5,13 +5,16 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace isojam {
 
 std::string sha256_hex(std::string_view bytes) {
   sha256_ctx context;
   sha256_init(&context);
-  sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  // char is another type than Nettle's bytes.
+  const std::vector<std::uint8_t> octets(bytes.begin(), bytes.end());
+  sha256_update(&context, octets.size(), octets.data());
   std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
   sha256_digest(&context, digest.size(), digest.data());
   std::string text;
