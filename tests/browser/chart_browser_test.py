@@ -32,7 +32,7 @@ CONFIG = {"compare": ["equilibrium", "overlap", "atlas", "phi_j", "growth"], "so
           "max_evaluations": 100, "rule_evaluations": 200, "total_seconds": 60,
           "phi_j": {"solid": "dodecahedron", "replicates": 2, "particles": [24, 30], "consolidation_step": [0.04],
                     "target_energy": [1e-5], "fit_window": [0.05, 0.1], "residual": [1e-6, 1e-3]},
-          "growth": {"solids": ["dodecahedron"], "particles": [24, 40], "replicates": 1, "distances": [0.05]}}
+          "growth": {"solids": ["dodecahedron"], "particles": [24, 32], "replicates": 1, "distances": [0.05]}}
 SIGNS = {"holds": "✓", "refuses": "–", "fails": "✗"}
 CROSS = "path[stroke-width='1.8']"
 

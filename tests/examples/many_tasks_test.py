@@ -20,7 +20,7 @@ import same_results  # noqa: E402
 
 EXECUTABLE, EXAMPLE, RESULTS = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 del sys.argv[1:4]
-TASKS = 8
+TASKS = 6
 
 STAND_IN = '''#!/usr/bin/python3 -B
 import concurrent.futures, os, pathlib, signal, subprocess, sys, time

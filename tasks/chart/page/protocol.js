@@ -7,8 +7,9 @@ const rowHeight = 22, rowLabels = 162;
 
 /// "−0.0011 ± 0.0005": to two digits of the half width.
 function withHalfWidth(value, half) {
-  const decimals = half > 0 ? Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(half)))) : 9;
-  return `${value.toFixed(decimals).replace('-', '−')} ± ${half.toFixed(decimals)}`;
+  const decimals = half > 0 ? Math.max(0, 1 - Math.floor(Math.log10(half))) : 1;
+  const text = (number) => (decimals > 5 ? number.toExponential(1) : number.toFixed(decimals));
+  return `${text(value)} ± ${text(half)}`.replaceAll('-', '−');
 }
 
 /// Settings as rows, the first one first. Bars beyond are of means about that of the first setting.

@@ -32,7 +32,7 @@ const ChartResult& real_chart() {
             "max_evaluations": 400, "rule_evaluations": 800,
             "phi_j": {"solid": "dodecahedron", "replicates": 3, "particles": [24, 30], "consolidation_step": [0.04],
                       "target_energy": [1e-5], "fit_window": [0.05, 0.1], "residual": [1e-6, 1e-3]},
-            "growth": {"solids": ["dodecahedron"], "particles": [24, 60], "replicates": 2, "distances": [0.05, 0.03]}})",
+            "growth": {"solids": ["dodecahedron"], "particles": [24, 48], "replicates": 2, "distances": [0.05, 0.03]}})",
         "points");
     Console console({.quiet = true});
     return run_chart(config, {}, console);
