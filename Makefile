@@ -1,4 +1,4 @@
-# Verbs: run test build bench bench-against equilibria paper test-asan fuzz test-slurm lint format clean. On Debian 12
+# Verbs: run test build bench bench-against equilibria paper test-asan fuzz test-slurm lint format packages clean. On Debian 12
 # each first installs the packages it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
@@ -148,7 +148,7 @@ clean:
 
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.
-FILES   := $(shell find engine tasks tests -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
+FILES   := $(shell find $(wildcard engine tasks tests) -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
 # Not ?=, for make has a LINT of its own; the command line wins over := as well.
 LINT    := $(filter %.cpp,$(FILES))
 STAMPS   = $(LINT:%=$(BUILD)-lint/stamps/%)
