@@ -1,4 +1,4 @@
-# Verbs: run test build bench bench-against equilibria paper test-asan fuzz test-slurm lint format clean. On Debian 12
+# Verbs: run test build bench bench-against equilibria paper test-asan fuzz test-slurm lint format packages clean. On Debian 12
 # each first installs the packages it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
@@ -12,7 +12,7 @@ RESULTS  = $(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.
 
 # ---- Packages, one list per need ----------------------------------------------------------------------------
 PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev libmetis-dev \
-                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
+                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev nettle-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
@@ -81,6 +81,11 @@ paper: build
 	@/usr/bin/python3 -B examples/paper/gather.py $(BUILD)/isojam results results/paper
 	@/usr/bin/python3 -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
 
+# All that `run` and `test` install, and nothing else: for the layer of an image.
+.PHONY: packages
+packages:
+	$(call install,$(TEST_PACKAGES) $(BROWSER_PACKAGES))
+
 .PHONY: browser
 browser:
 	$(call install,$(BROWSER_PACKAGES))
@@ -144,7 +149,7 @@ clean:
 
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.
-FILES   := $(shell find engine tasks tests -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
+FILES   := $(shell find $(wildcard engine tasks tests) -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
 # Not ?=, for make has a LINT of its own; the command line wins over := as well.
 LINT    := $(filter %.cpp,$(FILES))
 STAMPS   = $(LINT:%=$(BUILD)-lint/stamps/%)

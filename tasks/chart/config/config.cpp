@@ -36,6 +36,14 @@ void visit_phi_j(Config& config, const Visitor& visit) {
 }
 
 template <class Config, class Visitor>
+void visit_growth(Config& config, const Visitor& visit) {
+  visit("solids", config.solids, Range{});
+  visit("particles", config.particles, particle_range);
+  visit("replicates", config.replicates, count_range);
+  visit("distances", config.distances, distance_range);
+}
+
+template <class Config, class Visitor>
 void visit_chart(Config& config, const Visitor& visit) {
   visit("compare", config.compare, Range{});
   visit("solids", config.solids, Range{});
@@ -65,9 +73,11 @@ std::vector<std::string_view> keys_of(const Visit& visit) {
   return keys;
 }
 
-void read_phi_j(const JsonPlace& place, PhiJConfig& config) {
-  place.expect_keys(keys_of([&](const auto& visitor) { visit_phi_j(config, visitor); }));
-  visit_phi_j(config, [&](const std::string& key, auto& value, const Range& range) {
+/// `visit` calls a visitor on every key of an object.
+template <class Visit>
+void read_visited(const JsonPlace& place, const Visit& visit) {
+  place.expect_keys(keys_of(visit));
+  visit([&](const std::string& key, auto& value, const Range& range) {
     place.read_if_any(key, [&](const JsonPlace& given) { read_option(given, range, value); });
   });
 }
@@ -75,13 +85,18 @@ void read_phi_j(const JsonPlace& place, PhiJConfig& config) {
 void read_keys(const JsonPlace& root, ChartConfig& config) {
   auto keys = keys_of([&](const auto& visitor) { visit_chart(config, visitor); });
   keys.insert(keys.begin(), "$schema");
-  keys.emplace_back("phi_j");
+  keys.insert(keys.end(), {"phi_j", "growth"});
   root.expect_keys(keys);
   root.read_if_any("$schema", [](const JsonPlace& place) { place.text(); });
   visit_chart(config, [&](const std::string& key, auto& value, const Range& range) {
     root.read_if_any(key, [&](const JsonPlace& place) { read_option(place, range, value); });
   });
-  root.read_if_any("phi_j", [&](const JsonPlace& place) { read_phi_j(place, config.phi_j); });
+  root.read_if_any("phi_j", [&](const JsonPlace& place) {
+    read_visited(place, [&](const auto& visitor) { visit_phi_j(config.phi_j, visitor); });
+  });
+  root.read_if_any("growth", [&](const JsonPlace& place) {
+    read_visited(place, [&](const auto& visitor) { visit_growth(config.growth, visitor); });
+  });
 }
 
 /// The cell must be legal up to the density that jamming may pass through.
@@ -120,6 +135,9 @@ ChartConfig full_chart_config() {
   config.phi_j.target_energy = {3.2e-5, 1e-6, 1e-8};
   config.phi_j.fit_window = {0.02, 0.01, 0.05, 0.12};
   config.phi_j.residual = {1e-6, 1e-9, 1e-4, 1e-3};
+  config.growth.solids = {SolidKind::tetrahedron, SolidKind::octahedron};
+  config.growth.particles = {64, 128, 256, 400};
+  config.growth.replicates = 2;
   return config;
 }
 
@@ -131,8 +149,12 @@ ChartConfig parse_chart_config(std::string_view text, const std::string& file) {
   root.attempt([&] { read_keys(root, config); });
   problems.refuse_any(document);
   for (const SolidKind solid : config.solids) check_particles(root, "particles", solid, config.particles);
-  const int fewest = *std::min_element(config.phi_j.particles.begin(), config.phi_j.particles.end());
-  check_particles(root, "phi_j", config.phi_j.solid, fewest);
+  const auto fewest = [](const std::vector<int>& particles) {
+    return *std::min_element(particles.begin(), particles.end());
+  };
+  check_particles(root, "phi_j", config.phi_j.solid, fewest(config.phi_j.particles));
+  for (const SolidKind solid : config.growth.solids)
+    check_particles(root, "growth", solid, fewest(config.growth.particles));
   problems.refuse_any(document);
   return config;
 }
@@ -140,9 +162,12 @@ ChartConfig parse_chart_config(std::string_view text, const std::string& file) {
 Json to_json(const ChartConfig& config) {
   Json json = Json::object();
   visit_chart(config, [&](const std::string& key, const auto& value, const Range&) { json[key] = option_json(value); });
-  Json& phi_j = json["phi_j"] = Json::object();
-  visit_phi_j(config.phi_j,
-              [&](const std::string& key, const auto& value, const Range&) { phi_j[key] = option_json(value); });
+  const auto add_to = [](Json& object) {
+    return [&](const std::string& key, const auto& value, const Range&) { object[key] = option_json(value); };
+  };
+  json["phi_j"] = json["growth"] = Json::object();
+  visit_phi_j(config.phi_j, add_to(json["phi_j"]));
+  visit_growth(config.growth, add_to(json["growth"]));
   return json;
 }
 

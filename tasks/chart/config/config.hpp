@@ -13,14 +13,15 @@
 namespace isojam {
 
 /// What a chart may compare, in the order in which it is measured.
-enum class Comparison { equilibrium, hessian, modes, overlap, atlas, phi_j };
+enum class Comparison { equilibrium, hessian, modes, overlap, atlas, phi_j, growth };
 template <>
 inline constexpr std::array enum_names<Comparison>{EnumName{Comparison::equilibrium, "equilibrium"},
                                                    EnumName{Comparison::hessian, "hessian"},
                                                    EnumName{Comparison::modes, "modes"},
                                                    EnumName{Comparison::overlap, "overlap"},
                                                    EnumName{Comparison::atlas, "atlas"},
-                                                   EnumName{Comparison::phi_j, "phi_j"}};
+                                                   EnumName{Comparison::phi_j, "phi_j"},
+                                                   EnumName{Comparison::growth, "growth"}};
 inline constexpr auto all_comparisons = all_of<Comparison>;
 
 /// Settings of the protocol, of which one at a time is varied from the first of its list.
@@ -32,6 +33,14 @@ struct PhiJConfig {
   std::vector<double> target_energy{3.2e-5, 1e-6};
   std::vector<double> fit_window{0.02, 0.05, 0.1};
   std::vector<double> residual{1e-6, 1e-3};
+};
+
+/// Sizes over which it is measured how costs grow.
+struct GrowthConfig {
+  std::vector<SolidKind> solids{SolidKind::octahedron};
+  std::vector<int> particles{50, 100, 200};
+  int replicates = 2;                                      ///< per solid and size
+  std::vector<double> distances{0.05, 0.03, 0.02, 0.012};  ///< Δφ above jamming, of the equilibria that are timed
 };
 
 /// What a chart compares and how long it may take. In-class values are the configuration that is used without one: it
@@ -57,6 +66,7 @@ struct ChartConfig {
   double point_seconds = 10;   ///< of one point, wall clock
   double total_seconds = 280;  ///< after which no further point is begun and the one under way is stopped
   PhiJConfig phi_j;
+  GrowthConfig growth;
 };
 
 /// The configuration for an hour: all solids but cubes, whose constraints are redundant, and larger packings.

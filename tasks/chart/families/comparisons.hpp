@@ -40,4 +40,8 @@ void compare_overlaps(const Measuring& measuring, ChartFamily& family);
 /// first setting.
 void compare_protocols(const Measuring& measuring, ChartFamily& family);
 
+/// What a replicate of the default protocol, one of its equilibria and an evaluation cost at several numbers of
+/// particles, and as which power of these it grows. No errors.
+void measure_growth(const Measuring& measuring, ChartFamily& family);
+
 }  // namespace isojam

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -13,9 +14,15 @@ namespace {
 
 /// The replicates of one setting of the protocol.
 struct Replicated {
-  std::vector<std::vector<EnergyPoint>> energies;  ///< of those that jammed
-  std::vector<double> seconds;                     ///< of all
-  int failed = 0;
+  std::map<int, std::vector<EnergyPoint>> energies;  ///< of those that jammed, by number
+  std::vector<double> seconds;                       ///< of all, in order of number
+
+  int count() const { return static_cast<int>(seconds.size()); }
+  /// Of the first so many.
+  double total_seconds(int first) const { return std::accumulate(seconds.begin(), seconds.begin() + first, 0.0); }
+  int failed(int first) const {
+    return first - static_cast<int>(std::distance(energies.begin(), energies.lower_bound(first)));
+  }
 };
 
 struct ProtocolSetting {
@@ -65,19 +72,36 @@ Replicated replicated(const ProtocolSetting& setting, const Measuring& measuring
     Packing placed = random_packing(platonic(config.solid), setting.particles, setting.options.initial_density, random);
     const JamResult jammed = jam(std::move(placed), setting.options, measuring.stop);
     result.seconds.push_back(thread_cpu_seconds() - before);
-    if (jammed.phi_j) {
-      result.energies.push_back(energy_points(jammed));
-    } else {
-      ++result.failed;
-    }
+    if (jammed.phi_j) result.energies.emplace(k, energy_points(jammed));
   }
   return result;
 }
 
-std::vector<double> densities(const Replicated& replicates, double window) {
+/// φ_J by number of the replicate.
+using Densities = std::map<int, double>;
+
+Densities densities(const Replicated& replicates, double window) {
+  Densities values;
+  for (const auto& [number, energies] : replicates.energies) {
+    if (const auto found = fit_jamming_point(energies, window)) values.emplace(number, found->density);
+  }
+  return values;
+}
+
+/// Those with a number below `count`.
+Densities first_of(const Densities& densities, int count) { return {densities.begin(), densities.lower_bound(count)}; }
+
+std::vector<double> values_of(const Densities& densities) {
   std::vector<double> values;
-  for (const auto& energies : replicates.energies) {
-    if (const auto found = fit_jamming_point(energies, window)) values.push_back(found->density);
+  for (const auto& [number, density] : densities) values.push_back(density);
+  return values;
+}
+
+/// Of replicates that began alike: those of one number, if N is the same.
+std::vector<double> differences(const Densities& densities, const Densities& first) {
+  std::vector<double> values;
+  for (const auto& [number, density] : densities) {
+    if (const auto other = first.find(number); other != first.end()) values.push_back(density - other->second);
   }
   return values;
 }
@@ -86,62 +110,97 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Error: how far the mean is from `best` at the far end of its 95 % interval. Seconds: of all replicates together.
-ChartPoint point_of(std::string task, std::string setting, const std::vector<double>& values, double seconds,
-                    double best, int failed) {
-  ChartPoint point{std::move(task), "protocol", std::move(setting), spread({seconds}), {},
-                   "done",          failed > 0, Json::object()};
-  point.further = {{"replicates", values.size()}, {"phi_j", nullptr}, {"half_width", nullptr}};
-  if (failed > 0) point.stopped = fmt::format("{} not jammed", failed);
+/// What is compared with what.
+struct Compared {
+  std::string task, setting;
+  Densities densities;
+  double seconds = 0;  ///< of all replicates together
+  int failed = 0;
+  bool began_alike = true;
+};
+
+/// Error: how far the mean is from that of `first` at the far end of its 95 % interval.
+ChartPoint point_of(const Compared& compared, const Densities& first) {
+  ChartPoint point{compared.task, "protocol",          compared.setting, spread({compared.seconds}), {},
+                   "done",        compared.failed > 0, Json::object()};
+  const auto values = values_of(compared.densities);
+  point.further = {{"replicates", values.size()},
+                   {"phi_j", nullptr},
+                   {"half_width", nullptr},
+                   {"difference", nullptr},
+                   {"difference_half_width", nullptr}};
+  if (compared.failed > 0) point.stopped = fmt::format("{} not jammed", compared.failed);
   const auto half_width = student_half_width(values);
   if (!half_width) {
     point.failed = true;
     point.stopped = "fewer than two replicates";
     return point;
   }
-  point.error = Spread{std::abs(mean(values) - best) + *half_width, 0, 0, static_cast<int>(values.size())};
-  point.error->least = std::abs(mean(values) - best);
-  point.error->greatest = point.error->median;
+  const double off = mean(values) - mean(values_of(first));
+  point.error =
+      Spread{std::abs(off) + *half_width, std::abs(off), std::abs(off) + *half_width, static_cast<int>(values.size())};
   point.further["phi_j"] = mean(values);
   point.further["half_width"] = *half_width;
+  const auto paired = compared.began_alike ? differences(compared.densities, first) : std::vector<double>();
+  if (const auto width = student_half_width(paired)) {
+    point.further["difference"] = mean(paired);
+    point.further["difference_half_width"] = *width;
+  }
   return point;
 }
 
-double total(const std::vector<double>& seconds) { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
+class Protocols {
+ public:
+  Protocols(const Measuring& measuring, ChartFamily& family)
+      : measuring_(measuring), config_(measuring.config.phi_j), family_(family) {}
 
-/// Fewer replicates, and other windows, of what was run already.
-void add_points_of_first(const Replicated& first, const PhiJConfig& config, const std::string& task,
-                         ChartFamily& family) {
-  const auto values = densities(first, config.fit_window.front());
-  const double best = mean(values);
-  for (std::size_t n = 2; n <= values.size(); ++n) {
-    const std::vector<double> some(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n));
-    const std::vector<double> taken(first.seconds.begin(), first.seconds.begin() + static_cast<std::ptrdiff_t>(n));
-    family.points.push_back(point_of(task, fmt::format("{} replicates", n), some, total(taken), best, first.failed));
+  void run() {
+    const ProtocolSetting setting = first_setting(config_);
+    task_ = fmt::format("{}, N = {}", to_string(config_.solid), setting.particles);
+    family_.note += fmt::format(
+        " First setting: particles {}, consolidation_step {:g}, target_energy {:g}, fit_window {:g}, residual {:g}.",
+        setting.particles, setting.options.consolidation_step, setting.options.target_energy,
+        setting.options.fit_window, setting.options.minimise.residual);
+    const Replicated first = replicated(setting, measuring_);
+    first_ = densities(first, config_.fit_window.front());
+    if (measuring_.over() || first_.empty()) return;
+    add_points_of(first);
+    for (const ProtocolSetting& other : varied_settings(config_)) {
+      const Replicated replicates = replicated(other, measuring_);
+      if (measuring_.over()) return;
+      add(other.name, densities(replicates, other.options.fit_window), replicates, replicates.count(),
+          other.particles == setting.particles);
+    }
   }
-  for (std::size_t k = 1; k < config.fit_window.size(); ++k) {
-    const double window = config.fit_window[k];
-    family.points.push_back(point_of(task, fmt::format("fit_window {:g}", window), densities(first, window),
-                                     total(first.seconds), best, first.failed));
+
+ private:
+  void add(const std::string& setting, Densities densities, const Replicated& replicates, int count, bool alike) {
+    const Compared compared{
+        task_, setting, std::move(densities), replicates.total_seconds(count), replicates.failed(count), alike};
+    family_.points.push_back(point_of(compared, first_));
   }
-}
+
+  /// All replicates of the first setting, fewer of them, and other windows on them: what was run already.
+  void add_points_of(const Replicated& first) {
+    for (int n = first.count(); n >= 2; --n) {
+      const auto name = fmt::format("{}replicates {}", n == first.count() ? "first setting, " : "", n);
+      add(name, first_of(first_, n), first, n, false);
+    }
+    for (std::size_t k = 1; k < config_.fit_window.size(); ++k) {
+      const double window = config_.fit_window[k];
+      add(fmt::format("fit_window {:g}", window), densities(first, window), first, first.count(), true);
+    }
+  }
+
+  const Measuring& measuring_;
+  const PhiJConfig& config_;
+  ChartFamily& family_;
+  std::string task_;
+  Densities first_;
+};
 
 }  // namespace
 
-void compare_protocols(const Measuring& measuring, ChartFamily& family) {
-  const PhiJConfig& config = measuring.config.phi_j;
-  const ProtocolSetting setting = first_setting(config);
-  const Replicated first = replicated(setting, measuring);
-  const auto values = densities(first, config.fit_window.front());
-  if (measuring.over() || values.empty()) return;
-  const auto task = fmt::format("{}, N = {}", to_string(config.solid), setting.particles);
-  add_points_of_first(first, config, task, family);
-  for (const ProtocolSetting& other : varied_settings(config)) {
-    const Replicated replicates = replicated(other, measuring);
-    if (measuring.over()) return;
-    family.points.push_back(point_of(task, other.name, densities(replicates, other.options.fit_window),
-                                     total(replicates.seconds), mean(values), replicates.failed));
-  }
-}
+void compare_protocols(const Measuring& measuring, ChartFamily& family) { Protocols(measuring, family).run(); }
 
 }  // namespace isojam

@@ -59,12 +59,11 @@ function cellList(label, rows) {
 }
 
 function drawAtlas(atlas, place) {
-  const ended = {complete: '', cut: ' The time was over before all was measured.', interrupted: ' Interrupted.'};
   place.hidden = false;
   place.append(element('p', {className: 'note'}, countsText(atlas.rows),
     'Each regime is difficult in its own way, from the left to the right in steps. ✓ the method holds; – it refuses, ',
     'with a reason; ✗ its answer is wrong, or it ends without one. * marks what isojam itself uses there.',
-    ended[atlas.ended]));
+    endings[atlas.ended]));
   const other = atlas.rows.filter(({verdict}) => verdict !== 'holds');
   place.append(element('div', {className: 'regimes'},
     ...groupedBy(atlas.rows, 'regime').map(([regime, rows]) => regimeTable(regime, rows))),

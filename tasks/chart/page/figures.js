@@ -4,6 +4,8 @@
 const methodColours = ['#0072b2', '#d55e00', '#009e73', '#e69f00', '#cc79a7', '#56b4e9', '#777777'];
 const methodShapes = ['circle', 'square', 'triangle-up', 'diamond', 'triangle-down', 'triangle-right', 'stroke'];
 
+const endings = {complete: '', cut: ' The time was over before all was measured.', interrupted: ' Interrupted.'};
+
 const unique = (values) => [...new Set(values)];
 
 /// Points with what a log scale can show: an error of 0 stands at the least of the others.
@@ -30,20 +32,22 @@ const pointTooltip = {
 
 const byMethod = {scale: 'colour', field: 'method'};
 
-/// Where failures stand, whatever their error: below the upper edge of a panel, under a line of text.
-const reasonLine = 9, edge = 23, edgeHeight = 32;
+/// Below the upper edge of a panel a line of text says why points failed; under it, above a line, stand those that
+/// failed without an error to be drawn at, where a family has some.
+const reasonLine = 9, edge = 23, edgeHeight = 32, textHeight = 18;
 
+const crossPath = 'M-1,-1L1,1M-1,1L1,-1';
+
+/// Each failure once: at its error, or, if it has none, at the edge.
 function failureMarks(source) {
-  const cross = (y, size) => ({
-    type: 'symbol', from: {data: source},
+  return {
+    name: `failure_${source}`, type: 'symbol', from: {data: source},
     encode: {enter: {
-      x: {scale: 'x', field: 'x'}, y, shape: {value: 'M-1,-1L1,1M-1,1L1,-1'}, size: {value: size},
+      x: {scale: 'x', field: 'x'}, shape: {value: crossPath}, size: {value: 44},
+      y: [{test: 'isValid(datum.y)', scale: 'y', field: 'y'}, {value: edge}],
       stroke: byMethod, strokeWidth: {value: 1.8}, fill: {value: 'transparent'}, tooltip: tooltipOf(pointTooltip),
     }},
-  });
-  const inPlace = cross({scale: 'y', field: 'y'}, 40);
-  inPlace.encode.enter.opacity = {signal: 'isValid(datum.y) ? 1 : 0'};
-  return [inPlace, cross({value: edge}, 50)];
+  };
 }
 
 /// Why points of a panel failed, said once at its upper edge.
@@ -102,11 +106,17 @@ const filtered = (name, source, expression, sort) => ({
     ...(sort ? [{type: 'collect', sort: {field: 'x'}}] : [])],
 });
 
-/// The domain of errors with room above it for the failures.
+/// Height above the scale of errors: for the reasons, and for failures that have no error.
+function roomAbove(rows) {
+  if (!rows.some(({failed, y}) => failed || y === null)) return 0;
+  return rows.some(({y}) => y === null) ? edgeHeight + 4 : textHeight;
+}
+
+/// The domain of errors with that room above it.
 function errorDomain(rows, height) {
   const [low, high] = domainOf(rows.flatMap(({y, y_least: least, y_greatest: greatest}) => [y, least, greatest]),
     {type: 'log', margin: 0.04}) ?? [1e-16, 1];
-  const share = (edgeHeight + 4) / height;
+  const share = roomAbove(rows) / height;
   return [low, low * (high / low) ** (1 / (1 - share))];
 }
 
@@ -119,27 +129,30 @@ function panelsPerRow(tasks) {
 function familyFigure(family) {
   const rows = plotted(family);
   const id = family.name, title = familyTitles[family.name] ?? family.name;
-  const ended = {complete: '', cut: ' The time was over before all was measured.', interrupted: ' Interrupted.'};
-  const note = family.note + ended[family.ended];
-  if (rows.length === 0) return {id, title, absent: `No point was measured.${ended[family.ended]}`};
+  const note = family.note + endings[family.ended];
+  if (rows.length === 0) return {id, title, absent: `No point was measured.${endings[family.ended]}`};
   const tasks = unique(rows.map(({task}) => task)), methods = unique(rows.map(({method}) => method));
   const height = 244;
   const x = {type: 'log', title: 'seconds', domain: domainOf(rows.flatMap((row) => [row.x_least, row.x_greatest]),
     {type: 'log', margin: 0.06})};
   const y = {type: 'log', title: family.error_is, domain: errorDomain(rows, height)};
-  const panelAt = (index, place) => {
+  const edged = roomAbove(rows) > textHeight, grid = {least: 240, most: panelsPerRow(tasks)};
+  // Below each other, the axis of the last panel would be screens away from the first.
+  const single = (width) => panelGrid(width, tasks.length, grid).columns === 1;
+  const panelAt = (width) => (index, place) => {
     const here = `datum.task === ${JSON.stringify(tasks[index])}`;
     const names = ['good', 'failed', 'front'].map((name) => `${name}_${index}`);
     return panel({
-      ...place, title: tasks[index], x, y,
+      ...place, title: tasks[index], x, y, showX: place.showX || single(width),
       data: [
         filtered(names[0], 'points', `${here} && !datum.failed && isValid(datum.y)`),
         filtered(names[1], 'points', `${here} && (datum.failed || !isValid(datum.y))`),
         filtered(names[2], 'points', `${here} && datum.on_front`, true),
       ],
       marks: [
-        edgeLine(place.width), reasonText(rows.filter((row) => row.task === tasks[index] && row.failed), place.width),
-        frontMark(names[2]), ...successMarks(names[0]), ...failureMarks(names[1]),
+        ...(edged ? [edgeLine(place.width)] : []),
+        reasonText(rows.filter((row) => row.task === tasks[index] && row.failed), place.width),
+        frontMark(names[2]), ...successMarks(names[0]), failureMarks(names[1]),
       ],
     });
   };
@@ -147,7 +160,7 @@ function familyFigure(family) {
     id, title, note, datasets: {points: rows},
     spec: (width) => panelSpec({
       description: `${title}: error against time on logarithmic scales, a panel for each case.`, width,
-      count: tasks.length, height, datasets: {points: rows}, panelAt, grid: {least: 240, most: panelsPerRow(tasks)},
+      count: tasks.length, height, datasets: {points: rows}, panelAt: panelAt(width), grid,
       legends: [{fill: 'colour', shape: 'shape'}],
       scales: [
         {name: 'colour', type: 'ordinal', domain: methods, range: methodColours},
@@ -159,5 +172,6 @@ function familyFigure(family) {
 
 const familyTitles = {
   equilibrium: 'Equilibrium', bias: 'What it does to the jamming density', hessian: 'Hessian', modes: 'Lowest modes',
-  overlap: 'Overlap of two solids', phi_j: 'Jamming density',
+  overlap: 'Overlap of two solids', phi_j: 'Jamming density: what each parameter costs, and what it does',
+  growth: 'Cost against the number of particles',
 };

@@ -25,8 +25,11 @@ function pointTable(family) {
       element('tbody', {}, ...rows))));
 }
 
+/// Families that are not errors against times have figures of their own.
+const figuresOf = {phi_j: protocolFigure, growth: growthFigure};
+
 function drawFamily(family, place) {
-  const figure = familyFigure(family);
+  const figure = (figuresOf[family.name] ?? familyFigure)(family);
   const section = element('section', {});
   place.append(section);
   if (figure.absent) {

@@ -19,8 +19,9 @@ struct Standing {
 /// faster first among equals. A setting that failed may be within all the same.
 std::vector<Standing> standings(std::span<const ChartPoint> points, double residual);
 
-/// Three lines: the fastest method within 1e-6, the fastest within 1e-9, and what failed, with where the paper's rule
-/// ends. `bias`: points of that family, for the same variants.
+/// Three lines: the fastest method within 1e-6, the fastest within 1e-9, and, for every residual that was asked for,
+/// who missed it, with where the paper's rule ends. All count cases by the same measure: within a residual, or not.
+/// `bias`: points of that family, for the same variants.
 std::array<std::string, 3> conclusion(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias);
 
 }  // namespace isojam

@@ -40,15 +40,21 @@ Json to_json(const ChartPoint& point, bool on_front) {
           {"further", point.further}};
 }
 
+Json to_json(const GrowthFit& fit) {
+  return {{"case", fit.task},           {"method", fit.method},
+          {"exponent", fit.exponent},   {"half_width", fit.half_width ? Json(*fit.half_width) : Json(nullptr)},
+          {"prefactor", fit.prefactor}, {"n", fit.n}};
+}
+
 Json to_json(const ChartFamily& family) {
   Json points = Json::array();
   const auto on_front = on_fronts(family.points);
   for (std::size_t k = 0; k < family.points.size(); ++k) points.push_back(to_json(family.points[k], on_front[k]));
-  return {{"name", family.name},
-          {"error_is", family.error_is},
-          {"note", family.note},
-          {"ended", to_string(family.ended)},
-          {"points", std::move(points)}};
+  Json fits = Json::array();
+  for (const GrowthFit& fit : family.fits) fits.push_back(to_json(fit));
+  return {{"name", family.name},         {"error_is", family.error_is},
+          {"note", family.note},         {"ended", to_string(family.ended)},
+          {"points", std::move(points)}, {"fits", std::move(fits)}};
 }
 
 Json to_json(const AtlasRow& row) {

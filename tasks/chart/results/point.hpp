@@ -48,6 +48,14 @@ inline constexpr std::array enum_names<FamilyEnd>{EnumName{FamilyEnd::complete, 
                                                   EnumName{FamilyEnd::cut, "cut"},
                                                   EnumName{FamilyEnd::interrupted, "interrupted"}};
 
+/// How the seconds of a method grow with the number of particles: as prefactor · N^exponent.
+struct GrowthFit {
+  std::string task, method;
+  double exponent = 0, prefactor = 0;
+  std::optional<double> half_width;  ///< of the exponent's 95 % interval; nullopt for fewer than three measurements
+  int n = 0;                         ///< measurements fitted
+};
+
 /// Points that are measured alike.
 // NOLINTNEXTLINE(bugprone-exception-escape): as above.
 struct ChartFamily {
@@ -56,6 +64,7 @@ struct ChartFamily {
   std::string note;      ///< how it was measured
   FamilyEnd ended = FamilyEnd::complete;
   std::vector<ChartPoint> points;
+  std::vector<GrowthFit> fits{};  ///< of points at several numbers of particles
 };
 
 }  // namespace isojam

@@ -60,11 +60,20 @@ std::string ended_text(FamilyEnd end) {
   return "";
 }
 
+std::string fits_text(const std::vector<GrowthFit>& fits) {
+  std::string text;
+  for (const GrowthFit& fit : fits) {
+    const auto half_width = fit.half_width ? fmt::format(" ± {:.2f}", *fit.half_width) : "";
+    text += fmt::format("{}, {}: seconds grow as N^x, x = {:.2f}{}\n", fit.task, fit.method, fit.exponent, half_width);
+  }
+  return text;
+}
+
 std::string family_text(const ChartFamily& family) {
   std::vector<Row> rows{{"case", "method", "setting", "seconds", "n", "error", "greatest", "n", "stopped"}};
   for (const ChartPoint& point : family.points) rows.push_back(row_of(point));
-  return fmt::format("{}{}: seconds of one thread, {}\n{}\n", family.name, ended_text(family.ended), family.error_is,
-                     aligned(rows));
+  return fmt::format("{}{}: seconds of one thread, {}\n{}{}\n", family.name, ended_text(family.ended), family.error_is,
+                     aligned(rows), fits_text(family.fits));
 }
 
 /// Names are not repeated from the line above.

@@ -3,6 +3,10 @@
 // - what reached a residual is within it, and what did not is marked as failed; likewise wrong overlaps, negative modes
 //   that are none, and eigensolvers that did not converge; all but the overlaps do fail somewhere; so says the table;
 // - on the front is what no other point of its case beats, and all of that;
+// - settings of the protocol: each is told by a name of its own; a fit window differs from the first setting by the
+//   difference of the means, and an interval of paired differences stands where packings began alike and nowhere else;
+// - costs grow with the number of particles: those of an evaluation in proportion, and the powers are those of the
+//   points;
 // - at a vanishing tolerance the bias of the default method vanishes, and a loose minimiser's does not.
 
 #include <gtest/gtest.h>
@@ -12,6 +16,7 @@
 #include <optional>
 #include <sstream>
 
+#include "engine/analysis/power_law.hpp"
 #include "tasks/chart/results/data.hpp"
 #include "tasks/chart/run_chart.hpp"
 
@@ -21,10 +26,13 @@ namespace {
 const ChartResult& real_chart() {
   static const ChartResult result = [] {
     const ChartConfig config = parse_chart_config(
-        R"({"compare": ["equilibrium", "hessian", "modes", "overlap"], "solids": ["octahedron"], "particles": 45,
+        R"({"compare": ["equilibrium", "hessian", "modes", "overlap", "phi_j", "growth"], "solids": ["octahedron"], "particles": 45,
             "packings": 2, "distances": [0.08, 0.03], "fit_window": 0.1, "tolerances": [1e-2, 1e-6],
             "difference_steps": [1e-3, 1e-8], "shifts": [1e-11], "subspaces": [60, 200], "pairs": 8, "repetitions": 2,
-            "max_evaluations": 400, "rule_evaluations": 800})",
+            "max_evaluations": 400, "rule_evaluations": 800,
+            "phi_j": {"solid": "dodecahedron", "replicates": 3, "particles": [24, 30], "consolidation_step": [0.04],
+                      "target_energy": [1e-5], "fit_window": [0.05, 0.1], "residual": [1e-6, 1e-3]},
+            "growth": {"solids": ["dodecahedron"], "particles": [24, 48], "replicates": 2, "distances": [0.05, 0.03]}})",
         "points");
     Console console({.quiet = true});
     return run_chart(config, {}, console);
@@ -145,6 +153,59 @@ TEST(ChartPoints, TheFrontIsWhatNothingBeats) {
   }
   EXPECT_GT(on_front, 0);
   EXPECT_LT(on_front, all);
+}
+
+TEST(ChartPoints, SettingsOfTheProtocolAreToldApart) {
+  const auto points = points_of(real_chart().families, "phi_j");
+  std::vector<std::string> settings;
+  for (const ChartPoint& point : points) settings.push_back(point.setting);
+  EXPECT_EQ(settings, (std::vector<std::string>{"first setting, replicates 3", "replicates 2", "fit_window 0.1",
+                                                "particles 30", "residual 0.001"}));
+  const auto mean = [](const ChartPoint& point) { return point.further.at("phi_j").get<double>(); };
+  for (const ChartPoint& point : points) {
+    const bool alike = point.setting.starts_with("fit_window") || point.setting.starts_with("residual");
+    const Json &difference = point.further.at("difference"), &width = point.further.at("difference_half_width");
+    EXPECT_EQ(difference.is_number(), alike) << text_of(point);
+    EXPECT_EQ(width.is_number(), alike) << text_of(point);
+    if (!alike) continue;
+    EXPECT_NEAR(difference.get<double>(), mean(point) - mean(points[0]), 1e-12) << text_of(point);
+    std::printf("%s: %.1e ± %.1e replicate by replicate, of means ± %.1e\n", point.setting.c_str(),
+                difference.get<double>(), width.get<double>(), point.further.at("half_width").get<double>());
+  }
+  // Of the same states, the window moves every replicate much alike.
+  const Json& window = points[2].further;
+  EXPECT_LT(window.at("difference_half_width").get<double>(), window.at("half_width").get<double>());
+}
+
+TEST(ChartPoints, CostsGrowWithTheNumberOfParticles) {
+  const ChartFamily& family = real_chart().families.back();
+  ASSERT_EQ(family.name, "growth");
+  std::vector<std::string> methods;
+  for (const GrowthFit& fit : family.fits) {
+    methods.push_back(fit.method);
+    std::vector<double> particles, seconds;
+    for (const ChartPoint& point : family.points) {
+      if (point.method != fit.method) continue;
+      ASSERT_EQ(point.seconds->n, 2) << text_of(point);
+      EXPECT_FALSE(point.failed) << text_of(point);
+      for (const double time : {point.seconds->least, point.seconds->greatest}) {
+        particles.push_back(point.further.at("particles"));
+        seconds.push_back(time);
+      }
+    }
+    const auto law = fit_power_law(particles, seconds);
+    ASSERT_TRUE(law && fit.half_width) << fit.method;
+    std::printf("%s: seconds as N^(%.2f ± %.2f)\n", fit.method.c_str(), fit.exponent, *fit.half_width);
+    EXPECT_NEAR(fit.exponent, law->exponent, 1e-12) << fit.method;
+    EXPECT_NEAR(fit.prefactor / law->prefactor, 1, 1e-12) << fit.method;
+    EXPECT_EQ(fit.n, 4) << fit.method;
+    EXPECT_GT(fit.exponent, 0.5) << fit.method;
+    if (fit.method == "evaluation") {
+      EXPECT_NEAR(fit.exponent, 1, 0.4);
+    }
+  }
+  EXPECT_EQ(methods, (std::vector<std::string>{"replicate", "equilibrium", "evaluation"}));
+  EXPECT_NE(text_table(real_chart()).find("replicate: seconds grow as N^x, x = "), std::string::npos);
 }
 
 TEST(ChartPoints, BiasIsOfStatesThatAreOff) {
