@@ -272,6 +272,16 @@ Json measure_list(const Results& results) {
   return measures;
 }
 
+/// What is not among the measures and could be added to them; null where the manifest kept no expansions.
+Json addable_list(const Results& results, const Json& measures) {
+  if (value_at(results.manifest, "/keep_path") != true) return nullptr;
+  Json addable = Json::array();
+  for (const auto name : all_names<Measure>) {
+    if (std::find(measures.begin(), measures.end(), name) == measures.end()) addable.push_back(name);
+  }
+  return addable;
+}
+
 Json column_list() {
   Json columns = Json::array();
   for (const auto& quantity : all_quantities()) {
@@ -312,6 +322,7 @@ Json report_data(const Results& results, const std::map<std::size_t, Json>& view
   data["exclude"] = option_json(exclude);
   data["builds"] = provenance_list(results);
   data["measures"] = measure_list(results);
+  data["addable"] = addable_list(results, data["measures"]);
   data["columns"] = column_list();
   data["parameters"] = Json::object();
   for (const auto& name : parameter_names(table)) data["parameters"][name] = parameter_head(name);

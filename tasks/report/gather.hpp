@@ -12,6 +12,7 @@ namespace isojam {
 ///   exclude     flags of replicates that count in no mean
 ///   builds      distinct provenance of the records
 ///   measures    what was measured, over all records
+///   addable     what else could be, from the expansions that were kept; null where none were
 ///   columns     {"name", "group", "unit", "latex"} of the quantities, in the order of the tables
 ///   parameters  names of the swept ones, each with what its column is called
 ///   rows        those of tables.json, each with "label", "paper" (φ_J of Table I or null), "scaling" (power laws of

@@ -35,6 +35,11 @@ function drawProvenance(data) {
   put('Sweep', data.manifest.name);
   put('Seed', data.manifest.seed);
   put('Measured', data.measures.map(String).join(', ') || 'jamming density alone');
+  if (data.addable === null) {
+    put('Could be added', 'nothing: expansions were not kept ("keep_path": true in the manifest keeps them)');
+  } else if (data.addable.length > 0) {
+    put('Could be added', `${data.addable.join(', ')}: isojam measure DIR --add ${data.addable[0]}`);
+  }
   for (const build of data.builds) {
     put('Manifest digest', build.manifest_digest);
     put('Program', `isojam ${build.version} (git ${build.git})`);

@@ -9,7 +9,8 @@
 // - views: an unflagged replicate of every sweep point, further ones within the budget, never a failed one;
 // - a view's contacts, cell and modes are those of the packing; clusters hang together through the boundary;
 // - sweeps in which replicates failed, or all did, have a report;
-// - its means leave out what the manifest excludes, as far as that can be understood.
+// - its means leave out what the manifest excludes, as far as that can be understood;
+// - it says what could be measured later, where expansions were kept.
 
 #include <gtest/gtest.h>
 
@@ -155,6 +156,22 @@ TEST(ReportData, SaysWhichResidualWasSwept) {
   EXPECT_EQ(data["rows"][0]["label"], "dodecahedron, N = 64, final_distance 0.01, minimiser.residual 1e-06");
   EXPECT_EQ(data.value("parameters", Json()),
             (Json{{"final_distance", "final_distance"}, {"residual", "minimiser.residual"}}));
+}
+
+TEST(ReportData, SaysWhatCouldBeAdded) {
+  auto results = results_of(plan(1));
+  EXPECT_TRUE(report_data(results, {})["addable"].is_null()) << "no manifest";
+  results.manifest = Json{{"keep_path", false}};
+  EXPECT_TRUE(report_data(results, {})["addable"].is_null());
+  results.manifest["keep_path"] = true;
+  const auto data = report_data(results, {});
+  std::set<std::string> together;
+  for (const auto* list : {"measures", "addable"}) {
+    for (const auto& name : data[list]) EXPECT_TRUE(together.insert(name).second) << name;
+  }
+  EXPECT_EQ(together, std::set<std::string>(all_names<Measure>.begin(), all_names<Measure>.end()));
+  EXPECT_GT(data["measures"].size(), 0U);
+  EXPECT_GT(data["addable"].size(), 0U);
 }
 
 TEST(ReportData, WhatTheManifestExcludesIsInNoMeanAndNoPool) {
