@@ -9,12 +9,6 @@ function element(name, options = {}, ...children) {
   return made;
 }
 
-/// Nodes of a text in which φ_J and V_p, a letter and a letter, have subscripts.
-function rich(text) {
-  const parts = text.split(/(?<=(?:^|[^\p{L}_])\p{L})_(\p{L})(?![\p{L}_])/u);
-  return parts.map((part, index) => (index % 2 === 1 ? element('sub', {}, part) : part));
-}
-
 /// A number for people: `digits` significant ones, an en dash where there is none.
 function formatted(value, digits = 4) {
   if (value === null || value === undefined) return '–';

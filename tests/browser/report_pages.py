@@ -1,6 +1,7 @@
 """Results directories for the browser test: a real run, what may become of one, and packings made by hand."""
 
 import copy
+import fractions
 import json
 import math
 import pathlib
@@ -84,6 +85,55 @@ def fail(record):
         record.pop(key)
 
 
+MOVED = {"Z": 0.2, "Z_ff": 0.1, "Z_ef": 0.1, "Z_l": 0.2, "C": 0.3, "energy_per_particle": 0, "omega_l": 0, "omega_h": 0,
+         "K": 0, "G": 0, "cpu_seconds": 0, "density": 0, "stress": 0}
+
+
+def slim(value):
+    """A record whose long lists of numbers are thinned: writing hundreds is to be quick."""
+    if isinstance(value, dict):
+        return {key: slim(part) for key, part in value.items()}
+    if not isinstance(value, list):
+        return value
+    step = math.ceil(len(value) / 30) if value and isinstance(value[0], (str, int)) else 1
+    return [slim(part) for part in value[::step]]
+
+
+def written_alike(number):
+    """A number near by of few digits, well within those that round to it: fast printers miss the shortest digits of
+    others now and then."""
+    for digits in range(8, 0, -1):
+        text = f"{number:.{digits}g}"
+        if abs(fractions.Fraction(text) - fractions.Fraction(float(text))) < 0.4 * fractions.Fraction(math.ulp(number)):
+            return float(text)
+    return 0.0
+
+
+def moved(value, replicate, numbers):
+    """The record of another replicate: densities moved together, other numbers one by one."""
+    shift = numbers.gauss(0, 0.004)
+
+    def change(part, key=None):
+        if isinstance(part, dict):
+            return {name: change(inner, name) for name, inner in part.items()}
+        if isinstance(part, list):
+            return [change(inner, key) for inner in part]
+        if not isinstance(part, str) or not part.startswith(NUMBER):
+            return part
+        number = float(part[len(NUMBER):])
+        if key in ("phi", "phi_j"):
+            number += shift
+        elif key in MOVED:
+            number = number + numbers.gauss(0, MOVED[key]) if MOVED[key] else number * math.exp(numbers.gauss(0, 0.15))
+        else:
+            return part
+        return written_alike(number)
+
+    record = change(value)
+    record["spec"]["replicate"] = replicate
+    return record
+
+
 class Pages:
     """Writes results below `root` and turns them into reports with the isojam executable."""
 
@@ -146,6 +196,27 @@ class Pages:
 
         for path in sorted((directory / "records").iterdir()):
             change_record(path, forge)
+        return directory
+
+    def many(self, name, source, replicates, packings=0):
+        """As many replicates of every sweep point, slim copies of real ones, moved at random. The first
+        `packings` of each point have one."""
+        directory = self.root / name
+        shutil.copytree(source, directory, ignore=lambda folder, names: [n for n in names if n.endswith("r") or "-r" in n])
+        numbers, points = random.Random(5), {}
+        for path in sorted((source / "records").iterdir()):
+            points.setdefault(path.stem.rpartition("-r")[0], []).append(path)
+        for stem, paths in points.items():
+            originals = [slim(read(path)) for path in paths]
+            for k in range(replicates):
+                record = moved(originals[k % len(originals)], k, numbers)
+                record["result_digest"] = result_digest(record)
+                write_sealed(directory / "records" / f"{stem}-r{k:04}.json", record)
+                packing = source / "packings" / paths[k % len(paths)].name
+                if k < packings and packing.exists():
+                    held = read(packing)
+                    held.update(replicate=f"{stem}-r{k:04}", result_digest=record["result_digest"])
+                    write_sealed(directory / "packings" / f"{stem}-r{k:04}.json", held)
         return directory
 
     def by_hand(self, name, source, solid, particles, density):

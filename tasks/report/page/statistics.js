@@ -1,0 +1,87 @@
+'use strict';
+
+/// Groups of more replicates are drawn as boxes or swarms: so many points or lines would hide each other.
+const mostDrawn = 30;
+
+/// The number below which this share of sorted numbers lies, interpolated between the two beside it.
+function quantile(sorted, share) {
+  const at = share * (sorted.length - 1), below = Math.floor(at);
+  return sorted[below] + (at - below) * ((sorted[below + 1] ?? sorted[below]) - sorted[below]);
+}
+
+const boxShares = {low: 0.025, q1: 0.25, median: 0.5, q3: 0.75, high: 0.975};
+
+/// Median, quartiles, and between which 95 % of the values lie.
+function boxOf(values) {
+  const sorted = [...values].sort((a, b) => a - b);
+  const box = Object.entries(boxShares).map(([name, share]) => [name, quantile(sorted, share)]);
+  return {...Object.fromEntries(box), n: sorted.length};
+}
+
+/// y of a curve [[x, y], ...] at x, between the points beside it; null beyond the curve. `type`: of the scale of x.
+function valueAt(curve, x, type = 'linear') {
+  const sorted = [...curve].sort((a, b) => a[0] - b[0]);
+  const next = sorted.findIndex(([at]) => at >= x);
+  if (next < 0 || (next === 0 && sorted[0][0] > x)) return null;
+  if (sorted[next][0] === x) return sorted[next][1];
+  const map = type === 'log' ? Math.log : (value) => value;
+  const [[x0, y0], [x1, y1]] = [sorted[next - 1], sorted[next]];
+  return y0 + ((map(x) - map(x0)) / (map(x1) - map(x0))) * (y1 - y0);
+}
+
+/// Boxes [{at, low, q1, median, q3, high, n}] over curves at each of `levels` that a share of them, `least`, reach.
+function boxesOver(curves, levels, {type, least = 0.1}) {
+  const boxes = [];
+  for (const at of levels) {
+    const values = curves.map((curve) => valueAt(curve, at, type)).filter((value) => value !== null);
+    if (values.length >= Math.max(2, least * curves.length)) boxes.push({at, ...boxOf(values)});
+  }
+  return boxes;
+}
+
+/// `count` numbers from the least to the greatest x of any curve, evenly spaced.
+function evenLevels(curves, count) {
+  const [low, high] = domainOf(curves.flat().map(([x]) => x), {margin: 0}) ?? [0, 1];
+  return Array.from({length: count}, (_, k) => low + ((k + 0.5) / count) * (high - low));
+}
+
+/// Δφ at which the tables give means.
+const seriesDistances = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
+
+const isNumber = (value) => typeof value === 'number';
+
+/// What charts draw of the curves [[x, y], ...] of every sweep point's replicates: points, or boxes at common x where
+/// more than mostDrawn count, beside which those that do not count stay points.
+///   curveOf(replicate)  its curve;  tag(row)  what every entry gets;  names  of x and y in the entries
+function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], levels, type, least}) {
+  const points = [], boxes = [];
+  data.rows.forEach((_, row) => {
+    const curves = data.replicates.filter((replicate) => replicate.row === row).map((replicate) =>
+      ({name: replicate.name, excluded: replicate.excluded, curve: curveOf(replicate)}));
+    const counted = curves.filter(({excluded, curve}) => !excluded && curve.length > 0).map(({curve}) => curve);
+    const many = counted.length > mostDrawn;
+    if (many) {
+      for (const {at, ...box} of boxesOver(counted, levels ?? evenLevels(counted, 8), {type, least}))
+        boxes.push({...tag(row), [xName]: at, ...box});
+    }
+    for (const {name, excluded, curve} of curves) {
+      if (many && !excluded) continue;
+      for (const [x, y] of curve) points.push({...tag(row), name, excluded, [xName]: x, [yName]: y});
+    }
+  });
+  return {points, boxes};
+}
+
+/// The entries that decide how far axes reach, beside the boxes: those that count, all if the reader asks or none counts.
+function deciding(entries, {everything}, boxes = []) {
+  const counted = entries.filter(({excluded}) => !excluded);
+  return everything || (counted.length === 0 && boxes.length === 0) ? entries : counted;
+}
+
+/// How many replicates of `entries` lie outside of the domains, as a sentence.
+function outsideText(entries, fields) {
+  const inside = (value, [low, high]) => value >= low && value <= high;
+  const outside = entries.filter((entry) => fields.some(([name, domain]) => !inside(entry[name], domain)));
+  const count = new Set(outside.filter(({excluded}) => excluded).map(({name}) => name)).size;
+  return count > 0 ? ` Wholly or partly beyond the axes: ${counted(count, 'excluded replicate')}.` : '';
+}
