@@ -70,7 +70,7 @@ void put_contacts(Json& json, std::span<const Contact> contacts, int particles) 
 }
 
 /// Where the force of a contact acts, from A's centre, A's body frame: where its line leaves A, towards B. The line is
-/// that on which the force has the torque of the contact.
+/// that on which the force has the torque of the contact, but for what turns about the line itself.
 Eigen::Vector3d place_of_force(const Contact& contact, const ConvexSolid& a) {
   const auto& [area, moment] = std::tie(contact.overlap.area, contact.overlap.moment);
   const Eigen::Vector3d along = area.normalized();

@@ -46,10 +46,10 @@ def text_of(document, **form):
     return re.sub(f'"{NUMBER}([^"]*)"', r"\1", json.dumps(document, ensure_ascii=False, **form))
 
 
-def write_sealed(path, document):
+def write_sealed(path, document, indent=2):
     """As isojam seals its files: the checksum of the text with zeros in its place stands second."""
     first, *others = [(key, value) for key, value in document.items() if key != "checksum"]
-    text = text_of(dict([first, ("checksum", "0" * 16), *others]), indent=2) + "\n"
+    text = text_of(dict([first, ("checksum", "0" * 16), *others]), indent=indent) + "\n"
     path.write_text(text.replace("0" * 16, checksum(text.encode()), 1), encoding="utf-8")
 
 
@@ -109,9 +109,9 @@ def written_alike(number):
     return 0.0
 
 
-def moved(value, replicate, numbers):
+def moved(value, numbers, denser):
     """The record of another replicate: densities moved together, other numbers one by one."""
-    shift = numbers.gauss(0, 0.004)
+    shift = denser + numbers.gauss(0, 0.004)
 
     def change(part, key=None):
         if isinstance(part, dict):
@@ -129,9 +129,7 @@ def moved(value, replicate, numbers):
             return part
         return written_alike(number)
 
-    record = change(value)
-    record["spec"]["replicate"] = replicate
-    return record
+    return change(value)
 
 
 class Pages:
@@ -198,25 +196,27 @@ class Pages:
             change_record(path, forge)
         return directory
 
-    def many(self, name, source, replicates, packings=0):
-        """As many replicates of every sweep point, slim copies of real ones, moved at random. The first
-        `packings` of each point have one."""
+    def many(self, name, source, replicates, solids):
+        """As many replicates of every sweep point, slim copies of real ones, moved at random; every tenth is a crystal,
+        denser by far. Those of a point in `solids` get that solid; the others' first ones have their packings."""
         directory = self.root / name
-        shutil.copytree(source, directory, ignore=lambda folder, names: [n for n in names if n.endswith("r") or "-r" in n])
+        shutil.copytree(source, directory, ignore=lambda folder, names: [entry for entry in names if "-r" in entry])
         numbers, points = random.Random(5), {}
         for path in sorted((source / "records").iterdir()):
             points.setdefault(path.stem.rpartition("-r")[0], []).append(path)
         for stem, paths in points.items():
             originals = [slim(read(path)) for path in paths]
             for k in range(replicates):
-                record = moved(originals[k % len(originals)], k, numbers)
+                record = moved(originals[k % len(paths)], numbers, 0.08 if k % 10 == 9 else 0)
+                record["spec"].update(replicate=k, solid=solids.get(stem, record["spec"]["solid"]))
+                record["flags"] = ["crystalline"] if k % 10 == 9 else ["not_stable"] if k % 10 == 4 else []
                 record["result_digest"] = result_digest(record)
-                write_sealed(directory / "records" / f"{stem}-r{k:04}.json", record)
-                packing = source / "packings" / paths[k % len(paths)].name
-                if k < packings and packing.exists():
-                    held = read(packing)
-                    held.update(replicate=f"{stem}-r{k:04}", result_digest=record["result_digest"])
-                    write_sealed(directory / "packings" / f"{stem}-r{k:04}.json", held)
+                copy_name = f"{record['spec']['solid']}-N{record['spec']['particles']}-r{k:04}"
+                write_sealed(directory / "records" / f"{copy_name}.json", record, indent=None)
+                if stem not in solids and k < len(paths):
+                    held = read(source / "packings" / paths[k].name)
+                    held.update(replicate=copy_name, result_digest=record["result_digest"])
+                    write_sealed(directory / "packings" / f"{copy_name}.json", held)
         return directory
 
     def by_hand(self, name, source, solid, particles, density):

@@ -17,7 +17,7 @@ const stateCurve = (key, above = -Infinity) => ({states}) => states
 function stateEntries(data, keys, {tag, above}) {
   const all = {points: [], boxes: []};
   for (const key of keys) {
-    const found = pointsOrBoxes(data, {curveOf: stateCurve(key, above), levels: seriesDistances, type: 'log',
+    const found = pointsOrBoxes(data, {curveOf: stateCurve(key, above), type: 'log',
       tag: (row) => ({...tag(row), series: key}), names: ['delta_phi', 'value']});
     all.points.push(...found.points);
     all.boxes.push(...found.boxes);
@@ -29,15 +29,24 @@ function stateEntries(data, keys, {tag, above}) {
 function meanEntries(data, keys, {tag, above = -Infinity}) {
   const means = [];
   data.rows.forEach(({series}, row) => keys.forEach((key, place) => {
-    for (const point of series) {
-      const estimate = point[key];
-      if (!estimate || estimate.mean === null || estimate.mean <= above) continue;
-      const [low, high] = estimate.ci95 ?? [estimate.mean, estimate.mean];
-      means.push({...tag(row, place), series: key, delta_phi: point.delta_phi, value: estimate.mean,
-        low: low > above ? low : estimate.mean, high, n: estimate.n});
+    const along = series.filter((point) => isNumber(point[key]?.mean))
+      .map((point) => ({...point[key], delta_phi: point.delta_phi}));
+    for (const {mean, ci95, n, delta_phi} of along.length > 0 ? along : nearestEntry(data, row, key)) {
+      if (mean <= above) continue;
+      const [low, high] = ci95 ?? [mean, mean];
+      means.push({...tag(row, place), series: key, delta_phi, value: mean, low: low > above ? low : mean, high, n});
     }
   }));
   return means;
+}
+
+/// Mean nearest jamming, for sweep points that have none at a common Δφ.
+function nearestEntry(data, row, key) {
+  const estimate = data.rows[row][key];
+  const nearest = data.replicates.filter((replicate) => replicate.row === row && !replicate.excluded)
+    .map((replicate) => Math.min(...stateCurve(key)(replicate).map(([distance]) => distance))).filter(Number.isFinite);
+  if (!isNumber(estimate?.mean) || nearest.length === 0) return [];
+  return [{...estimate, delta_phi: nearest.reduce((a, b) => a + b) / nearest.length}];
 }
 
 /// Rows of `data` of which some replicate has a state with one of these quantities.
@@ -117,11 +126,12 @@ function topologyFigure(data, choices) {
 }
 
 /// Means of several quantities against Δφ, each in a chart for all solids.
-function meansTogether(data, rows, {keys, titles, xType = 'log', yType, above, yTitle, more = () => [], zero = false}) {
+function meansTogether(data, rows, {keys, titles, yType, above, yTitle, more = () => [], zero = false}) {
   const placement = placementOf(data, rows, {together: true}, titles);
   const means = meanEntries(data, keys, {tag: (row, place) => placement.tag(row, Math.min(place, titles.length - 1)), above})
     .map((entry) => ({...entry, line: `${entry.group} ${entry.series}`}));
-  const x = {type: xType, title: '$Δφ$', domain: domainOf(means.map((row) => row.delta_phi), {type: xType, margin: 0.09})};
+  const x = {type: 'log', title: '$Δφ$',
+    domain: domainOf(means.map((row) => row.delta_phi), {type: 'log', margin: 0.09}) ?? [0.01, 0.1]};
   const yOf = (index) => {
     const own = means.filter(({row}) => row === index).flatMap(({low, high}) => [low, high]);
     const domain = domainOf(zero ? [0, ...own] : own, {type: yType, margin: 0.06}) ?? [0.1, 1];

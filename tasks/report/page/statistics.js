@@ -30,7 +30,7 @@ function valueAt(curve, x, type = 'linear') {
 }
 
 /// Boxes [{at, low, q1, median, q3, high, n}] over curves at each of `levels` that a share of them, `least`, reach.
-function boxesOver(curves, levels, {type, least = 0.1}) {
+function boxesOver(curves, levels, {type, least = 0.25}) {
   const boxes = [];
   for (const at of levels) {
     const values = curves.map((curve) => valueAt(curve, at, type)).filter((value) => value !== null);
@@ -39,21 +39,19 @@ function boxesOver(curves, levels, {type, least = 0.1}) {
   return boxes;
 }
 
-/// `count` numbers from the least to the greatest x of any curve, evenly spaced.
-function evenLevels(curves, count) {
-  const [low, high] = domainOf(curves.flat().map(([x]) => x), {margin: 0}) ?? [0, 1];
-  return Array.from({length: count}, (_, k) => low + ((k + 0.5) / count) * (high - low));
+/// `count` numbers from the least to the greatest x of any curve, evenly spaced on a scale of this type.
+function evenLevels(curves, count, type) {
+  const [map, back] = type === 'log' ? [Math.log, Math.exp] : [(x) => x, (x) => x];
+  const [low, high] = (domainOf(curves.flat().map(([x]) => x), {type, margin: 0}) ?? [1, 1]).map(map);
+  return Array.from({length: count}, (_, k) => back(low + ((k + 0.5) / count) * (high - low)));
 }
-
-/// Δφ at which the tables give means.
-const seriesDistances = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
 
 const isNumber = (value) => typeof value === 'number';
 
 /// What charts draw of the curves [[x, y], ...] of every sweep point's replicates: points, or boxes at common x where
 /// more than mostDrawn count, beside which those that do not count stay points.
 ///   curveOf(replicate)  its curve;  tag(row)  what every entry gets;  names  of x and y in the entries
-function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], levels, type, least}) {
+function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], type, least}) {
   const points = [], boxes = [];
   data.rows.forEach((_, row) => {
     const curves = data.replicates.filter((replicate) => replicate.row === row).map((replicate) =>
@@ -61,7 +59,7 @@ function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], levels, type,
     const counted = curves.filter(({excluded, curve}) => !excluded && curve.length > 0).map(({curve}) => curve);
     const many = counted.length > mostDrawn;
     if (many) {
-      for (const {at, ...box} of boxesOver(counted, levels ?? evenLevels(counted, 8), {type, least}))
+      for (const {at, ...box} of boxesOver(counted, evenLevels(counted, 8, type), {type, least}))
         boxes.push({...tag(row), [xName]: at, ...box});
     }
     for (const {name, excluded, curve} of curves) {
