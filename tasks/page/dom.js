@@ -9,11 +9,21 @@ function element(name, options = {}, ...children) {
   return made;
 }
 
+const raised = {0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹', '-': '⁻', '/': 'ᐟ'};
+
+/// The letters of a text raised, as far as there are such.
+const raisedText = (text) => [...text].map((letter) => raised[letter] ?? letter).join('');
+
+const powerOfTen = (power) => `10${raisedText(String(power))}`;
+
 /// A number for people: `digits` significant ones, an en dash where there is none.
 function formatted(value, digits = 4) {
   if (value === null || value === undefined) return '–';
   if (typeof value !== 'number') return String(value);
-  if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)) return value.toExponential(digits - 1);
+  if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)) {
+    const [front, power] = value.toExponential(digits - 1).split('e');
+    return `${front.replace('-', '−')}·${powerOfTen(Number(power))}`;
+  }
   return String(Number(value.toPrecision(digits))).replace('-', '−');
 }
 

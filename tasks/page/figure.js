@@ -65,11 +65,12 @@ function chartControls(current) {
   return element('div', {className: 'controls'},
     named('Save SVG', (figure) => savePicture(figure, 'svg')),
     named('Save PNG', (figure) => savePicture(figure, 'png')),
-    named('Save specification', (figure) => save(`${figure.id}.vg.json`, specificationText(figure), 'application/json')),
+    named('Save specification', (figure) =>
+      save(`${figure.id}.vg.json`, specificationText(figure), 'application/json')),
     named('Save data', (figure) => save(`${figure.id}.csv`, plainText(csvOf(figure.datasets)), 'text/csv')));
 }
 
-/// Draws, and draws again when the width changes by what a reader would see, or when another figure is set in the place.
+/// Draws, and draws again when the width changes by what a reader would see, or another figure is set in the place.
 function drawFigure(first, place) {
   let figure = first, drawn = 0, view = null, waiting = 0;
   const chart = element('div', {className: 'chart', id: `chart-${figure.id}`});

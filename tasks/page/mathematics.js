@@ -62,13 +62,10 @@ const rich = (text) => htmlOf(runsOf(text));
 /// Nodes of a formula.
 const formulaNodes = (formula) => htmlOf(formulaRuns(formula));
 
-const raised = {0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹', '-': '⁻', '/': 'ᐟ'};
-
 const lettersOf = (runs) => runs.map(({text, script, runs: inner}) => {
   if (!script) return text;
   const letters = lettersOf(inner);
-  if (script === 'sup' && [...letters].every((letter) => letter in raised))
-    return [...letters].map((letter) => raised[letter]).join('');
+  if (script === 'sup' && [...letters].every((letter) => letter in raised)) return raisedText(letters);
   return `${script === 'sup' ? '^' : '_'}${letters}`;
 }).join('');
 

@@ -30,13 +30,11 @@ const chartConfig = {
   axis: {
     domainColor: '#777777', tickColor: '#777777', gridColor: faint, gridOpacity: 0.6, labelColor: ink, titleColor: ink,
     labelFontSize: 11, titleFontSize: 12, titleFontWeight: 'normal', titlePadding: 6, tickSize: 4,
-    labelSeparation: 3, labelFlush: 8,
+    labelSeparation: 3, labelFlush: 5,
   },
   title: {color: ink, fontSize: 12, fontWeight: 600, anchor: 'start', offset: 6},
   legend: {labelColor: ink, titleColor: ink, labelFontSize: 11, titleFontSize: 11, labelLimit: 320},
 };
-
-const powerText = (power) => plainText(`$10^{${power}}$`);
 
 /// Four to eight round numbers, evenly spaced.
 function evenTicks([low, high]) {
@@ -65,7 +63,7 @@ function logTicks([low, high]) {
 function logAxis(domain) {
   const values = logTicks(domain);
   const plain = values.every((value) => value >= 1e-3 && value < 1e5);
-  const text = (value) => (plain ? String(value) : powerText(Math.round(Math.log10(value))));
+  const text = (value) => (plain ? String(value) : powerOfTen(Math.round(Math.log10(value))));
   const texts = Object.fromEntries(values.map((value) => [value, text(value)]));
   return {values, labelOverlap: 'greedy', encode: {labels: {update: {text: {
     signal: `(${JSON.stringify(texts)})[datum.value] || ''`}}}}};
@@ -83,11 +81,11 @@ function domainOf(values, {type = 'linear', margin = 0.05} = {}) {
   return [back(low - room), back(high + room)];
 }
 
-/// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left.
-function panelGrid(width, panels, {least = 215, most = 4, widest = Infinity, left = 76, gap = 18} = {}) {
+/// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left and half of one on the right.
+function panelGrid(width, panels, {least = 215, most = 4, widest = Infinity, left = 76, right = 26, gap = 18} = {}) {
   const fits = Math.floor((width - left + gap) / (least + gap));
   const columns = Math.max(1, Math.min(most, panels, fits));
-  return {columns, width: Math.min(widest, Math.floor((width - left - 14 - gap * (columns - 1)) / columns))};
+  return {columns, width: Math.min(widest, Math.floor((width - left - right - gap * (columns - 1)) / columns))};
 }
 
 function panelAxes({x, y}, {showX, showY}) {

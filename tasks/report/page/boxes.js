@@ -30,11 +30,11 @@ function lyingBoxes(from, yField, {colour, width = 8, tooltip}) {
   ];
 }
 
-const boxTooltip = {median: 'median', 'quartile, lower': 'q1', 'quartile, upper': 'q3', '2.5 %': 'low', '97.5 %': 'high',
-  n: 'n'};
+const boxTooltip = {median: 'median', 'quartile, lower': 'q1', 'quartile, upper': 'q3', '2.5 %': 'low',
+  '97.5 %': 'high', n: 'n'};
 
-const boxText = (boxes, where) => (boxes.length > 0 ? ` Where more than ${mostDrawn} replicates count, boxes stand for ` +
-  `them ${where}: median, quartiles, and whiskers that hold 95 % of them.` : '');
+const boxText = (boxes, where) => (boxes.length > 0 ? ` Where more than ${mostDrawn} replicates count, boxes stand ` +
+  `for them ${where}: median, quartiles, and whiskers that hold 95 % of them.` : '');
 
 /// Offsets from a line at which discs of diameter `size` with their centres at `at` along it do not overlap: each in
 /// turn, from the left, as near to the line as it can be.
@@ -54,7 +54,7 @@ function swarmOffsets(at, size) {
   return offsets;
 }
 
-/// Entries with `offset` and `size` of their discs, each group of more than mostDrawn as a swarm at most 2·`half` high.
+/// Entries with `offset` and `size` of their discs, groups of more than mostDrawn as swarms at most 2·`half` high.
 function swarmed(entries, groupOf, position, half) {
   const groups = new Map();
   entries.forEach((entry, k) => groups.set(groupOf(entry), [...groups.get(groupOf(entry)) ?? [], k]));

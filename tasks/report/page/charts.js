@@ -22,7 +22,9 @@ function choiceBar(data, changed) {
   const bar = element('div', {className: 'controls choices'});
   const several = data.rows.length > 1, excluded = data.replicates.filter((replicate) => replicate.excluded).length;
   if (several) bar.append(element('label', {}, together, 'Solids in one chart'));
-  if (excluded > 0) bar.append(element('label', {}, everything, `Axes over the ${counted(excluded, 'excluded replicate')} too`));
+  if (excluded > 0) {
+    bar.append(element('label', {}, everything, `Axes over the ${counted(excluded, 'excluded replicate')} too`));
+  }
   const tell = () => changed({together: together.checked, everything: everything.checked});
   for (const box of [together, everything]) box.addEventListener('change', tell);
   bar.hidden = !several && excluded === 0;

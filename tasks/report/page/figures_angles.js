@@ -34,7 +34,8 @@ const regionMark = (from, share) => ({
   type: 'rect', from: {data: from}, clip: true,
   encode: {enter: {
     x: {value: 0}, x2: {scale: 'x', field: 'cutoff'}, y: {value: 0}, y2: {signal: 'height'},
-    fill: {value: '#888888'}, fillOpacity: {value: share}, tooltip: tooltipOf({'': 'group', 'cut-off, degrees': 'cutoff'}),
+    fill: {value: '#888888'}, fillOpacity: {value: share},
+    tooltip: tooltipOf({'': 'group', 'cut-off, degrees': 'cutoff'}),
   }},
 });
 
@@ -75,8 +76,8 @@ function anglePanel(placement, index, place, {x, y, kind, datasets, symbol}) {
 
 function angleNote(data, kind, symbol, together) {
   return `Cumulative distribution of $${symbol}$ over all contacts nearest jamming of a sweep point’s ` +
-    `${countedText(data)}, beside ideal random contacts${together ? ' of each solid, dashed with an edge in the face, ' +
-      'dotted without constraint' : ''}; ${together ? 'hollow ' : ''}symbols mark the critical angles that the ` +
+    `${countedText(data)}, beside ideal random contacts${together ? ' of each solid, dashed with an edge in the ' +
+      'face, dotted without constraint' : ''}; ${together ? 'hollow ' : ''}symbols mark the critical angles that the ` +
     `topologies allow${together ? ', filled ones tell the curves apart' : ''}. ` +
     (kind === 'face_face' ? 'Shaded: region 1, below the cut-off of face-face contacts (median of the replicates). ' +
       'Figure 2(b) of the paper.' : 'Figure 2(a) of the paper.');

@@ -14,10 +14,10 @@ const stateCurve = (key, above = -Infinity) => ({states}) => states
   .map((state) => [state.delta_phi, state[key]]);
 
 /// Points or boxes of several quantities of states against Δφ.
-function stateEntries(data, keys, {tag, above}) {
+function stateEntries(data, keys, {tag, above, yType}) {
   const all = {points: [], boxes: []};
   for (const key of keys) {
-    const found = pointsOrBoxes(data, {curveOf: stateCurve(key, above), type: 'log',
+    const found = pointsOrBoxes(data, {curveOf: stateCurve(key, above), type: 'log', yType,
       tag: (row) => ({...tag(row), series: key}), names: ['delta_phi', 'value']});
     all.points.push(...found.points);
     all.boxes.push(...found.boxes);
@@ -25,16 +25,15 @@ function stateEntries(data, keys, {tag, above}) {
   return all;
 }
 
-/// Means of the tables at common Δφ, positive where `above` is given; `tag(row, place of the key)`.
-function meanEntries(data, keys, {tag, above = -Infinity}) {
+/// Means of the tables at common Δφ; `tag(row, place of the key)`.
+function meanEntries(data, keys, {tag}) {
   const means = [];
   data.rows.forEach(({series}, row) => keys.forEach((key, place) => {
     const along = series.filter((point) => isNumber(point[key]?.mean))
       .map((point) => ({...point[key], delta_phi: point.delta_phi}));
     for (const {mean, ci95, n, delta_phi} of along.length > 0 ? along : nearestEntry(data, row, key)) {
-      if (mean <= above) continue;
       const [low, high] = ci95 ?? [mean, mean];
-      means.push({...tag(row, place), series: key, delta_phi, value: mean, low: low > above ? low : mean, high, n});
+      means.push({...tag(row, place), series: key, delta_phi, value: mean, low, high, n});
     }
   }));
   return means;
@@ -49,11 +48,28 @@ function nearestEntry(data, row, key) {
   return [{...estimate, delta_phi: nearest.reduce((a, b) => a + b) / nearest.length}];
 }
 
+/// Medians and quartiles at common Δφ, or nearest jamming where there is none: of quantities that grow as powers, which
+/// are interpolated in logarithms.
+function medianEntries(data, keys, {tag, above}) {
+  const entries = [];
+  data.rows.forEach((_, row) => keys.forEach((key, place) => {
+    const curves = data.replicates.filter((replicate) => replicate.row === row && !replicate.excluded)
+      .map(stateCurve(key, above)).filter((curve) => curve.length > 0);
+    const along = boxesOver(curves, seriesDistances, {type: 'log', yType: 'log', least: 0});
+    const nearest = curves.map((curve) => curve.reduce((a, b) => (a[0] < b[0] ? a : b)));
+    const ends = curves.length === 0 ? [] : [{...boxOf(nearest.map(([, value]) => value)),
+      at: boxOf(nearest.map(([distance]) => distance)).median}];
+    for (const {at, median, q1, q3, n} of along.length > 0 ? along : ends)
+      entries.push({...tag(row, place), series: key, delta_phi: at, value: median, low: q1, high: q3, n});
+  }));
+  return entries;
+}
+
 /// Rows of `data` of which some replicate has a state with one of these quantities.
 const rowsWith = (data, keys, above) => data.replicates
   .filter((replicate) => keys.some((key) => stateCurve(key, above)(replicate).length > 0)).map(({row}) => row);
 
-const meanTooltip = {'': 'group', '$Δφ$': 'delta_phi', mean: 'value', from: 'low', to: 'high', n: 'n'};
+const meanTooltip = {'': 'group', '$Δφ$': 'delta_phi', value: 'value', from: 'low', to: 'high', n: 'n'};
 
 /// Means with intervals and the lines that join them.
 function meanMarks(index, {colour, shape, by, dash, size = 36}) {
@@ -84,7 +100,8 @@ function topologyPanel(placement, index, place, {x, y, boxes}) {
       isostaticLine(),
       points(`states_${index}`, 'delta_phi', 'value', {colour, size: 9, opacity: 0.3, hollow: 'datum.excluded',
         tooltip: {replicate: 'name', '': 'series', '$Δφ$': 'delta_phi', value: 'value'}}),
-      ...uprightBoxes(`boxes_${index}`, 'delta_phi', {colour, width: 11, tooltip: {'': 'series', '$Δφ$': 'delta_phi', ...boxTooltip}}),
+      ...uprightBoxes(`boxes_${index}`, 'delta_phi', {colour, width: 11,
+        tooltip: {'': 'series', '$Δφ$': 'delta_phi', ...boxTooltip}}),
       ...meanMarks(index, {colour, shape, by: 'series', size: boxes.some(({row}) => row === index) ? 12 : 36}),
     ]});
 }
@@ -104,7 +121,8 @@ function topologyFigure(data, choices) {
   const x = {type: 'log', title: '$Δφ$',
     domain: domainOf([...counted, ...boxes, ...means].map((row) => row.delta_phi), {type: 'log'})};
   const highest = Math.max(14, ...counted.map((row) => row.value), ...[...means, ...boxes].map((row) => row.high));
-  const y = {domain: [Math.min(0, ...means.map((row) => row.low)), highest * 1.03], title: 'mean per particle', ticks: 6};
+  const y = {title: 'mean per particle', ticks: 6,
+    domain: [Math.min(0, ...means.map((row) => row.low)), highest * 1.03]};
   const series = Object.values(contactSeries);
   return {
     id, title, datasets: {means, states, boxes},
@@ -125,10 +143,11 @@ function topologyFigure(data, choices) {
   };
 }
 
-/// Means of several quantities against Δφ, each in a chart for all solids.
+/// Means of several quantities against Δφ, or medians on a logarithmic axis, each in a chart for all solids.
 function meansTogether(data, rows, {keys, titles, yType, above, yTitle, more = () => [], zero = false}) {
   const placement = placementOf(data, rows, {together: true}, titles);
-  const means = meanEntries(data, keys, {tag: (row, place) => placement.tag(row, Math.min(place, titles.length - 1)), above})
+  const tag = (row, place) => placement.tag(row, Math.min(place, titles.length - 1));
+  const means = (yType === 'log' ? medianEntries : meanEntries)(data, keys, {tag, above})
     .map((entry) => ({...entry, line: `${entry.group} ${entry.series}`}));
   const x = {type: 'log', title: '$Δφ$',
     domain: domainOf(means.map((row) => row.delta_phi), {type: 'log', margin: 0.09}) ?? [0.01, 0.1]};
@@ -154,8 +173,8 @@ function topologyTogether(data, rows) {
     more: (index) => (keys[index] === 'C' ? [isostaticLine()] : [])});
   return {
     id: 'topology', title: contactsTitle, datasets: made.datasets,
-    note: `Means over ${countedText(data)} with 95 % intervals, interpolated at common distances above jamming and set ` +
-      'slightly apart; open, and joined by no line, if of one replicate alone. Dotted line: $C$ = 12, the isostatic ' +
+    note: `Means over ${countedText(data)} with 95 % intervals, interpolated at common distances above jamming and ` +
+      'set slightly apart; open, and joined by no line, if of one replicate alone. Dotted line: $C$ = 12, the isostatic ' +
       'number of constraints. As Figure 3(a) to (c) of the paper.',
     spec: (width) => made.spec(width, 'Contacts, constraints and face-face contacts of all solids against distance ' +
       'above jamming.'),

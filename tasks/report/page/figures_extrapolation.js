@@ -54,7 +54,8 @@ function extrapolationFigure(data, choices) {
   const xOf = (index) => {
     const here = boxes.filter(({row}) => row === index);
     const own = (list) => deciding(list.filter(({row}) => row === index), choices, here).map(({phi}) => phi);
-    return {domain: domainOf([...own(states), ...own(extrapolation), ...here.flatMap(({low, high}) => [low, high])]), title: 'density $φ$', ticks: 4};
+    const domain = domainOf([...own(states), ...own(extrapolation), ...here.flatMap(({low, high}) => [low, high])]);
+    return {domain, title: 'density $φ$', ticks: 4};
   };
   const axes = Array.from({length: placement.count}, (_, index) => xOf(index));
   const outside = states.filter(({row, phi}) => phi < axes[row].domain[0] || phi > axes[row].domain[1])

@@ -128,12 +128,14 @@ function bandSpec({description, width, labels, datasets, x, marks, bandHeight, s
 const hasSwarm = (entries) => unique(entries.map(({label}) => label))
   .some((label) => entries.filter((entry) => entry.label === label).length > mostDrawn);
 
-const swarmText = (tall) => (tall ? ` More than ${mostDrawn} of a sweep point are set beside each other as a swarm.` : '');
+const swarmText = (tall) => (tall ?
+  ` More than ${mostDrawn} of a sweep point are set beside each other as a swarm.` : '');
 
 function densityFigure(data, choices) {
   const id = 'density', title = 'Jamming density', datasets = densityData(data);
   const ends = ({low, high}) => [low, high];
-  const deciders = deciding(datasets.replicates.map((entry) => ({...entry, excluded: entry.kind === 'excluded'})), choices);
+  const told = datasets.replicates.map((entry) => ({...entry, excluded: entry.kind === 'excluded'}));
+  const deciders = deciding(told, choices);
   const domain = domainOf([...deciders.map((row) => row.phi_j), ...datasets.means.flatMap(ends),
     ...datasets.paper.flatMap(ends)], {margin: 0.04});
   if (!domain) return {id, title, absent: 'No replicate reached a jamming density.'};

@@ -10,7 +10,8 @@ function scalingFits(data, tag) {
       const law = scaling[key];
       if (!law || !(law.to > law.from)) continue;
       const at = (distance) => law.prefactor * distance ** law.exponent;
-      for (const delta_phi of [law.from, law.to]) fits.push({...tag(row), series: key, delta_phi, value: at(delta_phi)});
+      for (const delta_phi of [law.from, law.to])
+        fits.push({...tag(row), series: key, delta_phi, value: at(delta_phi)});
       const half = law.ci95_half_width === null ? '' : ` ± ${law.ci95_half_width.toFixed(2)}`;
       slopes.push({...tag(row), series: key, exponent: law.exponent, ci95_half_width: law.ci95_half_width,
         delta_phi: law.to, value: at(law.to), text: `slope ${law.exponent.toFixed(2)}${half}`.replace('-', '−')});
@@ -23,8 +24,8 @@ function scalingFits(data, tag) {
 const slopeLabels = (from) => ({
   type: 'text', from: {data: from},
   encode: {enter: {
-    x: {signal: "max(0, min(scale('x', datum.delta_phi) + 10, width - 6.2 * length(datum.text)))"}, y: {scale: 'y', field: 'value',
-      offset: 24},
+    x: {signal: "max(0, min(scale('x', datum.delta_phi) + 10, width - 6.2 * length(datum.text)))"},
+    y: {scale: 'y', field: 'value', offset: 24},
     text: {field: 'text'}, fontSize: {value: 11}, fill: {value: ink},
   }},
 });
@@ -36,22 +37,23 @@ function scalingPanel(placement, index, place, {x, y}) {
     marks: [
       points(`states_${index}`, 'delta_phi', 'value', {colour, shape, size: 22, opacity: 0.75, hollow: 'datum.excluded',
         tooltip: {replicate: 'name', modes: 'series', '$Δφ$': 'delta_phi', '$⟨ω⟩$': 'value'}}),
-      ...uprightBoxes(`boxes_${index}`, 'delta_phi', {colour, tooltip: {modes: 'series', '$Δφ$': 'delta_phi', ...boxTooltip}}),
+      ...uprightBoxes(`boxes_${index}`, 'delta_phi', {colour,
+        tooltip: {modes: 'series', '$Δφ$': 'delta_phi', ...boxTooltip}}),
       lines(`fits_${index}`, 'delta_phi', 'value', {by: 'series', colour: {value: ink}, width: 1.4, style: 'ink'}),
       slopeLabels(`slopes_${index}`),
     ]});
 }
 
-const scalingText = 'Mean frequency of the lowest ($⟨ω_l⟩$) and of the highest modes ($⟨ω_h⟩$) against the distance above ' +
-  'jamming';
+const scalingText = 'Mean frequency of the lowest ($⟨ω_l⟩$) and of the highest modes ($⟨ω_h⟩$) against the ' +
+  'distance above jamming';
 
 function scalingTogether(data, rows, {id, title, keys, above}) {
   const made = meansTogether(data, rows, {keys, titles: [''], yType: 'log', above, yTitle: '$⟨ω_l⟩$, $⟨ω_h⟩$'});
   return {
     id, title, datasets: made.datasets,
-    note: `${scalingText}: means over ${countedText(data)} with 95 % intervals at common distances, set slightly apart; ` +
-      'open, and joined by no line, if of one replicate alone. The upper curves are of the highest modes. Figure 1(b) of ' +
-      'the paper.',
+    note: `${scalingText}: medians over ${countedText(data)} and their quartiles at common distances, set slightly ` +
+      'apart; open, and joined by no line, if of one replicate alone. The upper curves are of the highest ' +
+      'modes. Figure 1(b) of the paper.',
     spec: (width) => made.spec(width, 'Mean frequencies of the softest and stiffest modes of all solids, both axes ' +
       'logarithmic.'),
   };
@@ -63,7 +65,7 @@ function scalingFigure(data, choices) {
   if (rows.length === 0) return modesAbsent(id, title);
   if (choices.together) return scalingTogether(data, rows, {id, title, keys, above});
   const placement = placementOf(data, rows, choices);
-  const {points: states, boxes} = stateEntries(data, keys, {tag: placement.tag, above});
+  const {points: states, boxes} = stateEntries(data, keys, {tag: placement.tag, above, yType: 'log'});
   const datasets = {states, boxes, ...scalingFits(data, placement.tag)};
   const counted = deciding(states, choices, boxes);
   const x = {type: 'log', title: '$Δφ$',
@@ -72,8 +74,8 @@ function scalingFigure(data, choices) {
     ...boxes.flatMap(({low, high}) => [low, high])], {type: 'log', margin: 0.09})};
   return {
     id, title, datasets,
-    note: `${scalingText}, every state of every replicate. Lines: power laws through the states of ${countedText(data)} ` +
-      `with $Δφ$ ≤ 0.02. Figure 1(b) of the paper.${boxText(boxes, 'at common $Δφ$')}` +
+    note: `${scalingText}, every state of every replicate. Lines: power laws through the states of ` +
+      `${countedText(data)} with $Δφ$ ≤ 0.02. Figure 1(b) of the paper.${boxText(boxes, 'at common $Δφ$')}` +
       outsideText(states, [['delta_phi', x.domain], ['value', y.domain]]),
     spec: (width) => placedSpec(placement, {
       description: 'Mean frequencies of the softest and stiffest modes, both axes logarithmic.', width, datasets,

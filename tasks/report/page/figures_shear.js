@@ -31,8 +31,8 @@ function shearPanel(placement, index, place, {x, y}) {
 
 function shearFigure(data, choices) {
   const title = 'Under shear', id = 'shear';
-  const rows = data.replicates.filter(({shear}) => shear.some(({strain, stress}) => isNumber(strain) && isNumber(stress)))
-    .map(({row}) => row);
+  const sheared = ({shear}) => shear.some(({strain, stress}) => isNumber(strain) && isNumber(stress));
+  const rows = data.replicates.filter(sheared).map(({row}) => row);
   if (rows.length === 0)
     return {id, title, absent: 'This sweep has no shear: add "shear" to the manifest’s "measure".'};
   const placement = placementOf(data, rows, choices);

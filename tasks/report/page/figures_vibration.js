@@ -45,7 +45,8 @@ function spectrumData(data, {tag, together}) {
       const omegas = counted.flatMap((replicate) => replicate[end].filter((omega) => omega > 0));
       if (omegas.length > 0) endBoxes.push({...tag(row), end, ...boxOf(omegas)});
     }
-    for (const replicate of members.filter(({excluded}) => !many || excluded)) addSpectrum(replicate, tag(row), density, ends);
+    for (const replicate of members.filter(({excluded}) => !many || excluded))
+      addSpectrum(replicate, tag(row), density, ends);
   });
   return {density, boxes, means, ends, endBoxes};
 }
@@ -104,9 +105,11 @@ function spectrumFigure(data, choices) {
   const placement = placementOf(data, rows, choices);
   const datasets = spectrumData(data, placement), {density, boxes, means, ends, endBoxes} = datasets;
   const lines = deciding([...density, ...ends], choices, [...boxes, ...endBoxes]);
-  const x = {type: 'log', title: 'frequency $ω$', domain: domainOf([...[...lines, ...boxes, ...means].map((row) => row.omega),
-    ...endBoxes.flatMap(({low, high}) => [low, high])], {type: 'log', margin: 0.03}) ?? [0.1, 1]};
-  const top = domainOf([...[...lines, ...means].map((row) => row.density).filter(isNumber), ...boxes.map((row) => row.high)]);
+  const omegas = [...[...lines, ...boxes, ...means].map((row) => row.omega),
+    ...endBoxes.flatMap(({low, high}) => [low, high])];
+  const x = {type: 'log', title: 'frequency $ω$',
+    domain: domainOf(omegas, {type: 'log', margin: 0.03}) ?? [0.1, 1]};
+  const top = domainOf([...[...lines, ...means].map((row) => row.density), ...boxes.map((row) => row.high)]);
   const y = {domain: [0, top ? top[1] : 1], title: 'modes per decade, share of all', ticks: 4};
   const what = placement.together ? `mean over ${countedText(data)} in bins of ${binWidth} decades` :
     'one line for each replicate, dotted if excluded';
@@ -114,7 +117,8 @@ function spectrumFigure(data, choices) {
     id, title, datasets,
     note: `Density of states of the packing nearest jamming, ${what} (packings of up to 150 particles)` +
       `${placement.together ? '' : '; ticks at the foot are its lowest and highest frequencies'}. Units: ` +
-      `$V_p$ = $Y$ = $ρ$ = 1. Figure 1(a) of the paper.${boxText(boxes, 'in common bins, and at the foot for the ends')}` +
+      `$V_p$ = $Y$ = $ρ$ = 1. Figure 1(a) of the paper.` +
+      boxText(boxes, 'in common bins, and at the foot for the ends') +
       outsideText([...density, ...ends], [['omega', x.domain]]),
     spec: (width) => placedSpec(placement, {
       description: 'Vibrational densities of states against frequency, logarithmic.', width, datasets,

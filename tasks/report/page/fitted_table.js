@@ -56,9 +56,11 @@ function compare(a, b, sign) {
 function tableBlock(columns, rows, {caption, rowBody, onSort}) {
   const headings = columns.map((column) => {
     const unit = column.unit && column.unit !== '1' ? `, in ${column.unit}` : '';
-    const sorter = element('button', {type: 'button', title: `Sort by this column${unit}`}, ...htmlCopies(column.heading));
+    const sorter = element('button', {type: 'button', title: `Sort by this column${unit}`},
+      ...htmlCopies(column.heading));
     sorter.addEventListener('click', () => onSort(column));
-    return element('th', {className: column.text ? 'text' : '', scope: 'col', attributes: {'aria-sort': 'none'}}, sorter);
+    return element('th', {className: column.text ? 'text' : '', scope: 'col', attributes: {'aria-sort': 'none'}},
+      sorter);
   });
   const bodies = new Map(rows.map((row) => [row, rowBody(row, columns)]));
   const table = element('table', {attributes: {'aria-label': caption}},
@@ -76,9 +78,12 @@ function tableBlock(columns, rows, {caption, rowBody, onSort}) {
 function chosenColumns({rows, columns, leading, merged, rowBody}, width) {
   const widths = naturalWidths(columns, rows, rowBody);
   const sum = (list) => list.reduce((total, one) => total + one, 0);
-  if (sum(widths) <= width || sum(widths.slice(0, leading)) <= width * 0.4) return {shown: columns, widths, first: leading};
+  if (sum(widths) <= width || sum(widths.slice(0, leading)) <= width * 0.4)
+    return {shown: columns, widths, first: leading};
   const shown = [merged, ...columns.slice(leading)], others = naturalWidths(shown, rows, rowBody);
-  return {shown, widths: [Math.min(others[0], Math.max(90, Math.min(width * 0.4, width - Math.max(...others.slice(1))))), ...others.slice(1)], first: 1};
+  // Its text may be broken.
+  const room = Math.max(90, Math.min(width * 0.4, width - Math.max(...others.slice(1))));
+  return {shown, widths: [Math.min(others[0], room), ...others.slice(1)], first: 1};
 }
 
 const fittedTables = [];

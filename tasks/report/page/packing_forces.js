@@ -1,7 +1,7 @@
 'use strict';
 
-// Forces of contacts as bars: half a line from either centre to where the force acts, as thick as the force is large. No
-// half leaves its particle, so that contacts through the boundary of the cell need no second image.
+// Forces of contacts as bars: half a line from either centre to where the force acts, as thick as the force is large.
+// No half leaves its particle, so that contacts through the boundary of the cell need no second image.
 
 const barSides = 5, thinnestBar = 0.006, thickestBar = 0.11;
 

@@ -149,9 +149,9 @@ function pictureOf(canvas, renderer, render) {
   return copy.toDataURL('image/png');
 }
 
-/// A canvas with a scene that is drawn only when something changed. `show` takes the shapes of the kinds, the cell ({cell,
-/// side}), the particles ({index, at, orientation, colour, kind, size}) and the halves of the forces to draw; `update`
-/// the same particles elsewhere; `picture` gives a PNG.
+/// A canvas with a scene that is drawn only when something changed. `show` takes the shapes of the kinds, the cell
+/// ({cell, side}), the particles ({index, at, orientation, colour, kind, size}) and the halves of the forces to draw;
+/// `update` the same particles elsewhere; `picture` gives a PNG.
 function packingScene(canvas, antialias) {
   const renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: true, preserveDrawingBuffer: true});
   renderer.setPixelRatio(antialias ? Math.min(devicePixelRatio, 2) : 1);

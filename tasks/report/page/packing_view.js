@@ -168,8 +168,8 @@ function choiceText(data, views) {
   const done = data.replicates.filter(({status}) => status === 'done').length;
   const {chosen = views.length, most_particles: most} = data.viewable ?? {};
   if (views.length === done) return `All ${done} packings are here.`;
-  const small = done > chosen ? ` ${done - chosen} are left out to keep this file small: beside one of each sweep point ` +
-    `it holds packings of up to ${most} particles in all, sweep points in turn, unflagged ones first.` : '';
+  const small = done > chosen ? ` ${done - chosen} are left out to keep this file small: beside one of each sweep ` +
+    `point it holds packings of up to ${most} particles in all, sweep points in turn, unflagged ones first.` : '';
   const missing = chosen > views.length ? ` ${chosen - views.length} have no packing in the results directory.` : '';
   return `${views.length} of ${done} packings are here.${small}${missing} “isojam export” writes any of them.`;
 }
@@ -193,7 +193,8 @@ function drawPackings(data, section) {
   const key = element('div'), status = element('p', {className: 'note', attributes: {'aria-live': 'polite'}});
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches ?
     ' Animation is off, as this system asks for less motion; the slider displaces the particles.' : '';
-  section.append(element('p', {className: 'note', id: 'view-choice'}, choiceText(data, views)), controls.bar, element('div', {className: 'stage'}, canvas), key, controls.modeBar, status,
+  section.append(element('p', {className: 'note', id: 'view-choice'}, choiceText(data, views)), controls.bar,
+    element('div', {className: 'stage'}, canvas), key, controls.modeBar, status,
     element('p', {className: 'note help'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view has ' +
       'the focus, zoom; Home resets. The box is the periodic cell; particles are drawn whole, at the image whose ' +
       'centre lies in it. Contact forces are bars from the centres to where each acts, as thick as it is large.' + still));

@@ -36,7 +36,8 @@ function inOne(data, present, charts) {
   const solids = unique(present.map((row) => data.rows[row].solid));
   const colours = Object.fromEntries(solids.map((solid) => [solid, solidColours[solid]]));
   const shapes = variants.map((_, k) => variantShapes[k % variantShapes.length]);
-  const dodge = (variant) => (variants.indexOf(variant) - (variants.length - 1) / 2) * Math.min(5, 16 / variants.length);
+  const step = Math.min(5, 16 / variants.length);
+  const dodge = (variant) => (variants.indexOf(variant) - (variants.length - 1) / 2) * step;
   return {
     together: true, count: charts.length, title: (index) => charts[index],
     tag(row, chart = 0) {

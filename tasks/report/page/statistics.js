@@ -18,40 +18,45 @@ function boxOf(values) {
   return {...Object.fromEntries(box), n: sorted.length};
 }
 
-/// y of a curve [[x, y], ...] at x, between the points beside it; null beyond the curve. `type`: of the scale of x.
-function valueAt(curve, x, type = 'linear') {
+const scaleMaps = {linear: [(x) => x, (x) => x], log: [Math.log, Math.exp]};
+
+/// y of a curve [[x, y], ...] at x, straight between the points beside it; null beyond the curve. Types of the scales.
+function valueAt(curve, x, type = 'linear', yType = 'linear') {
   const sorted = [...curve].sort((a, b) => a[0] - b[0]);
   const next = sorted.findIndex(([at]) => at >= x);
   if (next < 0 || (next === 0 && sorted[0][0] > x)) return null;
   if (sorted[next][0] === x) return sorted[next][1];
-  const map = type === 'log' ? Math.log : (value) => value;
+  const [map] = scaleMaps[type], [yMap, yBack] = scaleMaps[yType];
   const [[x0, y0], [x1, y1]] = [sorted[next - 1], sorted[next]];
-  return y0 + ((map(x) - map(x0)) / (map(x1) - map(x0))) * (y1 - y0);
+  return yBack(yMap(y0) + ((map(x) - map(x0)) / (map(x1) - map(x0))) * (yMap(y1) - yMap(y0)));
 }
 
 /// Boxes [{at, low, q1, median, q3, high, n}] over curves at each of `levels` that a share of them, `least`, reach.
-function boxesOver(curves, levels, {type, least = 0.25}) {
+function boxesOver(curves, levels, {type, yType, least = 0.25}) {
   const boxes = [];
   for (const at of levels) {
-    const values = curves.map((curve) => valueAt(curve, at, type)).filter((value) => value !== null);
-    if (values.length >= Math.max(2, least * curves.length)) boxes.push({at, ...boxOf(values)});
+    const values = curves.map((curve) => valueAt(curve, at, type, yType)).filter((value) => value !== null);
+    if (values.length >= Math.max(1, least * curves.length)) boxes.push({at, ...boxOf(values)});
   }
   return boxes;
 }
 
 /// `count` numbers from the least to the greatest x of any curve, evenly spaced on a scale of this type.
 function evenLevels(curves, count, type) {
-  const [map, back] = type === 'log' ? [Math.log, Math.exp] : [(x) => x, (x) => x];
+  const [map, back] = scaleMaps[type ?? 'linear'];
   const [low, high] = (domainOf(curves.flat().map(([x]) => x), {type, margin: 0}) ?? [1, 1]).map(map);
   return Array.from({length: count}, (_, k) => back(low + ((k + 0.5) / count) * (high - low)));
 }
+
+/// Δφ at which solids are compared, those of the tables.
+const seriesDistances = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
 
 const isNumber = (value) => typeof value === 'number';
 
 /// What charts draw of the curves [[x, y], ...] of every sweep point's replicates: points, or boxes at common x where
 /// more than mostDrawn count, beside which those that do not count stay points.
 ///   curveOf(replicate)  its curve;  tag(row)  what every entry gets;  names  of x and y in the entries
-function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], type, least}) {
+function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], type, yType, least}) {
   const points = [], boxes = [];
   data.rows.forEach((_, row) => {
     const curves = data.replicates.filter((replicate) => replicate.row === row).map((replicate) =>
@@ -59,7 +64,7 @@ function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], type, least})
     const counted = curves.filter(({excluded, curve}) => !excluded && curve.length > 0).map(({curve}) => curve);
     const many = counted.length > mostDrawn;
     if (many) {
-      for (const {at, ...box} of boxesOver(counted, evenLevels(counted, 8, type), {type, least}))
+      for (const {at, ...box} of boxesOver(counted, evenLevels(counted, 8, type), {type, yType, least}))
         boxes.push({...tag(row), [xName]: at, ...box});
     }
     for (const {name, excluded, curve} of curves) {
@@ -70,7 +75,8 @@ function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], type, least})
   return {points, boxes};
 }
 
-/// The entries that decide how far axes reach, beside the boxes: those that count, all if the reader asks or none counts.
+/// The entries that decide how far axes reach, beside the boxes: those that count; all if the reader asks or none
+/// counts.
 function deciding(entries, {everything}, boxes = []) {
   const counted = entries.filter(({excluded}) => !excluded);
   return everything || (counted.length === 0 && boxes.length === 0) ? entries : counted;

@@ -6,6 +6,16 @@ function decimalsFor(estimate) {
   return Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(scale))));
 }
 
+/// A small mean and its half width with one power of ten for both.
+function smallCell(mean, half, n) {
+  if (half === null) return element('td', {title: `n = ${n}: no interval`}, formatted(mean, 3));
+  const power = Math.floor(Math.log10(Math.abs(mean))), unit = 10 ** power;
+  const decimals = decimalsFor({mean: mean / unit, half_width: half / unit});
+  return element('td', {title: `95 % interval over n = ${n} replicates`},
+    `(${(mean / unit).toFixed(decimals).replace('-', '−')}`,
+    element('span', {className: 'half-width'}, ` ± ${(half / unit).toFixed(decimals)}`), `)·${powerOfTen(power)}`);
+}
+
 function estimateCell(estimate) {
   if (!estimate || estimate.mean === null) return element('td', {title: estimate?.reason ?? 'not measured'}, '–');
   const {mean, n} = estimate;
@@ -13,10 +23,10 @@ function estimateCell(estimate) {
   const half = estimate.half_width !== null && estimate.half_width < Math.abs(mean) * 1e-12 ? 0 : estimate.half_width;
   // A count without spread.
   if (!half && Number.isInteger(mean)) return element('td', {title: `n = ${n}`}, formatted(mean, 6));
-  if (half === 0 || (mean !== 0 && Math.abs(mean) < 1e-3)) {
-    return element('td', {title: `n = ${n}`}, formatted(mean, 3), half === null ? null :
-      element('span', {className: 'half-width'}, ` ± ${formatted(half, 2)}`));
+  if (half === 0) {
+    return element('td', {title: `n = ${n}`}, formatted(mean, 3), element('span', {className: 'half-width'}, ' ± 0'));
   }
+  if (mean !== 0 && Math.abs(mean) < 1e-3) return smallCell(mean, half, n);
   const decimals = decimalsFor(estimate);
   const text = mean.toFixed(decimals).replace('-', '−');
   if (half === null) return element('td', {title: `n = ${n}: no interval`}, text);
@@ -84,7 +94,8 @@ function rowBody(row, columns) {
 function mergedColumn({rows}) {
   return {
     heading: ['sweep point'], text: true, value: (row) => rows.indexOf(row),
-    cell: (row) => element('th', {className: 'text merged', scope: 'row'}, ...rich(row.label.replaceAll(' = ', '\u00a0=\u00a0'))),
+    cell: (row) => element('th', {className: 'text merged', scope: 'row'},
+      ...rich(row.label.replaceAll(' = ', '\u00a0=\u00a0'))),
   };
 }
 
