@@ -81,7 +81,7 @@ function domainOf(values, {type = 'linear', margin = 0.05} = {}) {
   return [back(low - room), back(high + room)];
 }
 
-/// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left and half of one on the right.
+/// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left and `right` at the end.
 function panelGrid(width, panels, {least = 215, most = 4, widest = Infinity, left = 76, right = 26, gap = 18} = {}) {
   const fits = Math.floor((width - left + gap) / (least + gap));
   const columns = Math.max(1, Math.min(most, panels, fits));

@@ -3,6 +3,10 @@
 /// Where a mark stands along x: at its place, moved aside by so many pixels where several would cover each other.
 const dodged = (field, by = 0) => ({signal: `scale('x', datum[${JSON.stringify(field)}]) + datum.dodge + (${by})`});
 
+/// Boxes of excluded replicates are empty and dashed.
+const boxLook = {fillOpacity: {signal: 'datum.excluded ? 0 : 0.3'},
+  strokeDash: {signal: 'datum.excluded ? [2, 2] : []'}, strokeWidth: {value: 1}};
+
 /// Boxes over y: whiskers, quartiles, median.
 function uprightBoxes(from, x, {colour, width = 8, tooltip}) {
   const y = (field) => ({scale: 'y', field});
@@ -11,7 +15,7 @@ function uprightBoxes(from, x, {colour, width = 8, tooltip}) {
   return [
     mark('rule', {x: dodged(x), y: y('low'), y2: y('high'), strokeWidth: {value: 1}}),
     mark('rect', {xc: dodged(x), width: {value: width}, y: y('q1'), y2: y('q3'), fill: colour,
-      fillOpacity: {value: 0.3}, strokeWidth: {value: 1}}),
+      ...boxLook}),
     mark('rule', {x: dodged(x, -width / 2), x2: dodged(x, width / 2), y: y('median'), strokeWidth: {value: 2}}),
   ];
 }
@@ -24,8 +28,7 @@ function lyingBoxes(from, yField, {colour, width = 8, tooltip}) {
     encode: {enter: {stroke: colour, ...encoding, tooltip: tooltipOf(tooltip)}}});
   return [
     mark('rule', {y: y(0), x: x('low'), x2: x('high'), strokeWidth: {value: 1}}),
-    mark('rect', {yc: y(0), height: {value: width}, x: x('q1'), x2: x('q3'), fill: colour, fillOpacity: {value: 0.3},
-      strokeWidth: {value: 1}}),
+    mark('rect', {yc: y(0), height: {value: width}, x: x('q1'), x2: x('q3'), fill: colour, ...boxLook}),
     mark('rule', {y: y(-width / 2), y2: y(width / 2), x: x('median'), strokeWidth: {value: 2}}),
   ];
 }
@@ -33,8 +36,8 @@ function lyingBoxes(from, yField, {colour, width = 8, tooltip}) {
 const boxTooltip = {median: 'median', 'quartile, lower': 'q1', 'quartile, upper': 'q3', '2.5 %': 'low',
   '97.5 %': 'high', n: 'n'};
 
-const boxText = (boxes, where) => (boxes.length > 0 ? ` Where more than ${mostDrawn} replicates count, boxes stand ` +
-  `for them ${where}: median, quartiles, and whiskers that hold 95 % of them.` : '');
+const boxText = (boxes, where) => (boxes.length > 0 ? ` Boxes stand for more than ${mostDrawn} replicates ` +
+  `${where}: median, quartiles, and whiskers that hold 95 % of them; dashed if excluded.` : '');
 
 /// Offsets from a line at which discs of diameter `size` with their centres at `at` along it do not overlap: each in
 /// turn, from the left, as near to the line as it can be.

@@ -117,10 +117,10 @@ function topologyFigure(data, choices) {
   const placement = placementOf(data, rows, choices);
   const {points: states, boxes} = stateEntries(data, keys, placement);
   const means = meanEntries(data, keys, placement).filter(({row}) => row >= 0);
-  const counted = deciding(states, choices, boxes);
+  const counted = deciding(states, choices, boxes), deciders = deciding(boxes, choices, states);
   const x = {type: 'log', title: '$Δφ$',
-    domain: domainOf([...counted, ...boxes, ...means].map((row) => row.delta_phi), {type: 'log'})};
-  const highest = Math.max(14, ...counted.map((row) => row.value), ...[...means, ...boxes].map((row) => row.high));
+    domain: domainOf([...counted, ...deciders, ...means].map((row) => row.delta_phi), {type: 'log'})};
+  const highest = Math.max(14, ...counted.map((row) => row.value), ...[...means, ...deciders].map((row) => row.high));
   const y = {title: 'mean per particle', ticks: 6,
     domain: [Math.min(0, ...means.map((row) => row.low)), highest * 1.03]};
   const series = Object.values(contactSeries);
@@ -129,7 +129,7 @@ function topologyFigure(data, choices) {
     note: `Every state (dots), and means over ${countedText(data)} with 95 % intervals, interpolated at common ` +
       'distances above jamming; open, and joined by no line, if of one replicate alone. Dotted line: $C$ = 12, the ' +
       `isostatic number of constraints. Figure 3 of the paper.${boxText(boxes, 'at common $Δφ$')}` +
-      outsideText(states, [['delta_phi', x.domain], ['value', y.domain]]),
+      outsideText(states, [['delta_phi', x.domain], ['value', y.domain]], boxes),
     spec: (width) => placedSpec(placement, {
       description: 'Contacts, face-face contacts and constraints per particle against distance above jamming.',
       width, datasets: {means, states, boxes}, height: 240,
@@ -174,8 +174,8 @@ function topologyTogether(data, rows) {
   return {
     id: 'topology', title: contactsTitle, datasets: made.datasets,
     note: `Means over ${countedText(data)} with 95 % intervals, interpolated at common distances above jamming and ` +
-      'set slightly apart; open, and joined by no line, if of one replicate alone. Dotted line: $C$ = 12, the isostatic ' +
-      'number of constraints. As Figure 3(a) to (c) of the paper.',
+      'set slightly apart; open, and joined by no line, if of one replicate alone. Dotted line: $C$ = 12, the ' +
+      'isostatic number of constraints. As Figure 3(a) to (c) of the paper.',
     spec: (width) => made.spec(width, 'Contacts, constraints and face-face contacts of all solids against distance ' +
       'above jamming.'),
   };

@@ -14,13 +14,12 @@ function extrapolationData(data, tag) {
     if (!line || !drawn.has(name)) continue;
     extrapolation.push(...[line.from, line.to].map(([phi, root]) => ({...tag(row), name, excluded, phi, root})));
   }
-  const atZero = data.rows.flatMap((row, index) => {
-    if (!boxes.some(({group}) => group === row.label)) return [];
-    const values = data.replicates.filter((replicate) => replicate.row === index && !replicate.excluded)
-      .map((replicate) => replicate.phi_j).filter(isNumber);
-    return values.length > 1 ? [{...tag(index), root: 0, ...boxOf(values)}] : [];
+  const atZero = groupsOf(data).flatMap(({row, excluded, members}) => {
+    if (!boxes.some((box) => box.group === data.rows[row].label && box.excluded === excluded)) return [];
+    const values = members.map((replicate) => replicate.phi_j).filter(isNumber);
+    return values.length > 1 ? [{...tag(row), excluded, root: 0, ...boxOf(values)}] : [];
   });
-  const medians = [...atZero, ...boxes].map(({median, ...box}) => ({...box, median, phi: median}));
+  const medians = [...atZero, ...boxes].map((box) => ({...box, phi: box.median, line: `${box.group} ${box.excluded}`}));
   return {states: points, extrapolation, boxes: medians};
 }
 
@@ -35,7 +34,7 @@ function extrapolationPanel(placement, index, place, {x, y}) {
       points(`states_${index}`, 'phi', 'root', {colour, size: 18, opacity: 0.8, shape: placement.shape,
         hollow: 'datum.excluded',
         tooltip: {replicate: 'name', '$φ$': 'phi', '$Δφ$': 'delta_phi', '$(E/N)^{1/6}$': 'root'}}),
-      lines(`boxes_${index}`, 'phi', 'root', {by: 'group', colour, width: 1}),
+      lines(`boxes_${index}`, 'phi', 'root', {by: 'line', colour, width: 1}),
       ...lyingBoxes(`boxes_${index}`, 'root', {colour, tooltip: {'': 'group', '$(E/N)^{1/6}$': 'root', ...boxTooltip}}),
       ...(together ? [points(`boxes_${index}`, 'phi', 'root', {colour, shape: placement.shape, size: 26,
         tooltip: {'': 'group', '$(E/N)^{1/6}$': 'root', ...boxTooltip}})] : []),
@@ -48,13 +47,15 @@ function extrapolationFigure(data, choices) {
   if (rows.length === 0) return {id, title, absent: 'No replicate has an equilibrium above jamming.'};
   const placement = placementOf(data, rows, choices);
   const datasets = extrapolationData(data, placement.tag), {states, extrapolation, boxes} = datasets;
-  const every = [...deciding(states, choices, boxes), ...deciding(extrapolation, choices, boxes), ...boxes];
+  const every = [...deciding(states, choices, boxes), ...deciding(extrapolation, choices, boxes),
+    ...deciding(boxes, choices, states)];
   const y = {domain: [0, domainOf(every.map((row) => row.root))[1]], title: '$(E/N)^{1/6}$', ticks: 4};
   // Every solid jams at a density of its own.
   const xOf = (index) => {
-    const here = boxes.filter(({row}) => row === index);
-    const own = (list) => deciding(list.filter(({row}) => row === index), choices, here).map(({phi}) => phi);
-    const domain = domainOf([...own(states), ...own(extrapolation), ...here.flatMap(({low, high}) => [low, high])]);
+    const inside = (list) => list.filter(({row}) => row === index), others = [...inside(states), ...inside(boxes)];
+    const own = (list) => deciding(inside(list), choices, others);
+    const domain = domainOf([...[...own(states), ...own(extrapolation)].map(({phi}) => phi),
+      ...own(boxes).flatMap(({low, high}) => [low, high])]);
     return {domain, title: 'density $φ$', ticks: 4};
   };
   const axes = Array.from({length: placement.count}, (_, index) => xOf(index));
@@ -64,7 +65,8 @@ function extrapolationFigure(data, choices) {
     id, title, datasets,
     note: 'Energy grows as $Δφ^6$: its sixth root is a straight line in $φ$, and $φ_J$ is where the line through the ' +
       'states nearest jamming (dashed, of every replicate) meets zero. Hollow: excluded from means.' +
-      `${boxText(boxes, 'at common heights, at zero for $φ_J$')}${outsideText(outside, [['phi', [0, 1]]])}`,
+      boxText(boxes, 'at common heights, at zero for $φ_J$') +
+      outsideText(outside, [['phi', [0, 1]]], boxes, ({row}) => axes[row].domain),
     spec: (width) => placedSpec(placement, {description: 'Sixth root of the energy per particle against density.',
       width, datasets, panelAt: (index, place) => extrapolationPanel(placement, index, place, {x: axes[index], y})}),
   };

@@ -30,17 +30,17 @@ function moduliFigure(data, choices) {
   const placement = placementOf(data, rows, choices);
   const {points: states, boxes} = stateEntries(data, keys, {tag: placement.tag, above, yType: 'log'});
   const medians = medianEntries(data, keys, {tag: placement.tag, above}).filter(({row}) => row >= 0);
-  const counted = deciding(states, choices, boxes);
+  const counted = deciding(states, choices, boxes), deciders = deciding(boxes, choices, states);
   const x = {type: 'log', title: '$Δφ$',
-    domain: domainOf([...counted, ...boxes].map((row) => row.delta_phi), {type: 'log'})};
+    domain: domainOf([...counted, ...deciders].map((row) => row.delta_phi), {type: 'log'})};
   const y = {type: 'log', title: 'modulus', domain: domainOf([...counted.map((row) => row.value),
-    ...boxes.flatMap(({low, high}) => [low, high])], {type: 'log'})};
+    ...deciders.flatMap(({low, high}) => [low, high])], {type: 'log'})};
   const series = Object.values(modulusSeries);
   return {
     id, title, datasets: {states, boxes, medians},
     note: `Bulk modulus and mean shear modulus of every state; lines join medians over ${countedText(data)}. ` +
       moduliText + boxText(boxes, 'at common $Δφ$') +
-      outsideText(states, [['delta_phi', x.domain], ['value', y.domain]]),
+      outsideText(states, [['delta_phi', x.domain], ['value', y.domain]], boxes),
     spec: (width) => placedSpec(placement, {
       description: 'Bulk and shear modulus against distance above jamming.', width,
       datasets: {states, boxes, medians}, height: 220,

@@ -67,16 +67,16 @@ function scalingFigure(data, choices) {
   const placement = placementOf(data, rows, choices);
   const {points: states, boxes} = stateEntries(data, keys, {tag: placement.tag, above, yType: 'log'});
   const datasets = {states, boxes, ...scalingFits(data, placement.tag)};
-  const counted = deciding(states, choices, boxes);
+  const counted = deciding(states, choices, boxes), deciders = deciding(boxes, choices, states);
   const x = {type: 'log', title: '$Δφ$',
-    domain: domainOf([...counted, ...boxes].map((row) => row.delta_phi), {type: 'log'})};
+    domain: domainOf([...counted, ...deciders].map((row) => row.delta_phi), {type: 'log'})};
   const y = {type: 'log', title: '$⟨ω⟩$', domain: domainOf([...counted.map((row) => row.value),
-    ...boxes.flatMap(({low, high}) => [low, high])], {type: 'log', margin: 0.09})};
+    ...deciders.flatMap(({low, high}) => [low, high])], {type: 'log', margin: 0.09})};
   return {
     id, title, datasets,
     note: `${scalingText}, every state of every replicate. Lines: power laws through the states of ` +
       `${countedText(data)} with $Δφ$ ≤ 0.02. Figure 1(b) of the paper.${boxText(boxes, 'at common $Δφ$')}` +
-      outsideText(states, [['delta_phi', x.domain], ['value', y.domain]]),
+      outsideText(states, [['delta_phi', x.domain], ['value', y.domain]], boxes),
     spec: (width) => placedSpec(placement, {
       description: 'Mean frequencies of the softest and stiffest modes, both axes logarithmic.', width, datasets,
       height: 220,

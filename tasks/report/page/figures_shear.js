@@ -1,11 +1,14 @@
 'use strict';
 
 /// States of every replicate under load, and those that a drop led to.
-function shearData(data, tag) {
+function shearData(data, {tag, together}, rows) {
   const curveOf = ({shear}) => shear.filter(({strain, stress}) => isNumber(strain) && isNumber(stress))
     .map(({strain, stress}) => [strain, stress]);
   const {points: states, boxes} = pointsOrBoxes(data, {curveOf, tag, names: ['strain', 'stress']});
-  const drops = [];
+  const drops = [], shown = unique(rows).sort((a, b) => a - b), step = Math.min(6, 48 / shown.length);
+  // All solids have the same strains.
+  const aside = (label) => (shown.findIndex((row) => data.rows[row].label === label) - (shown.length - 1) / 2) * step;
+  for (const box of together ? boxes : []) box.dodge = aside(box.group);
   for (const {name, row, excluded, shear} of data.replicates) {
     if (!states.some((state) => state.name === name)) continue;
     for (const {strain, stress, dropped} of shear)
@@ -25,7 +28,8 @@ function shearPanel(placement, index, place, {x, y}) {
       points(states, 'strain', 'stress', {colour, shape: placement.shape, size: placement.together ? 20 : 10,
         opacity: 0.8, hollow: 'datum.excluded', tooltip}),
       points(drops, 'strain', 'stress', {colour, shape: 'triangle-down', size: 40, opacity: 0.9, tooltip}),
-      ...uprightBoxes(boxes, 'strain', {colour, tooltip: {'': 'group', '$γ$': 'strain', ...boxTooltip}}),
+      ...uprightBoxes(boxes, 'strain', {colour, width: placement.together ? 5 : 8,
+        tooltip: {'': 'group', '$γ$': 'strain', ...boxTooltip}}),
     ]});
 }
 
@@ -36,17 +40,18 @@ function shearFigure(data, choices) {
   if (rows.length === 0)
     return {id, title, absent: 'This sweep has no shear: add "shear" to the manifest’s "measure".'};
   const placement = placementOf(data, rows, choices);
-  const datasets = shearData(data, placement.tag);
-  const {states, boxes} = datasets, counted = deciding(states, choices, boxes);
-  const x = {title: 'strain $γ$', domain: domainOf([...counted, ...boxes].map((row) => row.strain)), ticks: 4};
+  const datasets = shearData(data, placement, rows);
+  const {states, boxes} = datasets;
+  const counted = deciding(states, choices, boxes), deciders = deciding(boxes, choices, states);
+  const x = {title: 'strain $γ$', domain: domainOf([...counted, ...deciders].map((row) => row.strain)), ticks: 4};
   const y = {title: 'shear stress over pressure',
-    domain: domainOf([...counted.map((row) => row.stress), ...boxes.flatMap(({low, high}) => [low, high])])};
+    domain: domainOf([...counted.map((row) => row.stress), ...deciders.flatMap(({low, high}) => [low, high])])};
   return {
     id, title, datasets,
     note: 'Shear stress over pressure against strain, for the packing nearest jamming of every replicate; triangles ' +
       'are states that the packing came to by giving way. A packing jammed in a cube has some shear stress before it ' +
       `is strained.${boxText(boxes, 'at common strains')}` +
-      outsideText(states, [['strain', x.domain], ['stress', y.domain]]),
+      outsideText(states, [['strain', x.domain], ['stress', y.domain]], boxes),
     spec: (width) => placedSpec(placement, {description: 'Shear stress over pressure against strain.', width, datasets,
       panelAt: (index, place) => shearPanel(placement, index, place, {x, y})}),
   };

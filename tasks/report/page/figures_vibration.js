@@ -27,28 +27,30 @@ function binnedValues(spectra) {
 
 const hasSpectrum = ({density_of_states: spectrum}) => Boolean(spectrum?.log10_omega && spectrum?.density);
 
-/// Lines of single replicates, boxes where many count, one mean line of those that count in a chart of all solids.
+/// The mean line of those that count, for a chart of all solids.
+function meanSpectra(data, tag) {
+  return groupsOf(data).filter(({excluded}) => !excluded).flatMap(({row, members}) =>
+    binnedValues(members.filter(hasSpectrum).map((replicate) => replicate.density_of_states)).map(({omega, values}) =>
+      ({...tag(row), omega, density: values.reduce((a, b) => a + b) / values.length, n: values.length})));
+}
+
+/// Lines of single replicates, boxes where there are many, one mean line in a chart of all solids.
 function spectrumData(data, {tag, together}) {
-  const density = [], boxes = [], means = [], ends = [], endBoxes = [];
-  data.rows.forEach((_, row) => {
-    const members = data.replicates.filter((replicate) => replicate.row === row);
-    const counted = members.filter((replicate) => !replicate.excluded);
-    const spectra = counted.filter(hasSpectrum).map((replicate) => replicate.density_of_states);
-    const many = counted.length > mostDrawn;
-    if (together) {
-      for (const {omega, values} of binnedValues(spectra))
-        means.push({...tag(row), omega, density: values.reduce((a, b) => a + b) / values.length, n: values.length});
-      return;
+  const density = [], boxes = [], ends = [], endBoxes = [];
+  if (together) return {density, boxes, means: meanSpectra(data, tag), ends, endBoxes};
+  for (const {row, excluded, members} of groupsOf(data)) {
+    if (members.length <= mostDrawn) {
+      for (const replicate of members) addSpectrum(replicate, tag(row), density, ends);
+      continue;
     }
-    if (many) for (const {omega, values} of binnedValues(spectra)) boxes.push({...tag(row), omega, ...boxOf(values)});
-    for (const end of many ? ['lowest', 'highest'] : []) {
-      const omegas = counted.flatMap((replicate) => replicate[end].filter((omega) => omega > 0));
-      if (omegas.length > 0) endBoxes.push({...tag(row), end, ...boxOf(omegas)});
+    const spectra = members.filter(hasSpectrum).map((replicate) => replicate.density_of_states);
+    for (const {omega, values} of binnedValues(spectra)) boxes.push({...tag(row), excluded, omega, ...boxOf(values)});
+    for (const end of ['lowest', 'highest']) {
+      const omegas = members.flatMap((replicate) => replicate[end].filter((omega) => omega > 0));
+      if (omegas.length > 0) endBoxes.push({...tag(row), excluded, end, ...boxOf(omegas)});
     }
-    for (const replicate of members.filter(({excluded}) => !many || excluded))
-      addSpectrum(replicate, tag(row), density, ends);
-  });
-  return {density, boxes, means, ends, endBoxes};
+  }
+  return {density, boxes, means: [], ends, endBoxes};
 }
 
 function addSpectrum(replicate, tag, density, ends) {
@@ -84,7 +86,8 @@ const endMarks = (from, colour) => lyingBoxes(from, 'foot', {colour, width: 6,
 
 function spectrumPanel(placement, index, place, {x, y, names}) {
   const {colour} = placement;
-  const line = lines(`density_${index}`, 'omega', 'density', {by: 'name', colour, width: 1.2, opacity: 0.8, step: true});
+  const line = lines(`density_${index}`, 'omega', 'density', {by: 'name', colour, width: 1.2, opacity: 0.8,
+    step: true});
   line.marks[0].encode.enter.strokeDash = {signal: 'datum.excluded ? [2, 2] : []'};
   const means = lines(`means_${index}`, 'omega', 'density', {by: 'group', colour, width: 1.5});
   return panel({...place, title: placement.title(index), x, y, data: names.map((name) => rowsOf(name, index)),
@@ -104,12 +107,13 @@ function spectrumFigure(data, choices) {
   if (rows.length === 0) return modesAbsent(id, title);
   const placement = placementOf(data, rows, choices);
   const datasets = spectrumData(data, placement), {density, boxes, means, ends, endBoxes} = datasets;
-  const lines = deciding([...density, ...ends], choices, [...boxes, ...endBoxes]);
-  const omegas = [...[...lines, ...boxes, ...means].map((row) => row.omega),
-    ...endBoxes.flatMap(({low, high}) => [low, high])];
+  const one = [...density, ...ends], many = [...boxes, ...endBoxes];
+  const drawn = [...deciding(one, choices, many), ...deciding(boxes, choices, one), ...means];
+  const omegas = [...drawn.map((row) => row.omega),
+    ...deciding(endBoxes, choices, one).flatMap(({low, high}) => [low, high])];
   const x = {type: 'log', title: 'frequency $ω$',
     domain: domainOf(omegas, {type: 'log', margin: 0.03}) ?? [0.1, 1]};
-  const top = domainOf([...[...lines, ...means].map((row) => row.density), ...boxes.map((row) => row.high)]);
+  const top = domainOf(drawn.map((row) => row.density ?? row.high));
   const y = {domain: [0, top ? top[1] : 1], title: 'modes per decade, share of all', ticks: 4};
   const what = placement.together ? `mean over ${countedText(data)} in bins of ${binWidth} decades` :
     'one line for each replicate, dotted if excluded';
@@ -119,7 +123,7 @@ function spectrumFigure(data, choices) {
       `${placement.together ? '' : '; ticks at the foot are its lowest and highest frequencies'}. Units: ` +
       `$V_p$ = $Y$ = $ρ$ = 1. Figure 1(a) of the paper.` +
       boxText(boxes, 'in common bins, and at the foot for the ends') +
-      outsideText([...density, ...ends], [['omega', x.domain]]),
+      outsideText(one, [['omega', x.domain]], endBoxes),
     spec: (width) => placedSpec(placement, {
       description: 'Vibrational densities of states against frequency, logarithmic.', width, datasets,
       panelAt: (index, place) => spectrumPanel(placement, index, place, {x, y, names: Object.keys(datasets)})}),

@@ -195,8 +195,9 @@ function drawPackings(data, section) {
     ' Animation is off, as this system asks for less motion; the slider displaces the particles.' : '';
   section.append(element('p', {className: 'note', id: 'view-choice'}, choiceText(data, views)), controls.bar,
     element('div', {className: 'stage'}, canvas), key, controls.modeBar, status,
-    element('p', {className: 'note help'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view has ' +
-      'the focus, zoom; Home resets. The box is the periodic cell; particles are drawn whole, at the image whose ' +
-      'centre lies in it. Contact forces are bars from the centres to where each acts, as thick as it is large.' + still));
+    element('p', {className: 'note help'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view ' +
+      'has the focus, zoom; Home resets. The box is the periodic cell; particles are drawn whole, at the image whose ' +
+      'centre lies in it. Contact forces are bars from the centres to where each acts, as thick as it is large.' +
+      still));
   connect(data, views, controls, packingScene(canvas, kind === 'hardware'), {key, status});
 }

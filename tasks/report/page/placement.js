@@ -26,7 +26,7 @@ function inPanels(data, present) {
     tag: (row) => ({row: place.get(row) ?? -1, solid: data.rows[row].solid, group: data.rows[row].label, dodge: 0}),
     rowsAt: (index) => [present[index]],
     colour: solidColour, shape: {scale: 'shape', field: 'solid'}, scales: [solidScale(), shapeScale()], legends: [],
-    height: 200, grid: {},
+    height: 200, grid: {widest: 640},
   };
 }
 

@@ -53,39 +53,47 @@ const seriesDistances = [0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
 
 const isNumber = (value) => typeof value === 'number';
 
-/// What charts draw of the curves [[x, y], ...] of every sweep point's replicates: points, or boxes at common x where
-/// more than mostDrawn count, beside which those that do not count stay points.
+/// What charts draw of the curves [[x, y], ...] of every sweep point's replicates, of those that count and of the
+/// excluded ones: points, or boxes at common x where there are more than mostDrawn.
 ///   curveOf(replicate)  its curve;  tag(row)  what every entry gets;  names  of x and y in the entries
 function pointsOrBoxes(data, {curveOf, tag, names: [xName, yName], type, yType, least}) {
   const points = [], boxes = [];
-  data.rows.forEach((_, row) => {
-    const curves = data.replicates.filter((replicate) => replicate.row === row).map((replicate) =>
-      ({name: replicate.name, excluded: replicate.excluded, curve: curveOf(replicate)}));
-    const counted = curves.filter(({excluded, curve}) => !excluded && curve.length > 0).map(({curve}) => curve);
-    const many = counted.length > mostDrawn;
-    if (many) {
-      for (const {at, ...box} of boxesOver(counted, evenLevels(counted, 8, type), {type, yType, least}))
-        boxes.push({...tag(row), [xName]: at, ...box});
+  for (const {row, excluded, members} of groupsOf(data)) {
+    const curves = members.map((replicate) => ({name: replicate.name, curve: curveOf(replicate)}))
+      .filter(({curve}) => curve.length > 0);
+    if (curves.length <= mostDrawn) {
+      for (const {name, curve} of curves)
+        for (const [x, y] of curve) points.push({...tag(row), name, excluded, [xName]: x, [yName]: y});
+      continue;
     }
-    for (const {name, excluded, curve} of curves) {
-      if (many && !excluded) continue;
-      for (const [x, y] of curve) points.push({...tag(row), name, excluded, [xName]: x, [yName]: y});
-    }
-  });
+    const all = curves.map(({curve}) => curve);
+    for (const {at, ...box} of boxesOver(all, evenLevels(all, 8, type), {type, yType, least}))
+      boxes.push({...tag(row), excluded, [xName]: at, ...box});
+  }
   return {points, boxes};
 }
 
-/// The entries that decide how far axes reach, beside the boxes: those that count; all if the reader asks or none
-/// counts.
-function deciding(entries, {everything}, boxes = []) {
-  const counted = entries.filter(({excluded}) => !excluded);
-  return everything || (counted.length === 0 && boxes.length === 0) ? entries : counted;
+/// Of every sweep point the replicates that count, and the excluded ones.
+function groupsOf(data) {
+  return data.rows.flatMap((_, row) => [false, true].map((excluded) => ({row, excluded,
+    members: data.replicates.filter((replicate) => replicate.row === row && replicate.excluded === excluded)})));
 }
 
-/// How many replicates of `entries` lie outside of the domains, as a sentence.
-function outsideText(entries, fields) {
+/// The entries that decide how far axes reach: those that count; all if the reader asks, or if neither of them nor of
+/// `others` in the same chart any counts.
+function deciding(entries, {everything}, others = []) {
+  const counts = ({excluded}) => !excluded;
+  return everything || ![...entries, ...others].some(counts) ? entries : entries.filter(counts);
+}
+
+/// How many excluded replicates lie outside of the domains of the fields, and whether boxes of some do, in words.
+function outsideText(entries, fields, boxes = [], domainOfBox = () => fields.at(-1)[1]) {
   const inside = (value, [low, high]) => value >= low && value <= high;
-  const outside = entries.filter((entry) => fields.some(([name, domain]) => !inside(entry[name], domain)));
-  const count = new Set(outside.filter(({excluded}) => excluded).map(({name}) => name)).size;
-  return count > 0 ? ` Wholly or partly beyond the axes: ${counted(count, 'excluded replicate')}.` : '';
+  const beyond = entries.filter((entry) =>
+    entry.excluded && fields.some(([name, domain]) => !inside(entry[name], domain)));
+  const count = new Set(beyond.map(({name}) => name)).size;
+  const boxBeyond = boxes.some((box) => box.excluded &&
+    !(inside(box.low, domainOfBox(box)) && inside(box.high, domainOfBox(box))));
+  return (count > 0 ? ` Wholly or partly beyond the axes: ${counted(count, 'excluded replicate')}.` : '') +
+    (boxBeyond ? ' Excluded replicates reach beyond the axes.' : '');
 }
