@@ -67,9 +67,13 @@ function csvField(value) {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
+/// What only the drawing needs to know of a row.
+const drawingKeys = ['dodge', 'line'];
+
 /// Rows of all data sets below each other, their names in the first column.
 function csvOf(datasets) {
-  const names = [...new Set(Object.values(datasets).flat().flatMap((row) => Object.keys(row)))];
+  const names = [...new Set(Object.values(datasets).flat().flatMap((row) => Object.keys(row)))]
+    .filter((name) => !drawingKeys.includes(name));
   const lines = [['dataset', ...names].map(csvField).join(',')];
   for (const [dataset, rows] of Object.entries(datasets)) {
     for (const row of rows) lines.push([dataset, ...names.map((name) => row[name])].map(csvField).join(','));

@@ -91,8 +91,10 @@ function appendRuns(line, runs, size, scale = 1, level = 0) {
   }
 }
 
-/// Sets the mathematics in the texts of a drawn chart.
+/// Sets the mathematics in the texts of a drawn chart, and in what a screen reader says of it.
 function setMathematics(svg) {
+  for (const told of svg.querySelectorAll('[aria-label*="$"]'))
+    told.setAttribute('aria-label', plainText(told.getAttribute('aria-label')));
   for (const line of svg.querySelectorAll('text, tspan')) {
     if (line.children.length > 0) continue;
     const text = line.textContent, runs = runsOf(text);

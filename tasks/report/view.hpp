@@ -12,8 +12,9 @@ namespace isojam {
 struct ViewOptions {
   /// Particles of all views with modes together, a quarter to one millisecond and some 300 bytes each.
   int budget = 2000;
-  /// Particles of all views together, some 170 bytes each. The one view of every sweep point is made even beyond it.
-  int most_particles = 30000;
+  /// Particles of all views together, some 160 bytes each, half of them forces. The one view of every sweep point is
+  /// made even beyond it.
+  int most_particles = 40000;
   int modes = 4;  ///< vibrations at either end of the spectrum
 };
 

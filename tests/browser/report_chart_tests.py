@@ -51,7 +51,7 @@ class ChartTests:
             const html = [...document.querySelectorAll('#table thead button')].map((part) => part.innerHTML);
             return [html.includes('<i>φ</i><sub><i>J</i></sub>'), html.includes('<i>Z</i><sub><i>ff</i></sub>'), html]""")
         self.assertEqual(heading[:2], [True, True], heading[2])
-        self.assertNotIn("$", self.browser.run("return document.querySelector('main').textContent"))
+        self.assertNotIn("$", self.browser.run("return document.querySelector('main').innerHTML"))
 
     def test_the_density_chart_shows_every_replicate(self):
         self.open(self.page)
