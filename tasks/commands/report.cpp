@@ -22,13 +22,15 @@ ExitCode report(const Arguments& arguments, Console& console) {
   const auto results = read_results(directory, [&](const std::string& message) { console.warn(message); });
   const ViewOptions options;
   std::map<std::size_t, Json> views;
-  for (const auto& chosen : choose_views(results, options)) {
+  const auto choice = choose_views(results, options);
+  for (const auto& chosen : choice) {
     const auto packing = read_nearest_packing(directory, results.replicates[chosen.replicate]);
     if (!packing) continue;
     views[chosen.replicate] = packing_view(*packing, chosen.with_modes ? options.modes : 0);
     views[chosen.replicate]["solid"] = to_string(results.replicates[chosen.replicate].summary.solid);
   }
   Json data = report_data(results, views);
+  data["viewable"] = {{"most_particles", options.most_particles}, {"chosen", choice.size()}};
   // A link that is there for a reader of the directory alone: the page may be sent elsewhere without it.
   data["chart"] = std::filesystem::exists(output.parent_path() / "chart.html");
   write_output(output, report_page(data));

@@ -9,17 +9,21 @@ function element(name, options = {}, ...children) {
   return made;
 }
 
-/// Nodes of a text in which φ_J and V_p, a letter and a letter, have subscripts.
-function rich(text) {
-  const parts = text.split(/(?<=(?:^|[^\p{L}_])\p{L})_(\p{L})(?![\p{L}_])/u);
-  return parts.map((part, index) => (index % 2 === 1 ? element('sub', {}, part) : part));
-}
+const raised = {0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹', '-': '⁻', '/': 'ᐟ'};
+
+/// The letters of a text raised, as far as there are such.
+const raisedText = (text) => [...text].map((letter) => raised[letter] ?? letter).join('');
+
+const powerOfTen = (power) => `10${raisedText(String(power))}`;
 
 /// A number for people: `digits` significant ones, an en dash where there is none.
 function formatted(value, digits = 4) {
   if (value === null || value === undefined) return '–';
   if (typeof value !== 'number') return String(value);
-  if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)) return value.toExponential(digits - 1);
+  if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)) {
+    const [front, power] = value.toExponential(digits - 1).split('e');
+    return `${front.replace('-', '−')}·${powerOfTen(Number(power))}`;
+  }
   return String(Number(value.toPrecision(digits))).replace('-', '−');
 }
 
@@ -63,9 +67,13 @@ function csvField(value) {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
+/// What only the drawing needs to know of a row.
+const drawingKeys = ['dodge', 'line'];
+
 /// Rows of all data sets below each other, their names in the first column.
 function csvOf(datasets) {
-  const names = [...new Set(Object.values(datasets).flat().flatMap((row) => Object.keys(row)))];
+  const names = [...new Set(Object.values(datasets).flat().flatMap((row) => Object.keys(row)))]
+    .filter((name) => !drawingKeys.includes(name));
   const lines = [['dataset', ...names].map(csvField).join(',')];
   for (const [dataset, rows] of Object.entries(datasets)) {
     for (const row of rows) lines.push([dataset, ...names.map((name) => row[name])].map(csvField).join(','));

@@ -25,49 +25,83 @@ const viewOf = (specification, options) =>
 /// Figures are saved for paper, whatever the screen: on white, at one width.
 const savedWidth = 900;
 
-async function savePicture(figure, kind) {
+/// A specification for other programs, which set no mathematics.
+const specificationText = (figure) => `${JSON.stringify(figure.spec(savedWidth),
+  (key, value) => (typeof value === 'string' ? plainText(value) : value), 1)}\n`;
+
+async function svgText(figure) {
   const view = viewOf({...figure.spec(savedWidth), background: '#ffffff'});
   await view.runAsync();
-  if (kind === 'svg') save(`${figure.id}.svg`, await view.toSVG(), 'image/svg+xml');
-  else save(`${figure.id}.png`, await view.toImageURL('png', 2));
+  const text = await view.toSVG();
   view.finalize();
+  const drawing = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement;
+  setMathematics(drawing);
+  return {text: new XMLSerializer().serializeToString(drawing), width: Number(drawing.getAttribute('width')),
+    height: Number(drawing.getAttribute('height'))};
 }
 
-function chartControls(figure) {
+/// The drawing as PNG, at twice its size.
+async function pngAddress({text, width, height}) {
+  const image = new Image();
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
+  await image.decode();
+  const canvas = element('canvas', {width: 2 * width, height: 2 * height});
+  canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
+  return canvas.toDataURL('image/png');
+}
+
+async function savePicture(figure, kind) {
+  const drawing = await svgText(figure);
+  if (kind === 'svg') save(`${figure.id}.svg`, drawing.text, 'image/svg+xml');
+  else save(`${figure.id}.png`, await pngAddress(drawing));
+}
+
+function chartControls(current) {
   const named = (label, action) => {
-    const made = button(label, action);
-    made.setAttribute('aria-label', `${label}: ${figure.title}`);
+    const made = button(label, () => action(current()));
+    made.setAttribute('aria-label', `${label}: ${current().title}`);
     return made;
   };
   return element('div', {className: 'controls'},
-    named('Save SVG', () => savePicture(figure, 'svg')),
-    named('Save PNG', () => savePicture(figure, 'png')),
-    named('Save specification', () => save(`${figure.id}.vg.json`,
-      `${JSON.stringify(figure.spec(savedWidth), null, 1)}\n`, 'application/json')),
-    named('Save data', () => save(`${figure.id}.csv`, csvOf(figure.datasets), 'text/csv')));
+    named('Save SVG', (figure) => savePicture(figure, 'svg')),
+    named('Save PNG', (figure) => savePicture(figure, 'png')),
+    named('Save specification', (figure) =>
+      save(`${figure.id}.vg.json`, specificationText(figure), 'application/json')),
+    named('Save data', (figure) => save(`${figure.id}.csv`, plainText(csvOf(figure.datasets)), 'text/csv')));
 }
 
-/// Draws, and draws again when the width changes by what a reader would see.
-function drawFigure(figure, place) {
+/// Draws, and draws again when the width changes by what a reader would see, or another figure is set in the place.
+function drawFigure(first, place) {
+  let figure = first, drawn = 0, view = null, waiting = 0;
   const chart = element('div', {className: 'chart', id: `chart-${figure.id}`});
+  const caption = element('figcaption', {}, ...rich(figure.note));
   place.append(element('figure', {attributes: {'aria-labelledby': `title-${figure.id}`}},
-    element('h3', {id: `title-${figure.id}`}, figure.title), element('figcaption', {}, ...rich(figure.note)), chart,
-    chartControls(figure)));
-  let drawn = 0, view = null;
+    element('h3', {id: `title-${figure.id}`}, figure.title), caption, chart, chartControls(() => figure)));
   const draw = async () => {
     const width = chart.clientWidth;
     if (width === 0 || Math.abs(width - drawn) < 8) return;
     drawn = width;
     view?.finalize();
-    view = viewOf(figure.spec(width), {renderer: 'svg', container: chart, hover: false, tooltip: handleTooltip});
-    await view.runAsync();
-    chart.querySelector('svg').setAttribute('role', 'img');
-    chart.querySelector('svg').setAttribute('aria-label', figure.spec(width).description);
+    const spec = figure.spec(width);
+    const own = view = viewOf(spec, {renderer: 'svg', container: chart, hover: false, tooltip: handleTooltip});
+    await own.runAsync();
+    if (own !== view) return;
+    const svg = chart.querySelector('svg');
+    setMathematics(svg);
+    svg.setAttribute('role', 'img');
+    svg.setAttribute('aria-label', plainText(spec.description));
     chart.dataset.drawn = 'yes';
   };
-  let waiting = 0;
   new ResizeObserver(() => {
     clearTimeout(waiting);
     waiting = setTimeout(draw, drawn ? 150 : 0);
   }).observe(chart);
+  return {
+    set(other) {
+      figure = other;
+      caption.replaceChildren(...rich(figure.note));
+      [drawn, chart.dataset.drawn] = [0, 'no'];
+      return draw();
+    },
+  };
 }

@@ -30,14 +30,11 @@ const chartConfig = {
   axis: {
     domainColor: '#777777', tickColor: '#777777', gridColor: faint, gridOpacity: 0.6, labelColor: ink, titleColor: ink,
     labelFontSize: 11, titleFontSize: 12, titleFontWeight: 'normal', titlePadding: 6, tickSize: 4,
-    labelSeparation: 3,
+    labelSeparation: 3, labelFlush: 5,
   },
   title: {color: ink, fontSize: 12, fontWeight: 600, anchor: 'start', offset: 6},
   legend: {labelColor: ink, titleColor: ink, labelFontSize: 11, titleFontSize: 11, labelLimit: 320},
 };
-
-const superscripts = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
-const powerText = (power) => `10${[...String(power)].map((digit) => superscripts[digit]).join('')}`;
 
 /// Four to eight round numbers, evenly spaced.
 function evenTicks([low, high]) {
@@ -66,7 +63,7 @@ function logTicks([low, high]) {
 function logAxis(domain) {
   const values = logTicks(domain);
   const plain = values.every((value) => value >= 1e-3 && value < 1e5);
-  const text = (value) => (plain ? String(value) : powerText(Math.round(Math.log10(value))));
+  const text = (value) => (plain ? String(value) : powerOfTen(Math.round(Math.log10(value))));
   const texts = Object.fromEntries(values.map((value) => [value, text(value)]));
   return {values, labelOverlap: 'greedy', encode: {labels: {update: {text: {
     signal: `(${JSON.stringify(texts)})[datum.value] || ''`}}}}};
@@ -84,11 +81,11 @@ function domainOf(values, {type = 'linear', margin = 0.05} = {}) {
   return [back(low - room), back(high + room)];
 }
 
-/// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left.
-function panelGrid(width, panels, {least = 215, most = 4, left = 66, gap = 18} = {}) {
+/// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left and `right` at the end.
+function panelGrid(width, panels, {least = 215, most = 4, widest = Infinity, left = 76, right = 26, gap = 18} = {}) {
   const fits = Math.floor((width - left + gap) / (least + gap));
   const columns = Math.max(1, Math.min(most, panels, fits));
-  return {columns, width: Math.floor((width - left - 14 - gap * (columns - 1)) / columns)};
+  return {columns, width: Math.min(widest, Math.floor((width - left - right - gap * (columns - 1)) / columns))};
 }
 
 function panelAxes({x, y}, {showX, showY}) {
@@ -116,7 +113,7 @@ function panel({title, width, height, x, y, data = [], marks, showX = true, show
   const scale = (name, range, {type = 'linear', domain}) => ({name, type, domain, range, zero: false, clamp: false});
   return {
     type: 'group',
-    title: {text: wrapped(title, width / 6.9), limit: width, frame: 'group'},
+    ...(title ? {title: {text: wrapped(title, width / 6.9), limit: width, frame: 'group'}} : {}),
     encode: {enter: {width: {value: width}, height: {value: height}}},
     signals: [{name: 'width', value: width}, {name: 'height', value: height}],
     scales: [scale('x', [0, width], x), scale('y', [height, 0], y)],
@@ -124,15 +121,29 @@ function panel({title, width, height, x, y, data = [], marks, showX = true, show
   };
 }
 
-/// A legend above the chart, its entries below each other where the page is narrow.
-const horizontal = (legend, width) => ({
-  orient: 'top', direction: 'horizontal', columns: width < 560 ? 1 : 0, ...legend,
-});
+/// Pixels that an entry of a legend takes; Vega makes room for what stands for mathematics, too.
+const entryWidth = (text) => 30 + 6.6 * text.length;
 
-/// The look of a chart; legends stand below each other where the page is narrow.
-const configFor = (width) => ({
+/// Legends above the chart, `texts` what their entries are called: beside each other if there is room, else below.
+function placedLegends(legends, scales, width) {
+  const widths = [];
+  const placed = legends.map(({texts, ...legend}) => {
+    const {domain} = scales.find(({name}) => name === (legend.fill ?? legend.stroke ?? legend.shape));
+    const entries = domain.map((value) => entryWidth(texts?.[value] ?? String(value)));
+    const sum = entries.reduce((total, one) => total + one, legend.title ? 20 : 0);
+    widths.push(sum);
+    const columns = sum <= width ? 0 : Math.max(1, Math.floor(width / Math.max(...entries)));
+    const labels = texts ? {encode: {labels: {update: {text: {
+      signal: `(${JSON.stringify(texts)})[datum.value]`}}}}} : {};
+    return {orient: 'top', direction: 'horizontal', columns, ...labels, ...legend};
+  });
+  return {legends: placed, beside: widths.reduce((total, one) => total + one + 14, 0) <= width};
+}
+
+/// The look of a chart whose legends stand beside or below each other.
+const configFor = (beside) => ({
   ...chartConfig,
-  legend: {...chartConfig.legend, layout: {top: {direction: width < 560 ? 'vertical' : 'horizontal', anchor: 'start'}}},
+  legend: {...chartConfig.legend, layout: {top: {direction: beside ? 'horizontal' : 'vertical', anchor: 'start'}}},
 });
 
 /// A specification of panels in a grid. `panelsOf(grid)` is called with the place of each panel.
@@ -144,10 +155,10 @@ function panelSpec({description, width, count, height = 190, datasets, legends =
       width: panelWidth, height, showY: index % columns === 0, showX: index + columns >= count,
     }));
   }
+  const {legends: placed, beside} = placedLegends(legends, scales, width - 84);
   return {
-    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: configFor(width),
-    scales,
-    legends: legends.map((legend) => horizontal(legend, width)),
+    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: configFor(beside),
+    scales, legends: placed,
     data: Object.entries(datasets).map(([name, values]) => ({name, values})),
     layout: {columns, bounds: 'full', align: 'all', padding: {row: 16, column: 12}},
     marks,
@@ -173,7 +184,7 @@ const inPanel = (fieldX, fieldY) => ({x: {scale: 'x', field: fieldX}, y: {scale:
 
 function points(from, x, y, {colour, shape = 'circle', size = 30, hollow = 'false', tooltip, opacity = 1, style}) {
   return {
-    type: 'symbol', from: {data: from}, ...styled(style, 'symbol', from),
+    type: 'symbol', from: {data: from}, clip: true, ...styled(style, 'symbol', from),
     encode: {enter: {
       ...inPanel(x, y), size: {value: size}, shape: typeof shape === 'string' ? {value: shape} : shape,
       fill: [{test: hollow, value: 'transparent'}, colour], stroke: colour, strokeWidth: {value: 1.3},
@@ -201,7 +212,7 @@ function lines(from, x, y, {by, colour, width = 1.3, dash = [], opacity = 1, sty
 /// A vertical bar from `low` to `high`.
 function errorBars(from, x, low, high, {colour, style}) {
   return {
-    type: 'rule', from: {data: from}, ...styled(style, 'rule', from),
+    type: 'rule', from: {data: from}, clip: true, ...styled(style, 'rule', from),
     encode: {enter: {
       x: {scale: 'x', field: x}, y: {scale: 'y', field: low}, y2: {scale: 'y', field: high},
       stroke: colour, strokeWidth: {value: 1.5},

@@ -75,7 +75,7 @@ std::string point_of(const Row& row) { return point_text(row.solid, row.particle
 double sixth_root(double energy) { return energy > 0 ? std::cbrt(std::sqrt(energy)) : 0; }
 
 /// Those of a state that charts draw against Δφ, by name.
-constexpr std::array drawn_quantities{"Z", "Z_ff", "Z_ef", "Z_l", "C", "omega_l", "omega_h"};
+constexpr std::array drawn_quantities{"Z", "Z_ff", "Z_ef", "Z_l", "C", "omega_l", "omega_h", "K", "G"};
 
 Json state_points(const Json& record) {
   Json points = Json::array();

@@ -19,8 +19,9 @@ namespace isojam {
 ///               ⟨ω⟩ over its replicates) and "angles" (CDFs over its replicates), both without the excluded
 ///   csv, latex  the same table as text
 ///   replicates  of each: "name", "row", "status", "flags", "excluded", "failure", cost, "states", "line" (the
-///   extrapolation) solids      shapes and reference curves of the solids that occur views       packing_view of
-///   `views`, with the name of the replicate
+///               extrapolation)
+///   solids      shapes and reference curves of the solids that occur
+///   views       packing_view of `views`, with the name of the replicate
 Json report_data(const Results& results, const std::map<std::size_t, Json>& views);
 
 }  // namespace isojam

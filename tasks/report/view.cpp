@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <tuple>
 
 #include "engine/analysis/orientation_order.hpp"
 #include "engine/packing/energy.hpp"
@@ -17,6 +19,8 @@ namespace {
 
 /// Decimals that a screen can show.
 constexpr double length_unit = 1e5, mode_unit = 1e3;
+/// Forces are told in parts of the largest, places of contacts in hundredths of a length.
+constexpr double force_parts = 1000, place_parts = 100;
 /// A view is not worth the dense solver's minutes.
 constexpr int largest_dense_view = 100;
 
@@ -63,6 +67,37 @@ void put_contacts(Json& json, std::span<const Contact> contacts, int particles) 
   json["local_Q6"] = Json::array();
   for (const auto& order : local_steinhardt_order(contacts, particles, 6))
     json["local_Q6"].push_back(order ? Json(shortened(*order, mode_unit)) : Json(nullptr));
+}
+
+/// Where the force of a contact acts, from A's centre, A's body frame: where its line leaves A, towards B. The line is
+/// that on which the force has the torque of the contact, but for what turns about the line itself.
+Eigen::Vector3d place_of_force(const Contact& contact, const ConvexSolid& a) {
+  const auto& [area, moment] = std::tie(contact.overlap.area, contact.overlap.moment);
+  const Eigen::Vector3d along = area.normalized();
+  const Eigen::Vector3d on_line = area.cross(moment) / area.squaredNorm();
+  double exit = std::numeric_limits<double>::infinity();
+  for (const auto& face : a.faces()) {
+    const double slope = face.normal.dot(along);
+    if (slope > 0) exit = std::min(exit, (face.offset - face.normal.dot(on_line)) / slope);
+  }
+  return on_line + along * exit;
+}
+
+void put_forces(Json& json, std::span<const Contact> contacts, const Packing& packing) {
+  const auto force_of = [](const Overlap& overlap) { return overlap.volume / 2 * overlap.area.norm(); };
+  double largest = 0;
+  for (const auto& contact : contacts) largest = std::max(largest, force_of(contact.overlap));
+  json["largest_force"] = largest;
+  json["forces"] = Json::array();
+  for (const auto& contact : contacts) {
+    if (!(contact.overlap.area.squaredNorm() > 0)) continue;  // so small that it underflows
+    const auto& pose = packing.poses[static_cast<std::size_t>(contact.pair.a)];
+    const Eigen::Vector3d place = pose.orientation.normalized() *
+                                  place_of_force(contact, packing.solids[static_cast<std::size_t>(contact.pair.a)]);
+    json["forces"].insert(json["forces"].end(), {contact.pair.a, contact.pair.b,
+                                                 std::lround(force_parts * force_of(contact.overlap) / largest)});
+    for (const double x : place) json["forces"].push_back(std::lround(place_parts * x));
+  }
 }
 
 void put_clusters(Json& json, const Packing& packing, const ClassifiedContacts& classified) {
@@ -128,13 +163,14 @@ std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& 
     most = std::max(most, replicates.size());
   }
   std::vector<ChosenView> chosen;
-  int left = options.budget;
+  int left = options.budget, room = options.most_particles;
   for (std::size_t turn = 0; turn < most; ++turn) {
     for (const auto& [point, replicates] : points) {
       if (turn >= replicates.size()) continue;
       const int particles = results.replicates[replicates[turn]].summary.particles;
+      if (turn > 0 && particles > room) continue;
+      room -= particles;
       const bool affordable = particles <= left;
-      if (turn > 0 && !affordable) continue;
       if (affordable) left -= particles;
       chosen.push_back({replicates[turn], affordable});
     }
@@ -168,6 +204,7 @@ Json packing_view(const Packing& packing, int modes) {
   json["cell"] = vectors_of(packing.cell);
   put_poses(json, packing);
   put_contacts(json, classified.contacts, packing.size());
+  put_forces(json, classified.contacts, packing);
   put_clusters(json, packing, classified);
   json["modes"] = mode_list(packing, energy, modes);
   return json;

@@ -10,9 +10,11 @@
 namespace isojam {
 
 struct ViewOptions {
-  /// Particles of all views with modes together, a quarter to one millisecond and some 300 bytes each. The one view of
-  /// every sweep point is made even beyond it, without modes.
+  /// Particles of all views with modes together, a quarter to one millisecond and some 300 bytes each.
   int budget = 2000;
+  /// Particles of all views together, some 160 bytes each, half of them forces. The one view of every sweep point is
+  /// made even beyond it.
+  int most_particles = 40000;
   int modes = 4;  ///< vibrations at either end of the spectrum
 };
 
@@ -23,13 +25,14 @@ struct ChosenView {
 };
 
 /// Chooses of each sweep point the first replicate without failure, an unflagged one if there is one; then further
-/// ones, sweep points in turn, within the budget. In order of replicates.
+/// ones, sweep points in turn, as long as there is room. In order of replicates.
 std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& options = {});
 
 /// A packing for the three-dimensional view: positions (in the cell), orientations (w, x, y, z), per particle its
-/// contacts, local Q6 and cluster of face-face contacts, the largest cluster unwrapped, and `modes` vibrations at
-/// either end (0: none), each with ω (null where λ ≤ 0) and its displacements, per particle (x, θ) in the lab frame,
-/// the greatest 1. Absent: null.
+/// contacts, local Q6 and cluster of face-face contacts, the largest cluster unwrapped, its largest force
+/// (Y·V_p^(2/3)), per contact six integers in a row (a, b, force in thousandths of the largest, the place where it acts
+/// from the centre of a in hundredths, lab frame), and `modes` vibrations at either end (0: none), each with ω (null
+/// where λ ≤ 0) and its displacements, per particle (x, θ) in the lab frame, the greatest 1. Absent: null.
 Json packing_view(const Packing& packing, int modes);
 
 /// {"members", "positions", "winding_rank"} of a cluster followed along its bonds, its mean position the centre of the

@@ -1,6 +1,7 @@
 """Results directories for the browser test: a real run, what may become of one, and packings made by hand."""
 
 import copy
+import fractions
 import json
 import math
 import pathlib
@@ -45,10 +46,10 @@ def text_of(document, **form):
     return re.sub(f'"{NUMBER}([^"]*)"', r"\1", json.dumps(document, ensure_ascii=False, **form))
 
 
-def write_sealed(path, document):
+def write_sealed(path, document, indent=2):
     """As isojam seals its files: the checksum of the text with zeros in its place stands second."""
     first, *others = [(key, value) for key, value in document.items() if key != "checksum"]
-    text = text_of(dict([first, ("checksum", "0" * 16), *others]), indent=2) + "\n"
+    text = text_of(dict([first, ("checksum", "0" * 16), *others]), indent=indent) + "\n"
     path.write_text(text.replace("0" * 16, checksum(text.encode()), 1), encoding="utf-8")
 
 
@@ -82,6 +83,53 @@ def fail(record):
     record["failure"] = {"where": "jam", "why": "made to fail"}
     for key in ("flags", "phi_j", "nearest"):
         record.pop(key)
+
+
+MOVED = {"Z": 0.2, "Z_ff": 0.1, "Z_ef": 0.1, "Z_l": 0.2, "C": 0.3, "energy_per_particle": 0, "omega_l": 0, "omega_h": 0,
+         "K": 0, "G": 0, "cpu_seconds": 0, "density": 0, "stress": 0}
+
+
+def slim(value):
+    """A record whose long lists of numbers are thinned: writing hundreds is to be quick."""
+    if isinstance(value, dict):
+        return {key: slim(part) for key, part in value.items()}
+    if not isinstance(value, list):
+        return value
+    step = math.ceil(len(value) / 30) if value and isinstance(value[0], (str, int)) else 1
+    return [slim(part) for part in value[::step]]
+
+
+def written_alike(number):
+    """A number near by of few digits, well within those that round to it: fast printers miss the shortest digits of
+    others now and then."""
+    for digits in range(8, 0, -1):
+        text = f"{number:.{digits}g}"
+        if abs(fractions.Fraction(text) - fractions.Fraction(float(text))) < 0.4 * fractions.Fraction(math.ulp(number)):
+            return float(text)
+    return 0.0
+
+
+def moved(value, numbers, denser):
+    """The record of another replicate: densities moved together, other numbers one by one."""
+    shift = denser + numbers.gauss(0, 0.004)
+
+    def change(part, key=None):
+        if isinstance(part, dict):
+            return {name: change(inner, name) for name, inner in part.items()}
+        if isinstance(part, list):
+            return [change(inner, key) for inner in part]
+        if not isinstance(part, str) or not part.startswith(NUMBER):
+            return part
+        number = float(part[len(NUMBER):])
+        if key in ("phi", "phi_j"):
+            number += shift
+        elif key in MOVED:
+            number = number + numbers.gauss(0, MOVED[key]) if MOVED[key] else number * math.exp(numbers.gauss(0, 0.15))
+        else:
+            return part
+        return written_alike(number)
+
+    return change(value)
 
 
 class Pages:
@@ -146,6 +194,29 @@ class Pages:
 
         for path in sorted((directory / "records").iterdir()):
             change_record(path, forge)
+        return directory
+
+    def many(self, name, source, replicates, solids):
+        """As many replicates of every sweep point, slim copies of real ones, moved at random; every tenth is a crystal,
+        denser by far. Those of a point in `solids` get that solid; the others' first ones have their packings."""
+        directory = self.root / name
+        shutil.copytree(source, directory, ignore=lambda folder, names: [entry for entry in names if "-r" in entry])
+        numbers, points = random.Random(5), {}
+        for path in sorted((source / "records").iterdir()):
+            points.setdefault(path.stem.rpartition("-r")[0], []).append(path)
+        for stem, paths in points.items():
+            originals = [slim(read(path)) for path in paths]
+            for k in range(replicates):
+                record = moved(originals[k % len(paths)], numbers, 0.08 if k % 10 == 9 else 0)
+                record["spec"].update(replicate=k, solid=solids.get(stem, record["spec"]["solid"]))
+                record["flags"] = ["crystalline"] if k % 10 == 9 else ["not_stable"] if k % 10 == 4 else []
+                record["result_digest"] = result_digest(record)
+                copy_name = f"{record['spec']['solid']}-N{record['spec']['particles']}-r{k:04}"
+                write_sealed(directory / "records" / f"{copy_name}.json", record, indent=None)
+                if stem not in solids and k < len(paths):
+                    held = read(source / "packings" / paths[k].name)
+                    held.update(replicate=copy_name, result_digest=record["result_digest"])
+                    write_sealed(directory / "packings" / f"{copy_name}.json", held)
         return directory
 
     def by_hand(self, name, source, solid, particles, density):

@@ -1,116 +1,88 @@
 'use strict';
 
-const randomColours = {'random, edge in face': '#777777', 'random, unconstrained': '#aaa9a2'};
-
-function angleData(data, kind) {
-  const cdf = [], random = [], critical = [], regions = [];
-  data.rows.forEach((row, index) => {
-    const pooled = row.angles?.[kind];
-    if (!pooled) return;
-    for (const [theta, c] of pooled.cdf) cdf.push({row: index, theta, c, series: 'packings'});
-    if (pooled.cutoff !== null) regions.push({row: index, cutoff: pooled.cutoff});
-    const {random: curves, critical: angles} = data.solids[row.solid];
-    for (const {which, [kind]: curve} of curves ?? []) {
-      for (const [theta, c] of curve) random.push({row: index, which, theta, c});
-    }
-    for (const {topology, angle} of angles?.[kind] ?? []) {
-      const below = pooled.cdf.filter(([theta]) => theta <= angle);
-      if (below.length > 0) critical.push({row: index, topology, theta: angle, c: below.at(-1)[1]});
-    }
-  });
-  return {cdf, random, critical, regions};
-}
-
-/// Region 1 of the paper: angles below the fitted cut-off, face-face contacts proper.
-const regionMark = (from) => ({
-  type: 'rect', from: {data: from},
-  encode: {enter: {
-    x: {value: 0}, x2: {scale: 'x', field: 'cutoff'}, y: {value: 0}, y2: {signal: 'height'},
-    fill: {value: '#888888'}, fillOpacity: {value: 0.18}, tooltip: tooltipOf({'cut-off, degrees': 'cutoff'}),
-  }},
-});
-
-function anglePanel(data, row, index, place, {x, y, kind, datasets}) {
-  const colour = {value: solidColours[row.solid]};
-  const random = {scale: 'random', field: 'which'};
-  const region = datasets.regions.some((entry) => entry.row === index);
-  return panel({...place, title: row.label, x, y,
-    data: ['cdf', 'random', 'critical', 'regions'].map((name) => rowsOf(name, index)),
-    marks: [
-      ...(region && kind === 'face_face' ? [regionMark(`regions_${index}`)] : []),
-      lines(`random_${index}`, 'theta', 'c', {by: 'which', colour: random, width: 1.3, dash: [5, 3]}),
-      lines(`cdf_${index}`, 'theta', 'c', {by: 'series', colour, width: 1.8, step: true}),
-      points(`critical_${index}`, 'theta', 'c', {colour: {value: ink}, size: 45, hollow: 'true', style: 'ink',
-        shape: {scale: 'topology', field: 'topology'},
-        tooltip: {'critical angle of': 'topology', 'degrees': 'theta', 'c': 'c'}}),
-    ]});
-}
-
-function angleFigure(data, kind, {title, id, symbol}) {
-  const raw = angleData(data, kind);
-  if (raw.cdf.length === 0) {
-    return {id, title, absent: 'This sweep has no alignment angles: add "contacts" to the manifest’s "measure".'};
-  }
-  const {present, renumbered} = panelsFor(data, raw.cdf);
-  const datasets = Object.fromEntries(Object.entries(raw).map(([name, list]) => [name, renumbered(list)]));
-  const [least] = domainOf(datasets.cdf.map((row) => row.theta), {type: 'log'});
-  const x = {type: 'log', domain: [Math.min(0.1, Math.max(1e-3, least)), 90], title: `${symbol}, degrees`};
-  const y = {type: 'log', title: `c(${symbol})`, domain: [
-    Math.max(1e-4, domainOf(datasets.cdf.map((row) => row.c), {type: 'log'})[0]), 1.15]};
-  // Curves leave the window on the left where the random ones are still falling.
-  datasets.random = datasets.random.filter((row) => row.theta >= x.domain[0] && row.c >= y.domain[0]);
-  const shapes = {'vertex-face': 'triangle-up', 'edge-edge': 'cross', 'edge-face': 'square'};
-  const topologies = Object.keys(shapes).slice(0, kind === 'face_face' ? 3 : 2);
-  return {
-    id, title, datasets,
-    note: `Cumulative distribution of ${symbol} over all contacts nearest jamming of a sweep point’s ` +
-      `${countedText(data)}, beside ideal random contacts; symbols mark the critical angles that the topologies ` +
-      'allow. ' +
-      (kind === 'face_face' ? 'Shaded: region 1, below the cut-off of face-face contacts (median of the ' +
-        'replicates). Figure 2(b) of the paper.' : 'Figure 2(a) of the paper.'),
-    spec: (width) => panelSpec({
-      description: `${title}: cumulative distributions, both axes logarithmic.`, width, count: present.length, datasets,
-      height: 220,
-      scales: [
-        {name: 'random', type: 'ordinal', domain: Object.keys(randomColours), range: Object.values(randomColours)},
-        {name: 'topology', type: 'ordinal', domain: topologies, range: topologies.map((name) => shapes[name])},
-      ],
-      legends: [{stroke: 'random', symbolType: 'stroke', symbolStrokeWidth: 2},
-        {shape: 'topology', symbolStrokeColor: ink, encode: {labels: {update: {text: {
-          signal: "'critical angle, ' + datum.value"}}}}}],
-      panelAt: (index, place) => anglePanel(data, present[index], index, place, {x, y, kind, datasets}),
-    }),
-  };
-}
-
 const contactSeries = {
-  C: {colour: '#d55e00', label: 'constraints C', shape: 'circle'},
-  Z: {colour: '#0072b2', label: 'contacts Z', shape: 'square'},
-  Z_ff: {colour: '#009e73', label: 'face-face contacts', shape: 'diamond'},
+  C: {colour: '#d55e00', label: 'constraints $C$', shape: 'circle'},
+  Z: {colour: '#0072b2', label: 'contacts $Z$', shape: 'square'},
+  Z_ff: {colour: '#009e73', label: 'face-face contacts $Z_{ff}$', shape: 'diamond'},
 };
 
-function topologyData(data) {
-  const states = [], means = [];
-  for (const {name, row, states: all} of data.replicates) {
-    for (const state of all) {
-      for (const [key, {label}] of Object.entries(contactSeries)) {
-        if (state.delta_phi > 0 && state[key] !== null) {
-          states.push({row, name, series: label, delta_phi: state.delta_phi, value: state[key]});
-        }
-      }
-    }
+const labelsOf = (series) => Object.fromEntries(Object.entries(series).map(([key, {label}]) => [key, label]));
+
+/// Curves of the quantity `key` of a state above jamming, positive where `above` is given.
+const stateCurve = (key, above = -Infinity) => ({states}) => states
+  .filter((state) => state.delta_phi > 0 && isNumber(state[key]) && state[key] > above)
+  .map((state) => [state.delta_phi, state[key]]);
+
+/// Points or boxes of several quantities of states against Δφ.
+function stateEntries(data, keys, {tag, above, yType}) {
+  const all = {points: [], boxes: []};
+  for (const key of keys) {
+    const found = pointsOrBoxes(data, {curveOf: stateCurve(key, above), type: 'log', yType,
+      tag: (row) => ({...tag(row), series: key}), names: ['delta_phi', 'value']});
+    all.points.push(...found.points);
+    all.boxes.push(...found.boxes);
   }
-  data.rows.forEach(({series}, row) => {
-    for (const point of series) {
-      for (const [key, {label}] of Object.entries(contactSeries)) {
-        const estimate = point[key];
-        if (!estimate || estimate.mean === null) continue;
-        const [low, high] = estimate.ci95 ?? [estimate.mean, estimate.mean];
-        means.push({row, series: label, delta_phi: point.delta_phi, value: estimate.mean, low, high, n: estimate.n});
-      }
+  return all;
+}
+
+/// Means of the tables at common Δφ; `tag(row, place of the key)`.
+function meanEntries(data, keys, {tag}) {
+  const means = [];
+  data.rows.forEach(({series}, row) => keys.forEach((key, place) => {
+    const along = series.filter((point) => isNumber(point[key]?.mean))
+      .map((point) => ({...point[key], delta_phi: point.delta_phi}));
+    for (const {mean, ci95, n, delta_phi} of along.length > 0 ? along : nearestEntry(data, row, key)) {
+      const [low, high] = ci95 ?? [mean, mean];
+      means.push({...tag(row, place), series: key, delta_phi, value: mean, low, high, n});
     }
-  });
-  return {states, means};
+  }));
+  return means;
+}
+
+/// Mean nearest jamming, for sweep points that have none at a common Δφ.
+function nearestEntry(data, row, key) {
+  const estimate = data.rows[row][key];
+  const nearest = data.replicates.filter((replicate) => replicate.row === row && !replicate.excluded)
+    .map((replicate) => Math.min(...stateCurve(key)(replicate).map(([distance]) => distance))).filter(Number.isFinite);
+  if (!isNumber(estimate?.mean) || nearest.length === 0) return [];
+  return [{...estimate, delta_phi: nearest.reduce((a, b) => a + b) / nearest.length}];
+}
+
+/// Medians and quartiles at common Δφ, or nearest jamming where there is none: of quantities that grow as powers, which
+/// are interpolated in logarithms.
+function medianEntries(data, keys, {tag, above}) {
+  const entries = [];
+  data.rows.forEach((_, row) => keys.forEach((key, place) => {
+    const curves = data.replicates.filter((replicate) => replicate.row === row && !replicate.excluded)
+      .map(stateCurve(key, above)).filter((curve) => curve.length > 0);
+    const along = boxesOver(curves, seriesDistances, {type: 'log', yType: 'log', least: 0});
+    const nearest = curves.map((curve) => curve.reduce((a, b) => (a[0] < b[0] ? a : b)));
+    const ends = curves.length === 0 ? [] : [{...boxOf(nearest.map(([, value]) => value)),
+      at: boxOf(nearest.map(([distance]) => distance)).median}];
+    for (const {at, median, q1, q3, n} of along.length > 0 ? along : ends)
+      entries.push({...tag(row, place), series: key, delta_phi: at, value: median, low: q1, high: q3, n});
+  }));
+  return entries;
+}
+
+/// Rows of `data` of which some replicate has a state with one of these quantities.
+const rowsWith = (data, keys, above) => data.replicates
+  .filter((replicate) => keys.some((key) => stateCurve(key, above)(replicate).length > 0)).map(({row}) => row);
+
+const meanTooltip = {'': 'group', '$Δφ$': 'delta_phi', value: 'value', from: 'low', to: 'high', n: 'n'};
+
+/// Means with intervals and the lines that join them.
+function meanMarks(index, {colour, shape, by, dash, size = 36}) {
+  const from = `means_${index}`;
+  const marks = [
+    lines(from, 'delta_phi', 'value', {by, colour, width: 1.2, defined: 'datum.n > 1'}),
+    errorBars(from, 'delta_phi', 'low', 'high', {colour}),
+    points(from, 'delta_phi', 'value', {colour, shape, size, hollow: ofOne, tooltip: meanTooltip}),
+  ];
+  if (!dash) return marks;
+  marks[0].marks[0].encode.enter.strokeDash = dash;
+  marks[0].marks[0].encode.enter.x = marks[1].encode.enter.x = marks[2].encode.enter.x = dodged('delta_phi');
+  return marks;
 }
 
 /// C = 12, twice the degrees of freedom of a particle.
@@ -120,49 +92,91 @@ const isostaticLine = () => ({
   }},
 });
 
-function topologyPanel(row, index, place, {x, y}) {
+function topologyPanel(placement, index, place, {x, y, boxes}) {
   const colour = {scale: 'series', field: 'series'}, shape = {scale: 'seriesShape', field: 'series'};
-  return panel({...place, title: row.label, x, y, data: [rowsOf('states', index), rowsOf('means', index)],
+  return panel({...place, title: placement.title(index), x, y,
+    data: [rowsOf('states', index), rowsOf('boxes', index), rowsOf('means', index)],
     marks: [
       isostaticLine(),
-      points(`states_${index}`, 'delta_phi', 'value', {colour, size: 9, opacity: 0.3,
-        tooltip: {replicate: 'name', '': 'series', 'Δφ': 'delta_phi', value: 'value'}}),
-      lines(`means_${index}`, 'delta_phi', 'value', {by: 'series', colour, width: 1.2, defined: 'datum.n > 1'}),
-      errorBars(`means_${index}`, 'delta_phi', 'low', 'high', {colour}),
-      points(`means_${index}`, 'delta_phi', 'value', {colour, shape, size: 36, hollow: ofOne,
-        tooltip: {'': 'series', 'Δφ': 'delta_phi', mean: 'value', from: 'low', to: 'high', n: 'n'}}),
+      points(`states_${index}`, 'delta_phi', 'value', {colour, size: 9, opacity: 0.3, hollow: 'datum.excluded',
+        tooltip: {replicate: 'name', '': 'series', '$Δφ$': 'delta_phi', value: 'value'}}),
+      ...uprightBoxes(`boxes_${index}`, 'delta_phi', {colour, width: 11,
+        tooltip: {'': 'series', '$Δφ$': 'delta_phi', ...boxTooltip}}),
+      ...meanMarks(index, {colour, shape, by: 'series', size: boxes.some(({row}) => row === index) ? 12 : 36}),
     ]});
 }
 
-function topologyFigure(data) {
-  const title = 'Contacts and constraints on the way to jamming', id = 'topology';
-  const raw = topologyData(data);
-  if (raw.states.length === 0) {
-    return {id, title, absent: 'This sweep has no contact numbers: add "contacts" to the manifest’s "measure".'};
-  }
-  const {present, renumbered} = panelsFor(data, raw.states);
-  const datasets = {means: renumbered(raw.means), states: renumbered(raw.states)};
-  const distances = [...datasets.states, ...datasets.means].map((row) => row.delta_phi);
-  const x = {type: 'log', title: 'Δφ', domain: domainOf(distances, {type: 'log'})};
-  const highest = Math.max(14, ...datasets.states.map((row) => row.value), ...datasets.means.map((row) => row.high));
-  const low = Math.min(0, ...datasets.means.map((row) => row.low));
-  const y = {domain: [low, highest * 1.03], title: 'mean per particle', ticks: 6};
+const contactsAbsent = 'This sweep has no contact numbers: add "contacts" to the manifest’s "measure".';
+const contactsTitle = 'Contacts and constraints on the way to jamming';
+
+function topologyFigure(data, choices) {
+  const title = contactsTitle, id = 'topology', keys = Object.keys(contactSeries);
+  const rows = rowsWith(data, keys);
+  if (rows.length === 0) return {id, title, absent: contactsAbsent};
+  if (choices.together) return topologyTogether(data, rows);
+  const placement = placementOf(data, rows, choices);
+  const {points: states, boxes} = stateEntries(data, keys, placement);
+  const means = meanEntries(data, keys, placement).filter(({row}) => row >= 0);
+  const counted = deciding(states, choices, boxes), deciders = deciding(boxes, choices, states);
+  const x = {type: 'log', title: '$Δφ$',
+    domain: domainOf([...counted, ...deciders, ...means].map((row) => row.delta_phi), {type: 'log'})};
+  const highest = Math.max(14, ...counted.map((row) => row.value), ...[...means, ...deciders].map((row) => row.high));
+  const y = {title: 'mean per particle', ticks: 6,
+    domain: [Math.min(0, ...means.map((row) => row.low)), highest * 1.03]};
   const series = Object.values(contactSeries);
-  const labels = series.map(({label}) => label);
   return {
-    id, title, datasets,
+    id, title, datasets: {means, states, boxes},
     note: `Every state (dots), and means over ${countedText(data)} with 95 % intervals, interpolated at common ` +
-      'distances above jamming; open, and joined by no line, if of one replicate alone. Dotted line: C = 12, the ' +
-      'isostatic number of constraints. Figure 3 of the paper.',
-    spec: (width) => panelSpec({
+      'distances above jamming; open, and joined by no line, if of one replicate alone. Dotted line: $C$ = 12, the ' +
+      `isostatic number of constraints. Figure 3 of the paper.${boxText(boxes, 'at common $Δφ$')}` +
+      outsideText(states, [['delta_phi', x.domain], ['value', y.domain]], boxes),
+    spec: (width) => placedSpec(placement, {
       description: 'Contacts, face-face contacts and constraints per particle against distance above jamming.',
-      width, count: present.length, datasets, height: 240,
+      width, datasets: {means, states, boxes}, height: 240,
       scales: [
-        {name: 'series', type: 'ordinal', domain: labels, range: series.map(({colour}) => colour)},
-        {name: 'seriesShape', type: 'ordinal', domain: labels, range: series.map(({shape}) => shape)},
+        {name: 'series', type: 'ordinal', domain: keys, range: series.map(({colour}) => colour)},
+        {name: 'seriesShape', type: 'ordinal', domain: keys, range: series.map(({shape}) => shape)},
       ],
-      legends: [{fill: 'series', stroke: 'series', shape: 'seriesShape'}],
-      panelAt: (index, place) => topologyPanel(present[index], index, place, {x, y}),
+      legends: [{fill: 'series', stroke: 'series', shape: 'seriesShape', texts: labelsOf(contactSeries)}],
+      panelAt: (index, place) => topologyPanel(placement, index, place, {x, y, boxes}),
     }),
+  };
+}
+
+/// Means of several quantities against Δφ, or medians on a logarithmic axis, each in a chart for all solids.
+function meansTogether(data, rows, {keys, titles, yType, above, yTitle, more = () => [], zero = false}) {
+  const placement = placementOf(data, rows, {together: true}, titles);
+  const tag = (row, place) => placement.tag(row, Math.min(place, titles.length - 1));
+  const means = (yType === 'log' ? medianEntries : meanEntries)(data, keys, {tag, above})
+    .map((entry) => ({...entry, line: `${entry.group} ${entry.series}`}));
+  const x = {type: 'log', title: '$Δφ$',
+    domain: domainOf(means.map((row) => row.delta_phi), {type: 'log', margin: 0.09}) ?? [0.01, 0.1]};
+  const yOf = (index) => {
+    const own = means.filter(({row}) => row === index).flatMap(({low, high}) => [low, high]);
+    const domain = domainOf(zero ? [0, ...own] : own, {type: yType, margin: 0.06}) ?? [0.1, 1];
+    return {type: yType, title: yTitle, domain: zero ? [Math.min(0, ...own), domain[1]] : domain};
+  };
+  const dash = {signal: `(${JSON.stringify(Object.fromEntries(
+    rows.map((row) => [data.rows[row].label, placement.dash(data.rows[row].label)])))})[datum.group]`};
+  return {
+    datasets: {means},
+    spec: (width, description) => placedSpec(placement, {width, description, datasets: {means},
+      panelAt: (index, place) => panel({...place, showX: true, showY: true, title: placement.title(index), x,
+        y: yOf(index), data: [rowsOf('means', index)],
+        marks: [...more(index), ...meanMarks(index, {...placement, by: 'line', dash})]})}),
+  };
+}
+
+function topologyTogether(data, rows) {
+  const keys = ['Z', 'C', 'Z_ff'];
+  const made = meansTogether(data, rows, {keys, titles: keys.map((key) => contactSeries[key].label), zero: true,
+    more: (index) => (keys[index] === 'C' ? [isostaticLine()] : [])});
+  return {
+    id: 'topology', title: contactsTitle, datasets: made.datasets,
+    note: `Means over ${countedText(data)} with 95 % intervals, interpolated at common distances above jamming and ` +
+      'set slightly apart; open, and joined by no line, if of one replicate alone. Dotted line: $C$ = 12, the ' +
+      'isostatic number of constraints. As Figure 3(a) to (c) of the paper.',
+    spec: (width) => made.spec(width, 'Contacts, constraints and face-face contacts of all solids against distance ' +
+      'above jamming.'),
   };
 }

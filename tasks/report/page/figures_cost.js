@@ -9,11 +9,13 @@ function costFigure(data, key, id) {
     status: replicate.status, cost: replicate[key],
   }));
   if (replicates.length === 0) return {id, title, absent: 'The records of this sweep hold no such cost.'};
+  const tall = hasSwarm(replicates);
   const domain = domainOf(replicates.map((row) => row.cost), {type: 'log', margin: 0.06});
   const mark = {
     type: 'symbol', from: {data: 'replicates'},
     encode: {enter: {
-      x: {scale: 'x', field: 'cost'}, y: {scale: 'y', field: 'label', band: 0.5}, size: {value: 45},
+      x: {scale: 'x', field: 'cost'}, y: {scale: 'y', field: 'label', band: 0.5, offset: {field: 'offset'}},
+      size: {field: 'size'},
       shape: [{test: "datum.status === 'failed'", value: 'cross'}, {scale: 'shape', field: 'solid'}],
       fill: solidColour, stroke: solidColour, fillOpacity: {value: 0.5},
       tooltip: tooltipOf({replicate: 'name', status: 'status', [costKinds[key].title]: 'cost'}),
@@ -21,12 +23,14 @@ function costFigure(data, key, id) {
   };
   return {
     id, title, datasets: {replicates},
-    note: key === 'cpu_seconds' ? 'CPU time of the thread that ran each replicate; crosses failed.' :
-      'What a replicate costs on any machine: evaluations of energy and forces; crosses failed.',
+    note: (key === 'cpu_seconds' ? 'CPU time of the thread that ran each replicate; crosses failed.' :
+      'What a replicate costs on any machine: evaluations of energy and forces; crosses failed.') + swarmText(tall),
     spec: (width) => bandSpec({
       description: `${title}, by sweep point.`, width, labels: data.rows.map((row) => row.label),
-      datasets: {replicates}, x: {type: 'log', domain, title: costKinds[key].title}, marks: [mark],
-      bandHeight: width < 560 ? 44 : 30, scales: [solidScale(), shapeScale()],
+      datasets: (position, height) => ({replicates: swarmed(replicates, ({label}) => label,
+        ({cost}) => position(cost), height * 0.4 - (width < 560 ? 6 : 0))}),
+      x: {type: 'log', domain, title: costKinds[key].title}, marks: [mark],
+      bandHeight: (width < 560 ? 44 : 30) * (tall ? 2 : 1), scales: [solidScale(), shapeScale()],
     }),
   };
 }
@@ -88,7 +92,7 @@ function stopFigure(data) {
       'residual was reached or cannot be resolved any lower (precision_floor); the others gave no state.',
     spec: (width) => bandSpec({
       description: 'Minimisations of the expansions by the reason for which they stopped.', width,
-      labels: data.rows.map((row) => row.label).filter((label) => sums.has(label)), datasets: {stops: rows},
+      labels: data.rows.map((row) => row.label).filter((label) => sums.has(label)), datasets: () => ({stops: rows}),
       x: {domain: [0, most], title: 'minimisations'}, marks: [bar, number], bandHeight: width < 560 ? 66 : 44,
       scales: [{name: 'reason', type: 'ordinal', domain: domainOfReasons,
         range: domainOfReasons.map((reason) => reasonColours[reason] ?? '#777777')}],

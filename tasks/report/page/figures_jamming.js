@@ -1,15 +1,5 @@
 'use strict';
 
-/// Sweep points of which `rows` has an entry, and the rows renumbered to the panels they then have.
-function panelsFor(data, rows) {
-  const present = [...new Set(rows.map((row) => row.row))].sort((a, b) => a - b);
-  const place = new Map(present.map((row, index) => [row, index]));
-  return {
-    present: present.map((row) => data.rows[row]),
-    renumbered: (list) => list.filter((row) => place.has(row.row)).map((row) => ({...row, row: place.get(row.row)})),
-  };
-}
-
 /// "without replicates flagged crystalline, not_balanced", if any are left out.
 const exclusionText = ({exclude}) => (exclude.length > 0 ? `without replicates flagged ${exclude.join(', ')}` : '');
 
@@ -45,35 +35,63 @@ function laneMark(type, from, offset, extra, style) {
   };
 }
 
-const solidColour = {scale: 'solid', field: 'solid'};
-const ordinalScale = (name, values) => (
-  {name, type: 'ordinal', domain: Object.keys(values), range: Object.values(values)});
-const solidScale = () => ordinalScale('solid', solidColours);
-const shapeScale = () => ordinalScale('shape', solidShapes);
+/// The lanes of a sweep point's band, which are higher where some of them hold swarms.
+const laneOffsets = (tall) => (tall ? {replicates: -0.3, means: 0.56, paper: 0.84} :
+  {replicates: -0.4, means: 0.08, paper: 0.5});
 
-function densityMarks() {
-  const x = (field) => ({scale: 'x', field});
+/// Excluded replicates beyond the axis, counted at its ends.
+function beyondEnds(entries, [low, high]) {
+  const counts = new Map();
+  for (const {label, solid, phi_j: value} of entries) {
+    const side = value < low ? -1 : value > high ? 1 : 0, key = JSON.stringify([label, solid, side]);
+    if (side !== 0) counts.set(key, (counts.get(key) ?? 0) + 1);
+  }
+  return [...counts].map(([key, count]) => {
+    const [label, solid, side] = JSON.parse(key);
+    return {label, solid, side, count, text: side < 0 ? `◁ ${count}` : `${count} ▷`};
+  });
+}
+
+/// How many replicates lie beyond an end of the axis.
+const beyondMark = (from, lane) => laneMark('text', from, lane, {
+  x: {signal: 'datum.side < 0 ? 0 : width'}, align: {signal: "datum.side < 0 ? 'left' : 'right'"},
+  baseline: {value: 'middle'}, text: {field: 'text'}, fontSize: {value: 11}, fill: {value: ink},
+  tooltip: tooltipOf({'': 'label', 'excluded, beyond the axis': 'count'})});
+
+function densityMarks(tall) {
+  const x = (field) => ({scale: 'x', field}), lanes = laneOffsets(tall);
+  const tooltip = tooltipOf({replicate: 'name', '$φ_J$': 'phi_j', '± (fit)': 'fit_half_width', flags: 'flags'});
+  const band = {scale: 'y', field: 'label', band: 0.5 + lanes.replicates * 0.5, offset: {field: 'offset'}};
   return [
-    laneMark('symbol', 'replicates', -0.4, {
-      x: x('phi_j'), size: {value: 40}, shape: {scale: 'shape', field: 'solid'}, stroke: solidColour,
+    laneMark('symbol', 'replicates', lanes.replicates, {
+      x: x('phi_j'), y: band, size: {field: 'size'}, shape: {scale: 'shape', field: 'solid'}, stroke: solidColour,
       fill: [{test: "datum.kind === 'excluded'", value: 'transparent'}, solidColour], fillOpacity: {value: 0.55},
-      tooltip: tooltipOf({replicate: 'name', 'φ_J': 'phi_j', '± (fit)': 'fit_half_width', flags: 'flags'}),
-    }),
-    laneMark('rule', 'means', 0.08, {x: x('low'), x2: x('high'), stroke: {value: ink}, strokeWidth: {value: 2}}, 'ink'),
-    laneMark('symbol', 'means', 0.08, {
+      tooltip}),
+    laneMark('rule', 'means', lanes.means, {x: x('low'), x2: x('high'), stroke: {value: ink}, strokeWidth: {value: 2}},
+      'ink'),
+    laneMark('symbol', 'means', lanes.means, {
       x: x('phi_j'), size: {value: 70}, shape: [{test: ofOne, value: 'circle'}, {value: 'stroke'}],
       angle: {value: 90}, fill: {value: 'transparent'}, stroke: {value: ink},
       strokeWidth: {value: 2.5}, tooltip: tooltipOf({'': 'label', mean: 'phi_j', from: 'low', to: 'high', n: 'n'}),
     }, 'ink'),
-    laneMark('rule', 'paper', 0.5, {x: x('low'), x2: x('high'), stroke: {value: '#777777'}, strokeWidth: {value: 2}}),
-    laneMark('symbol', 'paper', 0.5, {
+    laneMark('rule', 'paper', lanes.paper, {x: x('low'), x2: x('high'), stroke: {value: '#777777'},
+      strokeWidth: {value: 2}}),
+    laneMark('symbol', 'paper', lanes.paper, {
       x: x('phi_j'), size: {value: 45}, shape: {value: 'diamond'}, fill: {value: '#777777'},
       tooltip: tooltipOf({'': 'label', paper: 'phi_j', from: 'low', to: 'high'}),
     }),
+    beyondMark('beyond', lanes.replicates - 0.2),
   ];
 }
 
-/// Horizontal bands, one for each sweep point; labels stand above the bands where the page is narrow.
+/// Where a number stands along an axis of so many pixels.
+function positionAlong({type, domain}, pixels) {
+  const map = type === 'log' ? Math.log : (value) => value, [low, high] = domain.map(map);
+  return (value) => ((map(value) - low) / (high - low)) * pixels;
+}
+
+/// Horizontal bands, one for each sweep point; labels stand above the bands where the page is narrow. `datasets` is
+/// called with the place of a number along x and the height of a band, both in pixels.
 function bandSpec({description, width, labels, datasets, x, marks, bandHeight, scales = [], legends = []}) {
   const narrow = width < 560;
   const texts = Object.fromEntries(labels.map((label) => [label, wrapped(label, narrow ? 52 : 34)]));
@@ -81,13 +99,16 @@ function bandSpec({description, width, labels, datasets, x, marks, bandHeight, s
   const most = Math.max(...Object.values(texts).map((lines) => lines.length));
   const left = narrow ? 8 : 30 + 6.3 * longest;
   const height = narrow ? bandHeight + 28 * (most - 1) : Math.max(bandHeight, 14 * most + 8);
+  const across = Math.max(160, width - left - 40);
+  const {legends: placed, beside} = placedLegends(legends, scales, across);
   const linesOfLabel = `(${JSON.stringify(texts)})[datum.value]`;
   const text = {signal: linesOfLabel};
-  const axis = {scale: 'y', orient: 'left', grid: false, ticks: false, domain: false, labelLimit: 420};
+  const axis = {scale: 'y', orient: 'left', grid: false, ticks: false, domain: false, labelLimit: 420,
+    labelFlush: false};
   return {
-    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: configFor(width),
-    width: Math.max(160, width - left - 40), height: labels.length * height,
-    data: Object.entries(datasets).map(([name, values]) => ({name, values})),
+    $schema: 'https://vega.github.io/schema/vega/v5.json', description, padding: 4, config: configFor(beside),
+    width: across, height: labels.length * height,
+    data: Object.entries(datasets(positionAlong(x, across), height)).map(([name, values]) => ({name, values})),
     scales: [
       {name: 'x', type: x.type ?? 'linear', domain: x.domain, range: 'width', zero: false},
       {name: 'y', type: 'band', domain: labels, range: 'height'}, ...scales,
@@ -99,73 +120,42 @@ function bandSpec({description, width, labels, datasets, x, marks, bandHeight, s
         text, y: {scale: 'y', field: 'value', band: 0}, baseline: {value: 'top'}}}}} :
         {...axis, encode: {labels: {update: {text, dy: {signal: `-6.5 * (${linesOfLabel}.length - 1)`}}}}},
     ],
-    legends: legends.map((legend) => horizontal(legend, width)),
-    marks,
+    legends: placed, marks,
   };
 }
 
-function densityFigure(data) {
-  const datasets = densityData(data);
-  const all = [...datasets.replicates, ...datasets.means.flatMap(({low, high}) => [{phi_j: low}, {phi_j: high}]),
-    ...datasets.paper.flatMap(({low, high}) => [{phi_j: low}, {phi_j: high}])];
-  const domain = domainOf(all.map((row) => row.phi_j), {margin: 0.04});
+/// Whether some sweep point has more entries than are drawn one beside the other.
+const hasSwarm = (entries) => unique(entries.map(({label}) => label))
+  .some((label) => entries.filter((entry) => entry.label === label).length > mostDrawn);
+
+const swarmText = (tall) => (tall ?
+  ` More than ${mostDrawn} of a sweep point are set beside each other as a swarm.` : '');
+
+function densityFigure(data, choices) {
+  const id = 'density', title = 'Jamming density', datasets = densityData(data);
+  const ends = ({low, high}) => [low, high];
+  const told = datasets.replicates.map((entry) => ({...entry, excluded: entry.kind === 'excluded'}));
+  const deciders = deciding(told, choices);
+  const domain = domainOf([...deciders.map((row) => row.phi_j), ...datasets.means.flatMap(ends),
+    ...datasets.paper.flatMap(ends)], {margin: 0.04});
+  if (!domain) return {id, title, absent: 'No replicate reached a jamming density.'};
+  const isBeyond = ({phi_j: value}) => value < domain[0] || value > domain[1];
+  const inside = datasets.replicates.filter((entry) => !isBeyond(entry));
+  const beyond = beyondEnds(datasets.replicates, domain);
+  const tall = hasSwarm(datasets.replicates);
   const note = 'Every replicate (hollow: excluded from the mean) in the colour and shape of its solid; below it the ' +
     `mean of ${countedText(data)} with its 95 % interval, open if of one alone; and in grey the value of the paper’s ` +
-    'Table I for that N, where it has one.';
-  if (!domain) return {id: 'density', title: 'Jamming density', absent: 'No replicate reached a jamming density.'};
+    `Table I for that $N$, where it has one.${swarmText(tall)}` +
+    (beyond.length > 0 ? ' At the ends: how many excluded replicates lie beyond the axis.' : '');
   return {
-    id: 'density', title: 'Jamming density', note, datasets,
+    id, title, note, datasets,
     spec: (width) => bandSpec({
       description: 'Jamming density of every replicate, means with 95 % intervals, and the values of the paper.',
-      width, labels: data.rows.filter((row) => (row.all ?? row).phi_j.mean !== null).map((row) => row.label), datasets,
-      x: {domain, title: 'jamming density'}, marks: densityMarks(), bandHeight: width < 560 ? 66 : 52,
-      scales: [solidScale(), shapeScale()],
+      width, labels: data.rows.filter((row) => (row.all ?? row).phi_j.mean !== null).map((row) => row.label),
+      datasets: (position, height) => ({...datasets, beyond,
+        replicates: swarmed(inside, ({label}) => label, ({phi_j: value}) => position(value), height * 0.27)}),
+      x: {domain, title: 'jamming density $φ_J$'}, marks: densityMarks(tall),
+      bandHeight: (width < 560 ? 66 : 52) * (tall ? 2 : 1), scales: [solidScale(), shapeScale()],
     }),
-  };
-}
-
-/// Farther from jamming the sixth root bends.
-const extrapolationReach = 0.07;
-
-function extrapolationData(data) {
-  const states = [], extrapolation = [];
-  for (const {name, row, states: all, line} of data.replicates) {
-    for (const {phi, root, delta_phi} of all) {
-      if (root !== null && delta_phi < extrapolationReach) states.push({row, name, phi, root, delta_phi});
-    }
-    if (line) extrapolation.push(...[line.from, line.to].map(([phi, root]) => ({row, name, phi, root})));
-  }
-  return {states, extrapolation};
-}
-
-function extrapolationFigure(data) {
-  const title = 'Extrapolation to jamming', id = 'extrapolation';
-  const raw = extrapolationData(data);
-  if (raw.states.length === 0) return {id, title, absent: 'No replicate has an equilibrium above jamming.'};
-  const {present, renumbered} = panelsFor(data, raw.states);
-  const datasets = {states: renumbered(raw.states), extrapolation: renumbered(raw.extrapolation)};
-  const every = [...datasets.states, ...datasets.extrapolation];
-  const y = {domain: [0, domainOf(every.map((row) => row.root))[1]], title: '(E/N)¹ᐟ⁶', ticks: 4};
-  const panelAt = (index, place) => {
-    const colour = {value: solidColours[present[index].solid]};
-    // Every solid jams at a density of its own.
-    const own = every.filter(({row}) => row === index).map(({phi}) => phi);
-    const x = {domain: domainOf(own), title: 'density φ', ticks: 4};
-    return panel({...place, showX: true, title: present[index].label, x, y,
-      data: [rowsOf('states', index), rowsOf('extrapolation', index)],
-      marks: [
-        lines(`extrapolation_${index}`, 'phi', 'root', {by: 'name', colour: {value: ink}, dash: [4, 3], width: 1,
-          style: 'ink'}),
-        points(`states_${index}`, 'phi', 'root', {colour, size: 16, opacity: 0.8,
-          shape: solidShapes[present[index].solid],
-          tooltip: {replicate: 'name', 'φ': 'phi', 'Δφ': 'delta_phi', '(E/N)¹ᐟ⁶': 'root'}}),
-      ]});
-  };
-  return {
-    id, title, datasets,
-    note: 'Energy grows as Δφ⁶: its sixth root is a straight line in φ, and φ_J is where the line through the states ' +
-      'nearest jamming (dashed, of every replicate) meets zero.',
-    spec: (width) => panelSpec({description: 'Sixth root of the energy per particle against density, by replicate.',
-      width, count: present.length, datasets, panelAt}),
   };
 }

@@ -1,129 +1,131 @@
 'use strict';
 
-function spectrumData(data) {
-  const density = [], ends = [];
-  for (const {name, row, density_of_states: spectrum, lowest, highest} of data.replicates) {
-    if (spectrum?.log10_omega && spectrum?.density) {
-      spectrum.density.forEach((value, k) =>
-        density.push({row, name, omega: 10 ** spectrum.log10_omega[k], density: value}));
-      density.push({row, name, omega: 10 ** spectrum.log10_omega.at(-1), density: 0});
+const modesAbsent = (id, title) => ({
+  id, title, absent: 'This sweep has no vibrations: add "modes" to the manifest’s "measure".',
+});
+
+/// Edges of bins in log₁₀ ω, and how wide spectra of several replicates have them in common.
+const binWidth = 0.2;
+
+/// A density of states, a step function of log₁₀ ω, averaged over each of the common bins: {bin: density}.
+function rebinned({log10_omega: edges, density}) {
+  const bins = new Map();
+  density.forEach((value, k) => {
+    for (let bin = Math.floor(edges[k] / binWidth); bin * binWidth < edges[k + 1]; bin += 1) {
+      const shared = Math.min(edges[k + 1], (bin + 1) * binWidth) - Math.max(edges[k], bin * binWidth);
+      if (shared > 0) bins.set(bin, (bins.get(bin) ?? 0) + (value * shared) / binWidth);
     }
-    for (const [end, list] of [['lowest', lowest], ['highest', highest]]) {
-      for (const omega of list) if (omega > 0) ends.push({row, name, end, omega});
+  });
+  return bins;
+}
+
+/// What replicates have in each common bin, zero where a spectrum does not reach.
+function binnedValues(spectra) {
+  const all = spectra.map(rebinned), bins = unique(all.flatMap((one) => [...one.keys()])).sort((a, b) => a - b);
+  return bins.map((bin) => ({omega: 10 ** ((bin + 0.5) * binWidth), values: all.map((one) => one.get(bin) ?? 0)}));
+}
+
+const hasSpectrum = ({density_of_states: spectrum}) => Boolean(spectrum?.log10_omega && spectrum?.density);
+
+/// The mean line of those that count, for a chart of all solids.
+function meanSpectra(data, tag) {
+  return groupsOf(data).filter(({excluded}) => !excluded).flatMap(({row, members}) =>
+    binnedValues(members.filter(hasSpectrum).map((replicate) => replicate.density_of_states)).map(({omega, values}) =>
+      ({...tag(row), omega, density: values.reduce((a, b) => a + b) / values.length, n: values.length})));
+}
+
+/// Lines of single replicates, boxes where there are many, one mean line in a chart of all solids.
+function spectrumData(data, {tag, together}) {
+  const density = [], boxes = [], ends = [], endBoxes = [];
+  if (together) return {density, boxes, means: meanSpectra(data, tag), ends, endBoxes};
+  for (const {row, excluded, members} of groupsOf(data)) {
+    if (members.length <= mostDrawn) {
+      for (const replicate of members) addSpectrum(replicate, tag(row), density, ends);
+      continue;
+    }
+    const spectra = members.filter(hasSpectrum).map((replicate) => replicate.density_of_states);
+    for (const {omega, values} of binnedValues(spectra)) boxes.push({...tag(row), excluded, omega, ...boxOf(values)});
+    for (const end of ['lowest', 'highest']) {
+      const omegas = members.flatMap((replicate) => replicate[end].filter((omega) => omega > 0));
+      if (omegas.length > 0) endBoxes.push({...tag(row), excluded, end, ...boxOf(omegas)});
     }
   }
-  return {density, ends};
+  return {density, boxes, means: [], ends, endBoxes};
+}
+
+function addSpectrum(replicate, tag, density, ends) {
+  const {name, excluded, density_of_states: spectrum} = replicate;
+  if (hasSpectrum(replicate)) {
+    spectrum.density.forEach((value, k) =>
+      density.push({...tag, name, excluded, omega: 10 ** spectrum.log10_omega[k], density: value}));
+    density.push({...tag, name, excluded, omega: 10 ** spectrum.log10_omega.at(-1), density: 0});
+  }
+  for (const end of ['lowest', 'highest'])
+    for (const omega of replicate[end]) if (omega > 0) ends.push({...tag, name, excluded, end, omega});
 }
 
 /// Ticks at the foot of a panel, one for each frequency.
 function frequencyTicks(from, colour) {
   return {
-    type: 'rule', from: {data: from},
+    type: 'rule', from: {data: from}, clip: true,
     encode: {enter: {
       x: {scale: 'x', field: 'omega'}, y: {signal: 'height'}, y2: {signal: 'height - 7'}, stroke: colour,
       strokeWidth: {value: 0.7}, opacity: {value: 0.5},
-      tooltip: tooltipOf({replicate: 'name', end: 'end', 'ω': 'omega'}),
+      tooltip: tooltipOf({replicate: 'name', end: 'end', '$ω$': 'omega'}),
     }},
   };
 }
 
-const modesAbsent = (id, title) => ({
-  id, title, absent: 'This sweep has no vibrations: add "modes" to the manifest’s "measure".',
+/// Boxes at the foot of a panel, one for either end of the spectra.
+const endMarks = (from, colour) => lyingBoxes(from, 'foot', {colour, width: 6,
+  tooltip: {frequencies: 'end', ...boxTooltip}}).map((mark) => {
+  const {y, y2, yc} = mark.encode.enter, at = (by) => ({signal: `height - 5 + (${by})`});
+  Object.assign(mark.encode.enter, yc ? {yc: at(0)} : y2 ? {y: at(-3), y2: at(3)} : y ? {y: at(0)} : {});
+  return mark;
 });
 
-function spectrumFigure(data) {
+function spectrumPanel(placement, index, place, {x, y, names}) {
+  const {colour} = placement;
+  const line = lines(`density_${index}`, 'omega', 'density', {by: 'name', colour, width: 1.2, opacity: 0.8,
+    step: true});
+  line.marks[0].encode.enter.strokeDash = {signal: 'datum.excluded ? [2, 2] : []'};
+  const means = lines(`means_${index}`, 'omega', 'density', {by: 'group', colour, width: 1.5});
+  return panel({...place, title: placement.title(index), x, y, data: names.map((name) => rowsOf(name, index)),
+    marks: [
+      line, means,
+      points(`means_${index}`, 'omega', 'density', {colour, shape: placement.shape, size: 26,
+        tooltip: {'': 'group', '$ω$': 'omega', density: 'density', n: 'n'}}),
+      ...uprightBoxes(`boxes_${index}`, 'omega', {colour, width: 5, tooltip: {'$ω$': 'omega', ...boxTooltip}}),
+      frequencyTicks(`ends_${index}`, colour), ...endMarks(`endBoxes_${index}`, colour),
+    ]});
+}
+
+function spectrumFigure(data, choices) {
   const title = 'Vibrational spectra', id = 'spectrum';
-  const raw = spectrumData(data);
-  if (raw.ends.length === 0) return modesAbsent(id, title);
-  const {present, renumbered} = panelsFor(data, raw.ends);
-  const datasets = {density: renumbered(raw.density), ends: renumbered(raw.ends)};
-  const x = {type: 'log', title: 'frequency ω',
-    domain: domainOf([...datasets.ends, ...datasets.density].map((row) => row.omega), {type: 'log', margin: 0.03})};
-  const top = domainOf(datasets.density.map((row) => row.density));
+  const rows = data.replicates.filter(({lowest, highest}) => [...lowest, ...highest].some((omega) => omega > 0))
+    .map(({row}) => row);
+  if (rows.length === 0) return modesAbsent(id, title);
+  const placement = placementOf(data, rows, choices);
+  const datasets = spectrumData(data, placement), {density, boxes, means, ends, endBoxes} = datasets;
+  const one = [...density, ...ends], many = [...boxes, ...endBoxes];
+  const drawn = [...deciding(one, choices, many), ...deciding(boxes, choices, one), ...means];
+  const omegas = [...drawn.map((row) => row.omega),
+    ...deciding(endBoxes, choices, one).flatMap(({low, high}) => [low, high])];
+  const x = {type: 'log', title: 'frequency $ω$',
+    domain: domainOf(omegas, {type: 'log', margin: 0.03}) ?? [0.1, 1]};
+  const top = domainOf(drawn.map((row) => row.density ?? row.high));
   const y = {domain: [0, top ? top[1] : 1], title: 'modes per decade, share of all', ticks: 4};
-  const panelAt = (index, place) => {
-    const colour = {value: solidColours[present[index].solid]};
-    return panel({...place, title: present[index].label, x, y,
-      data: [rowsOf('density', index), rowsOf('ends', index)],
-      marks: [
-        lines(`density_${index}`, 'omega', 'density', {by: 'name', colour, width: 1.2, opacity: 0.8, step: true}),
-        frequencyTicks(`ends_${index}`, colour),
-      ]});
-  };
+  const what = placement.together ? `mean over ${countedText(data)} in bins of ${binWidth} decades` :
+    'one line for each replicate, dotted if excluded';
   return {
     id, title, datasets,
-    note: 'Density of states of the packing nearest jamming, one line for each replicate (packings of up to 150 ' +
-      'particles); ticks at the foot are its lowest and highest frequencies. Units: V_p = Y = ρ = 1. Figure 1(a) of ' +
-      'the paper.',
-    spec: (width) => panelSpec({description: 'Vibrational densities of states against frequency, logarithmic.',
-      width, count: present.length, datasets, panelAt}),
-  };
-}
-
-function scalingData(data) {
-  const states = [], fits = [], slopes = [];
-  for (const {name, row, states: all} of data.replicates) {
-    for (const state of all) {
-      for (const [key, end] of [['omega_l', 'lowest'], ['omega_h', 'highest']]) {
-        if (state.delta_phi > 0 && state[key] > 0)
-          states.push({row, name, end, delta_phi: state.delta_phi, omega: state[key]});
-      }
-    }
-  }
-  data.rows.forEach(({scaling}, row) => {
-    for (const [key, end] of [['omega_l', 'lowest'], ['omega_h', 'highest']]) {
-      const law = scaling[key];
-      if (!law || !(law.to > law.from)) continue;
-      const at = (distance) => law.prefactor * distance ** law.exponent;
-      for (const delta_phi of [law.from, law.to]) fits.push({row, end, delta_phi, omega: at(delta_phi)});
-      const half = law.ci95_half_width === null ? '' : ` ± ${law.ci95_half_width.toFixed(2)}`;
-      slopes.push({row, end, exponent: law.exponent, ci95_half_width: law.ci95_half_width,
-        delta_phi: law.to, omega: at(law.to), text: `slope ${law.exponent.toFixed(2)}${half}`.replace('-', '−')});
-    }
-  });
-  return {states, fits, slopes};
-}
-
-/// Below the end of the line, where points that rise leave room.
-const slopeLabels = (from) => ({
-  type: 'text', from: {data: from},
-  encode: {enter: {
-    x: {scale: 'x', field: 'delta_phi', offset: 10}, y: {scale: 'y', field: 'omega',
-      offset: 24},
-    text: {field: 'text'}, fontSize: {value: 11}, fill: {value: ink},
-  }},
-});
-
-function scalingFigure(data) {
-  const title = 'Softest and stiffest vibrations on the way to jamming', id = 'scaling';
-  const raw = scalingData(data);
-  if (raw.states.length === 0) return modesAbsent(id, title);
-  const {present, renumbered} = panelsFor(data, raw.states);
-  const datasets = {states: renumbered(raw.states), fits: renumbered(raw.fits), slopes: renumbered(raw.slopes)};
-  const x = {type: 'log', title: 'Δφ', domain: domainOf(datasets.states.map((row) => row.delta_phi), {type: 'log'})};
-  const y = {type: 'log', title: '⟨ω⟩',
-    domain: domainOf(datasets.states.map((row) => row.omega), {type: 'log', margin: 0.09})};
-  const shape = {scale: 'end', field: 'end'};
-  const panelAt = (index, place) => {
-    const colour = {value: solidColours[present[index].solid]};
-    return panel({...place, title: present[index].label, x, y,
-      data: [rowsOf('states', index), rowsOf('fits', index), rowsOf('slopes', index)],
-      marks: [
-        points(`states_${index}`, 'delta_phi', 'omega', {colour, shape, size: 22, opacity: 0.75,
-          tooltip: {replicate: 'name', modes: 'end', 'Δφ': 'delta_phi', '⟨ω⟩': 'omega'}}),
-        lines(`fits_${index}`, 'delta_phi', 'omega', {by: 'end', colour: {value: ink}, width: 1.4, style: 'ink'}),
-        slopeLabels(`slopes_${index}`),
-      ]});
-  };
-  return {
-    id, title, datasets,
-    note: 'Mean frequency of the lowest and of the highest modes against the distance above jamming, every state of ' +
-      `every replicate. Lines: power laws through the states of ${countedText(data)} with Δφ ≤ 0.02. Figure 1(b) of ` +
-      'the paper.',
-    spec: (width) => panelSpec({
-      description: 'Mean frequencies of the softest and stiffest modes, both axes logarithmic.', width,
-      count: present.length, datasets, panelAt, height: 220,
-      scales: [{name: 'end', type: 'ordinal', domain: ['highest', 'lowest'], range: ['triangle-up', 'circle']}],
-      legends: [{shape: 'end', title: 'modes', symbolStrokeColor: ink}]}),
+    note: `Density of states of the packing nearest jamming, ${what} (packings of up to 150 particles)` +
+      `${placement.together ? '' : '; ticks at the foot are its lowest and highest frequencies'}. Units: ` +
+      `$V_p$ = $Y$ = $ρ$ = 1. Figure 1(a) of the paper.` +
+      boxText(boxes, 'in common bins, and at the foot for the ends') +
+      outsideText(one, [['omega', x.domain]], endBoxes),
+    spec: (width) => placedSpec(placement, {
+      description: 'Vibrational densities of states against frequency, logarithmic.', width, datasets,
+      panelAt: (index, place) => spectrumPanel(placement, index, place, {x, y, names: Object.keys(datasets)})}),
   };
 }

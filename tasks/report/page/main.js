@@ -19,16 +19,6 @@ function drawHeader(data) {
   }
 }
 
-function drawReservations(data) {
-  const place = document.getElementById('reservations');
-  const lines = data.replicates.filter(({flags, failure}) => failure || flags.length > 0).map((replicate) =>
-    element('li', {}, element('b', {}, replicate.name), ': ', replicate.failure ?
-      `failed in ${replicate.failure.where}: ${replicate.failure.why}` : replicate.flags.join(', ')));
-  if (lines.length === 0) return;
-  place.hidden = false;
-  place.append(element('ul', {className: 'note'}, ...lines));
-}
-
 function drawProvenance(data) {
   const list = element('dl');
   const put = (term, value) => list.append(element('dt', {}, term), element('dd', {}, value ?? 'unknown'));
@@ -45,7 +35,7 @@ function drawProvenance(data) {
     put('Program', `isojam ${build.version} (git ${build.git})`);
     put('Compiler', build.compiler);
   }
-  list.append(element('dt', {}, 'Units'), element('dd', {}, ...rich('Y = 1, V_p = 1, ρ = 1')));
+  list.append(element('dt', {}, 'Units'), element('dd', {}, ...rich('$Y$ = 1, $V_p$ = 1, $ρ$ = 1')));
   document.getElementById('provenance').append(list);
 }
 

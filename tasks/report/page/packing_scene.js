@@ -130,13 +130,33 @@ function followWidth(canvas, renderer, camera, draw) {
   }).observe(canvas.parentElement);
 }
 
-/// A canvas with a scene that is drawn only when something changed. `show` takes the shapes of the kinds, the cell ({cell,
-/// side}) and the particles ({at, orientation, colour, kind, size}); `update` the same particles elsewhere.
+/// Glass shows what is within the particles.
+function setGlass({solid, outline}, glass) {
+  Object.assign(solid.material, {transparent: glass, opacity: glass ? 0.16 : 1, depthWrite: !glass});
+  outline.material.opacity = glass ? 0.2 : 0.55;
+}
+
+/// What is drawn as PNG, on white, at twice the size of the screen at least.
+function pictureOf(canvas, renderer, render) {
+  const ratio = renderer.getPixelRatio(), {width, height} = renderer.getSize(new THREE.Vector2());
+  const sized = (pixels) => { renderer.setPixelRatio(pixels); renderer.setSize(width, height, false); render(); };
+  sized(Math.max(2, ratio));
+  const copy = element('canvas', {width: canvas.width, height: canvas.height}), context = copy.getContext('2d');
+  context.fillStyle = '#ffffff';
+  context.fillRect(0, 0, copy.width, copy.height);
+  context.drawImage(canvas, 0, 0);
+  sized(ratio);
+  return copy.toDataURL('image/png');
+}
+
+/// A canvas with a scene that is drawn only when something changed. `show` takes the shapes of the kinds, the cell
+/// ({cell, side}), the particles ({index, at, orientation, colour, kind, size}) and the halves of the forces to draw;
+/// `update` the same particles elsewhere; `picture` gives a PNG.
 function packingScene(canvas, antialias) {
   const renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: true, preserveDrawingBuffer: true});
   renderer.setPixelRatio(antialias ? Math.min(devicePixelRatio, 2) : 1);
   const scene = new THREE.Scene();
-  let waiting = false, objects = null, meshes = null, box = null, shown = null, frames = 0, resting = 0;
+  let waiting = false, objects = null, meshes = null, box = null, shown = null, frames = 0, resting = 0, halves = [];
   let sparing = false;
   const orbit = orbitCamera(canvas, () => move());
   const draw = () => {
@@ -166,23 +186,30 @@ function packingScene(canvas, antialias) {
     else return;
     event.preventDefault();
   });
+  const fillAll = (particles) => {
+    fill(objects, meshes, particles);
+    if (halves.length > 0) fillBars(objects.bars, halves, new Map(particles.map(({index, at}) => [index, at])));
+  };
   return {
-    show(shapes, view, particles, keepCamera) {
+    picture: () => pictureOf(canvas, renderer, () => renderer.render(scene, orbit.camera)),
+    show(shapes, view, particles, {forces, keepCamera}) {
       if (objects) {
-        const old = [objects.solid, objects.outline, box];
+        const old = [objects.solid, objects.outline, objects.bars, box];
         scene.remove(...old);
         dispose(old);
       }
       [meshes, shown] = [shapes.map(solidMesh), view];
-      [objects, box] = [particleObjects(meshes, particles), cellOutline(view.cell)];
-      scene.add(objects.solid, objects.outline, box);
+      [objects, box, halves] = [particleObjects(meshes, particles), cellOutline(view.cell), forces];
+      objects.bars = forceBars(halves);
+      setGlass(objects, halves.length > 0);
+      scene.add(objects.solid, objects.outline, objects.bars, box);
       sparing = !antialias && objects.outline.geometry.attributes.position.count > slowOutlines;
-      fill(objects, meshes, particles);
+      fillAll(particles);
       if (!keepCamera) orbit.reset(view.cell, view.side);
       draw();
     },
     update(particles) {
-      fill(objects, meshes, particles);
+      fillAll(particles);
       move();
     },
   };

@@ -32,7 +32,7 @@ function particlesOf(view, {colouring, alone, mode, phase}) {
     const at = alone && view.largest ? view.largest.positions[k] : view.positions[index];
     const colour = colouring?.colours[index] ?? new THREE.Color(unknownColour);
     const orientation = view.orientations[index];
-    const still = {at, orientation, colour, kind: view.kind?.[index] ?? 0, size: view.size?.[index] ?? 1};
+    const still = {index, at, orientation, colour, kind: view.kind?.[index] ?? 0, size: view.size?.[index] ?? 1};
     if (!displacement || phase === 0) return still;
     const part = (offset) => displacement.slice(6 * index + offset, 6 * index + offset + 3)
       .map((x) => x * phase * modeAmplitude);
@@ -49,9 +49,9 @@ function keyOf(colouring, kind) {
   };
   const names = {
     clusters: 'Clusters of face-face contacts:', contacts: 'Contacts of the particle:',
-    local_Q6: 'Q6 of the particle’s contacts:',
+    local_Q6: '$Q_6$ of the particle’s contacts:',
   };
-  key.append(element('span', {}, names[kind]));
+  key.append(element('span', {}, element('span', {}, ...rich(names[kind]))));
   for (const {colour, text} of colouring?.key ?? []) key.append(element('span', {}, swatch(colour), text));
   if (colouring?.ramp) {
     const ramp = element('i', {className: 'ramp'});
@@ -72,21 +72,24 @@ function viewControls(data, views) {
     replicate: element('select', {id: 'view-replicate'},
       ...views.map((view, index) => option(String(index), replicateText(view)))),
     colour: element('select', {id: 'view-colour'}, option('clusters', 'face-face cluster'),
-      option('contacts', 'contact number'), option('local_Q6', 'Q6, local')),
+      option('contacts', 'contact number'), option('local_Q6', 'Q₆, local')),
     alone: element('input', {type: 'checkbox', id: 'view-alone'}),
+    forces: element('input', {type: 'checkbox', id: 'view-forces'}),
     mode: element('select', {id: 'view-mode'}),
     start: element('button', {type: 'button', id: 'view-start'}, 'Start'),
     phase: element('input', {type: 'range', min: -1, max: 1, step: 0.05, value: 0, id: 'view-phase'}),
   };
   controls.bar = element('div', {className: 'controls'}, labelled('Replicate', controls.replicate),
-    labelled('Colour', controls.colour), labelled('Largest cluster alone', controls.alone));
+    labelled('Colour', controls.colour), labelled('Largest cluster alone', controls.alone),
+    labelled('Contact forces', controls.forces));
   controls.modeBar = element('div', {className: 'controls'}, labelled('Vibration', controls.mode), controls.start,
     labelled('Displacement', controls.phase));
   return controls;
 }
 
 function statusText(data, view) {
-  const parts = [`φ = ${formatted(view.phi, 5)}`, `${view.positions.length} particles`];
+  const parts = [`$φ$ = ${formatted(view.phi, 5)}`, `${view.positions.length} particles`,
+    `${view.forces.length / 6} contacts, the largest force ${formatted(view.largest_force, 3)}`];
   if (view.largest) parts.push(`largest cluster of face-face contacts: ${view.largest.members.length} particles` +
     (view.largest.winding_rank > 0 ? ', closed through the boundary' : ''));
   else parts.push(view.clusters ? 'no face-face contact' : `no clusters: ${view.clusters_reason}`);
@@ -129,7 +132,8 @@ function connect(data, views, controls, scene, {key, status}) {
     colouring = colouringOf(view, controls.colour.value);
     key.replaceChildren(keyOf(colouring, controls.colour.value));
     const solid = data.solids[view.solid];
-    scene.show(solid.shapes ?? [solid], view, particlesOf(view, state()), keepCamera);
+    const forces = controls.forces.checked ? forceHalves(view) : [];
+    scene.show(solid.shapes ?? [solid], view, particlesOf(view, state()), {forces, keepCamera});
   };
   const choose = (keepCamera) => {
     const view = current();
@@ -137,13 +141,14 @@ function connect(data, views, controls, scene, {key, status}) {
     controls.modeBar.hidden = view.modes.length === 0;
     controls.alone.disabled = !view.largest;
     controls.alone.checked = controls.alone.checked && Boolean(view.largest);
-    status.textContent = statusText(data, view);
+    status.replaceChildren(...rich(statusText(data, view)));
     settle();
     rebuild(keepCamera);
   };
   controls.replicate.addEventListener('change', () => choose(false));
   controls.colour.addEventListener('change', () => rebuild(true));
-  controls.alone.addEventListener('change', () => rebuild(true));
+  for (const box of [controls.alone, controls.forces]) box.addEventListener('change', () => rebuild(true));
+  controls.bar.append(button('Save PNG', () => save(`${current().name}.png`, scene.picture())));
   controls.mode.addEventListener('change', () => { settle(); update(); });
   controls.phase.addEventListener('input', () => {
     motion.stop();
@@ -156,6 +161,17 @@ function connect(data, views, controls, scene, {key, status}) {
     controls.start.textContent = motion.isRunning() ? 'Stop' : 'Start';
   });
   choose(false);
+}
+
+/// Which packings the view has, and why not all.
+function choiceText(data, views) {
+  const done = data.replicates.filter(({status}) => status === 'done').length;
+  const {chosen = views.length, most_particles: most} = data.viewable ?? {};
+  if (views.length === done) return `All ${done} packings are here.`;
+  const small = done > chosen ? ` ${done - chosen} are left out to keep this file small: beside one of each sweep ` +
+    `point it holds packings of up to ${most} particles in all, sweep points in turn, unflagged ones first.` : '';
+  const missing = chosen > views.length ? ` ${chosen - views.length} have no packing in the results directory.` : '';
+  return `${views.length} of ${done} packings are here.${small}${missing} “isojam export” writes any of them.`;
 }
 
 function drawPackings(data, section) {
@@ -177,9 +193,11 @@ function drawPackings(data, section) {
   const key = element('div'), status = element('p', {className: 'note', attributes: {'aria-live': 'polite'}});
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches ?
     ' Animation is off, as this system asks for less motion; the slider displaces the particles.' : '';
-  section.append(controls.bar, element('div', {className: 'stage'}, canvas), key, controls.modeBar, status,
-    element('p', {className: 'note help'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view has ' +
-      'the focus, zoom; Home resets. The box is the periodic cell; particles are drawn whole, at the image whose ' +
-      `centre lies in it.${still}`));
+  section.append(element('p', {className: 'note', id: 'view-choice'}, choiceText(data, views)), controls.bar,
+    element('div', {className: 'stage'}, canvas), key, controls.modeBar, status,
+    element('p', {className: 'note help'}, 'Drag or use the arrow keys to turn; + and −, or the wheel once the view ' +
+      'has the focus, zoom; Home resets. The box is the periodic cell; particles are drawn whole, at the image whose ' +
+      'centre lies in it. Contact forces are bars from the centres to where each acts, as thick as it is large.' +
+      still));
   connect(data, views, controls, packingScene(canvas, kind === 'hardware'), {key, status});
 }

@@ -1,33 +1,32 @@
 'use strict';
 
-const greek = {phi: 'φ', omega: 'ω', langle: '⟨', rangle: '⟩'};
-
-/// Nodes of a column's LaTeX name: letters, Greek macros, _x, _{xy}, ^{xy}.
-function symbolNodes(latex) {
-  const plain = latex.replace(/\\([a-z]+)/gi, (whole, macro) => greek[macro] ?? whole);
-  const nodes = [];
-  for (const part of plain.matchAll(/([_^])(?:\{([^{}]*(?:_[^{}])?[^{}]*(?:\{[^{}]*\})?)\}|(.))|([^_^]+)/g)) {
-    if (part[4]) nodes.push(element('i', {}, part[4]));
-    else nodes.push(element(part[1] === '_' ? 'sub' : 'sup', {}, (part[2] ?? part[3]).replace(/[_{}]/g, '')));
-  }
-  return nodes;
-}
-
 /// Decimals that show the half width with two digits.
 function decimalsFor(estimate) {
   const scale = estimate.half_width || Math.abs(estimate.mean) * 1e-3 || 1e-3;
   return Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(scale))));
 }
 
+/// A small mean and its half width with one power of ten for both.
+function smallCell(mean, half, n) {
+  if (half === null) return element('td', {title: `n = ${n}: no interval`}, formatted(mean, 3));
+  const power = Math.floor(Math.log10(Math.abs(mean))), unit = 10 ** power;
+  const decimals = decimalsFor({mean: mean / unit, half_width: half / unit});
+  return element('td', {title: `95 % interval over n = ${n} replicates`},
+    `(${(mean / unit).toFixed(decimals).replace('-', '−')}`,
+    element('span', {className: 'half-width'}, ` ± ${(half / unit).toFixed(decimals)}`), `)·${powerOfTen(power)}`);
+}
+
 function estimateCell(estimate) {
   if (!estimate || estimate.mean === null) return element('td', {title: estimate?.reason ?? 'not measured'}, '–');
-  const {mean, half_width: half, n} = estimate;
+  const {mean, n} = estimate;
+  // What rounding alone leaves of equal numbers is no spread.
+  const half = estimate.half_width !== null && estimate.half_width < Math.abs(mean) * 1e-12 ? 0 : estimate.half_width;
   // A count without spread.
   if (!half && Number.isInteger(mean)) return element('td', {title: `n = ${n}`}, formatted(mean, 6));
-  if (half === 0 || (mean !== 0 && Math.abs(mean) < 1e-3)) {
-    return element('td', {title: `n = ${n}`}, formatted(mean, 3), half === null ? null :
-      element('span', {className: 'half-width'}, ` ± ${formatted(half, 2)}`));
+  if (half === 0) {
+    return element('td', {title: `n = ${n}`}, formatted(mean, 3), element('span', {className: 'half-width'}, ' ± 0'));
   }
+  if (mean !== 0 && Math.abs(mean) < 1e-3) return smallCell(mean, half, n);
   const decimals = decimalsFor(estimate);
   const text = mean.toFixed(decimals).replace('-', '−');
   if (half === null) return element('td', {title: `n = ${n}: no interval`}, text);
@@ -44,7 +43,7 @@ function leadingColumns({parameters}) {
   });
   return [
     plain('solid', (row) => row.solid, true),
-    plain('N', (row) => row.particles),
+    plain(element('i', {}, 'N'), (row) => row.particles),
     ...Object.entries(parameters).map(([name, heading]) => plain(heading, (row) => row.parameters[name] ?? null)),
   ];
 }
@@ -63,7 +62,7 @@ function countColumn() {
 
 function estimateColumn(column) {
   return {
-    heading: symbolNodes(column.latex), estimate: true, name: column.name, unit: column.unit,
+    heading: formulaNodes(column.latex), estimate: true, name: column.name, unit: column.unit,
     value: (row) => row[column.name]?.mean ?? null,
     cell: (row) => estimateCell(row[column.name]),
   };
@@ -72,7 +71,7 @@ function estimateColumn(column) {
 function paperColumn() {
   const value = (row) => row.paper?.phi_j ?? null;
   return {
-    heading: [...symbolNodes('\\phi_J'), ', paper'], value,
+    heading: [...formulaNodes('\\phi_J'), ', paper'], value,
     cell: (row) => (row.paper ? element('td', {}, String(row.paper.phi_j),
       element('span', {className: 'half-width'}, ` ± ${row.paper.half_width}`)) : element('td', {}, '–')),
   };
@@ -91,35 +90,19 @@ function rowBody(row, columns) {
   return body;
 }
 
-/// Rows without a value stay last whichever way the others are sorted.
-function compare(a, b, sign) {
-  if (a === null || b === null) return (a === null) - (b === null);
-  if (typeof a === 'number' && typeof b === 'number') return sign * (a - b);
-  return sign * (String(a) < String(b) ? -1 : Number(String(a) > String(b)));
+/// The leading columns as one, for narrow pages: in the order of the data.
+function mergedColumn({rows}) {
+  return {
+    heading: ['sweep point'], text: true, value: (row) => rows.indexOf(row),
+    cell: (row) => element('th', {className: 'text merged', scope: 'row'},
+      ...rich(row.label.replaceAll(' = ', '\u00a0=\u00a0'))),
+  };
 }
 
-function sortBy(table, bodies, column, heading) {
-  const ascending = heading.getAttribute('aria-sort') !== 'ascending';
-  for (const other of table.tHead.rows[0].cells) other.setAttribute('aria-sort', 'none');
-  heading.setAttribute('aria-sort', ascending ? 'ascending' : 'descending');
-  const sorted = [...bodies].sort((a, b) => compare(column.value(a.row), column.value(b.row), ascending ? 1 : -1));
-  table.append(...sorted.map(({body}) => body));
-}
-
-function sortableTable(rows, columns, caption) {
-  const head = element('tr');
-  const table = element('table', {attributes: {'aria-label': caption}}, element('thead', {}, head));
-  const bodies = rows.map((row) => ({row, body: rowBody(row, columns)}));
-  for (const column of columns) {
-    const unit = column.unit && column.unit !== '1' ? `, in ${column.unit}` : '';
-    const sorter = element('button', {type: 'button', title: `Sort by this column${unit}`}, ...column.heading);
-    const heading = element('th', {className: column.text ? 'text' : '', scope: 'col',
-      attributes: {'aria-sort': 'none'}}, sorter);
-    sorter.addEventListener('click', () => sortBy(table, bodies, column, heading));
-    head.append(heading);
-  }
-  table.append(...bodies.map(({body}) => body));
-  return element('div', {className: 'scroll'}, table);
+function sortableTable(data, columns, caption) {
+  const leading = leadingColumns(data);
+  return fittedTable({rows: data.rows, columns: [...leading, ...columns], leading: leading.length,
+    merged: mergedColumn(data), caption, rowBody});
 }
 
 /// Columns of a group that some row has a value for.
@@ -136,11 +119,10 @@ function exclusionNote(data) {
 }
 
 function drawMainTable(data, place) {
-  const leading = leadingColumns(data);
   const paper = data.rows.some((row) => row.paper) ? [paperColumn()] : [];
   const [density] = data.columns;
   const contacts = columnsOf(data, density.group).filter((column) => column !== density);
-  place.append(exclusionNote(data) ?? '', sortableTable(data.rows, [...leading, estimateColumn(density), ...paper,
+  place.append(exclusionNote(data) ?? '', sortableTable(data, [estimateColumn(density), ...paper,
     ...contacts.map(estimateColumn), countColumn()], 'Jamming density, contacts, constraints'));
   place.append(element('div', {className: 'controls'}, button('Copy as CSV', () => copy(data.csv)),
     button('Copy as LaTeX', () => copy(data.latex))));
@@ -155,7 +137,7 @@ function drawFurtherTables(data, section) {
     const columns = columnsOf(data, group);
     if (columns.length === 0) continue;
     section.append(element('details', {}, element('summary', {}, group),
-      exclusionNote(data), sortableTable(data.rows, [...leadingColumns(data), ...columns.map(estimateColumn)], group)));
+      exclusionNote(data), sortableTable(data, columns.map(estimateColumn), group)));
     section.hidden = false;
   }
 }

@@ -1,0 +1,131 @@
+"""What the report's tests in a browser share: pages made once, a browser, and what they ask of a page."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import browser as browsers
+import report_pages
+
+from selenium.webdriver.common.by import By
+
+EXECUTABLE = pathlib.Path(sys.argv.pop(1)).resolve()
+CHARTS = ["density", "topology", "edge-face", "face-face", "extrapolation", "spectrum", "scaling", "moduli", "shear",
+          "evaluations", "time", "stops"]
+# Of all solids together, and how many charts of their own they have.
+TOGETHER = {"topology": 3, "edge-face": 1, "face-face": 1, "extrapolation": 1, "spectrum": 1, "scaling": 1, "moduli": 2,
+            "shear": 1}
+
+# Pixels of the view that are not background, and a hash of all.
+DRAWN = """
+const source = document.getElementById('packing');
+const copy = Object.assign(document.createElement('canvas'), {width: source.width, height: source.height});
+const context = copy.getContext('2d');
+context.drawImage(source, 0, 0);
+const {data} = context.getImageData(0, 0, copy.width, copy.height);
+let drawn = 0, hash = 0;
+for (let k = 0; k < data.length; k += 4) {
+  drawn += data[k + 3] > 0;
+  hash = (Math.imul(hash, 31) + data[k] + 256 * data[k + 1] + 65536 * data[k + 2]) | 0;
+}
+return {drawn, hash, all: data.length / 4};"""
+
+# Frames per second while the view is turned by keys as fast as it is drawn.
+RATE = """
+const done = arguments[arguments.length - 1], canvas = document.getElementById('packing');
+const begun = performance.now(), first = Number(canvas.dataset.frames);
+const turn = () => {
+  const seconds = (performance.now() - begun) / 1000;
+  if (seconds > 2) return done((Number(canvas.dataset.frames) - first) / seconds);
+  canvas.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight', bubbles: true, cancelable: true}));
+  requestAnimationFrame(turn);
+};
+turn();"""
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory(prefix="isojam-browser-")
+        cls.root = pathlib.Path(cls.directory.name)
+        cls.pages = report_pages.Pages(EXECUTABLE, cls.root)
+        nearer = {**report_pages.manifest()["protocol"], "final_distance": 0.015, "fit_window": 0.05}
+        cls.full = cls.pages.run("full", protocol=nearer)
+        cls.page = cls.pages.report(cls.full)
+        cls.browser = browsers.Browser(cls.root, "main")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.quit()
+        cls.directory.cleanup()
+
+    def open(self, page):
+        self.browser.open(page)
+        self.addCleanup(self.expect_quiet, page)
+
+    def expect_quiet(self, page):
+        self.assertFalse(self.browser.alert_is_open(), page)
+        self.assertEqual(self.browser.errors(), [], page)
+        self.assertEqual(self.browser.requests(), [], page)
+
+    def find(self, selector):
+        return self.browser.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def charts(self):
+        return self.browser.run("return [...document.querySelectorAll('.chart')].map((c) => c.id.slice(6))")
+
+    def choose(self, name, on=True):
+        """Sets a switch of all charts and waits for them."""
+        self.browser.run(f"""const box = document.getElementById('choose-{name}');
+            if (box.checked !== {str(on).lower()}) box.click();""")
+        self.browser.wait("[...document.querySelectorAll('.chart')].every((chart) => chart.dataset.drawn === 'yes')",
+                          "charts to be drawn again")
+
+    def marks(self, chart):
+        """Of each panel of a chart: fills and forms of its symbols, lines with more than one point, boxes."""
+        return self.browser.run("""
+            const panels = [...document.querySelectorAll(`#chart-${arguments[0]} g.role-scope > g`)]
+              .filter((panel) => panel.querySelector(':scope > g .role-axis'));
+            const all = (panel, what) => [...panel.querySelectorAll(what)];
+            return panels.map((panel) => ({
+              colours: [...new Set(all(panel, 'g.mark-symbol path').map((mark) => mark.getAttribute('stroke')))],
+              forms: [...new Set(all(panel, 'g.mark-symbol path').map((mark) => mark.getAttribute('d')))],
+              symbols: all(panel, 'g.mark-symbol path').length,
+              lines: all(panel, 'g.mark-line path').filter((line) => /L|H|V/.test(line.getAttribute('d') ?? '')).length,
+              boxes: all(panel, 'g.mark-rect.role-mark path').filter((box) => box.getAttribute('fill-opacity')).length,
+            }));""", chart)
+
+    def saved(self, names):
+        """The files, once all of them are there."""
+        for _ in range(200):
+            paths = [self.browser.downloads / name for name in names]
+            if all(path.exists() for path in paths):
+                return paths
+            self.browser.driver.execute_async_script("setTimeout(arguments[0], 50)")
+        self.fail(f"saved {sorted(path.name for path in self.browser.downloads.iterdir())}, expected {names}")
+
+    def view(self):
+        """The canvas, in the window and drawn."""
+        canvas = self.find("#packing")
+        self.browser.run("arguments[0].scrollIntoView({block: 'center'})", canvas)
+        self.browser.wait("document.getElementById('packing').dataset.frames > 0", "the first frame")
+        return canvas
+
+    def after(self, action):
+        """What is drawn once an action led to another frame."""
+        before = self.browser.run("return Number(document.getElementById('packing').dataset.frames)")
+        action()
+        self.browser.wait(f"document.getElementById('packing').dataset.frames > {before}", "another frame")
+        return self.browser.run(DRAWN)
+
+    def expect_nothing_wider(self, what):
+        inner, outer = self.browser.run("return [document.documentElement.scrollWidth, innerWidth]")
+        self.assertLessEqual(inner, outer, what)
+        clipped = self.browser.run("""
+            const scrolls = (part) => part.scrollWidth > part.clientWidth + 1 && part.clientWidth > 0 &&
+              ['auto', 'scroll', 'hidden'].includes(getComputedStyle(part).overflowX);
+            const beyond = (part) => part.getBoundingClientRect().right > document.documentElement.clientWidth + 1;
+            return [...document.querySelectorAll('main *:not(svg *)')].filter((part) => scrolls(part) || beyond(part))
+              .map((part) => `${part.tagName} ${part.id} ${part.className} ${part.textContent.slice(0, 40)}`)""")
+        self.assertEqual(clipped, [], what)
