@@ -4,12 +4,14 @@
 #include <optional>
 #include <utility>
 
+#include "tasks/commands/adding.hpp"
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/place.hpp"
-#include "tasks/run/adding.hpp"
+#include "tasks/manifest/cost.hpp"
 #include "tasks/run/graph.hpp"
+#include "tasks/system/directory_lock.hpp"
 #include "tasks/system/file.hpp"
 #include "tasks/system/interrupt.hpp"
 #include "tasks/system/standard_streams.hpp"
@@ -56,47 +58,17 @@ std::vector<std::string> chosen(const MeasureArguments& arguments) {
                               near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
 }
 
-struct Tally {
-  std::size_t added = 0, left = 0;
-};
-
-void add_one(const Store& store, const Outcome& outcome, Tally& tally, Console& console) {
-  const auto name = replicate_name(outcome.spec);
-  if (outcome.failure) {
-    console.warn(fmt::format("{} failed in {}: {}; its record is as it was", name, outcome.failure->where,
-                             outcome.failure->why));
-    ++tally.left;
-    return;
-  }
-  const auto before = read_record(store.directory(), name);
-  store.write_added(outcome, before, has_moved(outcome.jam, before));
-  ++tally.added;
+/// Refuses measures that could not be added to every record of the directory, which would leave it with records that no
+/// measure completes.
+void refuse_impossible(const std::vector<Additions::Impossible>& impossible, const std::string& directory) {
+  if (impossible.empty()) return;
+  const auto& [name, why] = impossible.front();
+  const auto others = impossible.size() == 1 ? "" : fmt::format(" ({} more cannot either)", impossible.size() - 1);
+  throw InputError({directory, "", fmt::format("{} cannot be measured: {}{}", name, why, others),
+                    "a directory all of whose replicates kept their expansions", ""});
 }
 
-Tally add_all(const Store& store, const Additions& additions, const GraphOptions& options, Console& console) {
-  Tally tally{0, additions.not_measured.size()};
-  for (const auto& name : additions.not_measured)
-    console.warn(fmt::format("{} failed in a measure, and its states were not kept; isojam rerun makes it anew", name));
-  for (const auto& spec : additions.failed) {
-    store.write_added(spec, read_record(store.directory(), replicate_name(spec)));
-    ++tally.added;
-  }
-  const auto count = additions.measured.size();
-  console.begin(static_cast<int>(count), static_cast<double>(count));
-  const NextReplicate next = [&, at = std::size_t{0}]() mutable {
-    return at < count ? std::optional(additions.measured[at++].spec) : std::nullopt;
-  };
-  run_graph(next, adding_stages(store.directory()), options, [&](const Outcome& outcome) {
-    if (outcome.interrupted) return;
-    add_one(store, outcome, tally, console);
-    console.finished(1, outcome.failure.has_value());
-    console.tick(replicate_name(outcome.spec));
-  });
-  console.end();
-  return tally;
-}
-
-/// The table again, if no record lacks anything any more.
+/// The table as it is now.
 void write_table(const Store& store, Console& console) {
   const auto table = table_of(
       store.directory().string(), store.kept(), [&](const std::string& message) { console.warn(message); },
@@ -105,26 +77,41 @@ void write_table(const Store& store, Console& console) {
   print(to_text(table));
 }
 
+DirectoryLock hold(const std::string& directory) {
+  auto lock = DirectoryLock::take(directory, DirectoryLock::Kind::exclusive);
+  if (!lock)
+    throw FileError(fmt::format("{}: isojam runs or measures there now; measure when it has ended", directory),
+                    FileError::Reason::shortage);
+  return std::move(*lock);
+}
+
 /// Measures stored packings: what is asked for, and what an interrupted call has left.
 ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
   const auto names = chosen(arguments);
-  auto manifest = with_measures(own_manifest(arguments.directory), arguments.add);
-  load_start(manifest);
+  const auto lock = hold(arguments.directory);
+  const auto before = own_manifest(arguments.directory);
+  const auto manifest = with_measures(before, arguments.add);
   const Plan plan(manifest);
   // Refused before anything is written.
-  const auto found = additions(arguments.directory, plan, names);
+  const auto all =
+      additions(arguments.directory, plan, names_in(std::filesystem::path(arguments.directory) / "records"));
+  if (manifest.measures != before.measures) refuse_impossible(all.impossible, arguments.directory);
   extend_manifest(arguments.directory, arguments.add);
   const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
+  const auto found = arguments.only.empty() ? all : additions(arguments.directory, plan, names);
+  for (const auto& [name, why] : found.impossible)
+    console.warn(fmt::format("{}; isojam run makes {} again", why, name));
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
-  console.info(fmt::format("{}: measures to add to {}", manifest.name, counted(found.measured.size(), "record")));
-  const auto tally = add_all(store, found, {threads, threads, watcher.token(), {}}, console);
+  console.info(fmt::format("{}: measures to add to {}", manifest.name,
+                           counted(found.measured.size() + found.failed.size(), "record")));
+  const auto tally = add_measures(store, found, threads, available_memory(), watcher.token(), console);
   if (watcher.token().stop_requested()) {
     console.warn("interrupted; what was added is kept, and isojam measure continues");
     return ExitCode::interrupted;
   }
   write_table(store, console);
-  return tally.left > 0 ? ExitCode::some_failed : ExitCode::done;
+  return tally.left + found.impossible.size() > 0 ? ExitCode::some_failed : ExitCode::done;
 }
 
 }  // namespace

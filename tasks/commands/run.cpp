@@ -11,6 +11,7 @@
 #include "tasks/commands/shared.hpp"
 #include "tasks/run/campaign.hpp"
 #include "tasks/run/graph.hpp"
+#include "tasks/system/directory_lock.hpp"
 #include "tasks/system/file.hpp"
 #include "tasks/system/interrupt.hpp"
 #include "tasks/system/standard_streams.hpp"
@@ -142,7 +143,8 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
 /// Measures that were added to the directory's manifest since are measured of new replicates too.
 void take_added_measures(const std::string& directory, Manifest& manifest, Console& console) {
   const auto kept = stored_manifest(directory);
-  if (!kept || kept->measures == manifest.measures || !has_more_measures(manifest, *kept)) return;
+  if (!kept || kept->measures == manifest.measures || !is_same_sweep(manifest, *kept)) return;
+  if (with_measures(manifest, kept->measures).measures != kept->measures) return;
   manifest.measures = kept->measures;
   console.info(fmt::format("{} has measures that were added to it, and so will what is run now", directory));
 }
@@ -164,6 +166,10 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   }
 
   const Store store(directory, manifest, warn);
+  const auto lock = DirectoryLock::take(directory, DirectoryLock::Kind::shared);
+  if (!lock)
+    throw FileError(fmt::format("{}: isojam measure works there now; run when it has ended", directory),
+                    FileError::Reason::shortage);
   Campaign campaign(plan, manifest.replicates, arguments.shard, store);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();

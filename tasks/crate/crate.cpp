@@ -40,7 +40,7 @@ Json reference(const std::string& id) { return {{"@id", id}}; }
 struct Build {
   std::string version, git, compiler;
   Json results = Json::array();
-  int records = 0, failed = 0;
+  int records = 0, failed = 0, added_to = 0;
   double cpu_seconds = 0;
 
   std::string name() const { return encoded(fmt::format("{}-{}-{}", version, git, compiler)); }
@@ -92,13 +92,27 @@ class Crate {
     ++own.records;
     own.failed += held.summary.failed;
     own.cpu_seconds += held.summary.cpu_seconds;
-    own.results.push_back(add_file("records/" + held.name + ".json", "Record of " + held.name));
+    const Json record = add_file("records/" + held.name + ".json", "Record of " + held.name);
+    own.results.push_back(record);
+    if (provenance.contains("added")) add_additions(provenance.at("added"), own.name(), record);
     if (held.summary.failed) return;
     const auto path = "paths/" + held.name + ".json";
     check_companions(directory_, held, keeps_path || has(path));
     own.results.push_back(
         add_file("packings/" + held.name + ".json", "The state of " + held.name + " nearest jamming"));
     if (has(path)) own.results.push_back(add_file(path, "All states of the expansion of " + held.name));
+  }
+
+  /// A record is a result of every build that added measures to it.
+  void add_additions(const Json& added, const std::string& own, const Json& record) {
+    std::set<std::string> seen{own};
+    for (const auto& addition : added) {
+      Build build{addition.at("version"), addition.at("git"), addition.at("compiler")};
+      if (!seen.insert(build.name()).second) continue;
+      Build& adder = builds_.try_emplace(build.name(), std::move(build)).first->second;
+      ++adder.added_to;
+      adder.results.push_back(record);
+    }
   }
 
   /// Of these two nobody records by which build they were made: they are results where there is one alone.
@@ -111,6 +125,13 @@ class Crate {
       const Json id = add_file(name, what);
       if (builds_.size() == 1) builds_.begin()->second.results.push_back(id);
     }
+  }
+
+  static std::string description_of(const Build& build) {
+    auto text = fmt::format("{} replicates, of which {} failed, in {:.0f} CPU seconds", build.records, build.failed,
+                            build.cpu_seconds);
+    if (build.added_to > 0) text += fmt::format("; measures added to {} records of another build", build.added_to);
+    return text;
   }
 
   Json add_run(const Build& build, const Json& manifest_id) {
@@ -133,9 +154,8 @@ class Crate {
     }
     Json action{{"@id", run},
                 {"@type", "CreateAction"},
-                {"name", "isojam run manifest.json"},
-                {"description", fmt::format("{} replicates, of which {} failed, in {:.0f} CPU seconds", build.records,
-                                            build.failed, build.cpu_seconds)},
+                {"name", build.records > 0 ? "isojam run manifest.json" : "isojam measure"},
+                {"description", description_of(build)},
                 {"instrument", reference(program)},
                 {"object", manifest_id},
                 {"result", build.results}};

@@ -369,20 +369,18 @@ Manifest with_measures(Manifest manifest, const std::vector<Measure>& more) {
   return manifest;
 }
 
-bool has_more_measures(const Manifest& manifest, const Manifest& more) {
-  return digest(with_measures(manifest, more.measures)) == digest(more);
+std::string digest_without_measures(const Manifest& manifest) {
+  Manifest bare = manifest;
+  bare.measures.clear();
+  return digest(bare);
 }
 
-std::optional<std::vector<Measure>> measures_lacking(const Manifest& manifest, const std::vector<Measure>& has,
-                                                     const std::string& record_digest) {
-  Manifest before = manifest;
-  before.measures = has;
-  if (digest(before) != record_digest) return std::nullopt;
-  std::vector<Measure> lacking;
-  for (const auto measure : manifest.measures) {
-    if (std::find(has.begin(), has.end(), measure) == has.end()) lacking.push_back(measure);
-  }
-  return lacking;
+bool is_same_sweep(const Manifest& a, const Manifest& b) { return is_of_sweep(a, b.measures, digest(b)); }
+
+bool is_of_sweep(const Manifest& manifest, const std::vector<Measure>& measures, const std::string& digest_of_record) {
+  Manifest as_recorded = manifest;
+  as_recorded.measures = measures;
+  return digest(as_recorded) == digest_of_record;
 }
 
 }  // namespace isojam

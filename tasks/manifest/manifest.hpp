@@ -80,12 +80,12 @@ std::string digest(const Manifest& manifest);
 
 /// The same sweep with these measures as well, in the order of records.
 Manifest with_measures(Manifest manifest, const std::vector<Measure>& more);
-/// Whether the second is the first with more measures, or with as many.
-bool has_more_measures(const Manifest& manifest, const Manifest& more);
-/// The measures that `manifest` has and `record_digest` lacks: that is the digest of the same sweep with none but
-/// `has`. nullopt if it is that of another.
-std::optional<std::vector<Measure>> measures_lacking(const Manifest& manifest, const std::vector<Measure>& has,
-                                                     const std::string& record_digest);
+/// The digest of the sweep, whatever is measured.
+std::string digest_without_measures(const Manifest& manifest);
+/// Whether two manifests differ in nothing but what is measured, if in that.
+bool is_same_sweep(const Manifest& a, const Manifest& b);
+/// Whether `digest_of_record` is that of this sweep, measured so.
+bool is_of_sweep(const Manifest& manifest, const std::vector<Measure>& measures, const std::string& digest_of_record);
 
 /// By which keys two manifests of different digest differ, with both values: "/seed: 8 there, 7 here; ...", a handful
 /// and how many more. Empty if their digests are the same.

@@ -45,6 +45,7 @@ std::string point_text(const ReplicateSpec& spec) { return point_text(spec.solid
 Plan::Plan(const Manifest& manifest)
     : manifest_(manifest),
       digest_(digest(manifest)),
+      sweep_digest_(digest_without_measures(manifest)),
       sets_(option_sets(manifest)),
       points_(manifest.solids.size() * manifest.particles.size() * sets_.size()) {
   for (std::size_t point = 0; point < points_; ++point) point_of_prefix_[prefix(at(point, 0))] = point;
@@ -60,6 +61,7 @@ ReplicateSpec Plan::at(std::size_t point, int replicate) const {
           replicate,
           manifest_.seed,
           digest_,
+          sweep_digest_,
           set.options,
           manifest_.measures,
           manifest_.measuring,

@@ -20,6 +20,7 @@ struct ReplicateSpec {
   int replicate = 0;
   std::uint64_t seed = 0;  ///< the manifest's
   std::string manifest_digest;
+  std::string sweep_digest;  ///< of the manifest without its measures
   JamOptions options;
   std::vector<Measure> measures;
   MeasureOptions measuring;
@@ -54,7 +55,7 @@ class Plan {
 
  private:
   Manifest manifest_;
-  std::string digest_;
+  std::string digest_, sweep_digest_;
   std::vector<OptionSet> sets_;
   std::size_t points_;
   std::map<std::string, std::size_t, std::less<>> point_of_prefix_;  ///< by what its replicates' names have in common

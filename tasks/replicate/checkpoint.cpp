@@ -115,6 +115,18 @@ int read_lost(const JsonPlace& root) {
   return static_cast<int>(root.at("lost").integer({-1, steps - 1}));
 }
 
+/// The build and the sweep. What will be measured is no part of a run: measures may be added while it stands.
+Json origin(const ReplicateSpec& spec) {
+  auto json = provenance(spec);
+  json["manifest_digest"] = spec.sweep_digest;
+  return json;
+}
+Json run_of(const ReplicateSpec& spec) {
+  auto json = to_json(spec);
+  json.erase("measure");
+  return json;
+}
+
 Json to_json(const ProcessId& process) {
   return {{"machine", process.machine}, {"process", process.process}, {"started", process.started}};
 }
@@ -127,8 +139,8 @@ std::optional<Json> make_checkpoint(const ReplicateSpec& spec, const Checkpoint&
   if (!std::all_of(result.path.begin(), result.path.end(), is_finite)) return std::nullopt;
   Json json;
   json["schema"] = checkpoint_schema;
-  json["provenance"] = provenance(spec);
-  json["spec"] = to_json(spec);
+  json["provenance"] = origin(spec);
+  json["spec"] = run_of(spec);
   json["writer"] = to_json(this_process());
   json["timing"] = to_json(checkpoint.spent);
   json["status"] = to_string(result.status);
@@ -156,9 +168,9 @@ ProcessId read_writer(const JsonPlace& root) {
 
 Checkpoint read_checkpoint(const JsonPlace& root, const ReplicateSpec& spec) {
   root.at("schema").choice(std::array{checkpoint_schema});
-  if (root.at("provenance").value() != provenance(spec))
+  if (root.at("provenance").value() != origin(spec))
     root.at("provenance").refuse("the checkpoint is of another manifest or another build of isojam");
-  if (root.at("spec").value() != to_json(spec)) root.at("spec").refuse("the checkpoint is of another replicate");
+  if (root.at("spec").value() != run_of(spec)) root.at("spec").refuse("the checkpoint is of another replicate");
   read_writer(root);
   const auto timing = root.at("timing");
   return {{read_own_packing(root.at("packing"), spec), root.at("stage").choice<JamStage>(),

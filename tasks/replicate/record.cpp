@@ -189,12 +189,12 @@ Json with_added(Json record, const Json& before, const std::vector<Measure>& add
 
 Json failed_record(const Json& before, const ReplicateSpec& spec) {
   Json json;
-  for (const auto& item : before.items()) {
-    if (item.key() == "checksum") continue;
-    json[item.key()] = item.key() == "spec" ? to_json(spec) : item.value();
-    if (item.key() == "work") break;
+  for (const auto* key : {"schema", "provenance", "spec", "status", "failure", "flags", "flags_reason", "timing",
+                          "evaluations", "pairs", "work"}) {
+    json[key] = before.at(key);
   }
   json["provenance"]["manifest_digest"] = spec.manifest_digest;
+  json["spec"] = to_json(spec);
   put_nothing(json, spec.measures);
   json["states"] = before.at("states");
   json["path"] = before.at("path");

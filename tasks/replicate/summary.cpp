@@ -70,11 +70,16 @@ void read_states(const JsonPlace& states, RecordSummary& summary) {
             [](const StateValues& a, const StateValues& b) { return a.delta_phi < b.delta_phi; });
 }
 
+std::string build_text(const JsonPlace& place) {
+  return fmt::format("{} ({}, {})", place.at("version").text(), place.at("git").text(), place.at("compiler").text());
+}
+
 void read_additions(const JsonPlace& added, RecordSummary& summary) {
   const auto count = added.expect_list("a list of what was added");
   for (std::size_t k = 0; k < count; ++k) {
     const auto before = added.at(k).at("before");
-    summary.before.push_back({before.at("manifest_digest").text(), before.at("result_digest").text()});
+    summary.before.push_back(
+        {before.at("manifest_digest").text(), before.at("result_digest").text(), build_text(added.at(k))});
   }
 }
 
@@ -113,8 +118,7 @@ RecordSummary summarise_record(const Json& record, const std::string& file) {
   summary.replicate = static_cast<int>(spec.at("replicate").integer({0, 1e9}));
   const auto provenance = root.at("provenance");
   summary.manifest_digest = provenance.at("manifest_digest").text();
-  summary.build = fmt::format("{} ({}, {})", provenance.at("version").text(), provenance.at("git").text(),
-                              provenance.at("compiler").text());
+  summary.build = build_text(provenance);
   if (provenance.has("added")) read_additions(provenance.at("added"), summary);
   read_measures(spec.at("measure"), summary);
   for (const std::string key : {"protocol", "minimiser", "measure", "modes"})

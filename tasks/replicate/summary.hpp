@@ -29,9 +29,9 @@ struct RecordSummary {
   Json parameters;
   int replicate = 0;
   std::string manifest_digest;
-  /// What it was until measures were added to it.
+  /// What it was until measures were added to it, and by which build.
   struct Before {
-    std::string manifest_digest, result_digest;
+    std::string manifest_digest, result_digest, added_by;
   };
   std::vector<Before> before;
   std::vector<Measure> measures;  ///< that it has, of those that this version knows

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
+#include <optional>
 #include <utility>
 
 #include "engine/vibration/settle.hpp"
@@ -35,12 +35,17 @@ bool failed_before_measures(const RecordedReplicate& held) {
   return !from_string<Measure>(held.record.at("failure").at("where").get_ref<const std::string&>());
 }
 
-void require_path(const fs::path& directory, const std::string& name) {
-  const auto file = file_of(directory, "paths", name);
-  std::error_code error;
-  if (fs::exists(file, error)) return;
-  throw InputError({file, "", "is not there, so that nothing can be measured in its states any more",
-                    "expansions that were kept: \"keep_path\": true in the manifest before the run", ""});
+/// Why nothing of a replicate without failure can be measured any more; nullopt if it can.
+std::optional<std::string> without_path(const fs::path& directory, const RecordedReplicate& held) {
+  try {
+    check_companions(directory, held, true);
+    return std::nullopt;
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::missing) throw;
+    return fmt::format("{}; expansions are kept by \"keep_path\": true in the manifest, before the run", error.what());
+  }
 }
 
 std::vector<Packing> packings_of(const fs::path& directory, const RecordedReplicate& held) {
@@ -60,19 +65,21 @@ Additions additions(const fs::path& directory, const Plan& plan, const std::vect
   for (const auto& name : names) {
     const auto held = read_record(directory, name);
     const auto place = plan.place_of(name);
-    const auto lacks = place ? lacking(held, plan.manifest()) : std::nullopt;
-    if (!lacks)
+    if (!place || !is_of(held, plan.manifest()))
       throw InputError({file_of(directory, "records", name), "/provenance/manifest_digest",
                         "belongs to another manifest than the directory", plan.manifest_digest(), ""});
-    if (lacks->empty()) continue;
+    if (lacks(held, plan.manifest()).empty()) continue;
     auto spec = plan.at(place->point, place->replicate);
     if (!held.summary.failed) {
-      require_path(directory, name);
-      result.measured.push_back({std::move(spec), *lacks});
+      if (const auto why = without_path(directory, held)) {
+        result.impossible.push_back({name, *why});
+      } else {
+        result.measured.push_back(std::move(spec));
+      }
     } else if (failed_before_measures(held)) {
       result.failed.push_back(std::move(spec));
     } else {
-      result.not_measured.push_back(name);
+      result.impossible.push_back({name, name + ": failed in a measure, and its states were not kept"});
     }
   }
   return result;

@@ -9,21 +9,19 @@
 
 namespace isojam {
 
-/// A record that measures are added to.
-struct Addition {
-  ReplicateSpec spec;            ///< with all measures
-  std::vector<Measure> lacking;  ///< of these, what the record has not
-};
-
-/// What there is to add to the records of a directory, those of `names`, for them to have all measures of its manifest.
+/// What there is to add to the records of a directory for them to have all measures of a manifest.
 struct Additions {
-  std::vector<Addition> measured;         ///< from their paths
-  std::vector<ReplicateSpec> failed;      ///< before anything was measured: their records say what else they have not
-  std::vector<std::string> not_measured;  ///< names of those that failed in a measure, whose states were not kept
+  std::vector<ReplicateSpec> measured;  ///< from their paths
+  std::vector<ReplicateSpec> failed;    ///< before anything was measured: their records say what else they have not
+  /// Those of which nothing is kept that could be measured, and why: only a run makes them again.
+  struct Impossible {
+    std::string name, why;
+  };
+  std::vector<Impossible> impossible;
 };
 
-/// Throws InputError for a record that is damaged, of another manifest or not of the plan, and for one that could be
-/// measured, had its path been kept; FileError for what cannot be read now.
+/// Reads only. `names`: of records. Throws InputError for a record that is damaged, of another sweep or not of the
+/// plan, FileError for what cannot be read now.
 Additions additions(const std::filesystem::path& directory, const Plan& plan, const std::vector<std::string>& names);
 
 /// The stages by which a replicate gets what its record lacks: its run is read back from record and path, states are

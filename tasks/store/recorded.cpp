@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <system_error>
 
 #include "tasks/json/input_error.hpp"
@@ -51,16 +52,22 @@ RecordedReplicate read_record(const fs::path& directory, const std::string& name
   return {name, std::move(record), std::move(summary)};
 }
 
-std::optional<std::vector<Measure>> lacking(const RecordedReplicate& replicate, const Manifest& manifest) {
-  const auto& summary = replicate.summary;
-  // The digest of a manifest is that of its whole text: most records are told apart without it.
-  if (summary.settings.at("measure").size() >= manifest.measures.size())
-    return summary.manifest_digest == digest(manifest) ? std::optional(std::vector<Measure>{}) : std::nullopt;
-  return measures_lacking(manifest, summary.measures, summary.manifest_digest);
+bool is_of(const RecordedReplicate& replicate, const Manifest& manifest) {
+  return is_of_sweep(manifest, replicate.summary.measures, replicate.summary.manifest_digest);
+}
+
+std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest) {
+  const auto& has = replicate.summary.measures;
+  std::vector<Measure> list;
+  std::copy_if(manifest.measures.begin(), manifest.measures.end(), std::back_inserter(list),
+               [&](Measure what) { return std::find(has.begin(), has.end(), what) == has.end(); });
+  return list;
 }
 
 void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec) {
-  if (replicate.record.at("spec") != to_json(spec))
+  auto planned = spec;
+  planned.measures = replicate.summary.measures;
+  if (replicate.record.at("spec") != to_json(planned))
     throw InputError({replicate.name, "/spec", "is not what its manifest plans", "", ""});
 }
 

@@ -23,11 +23,12 @@ struct RecordedReplicate {
 /// does not have the result digest that it states, or is of another replicate than its name says.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
-/// What the record lacks of the measures of a manifest that it is of: none, or those that were added to the manifest
-/// since. nullopt if it is of another manifest.
-std::optional<std::vector<Measure>> lacking(const RecordedReplicate& replicate, const Manifest& manifest);
+/// Whether the record is of the sweep of this manifest, whatever was measured.
+bool is_of(const RecordedReplicate& replicate, const Manifest& manifest);
+/// The measures of a manifest that the record has not: those that were added to the manifest since.
+std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest);
 
-/// Throws InputError unless the record has all the settings of this specification.
+/// Throws InputError unless the record has all the settings of this specification, measures apart.
 void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec);
 
 /// Throws, as read_record does, unless the packing of a replicate that did not fail is there and its own, and its path

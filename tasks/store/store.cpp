@@ -25,13 +25,26 @@ namespace {
                     fmt::format("results of this manifest (digest {}): choose another directory with -o", ours), ""});
 }
 
+/// What a manifest measures that the one of the directory does not.
+std::string how_to_add(const fs::path& directory, const Manifest& theirs, const Manifest& ours) {
+  std::string names;
+  for (const auto what : ours.measures) {
+    if (std::find(theirs.measures.begin(), theirs.measures.end(), what) != theirs.measures.end()) continue;
+    names += (names.empty() ? "" : ",") + std::string(to_string(what));
+  }
+  return fmt::format("what it measures, {}; isojam measure {} --add {} adds to that",
+                     compact(to_json(theirs).at("measure")), directory.string(), names);
+}
+
 /// The manifest that the directory belongs to already.
 std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& manifest) {
   const auto path = directory / "manifest.json";
   auto theirs = stored_manifest(directory);
-  if (theirs && digest(*theirs) != digest(manifest))
-    refuse_other(path.string(), "", differences(*theirs, manifest), digest(manifest));
-  return theirs;
+  if (!theirs || digest(*theirs) == digest(manifest)) return theirs;
+  if (is_same_sweep(*theirs, manifest))
+    throw InputError({path.string(), "/measure", "the directory measures something else",
+                      how_to_add(directory, *theirs, manifest), ""});
+  refuse_other(path.string(), "", differences(*theirs, manifest), digest(manifest));
 }
 
 /// Records that the plan does not know; all of them where no manifest says whose the directory is.
@@ -46,7 +59,7 @@ void check_records(const fs::path& directory, const Manifest& manifest, bool all
     std::string theirs;
     try {
       const auto held = read_record(directory, name);
-      if (lacking(held, manifest)) continue;
+      if (is_of(held, manifest)) continue;
       theirs = held.summary.manifest_digest;
     } catch (const InputError& damage) {
       if (!planned) warn(fmt::format("{}; no replicate of this manifest, and left as it is", damage.what()));
@@ -149,16 +162,18 @@ fs::path Store::file(const char* folder, const ReplicateSpec& spec) const {
 std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
   const auto path = record_path(spec).string();
   std::string theirs;
-  bool is_lacking = false;
   try {
     auto held = read_record(directory_, replicate_name(spec));
-    theirs = held.summary.manifest_digest;
-    is_lacking = theirs != digest_ && lacking(held, kept_);
-    if (theirs == digest_) {
+    if (!is_of(held, kept_)) {
+      theirs = held.summary.manifest_digest;
+    } else {
       check_spec(held, spec);
       if (failed_for_want(held))
         throw InputError({path, "/failure", "records what the machine lacked, not what came of the replicate", "", ""});
       check_companions(directory_, held, keep_path_);
+      if (!lacks(held, kept_).empty())
+        throw InputError({path, "/spec/measure", "lacks measures that were added to the manifest since",
+                          "isojam measure, which adds them for less where the expansion was kept", ""});
       return std::move(held.summary);
     }
   } catch (const InputError& damage) {
@@ -167,11 +182,7 @@ std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
     if (error.reason() != FileError::Reason::missing) throw;
     if (fs::exists(path)) warn_(fmt::format("{}; the replicate is redone", error.what()));
   }
-  if (is_lacking)
-    throw InputError({path, "/spec/measure", "lacks measures that were added to the manifest of its directory",
-                      fmt::format("isojam measure {} adds them", directory_.string()), ""});
-  if (!theirs.empty() && theirs != digest_)
-    refuse_other(path, "/provenance/manifest_digest", "digest " + theirs, digest_);
+  if (!theirs.empty()) refuse_other(path, "/provenance/manifest_digest", "digest " + theirs, digest_);
   return std::nullopt;
 }
 
@@ -269,7 +280,7 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
   in_order(names.size(), read, [&](Read one) {
     if (!one.held) {
       warn(one.damage + "; not of the plan, and left out");
-    } else if (manifest && one.held->summary.manifest_digest != own && !lacking(*one.held, *manifest)) {
+    } else if (manifest && one.held->summary.manifest_digest != own && !is_of(*one.held, *manifest)) {
       warn(fmt::format("{}: of another manifest, and left out",
                        (directory / "records" / (one.held->name + ".json")).string()));
     } else {

@@ -55,15 +55,13 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
       }
       check_companions(directory, held, with_paths);
       const auto spec = plan.at(place->point, place->replicate);
-      if (summary.manifest_digest == spec.manifest_digest) {
-        check_spec(held, spec);
-      } else if (lacking(held, plan.manifest())) {
-        ++survey.lacking;
-      } else {
+      if (!is_of(held, plan.manifest())) {
         survey.others.push_back(name);
         survey.damaged.push_back(name + ": belongs to another manifest");
         continue;
       }
+      check_spec(held, spec);
+      survey.lacking += !lacks(held, plan.manifest()).empty();
       auto& point = survey.points[place->point];
       ++point.recorded;
       point.failed += summary.failed;

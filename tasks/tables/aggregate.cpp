@@ -96,6 +96,7 @@ Values Aggregation::own_values(const Kept& kept) {
 void Aggregation::add(const RecordSummary& record) {
   auto& point = points_[{record.solid, record.particles, record.parameters}];
   builds_.insert(record.build);
+  for (const auto& before : record.before) builds_.insert(before.added_by);
   if (point.replicates.empty()) {
     point.settings = record.settings;
     point.first = describe(record);

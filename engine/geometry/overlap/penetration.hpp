@@ -13,7 +13,8 @@ struct Penetration {
 };
 
 /// The axis of least depth among all face normals and edge-edge products, told apart in quadruple precision where
-/// doubles cannot. Slow: every axis is tried.
+/// doubles cannot. Products of edges are tried in the direction from A to B, which is the right one unless the centres
+/// nearly coincide. Slow: every axis is tried.
 Penetration penetration(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
 
 }  // namespace isojam

@@ -64,7 +64,7 @@ std::vector<std::string> chosen_names(const ExportArguments& arguments) {
 RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Manifest>& manifest,
                              const std::string& name) {
   auto held = read_record(arguments.directory, name);
-  if (manifest && !lacking(held, *manifest))
+  if (manifest && !is_of(held, *manifest))
     throw InputError({record_file(arguments, name), "/provenance/manifest_digest",
                       "belongs to another manifest than the directory", "", ""});
   return held;

@@ -69,8 +69,8 @@ bool is_of_no_kind(std::string_view pointer, std::size_t kinds) {
   return kinds < 2 || kind > kinds;
 }
 
-std::vector<Measure> measures_of(const std::optional<Manifest>& manifest) {
-  return manifest ? manifest->measures : std::vector<Measure>{all_measures.begin(), all_measures.end()};
+std::vector<Measure> measures_of(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
+  return manifest ? manifest->measures : first.summary.measures;
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ RecordRows::RecordRows(RowOf of, RowFormat format, const std::optional<Manifest>
     : of_(of), format_(format), exclude_(manifest ? manifest->exclude : usually_excluded()) {
   add_head(swept_names(manifest, first));
   add_state();
-  add_quantities(measures_of(manifest), kinds_of(manifest, first));
+  add_quantities(measures_of(manifest, first), kinds_of(manifest, first));
   if (of_ == RowOf::replicate) {
     add("evaluations", [](const Source& s) { return s.held.record.at("evaluations"); });
     add("cpu_seconds", [](const Source& s) { return s.held.record.at("timing").at("cpu_seconds"); });
@@ -150,7 +150,9 @@ std::string RecordRows::reasons(const Source& source) const {
     if (!object) continue;
     const auto* value = value_at(*object, quantity.pointer);
     if (value && !value->is_null()) continue;
-    const auto reason = reason_of(*object, quantity.pointer);
+    const auto& has = source.held.summary.measures;
+    const bool measured = !quantity.measure || std::find(has.begin(), has.end(), *quantity.measure) != has.end();
+    const auto reason = measured ? reason_of(*object, quantity.pointer) : "was not measured";
     if (!reason.empty()) cells.push_back(std::string(quantity.name) + ": " + reason);
   }
   return joined(cells, between);

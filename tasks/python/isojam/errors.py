@@ -19,5 +19,5 @@ class ProgramError(RuntimeError):
     command: as a list of words; message: what it said on stderr."""
 
     def __init__(self, command, message):
-        self.command, self.message = list(command), message
+        self.command, self.message = [str(word) for word in command], message
         super().__init__(f"{' '.join(self.command)}: {message}" if command else message)

@@ -22,7 +22,7 @@ def find(program=None):
             if found is None:
                 raise ProgramError([], f"{by} says that the program is {asked}, which cannot be run")
             return found
-    found = shutil.which(facts.program) or shutil.which("isojam")
+    found = shutil.which(os.fspath(facts.program)) or shutil.which("isojam")
     if found is None:
         raise ProgramError([], "the program isojam is not found: give its path as `program` of isojam.load or in the "
                                "environment variable ISOJAM")

@@ -119,13 +119,17 @@ class Study:
 
     def _read(self):
         if self._rows is None:
-            replicates, states, digests = [], [], set()
+            replicates, states, digests, earlier = [], [], set(), set()
             for name in self.names:
                 record = self.record(name)
                 row, own = read_rows(name, record, self._file("records", name), self.excluding)
                 replicates.append(row)
                 states.extend(own)
                 digests.add(row["manifest_digest"])
+                added = record["provenance"].get("added", [])
+                earlier.update(each["before"]["manifest_digest"] for each in added)
+            # Records to which measures were added stand beside those that lack them.
+            digests -= earlier
             if len(digests) > 1:
                 warnings.warn(f"{self.directory} holds records of {len(digests)} manifests; the column manifest_digest "
                               "tells them apart", stacklevel=3)

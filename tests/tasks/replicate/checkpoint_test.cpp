@@ -80,6 +80,17 @@ Checkpoint with_a_state(const ReplicateSpec& spec) {
   return checkpoint;
 }
 
+TEST(Checkpoint, GoesOnWhateverIsMeasuredThen) {
+  const auto manifest = parse_manifest(test::tiny_manifest().dump(), "tiny");
+  auto fewer = manifest, seeded = manifest;
+  fewer.measures = {Measure::contacts};
+  seeded.seed += 1;
+  const auto spec = test::make_plan(manifest)[0];
+  const auto checkpoint = *make_checkpoint(test::make_plan(fewer)[0], with_a_state(spec));
+  EXPECT_NO_THROW(read_checkpoint({checkpoint, "c"}, spec));
+  EXPECT_THROW(read_checkpoint({checkpoint, "c"}, test::make_plan(seeded)[0]), InputError);
+}
+
 TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
   const auto spec = tiny_spec();
   const auto good = *make_checkpoint(spec, with_a_state(spec));

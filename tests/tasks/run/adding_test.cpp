@@ -5,8 +5,10 @@
 // - the record says what was added, by which build, and what it was before; packings and paths are still its own;
 //   the directory conforms to the schemas, nothing in it is damaged, and neither the extended manifest nor the original
 //   one runs anything again;
-// - a kill leaves whole records of either kind, status counts those that lack something, a run says how to go on, and
-//   the same command does;
+// - a kill leaves whole records of either kind, status counts those that lack something, and the same command goes on;
+//   what it cannot add to, for a path that is gone or was written by a process killed before the record, a run makes
+//   again, and it keeps what is measured beyond its manifest;
+// - it takes the directory for itself: beside another one, or a run, it refuses, and a run beside it;
 // - one replicate alone can be measured; one that failed on its way says what else it has not;
 // - refused before anything is written: a measure that is none, a replicate that is not there, expansions that were not
 //   kept, with the key that keeps them, and a damaged or foreign record.
@@ -21,6 +23,7 @@
 #include "tasks/json/parse.hpp"
 #include "tasks/json/sealed.hpp"
 #include "tasks/store/store.hpp"
+#include "tasks/system/directory_lock.hpp"
 #include "tasks/system/file.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
@@ -125,6 +128,7 @@ TEST_F(Adding, FollowsStatesToMinimaAsARunDoes) {
   for (const std::string name : {"few", "all"})
     ASSERT_EQ(isojam({"run", name + ".json", "-o", name}, here_.path()).exit_code, 0);
   const auto name = names().front();
+  fs::copy(here_ / "few", here_ / "killed", fs::copy_options::recursive);
   ASSERT_FALSE(has_moved(record("few", name)));
   ASSERT_TRUE(has_moved(record("all", name))) << "no state of this packing is a saddle: choose another";
   ASSERT_EQ(measure({"--add", "contacts"}).exit_code, 0);
@@ -133,7 +137,15 @@ TEST_F(Adding, FollowsStatesToMinimaAsARunDoes) {
   for (const std::string folder : {"packings", "paths"}) {
     auto moved = read_sealed((here_ / "few" / folder / (name + ".json")).string());
     EXPECT_EQ(moved, read_sealed((here_ / "all" / folder / (name + ".json")).string())) << folder;
+    // As a process leaves it that was killed before it came to the record.
+    fs::copy_file(here_ / "few" / folder / (name + ".json"), here_ / "killed" / folder / (name + ".json"),
+                  fs::copy_options::overwrite_existing);
   }
+  fs::copy_file(here_ / "few" / "manifest.json", here_ / "killed" / "manifest.json",
+                fs::copy_options::overwrite_existing);
+  EXPECT_EQ(isojam({"measure", "killed"}, here_.path()).exit_code, 1);
+  EXPECT_EQ(isojam({"run", "few.json", "-o", "killed"}, here_.path()).exit_code, 0);
+  EXPECT_EQ(record("killed", name).at("result_digest"), record("all", name).at("result_digest"));
 }
 
 TEST_F(Adding, OneAfterTheOtherComesToTheSame) {
@@ -188,9 +200,6 @@ TEST_F(Adding, GoesOnAfterAKill) {
   if (lacking > 0) {
     const auto line = std::to_string(lacking) + (lacking == 1 ? " record " : " records ") + "without measures";
     EXPECT_NE(status.out.find(line), std::string::npos) << status.out;
-    const auto run = isojam({"run", "few.json", "-o", "few"}, here_.path());
-    EXPECT_EQ(run.exit_code, 65);
-    EXPECT_NE(run.err.find("isojam measure few"), std::string::npos) << run.err;
   }
   ASSERT_EQ(measure({}).exit_code, 0);
   ASSERT_EQ(measure({"--add", "order,clusters,moduli"}).exit_code, 0);
@@ -210,6 +219,43 @@ TEST_F(Adding, OfOneReplicateAlone) {
             true);
   ASSERT_EQ(measure({}).exit_code, 0);
   expect_as_if_from_the_start();
+}
+
+TEST_F(Adding, ARunMakesAgainWhatLacksSomething) {
+  const auto all = names();
+  ASSERT_EQ(measure({"--add", rest, "--only", all[1]}).exit_code, 0);
+  const auto path = here_ / "few" / "paths" / (all[2] + ".json");
+  fs::remove(path);
+  const auto measured = measure({});
+  EXPECT_EQ(measured.exit_code, 1);
+  EXPECT_NE(measured.err.find("isojam run makes " + all[2] + " again"), std::string::npos) << measured.err;
+  const auto run = isojam({"run", "few.json", "-o", "few"}, here_.path());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, all_.out);
+  expect_as_if_from_the_start();
+  EXPECT_TRUE(fs::exists(path));
+  // Without the manifest its records still say that they are of this sweep, and keep what else was measured.
+  fs::remove(here_ / "few" / "manifest.json");
+  const auto before = files_below(here_ / "few" / "records");
+  EXPECT_EQ(isojam({"run", "few.json", "-o", "few"}, here_.path()).exit_code, 0);
+  EXPECT_EQ(files_below(here_ / "few" / "records"), before);
+  EXPECT_EQ(measure({"--add", rest}).exit_code, 0);
+  EXPECT_EQ(files_below(here_ / "few" / "records"), before);
+}
+
+TEST_F(Adding, HasTheDirectoryForItself) {
+  const auto before = files_below(here_ / "few");
+  for (const auto kind : {DirectoryLock::Kind::shared, DirectoryLock::Kind::exclusive}) {
+    const auto held = DirectoryLock::take(here_ / "few", kind);
+    ASSERT_TRUE(held);
+    const auto refused = measure({"--add", "modes"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_NE(refused.err.find("isojam runs or measures there now"), std::string::npos) << refused.err;
+    const auto run = isojam({"run", "few.json", "-o", "few"}, here_.path());
+    EXPECT_EQ(run.exit_code, kind == DirectoryLock::Kind::shared ? 0 : 1) << run.err;
+  }
+  EXPECT_EQ(files_below(here_ / "few"), before);
+  EXPECT_EQ(measure({"--add", "rigidity"}).exit_code, 0) << "the lock went with its holder";
 }
 
 TEST_F(Adding, AFailedReplicateSaysWhatElseItHasNot) {
@@ -241,9 +287,7 @@ TEST_F(Adding, RefusesBeforeAnythingIsWritten) {
   auto damaged = content;
   damaged[content.size() / 2] ^= 1;
   test::write_text(path, damaged);
-  const auto before = record("few", names().back());
-  EXPECT_EQ(measure({"--add", "modes", "--only", names().back()}).exit_code, 1) << "a path that is damaged";
-  EXPECT_EQ(record("few", names().back()), before);
+  untouched({"--add", "modes", "--only", names().front()}, 65, "the file is damaged");
   fs::remove(path);
   untouched({"--add", "rigidity"}, 65, "\"keep_path\": true");
   test::write_text(path, content);
