@@ -84,10 +84,14 @@ TEST(Penetration, OfFacesNearlyParallelIsTheSameFromEitherSide) {
     const ConvexSolid& solid = platonic(kind);
     for (int k = 0; k < 8; ++k) {
       const auto face = static_cast<int>(random.uniform() * static_cast<double>(solid.faces().size()));
-      // Turned about the normal, and with the opposite face on this one: parallel to the rounding of its orientation.
+      const Face& own = solid.faces()[static_cast<std::size_t>(face)];
+      const auto corner = [&](std::size_t c) { return solid.arrays().vertex(own.vertices[c]); };
+      // Turned about the normal, and with the opposite face on this one, not centre on centre: parallel to the rounding
+      // of its orientation.
       Pose a, b;
-      b.orientation = Eigen::AngleAxisd(6 * random.uniform(), solid.faces()[static_cast<std::size_t>(face)].normal);
-      const Quad3 r = (2 * solid.arrays().plane_offset(face) - Quad(2e-15)) * solid.arrays().normal(face);
+      b.orientation = Eigen::AngleAxisd(6 * random.uniform(), own.normal);
+      const Quad3 r = (2 * solid.arrays().plane_offset(face) - Quad(2e-15)) * solid.arrays().normal(face) +
+                      Quad(.3) * (corner(1) - corner(0));
       const Quad there = penetration(solid, solid, relative_pose(a, b, r)).depth;
       const Quad back = penetration(solid, solid, relative_pose(b, a, Quad(-1) * r)).depth;
       EXPECT_NEAR(static_cast<double>(there), 2e-15, 1e-15) << solid.name() << " " << k;
