@@ -93,9 +93,16 @@ TEST(MixtureContacts, OfOneShapeAreFittedTogether) {
 
 TEST(MixtureContacts, OfKindsAreThoseOfAll) {
   const Packing packing = packing_of(three(), 300, 1, 4);
-  const ContactAnalysis analysis = analysed(packing).analysis;
+  const auto [contacts, angles, analysis] = analysed(packing);
   ASSERT_EQ(analysis.of_kinds.size(), 3U);
   const std::vector<int> counts = three().counts(300);
+  std::array<int, 3> ends{};
+  for (const Contact& contact : contacts) {
+    for (const int i : {contact.pair.a, contact.pair.b})
+      ++ends[static_cast<std::size_t>(packing.solids.kind(static_cast<std::size_t>(i)))];
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(analysis.of_kinds[k].Z, ends[k] / static_cast<double>(counts[k]), 1e-12) << "kind " << k;
   ContactNumbers mean;
   for (std::size_t k = 0; k < 3; ++k) {
     const double share = counts[k] / 300.0;

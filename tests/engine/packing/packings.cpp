@@ -37,7 +37,8 @@ Eigen::MatrixXd dense(const BlockMatrix& matrix) {
 
 std::string describe(const Packing& packing) {
   std::ostringstream text;
-  text << packing.solids.only().name() << ", N " << packing.size() << ", L " << packing.cell.side();
+  text << packing.solids.unit(0).name() << (packing.solids.is_uniform() ? "" : " and others") << ", N "
+       << packing.size() << ", L " << packing.cell.side();
   return text.str();
 }
 

@@ -6,7 +6,8 @@
 //   self-stress and floppy motions those of all singular values of the rows;
 // - the same bits come twice;
 // - states without contacts, with one, with three particles or one, and a crystal of cubes whose contacts are all alike
-//   give records that conform, with a reason beside every null, and never a number that is none.
+//   give records that conform, with a reason beside every null, and never a number that is none;
+// - what each measure wrote into a record is told from what the others wrote, reasons included.
 
 #include "tasks/measure/measure.hpp"
 #include "tasks/replicate/summary.hpp"
@@ -18,6 +19,7 @@
 
 #include "engine/rigidity/rigidity.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
+#include "tasks/measure/recorded_measurement.hpp"
 #include "tasks/replicate/record.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
@@ -64,9 +66,22 @@ std::string unexplained(const Json& json, const std::string& path = "") {
   return list;
 }
 
+/// Of a record with all measures: what each wrote is found again.
+void expect_recorded(const Json& record, const Outcome& outcome) {
+  for (const auto& [what, measured] : outcome.measured) {
+    const auto found = recorded_measurement(what, record);
+    EXPECT_EQ(Json(found.states).dump(), Json(measured.states).dump()) << to_string(what);
+    if (outcome.failure) continue;
+    EXPECT_EQ(found.replicate.dump(), measured.replicate.dump()) << to_string(what);
+    EXPECT_EQ(found.flags, measured.flags) << to_string(what);
+  }
+}
+
 TEST(Measure, FillsTheRecordOfAJammedPacking) {
   ASSERT_EQ(jammed().status, JamStatus::jammed);
-  const auto record = test::record_on_disk(measured_outcome(jammed()));
+  const auto outcome = measured_outcome(jammed());
+  const auto record = test::record_on_disk(outcome);
+  expect_recorded(record, outcome);
   EXPECT_EQ(violations("replicate", record), "");
   EXPECT_EQ(unexplained(record), "");
   const auto summary = summarise_record(record, "record");
@@ -194,6 +209,8 @@ TEST(Measure, AnswersDegenerateStates) {
     auto outcome = measured_outcome(result_of(packing));
     outcome.failure = Failure{"jam", "made up"};
     const auto record = test::record_on_disk(outcome);
+    SCOPED_TRACE(name);
+    expect_recorded(record, outcome);
     EXPECT_EQ(violations("replicate", record), "") << name;
     EXPECT_EQ(unexplained(record), "") << name;
     const auto& state = record.at("states").at(0);

@@ -143,6 +143,18 @@ TEST(ForeignPackings, OfXyzAreWhatWasMeant) {
   }
 }
 
+TEST(ForeignPackings, OfGsdHaveTheCellThatWasMeant) {
+  DoubleDoubleMatrix f;
+  f.high(0, 0) = 1.2, f.high(1, 1) = .9;
+  f.high(0, 1) = .2, f.high(0, 2) = -.15, f.high(1, 2) = .1;
+  const Packing packing = deformed(sample(SolidKind::cube), f);
+  const Packing again = packing_of(
+      read_gsd_packing(gsd_file(std::vector<ExportFrame>{make_frame(packing, std::nullopt)}), 0), SolidKind::cube);
+  const Eigen::Matrix3d there = packing.cell.vectors().high, back = again.cell.vectors().high;
+  EXPECT_LT((back - there).norm(), 1e-6 * there.norm()) << there << "\n" << back;
+  EXPECT_LT(farthest_corner(packing, again), 1e-5);
+}
+
 TEST(ForeignPackings, AreNotTrusted) {
   const Packing packing = sample(SolidKind::cube);
   const auto whole = foreign_gsd(packing, {});

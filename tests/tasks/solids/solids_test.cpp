@@ -70,9 +70,11 @@ TEST(SolidDefinitions, RefuseWhatIsNoSolidAllAtOnce) {
   const Json solids{{"2nd", {{"box", {1, 1, 1}}}},
                     {"cube", {{"box", {1, 1, 1}}}},
                     {"dented", {{"vertices", with_inner}}},
+                    {"far", {{"vertices", {{1e10, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}}}},
                     {"flat", {{"vertices", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}}},
                     {"gone", {{"file", "no-such-file.off"}}},
                     {"half", {{"box", {1, 2}}}},
+                    {"long", {{"box", {1, 1, 1e4}}}},
                     {"none", Json::object()},
                     {"sheet", {{"box", {1, 1e-17, 1}}}},
                     {"slab", {{"box", {1, 0, 1}}}},
@@ -82,9 +84,10 @@ TEST(SolidDefinitions, RefuseWhatIsNoSolidAllAtOnce) {
   std::string all;
   EXPECT_EQ(refused(swept(solids, {"dented", "flat", "sphere", "prism4"}), &all),
             (std::vector<std::string>{"/sweep/solid/2", "/sweep/solid/3", "/solids/2nd", "/solids/cube",
-                                      "/solids/dented/vertices/1", "/solids/flat/vertices", "/solids/gone/file",
-                                      "/solids/half/box", "/solids/none", "/solids/sheet/box", "/solids/slab/box/1",
-                                      "/solids/thread/box", "/solids/twice", "/solids/wrong/sphere"}))
+                                      "/solids/dented/vertices/1", "/solids/far/vertices/0/0", "/solids/flat/vertices",
+                                      "/solids/gone/file", "/solids/half/box", "/solids/long/box", "/solids/none",
+                                      "/solids/sheet/box", "/solids/slab/box/1", "/solids/thread/box", "/solids/twice",
+                                      "/solids/wrong/sphere"}))
       << all;
   EXPECT_NE(all.find("inside of the hull of the others"), std::string::npos) << all;
   EXPECT_NE(all.find("prism3 to prism21"), std::string::npos) << all;

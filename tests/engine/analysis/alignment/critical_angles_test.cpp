@@ -229,6 +229,14 @@ TEST(CriticalAngles, OfUnlikeVerticesAreTheLeast) {
   EXPECT_LE(of_pyramid.ef_vertex_face, std::asin(1 / std::sqrt(3.0)) + rounding);
 }
 
+TEST(CriticalAngles, OfAFlatVertexAreThoseOfItsTwoLowestEdges) {
+  // Its four edges rise by 0.1 over 1 and over 2: the circle in the cone of normals touches two sides across from each
+  // other and reaches no third.
+  const std::vector<Vector3d> vertices{{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, .1}, {0, 0, -.1}};
+  const ConvexSolid flat("flat", vertices);
+  EXPECT_NEAR(critical_angles(flat).ef_vertex_face, std::atan(.1 / 2), 20 * rounding);
+}
+
 /// The greatest of the least angles over directions of the cone of each vertex, by brute force: from below.
 CriticalAngles searched(const ConvexSolid& solid, RandomStream& random) {
   std::vector<double> ef(solid.vertices().size(), 0), ff(solid.vertices().size(), 0);
@@ -261,12 +269,20 @@ TEST(CriticalAngles, OfOtherSolidsAreWhatASearchClimbsTo) {
   RandomStream random{63};
   std::vector<Vector3d> rock;
   for (int k = 0; k < 9; ++k) rock.push_back(Vector3d(random.normal(), random.normal(), random.normal()).normalized());
+  // Three faces meet in the origin whose normals are a triangle that does not hold the centre of its circumcircle: the
+  // angles between edges there are 110°, 110° and 30°.
+  const double half = pi / 12, down = std::cos(11 * pi / 18) / std::cos(half);
+  const std::vector<Vector3d> leaning{{0, 0, 0},
+                                      {std::cos(half), std::sin(half), 0},
+                                      {std::cos(half), -std::sin(half), 0},
+                                      {down, 0, std::sqrt(1 - down * down)}};
   const std::vector<Solid> solids{*Solid::named("truncated_tetrahedron"),
                                   *Solid::named("cuboctahedron"),
                                   *Solid::named("rhombic_dodecahedron"),
                                   *Solid::named("prism6"),
                                   *Solid::named("antiprism5"),
-                                  Solid::made_of("rock", rock)};
+                                  Solid::made_of("rock", rock),
+                                  Solid::made_of("leaning", leaning)};
   for (const Solid& solid : solids) {
     const CriticalAngles exact = critical_angles(*solid), found = searched(*solid, random);
     EXPECT_LE(found.ff_vertex_face, exact.ff_vertex_face + rounding) << to_string(solid);

@@ -269,8 +269,15 @@ TEST_P(RandomAlignmentOf, ASampleIsTheClosedFormToWithinItsError) {
 
 TEST(RandomAlignment, OfOtherSolidsFollowsWhatIsDrawn) {
   RandomStream random{53};
-  for (const char* name : {"truncated_tetrahedron", "cuboctahedron", "rhombic_dodecahedron", "prism6", "antiprism5"}) {
-    const ConvexSolid& solid = **Solid::named(name);
+  std::vector<Solid> solids;
+  for (const char* name : {"truncated_tetrahedron", "cuboctahedron", "rhombic_dodecahedron", "prism6", "antiprism5"})
+    solids.push_back(*Solid::named(name));
+  // Another from above than from below.
+  const std::vector<Eigen::Vector3d> pyramid{{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, 2}};
+  solids.push_back(Solid::made_of("pyramid", pyramid));
+  for (const Solid& each : solids) {
+    const ConvexSolid& solid = *each;
+    const std::string_view name = to_string(each);
     const RandomAlignment ideal(solid);
     ASSERT_TRUE(ideal.is_sampled()) << name;
     const std::vector<AlignmentAngles> free = sample_unconstrained(solid, million, random);
