@@ -60,6 +60,11 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
   if (manifest.replicates.goal)
     text += fmt::format("  until the 95 % interval of {} is narrower than ± {:g}\n", manifest.replicates.goal->quantity,
                         manifest.replicates.goal->half_width);
+  if (survey.lacking > 0)
+    text += fmt::format(
+        "  {} without measures that were added to the manifest: a run makes them again, isojam measure {} "
+        "adds to them\n",
+        counted(static_cast<std::size_t>(survey.lacking), "record"), directory);
   const int shards = arguments.shard.count;
   const double share = 1.0 / threads / shards;
   text += fmt::format("left to do: {} on {}{}; at most {} on disk, about {} of memory per replicate\n",

@@ -5,7 +5,9 @@ given way and mixtures:
 - a torque is that of the force at its point of attack, but for a couple along the force itself; the force is V/2 times the
   area against the normal; solids are those of the packing's particles;
 - angles are the record's; Δφ is the state's;
-- one replicate, all of them, and an exported file give the same rows; a replicate that failed is named in a warning."""
+- one replicate, all of them, and an exported file give the same rows; a replicate that failed is named in a warning;
+- what the program says of a damaged packing is in the error, with its command;
+- packings and paths are still those of a record to which measures were added."""
 
 import functools
 import subprocess
@@ -123,6 +125,31 @@ class Ways(support.Case):
             support.study(MIXED).contacts()
         failed = next(name for name in support.study(MIXED).names if name not in support.done(MIXED))
         self.refused(lambda: support.study(MIXED).contacts(failed), failed, "/status")
+
+    def test_what_the_program_refuses(self):
+        copy = self.copy(CUBES)
+        name = support.done(CUBES)[0]
+        file = copy / "packings" / (name + ".json")
+        text = bytearray(file.read_bytes())
+        text[len(text) // 2] ^= 1
+        file.write_bytes(text)
+        with self.assertRaises(isojam.ProgramError) as caught:
+            isojam.load(copy).contacts(name)
+        self.assertIn("the file is damaged", str(caught.exception))
+        self.assertIn(str(copy), caught.exception.command)
+
+    def test_measures_added_later(self):
+        copy = self.copy(CUBES)
+        subprocess.run([program.find(), "measure", copy, "--add", "rigidity"], check=True, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            study, before = isojam.load(copy), support.study(CUBES)
+            self.assertTrue((study.states["self_stress_normals"] >= 0).any())
+            for name in study.names:
+                numpy.testing.assert_array_equal(study.packing(name).positions, before.packing(name).positions)
+                self.assertEqual(len(study.path(name)), len(before.path(name)))
+            self.same(study.contacts(), contacts(CUBES))
 
 
 if __name__ == "__main__":

@@ -224,6 +224,8 @@ TEST_F(Adding, OfOneReplicateAlone) {
 TEST_F(Adding, ARunMakesAgainWhatLacksSomething) {
   const auto all = names();
   ASSERT_EQ(measure({"--add", rest, "--only", all[1]}).exit_code, 0);
+  const auto plan = isojam({"run", "few.json", "-o", "few", "--dry-run"}, here_.path());
+  EXPECT_NE(plan.out.find("3 records without measures"), std::string::npos) << plan.out;
   const auto path = here_ / "few" / "paths" / (all[2] + ".json");
   fs::remove(path);
   const auto measured = measure({});
