@@ -22,8 +22,6 @@ class DirectoryLock {
   /// is not there.
   static std::optional<DirectoryLock> take(const std::filesystem::path& directory, Kind kind);
 
-  DirectoryLock(DirectoryLock&&) noexcept = default;
-
  private:
   explicit DirectoryLock(std::unique_ptr<Descriptor> directory) : directory_(std::move(directory)) {}
   std::unique_ptr<Descriptor> directory_;

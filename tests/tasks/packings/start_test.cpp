@@ -69,8 +69,9 @@ std::string foreign_gsd(const Packing& packing, const Frame& frame) {
     auto found = std::find(types.begin(), types.end(), solid);
     if (found == types.end()) {
       Json shape{{"type", "ConvexPolyhedron"}};
-      for (auto v = solid->vertices().rbegin(); v != solid->vertices().rend(); ++v) {
-        const Vector3d y = frame.unit * (frame.shift + frame.turn * *v);
+      const std::vector<Vector3d> backwards(solid->vertices().rbegin(), solid->vertices().rend());
+      for (const Vector3d& v : backwards) {
+        const Vector3d y = frame.unit * (frame.shift + frame.turn * v);
         shape["vertices"].push_back({y[0], y[1], y[2]});
       }
       names.push_back(fmt::format("T{}", types.size()));
@@ -239,7 +240,10 @@ TEST(Starts, GoOnFromWhatWasStored) {
 TEST(Starts, AreRefusedAtTheirPlace) {
   const test::TemporaryDirectory directory;
   Packing packing = strained_to(sample(SolidKind::octahedron, 64), .2);
-  for (int i = 0; i < 64; ++i) packing.poses[i].position = packing.cell.side() / 4 * Vector3d(i % 4, i / 4 % 4, i / 16);
+  for (int i = 0; i < 64; ++i) {
+    const Eigen::Vector3i place(i % 4, i / 4 % 4, i / 16);
+    packing.poses[i].position = packing.cell.side() / 4 * place.cast<double>();
+  }
   const std::vector<ExportFrame> frames{make_frame(packing, std::nullopt)};
   test::write_text(directory / "a.gsd", gsd_file(frames));
   test::write_text(directory / "a.xyz", xyz_file(frames));
