@@ -46,18 +46,6 @@ std::optional<std::string> read_measures(const std::string& text, std::vector<Me
   return std::nullopt;
 }
 
-/// Of the records that are there.
-std::vector<std::string> chosen(const MeasureArguments& arguments) {
-  auto names = names_in(std::filesystem::path(arguments.directory) / "records");
-  if (names.empty()) throw_without_records(arguments.directory);
-  if (arguments.only.empty()) return names;
-  if (std::find(names.begin(), names.end(), arguments.only) != names.end()) return {arguments.only};
-  const std::vector<std::string_view> candidates(names.begin(), names.end());
-  const auto near = nearest_name(arguments.only, candidates);
-  throw FileError(fmt::format("{}: holds no replicate \"{}\"{}", arguments.directory, arguments.only,
-                              near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
-}
-
 /// Refuses measures that could not be added to every record of the directory, which would leave it with records that no
 /// measure completes.
 void refuse_impossible(const std::vector<Additions::Impossible>& impossible, const std::string& directory) {
@@ -88,14 +76,14 @@ DirectoryLock hold(const std::string& directory) {
 /// Measures stored packings: what is asked for, and what an interrupted call has left.
 ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  const auto names = chosen(arguments);
+  const auto names = arguments.only.empty() ? recorded_names(arguments.directory)
+                                            : std::vector{recorded_name(arguments.directory, arguments.only)};
   const auto lock = hold(arguments.directory);
   const auto before = own_manifest(arguments.directory);
   const auto manifest = with_measures(before, arguments.add);
   const Plan plan(manifest);
   // Refused before anything is written.
-  const auto all =
-      additions(arguments.directory, plan, names_in(std::filesystem::path(arguments.directory) / "records"));
+  const auto all = additions(arguments.directory, plan, recorded_names(arguments.directory));
   if (manifest.measures != before.measures) refuse_impossible(all.impossible, arguments.directory);
   extend_manifest(arguments.directory, arguments.add);
   const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });

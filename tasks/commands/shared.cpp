@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 
+#include "tasks/json/place.hpp"
 #include "tasks/manifest/warnings.hpp"
+#include "tasks/store/store.hpp"
+#include "tasks/system/file.hpp"
 
 namespace isojam {
 
@@ -16,6 +21,22 @@ std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {
   const auto& step = progress.result.path.back();
   return fmt::format("{}: {} at density {:.4f}, E/N {:.1e}, residual {:.1e}", replicate_name(spec),
                      to_string(step.stage), step.density, step.energy_per_particle, step.summary.residual);
+}
+
+std::vector<std::string> recorded_names(const std::string& directory) {
+  auto names = names_in(std::filesystem::path(directory) / "records");
+  if (names.empty()) throw_without_records(directory);
+  return names;
+}
+
+std::string recorded_name(const std::string& directory, const std::string& name) {
+  const auto names = recorded_names(directory);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return name;
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const auto near = nearest_name(name, candidates);
+  throw FileError(fmt::format("{}: holds no replicate \"{}\"{}", directory, name,
+                              near.empty() ? fmt::format("; there are {}, \"{}\" the first", names.size(), names[0])
+                                           : fmt::format("; did you mean \"{}\"?", near)));
 }
 
 std::string counted(std::size_t number, std::string_view noun) {

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tasks/replicate/replicate.hpp"
 #include "tasks/system/console.hpp"
@@ -13,6 +14,11 @@ void warn_about(const Manifest& manifest, const std::string& file, Console& cons
 
 /// One line about the last step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);
+
+/// Names of all records of a directory. Throws FileError if there are none.
+std::vector<std::string> recorded_names(const std::string& directory);
+/// The name, if a record has it: no other ever becomes part of a path. Throws FileError with the nearest one if not.
+std::string recorded_name(const std::string& directory, const std::string& name);
 
 /// "1 thread", "2 threads".
 std::string counted(std::size_t number, std::string_view noun);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tasks/commands/command.hpp"
+#include "tasks/commands/shared.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/store/store.hpp"
 #include "tasks/system/file.hpp"
@@ -50,15 +51,8 @@ std::string record_file(const ExportArguments& arguments, const std::string& nam
 }  // namespace
 
 std::vector<std::string> chosen_names(const ExportArguments& arguments) {
-  auto names = names_in(fs::path(arguments.directory) / "records");
-  if (names.empty()) throw_without_records(arguments.directory);
-  if (arguments.all()) return names;
-  if (std::find(names.begin(), names.end(), arguments.replicate) != names.end()) return {arguments.replicate};
-  const std::vector<std::string_view> candidates(names.begin(), names.end());
-  const auto near = nearest_name(arguments.replicate, candidates);
-  throw FileError(fmt::format("{}: holds no replicate \"{}\"{}", arguments.directory, arguments.replicate,
-                              near.empty() ? fmt::format("; there are {}, \"{}\" the first", names.size(), names[0])
-                                           : fmt::format("; did you mean \"{}\"?", near)));
+  if (arguments.all()) return recorded_names(arguments.directory);
+  return {recorded_name(arguments.directory, arguments.replicate)};
 }
 
 RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Manifest>& manifest,

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/geometry/overlap/penetration.hpp"
 #include "engine/geometry/solids/solid.hpp"
 #include "engine/packing/mixture/mixture.hpp"
 #include "engine/solve/minimise/minimise.hpp"
