@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/names/enum_names.hpp"
+#include "tasks/commands/shell/description.hpp"
 #include "tasks/system/console.hpp"
 #include "tasks/system/exit_codes.hpp"
 
@@ -24,6 +25,7 @@ struct Session {
   char** words = nullptr;  ///< of the command line, the program's name first, ended by null
   ConsoleOptions console;
   std::function<ExitCode(Console&)> work;
+  ProgramDescription program;  ///< the command line itself
 };
 
 /// The words that a command, or the program itself, takes. References must live as long as the app.
@@ -92,11 +94,13 @@ void add_export(CLI::App& app, Session& session);
 void add_crate(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_chart(CLI::App& app, Session& session);
+void add_completions(CLI::App& app, Session& session);
+void add_manual(CLI::App& app, Session& session);
 
 /// Every command, in the order of the help.
-inline constexpr std::array<AddCommand, 10> all_commands{add_run,    add_validate, add_aggregate, add_status,
-                                                         add_rerun,  add_measure,  add_export,    add_crate,
-                                                         add_report, add_chart};
+inline constexpr std::array<AddCommand, 12> all_commands{add_run,    add_validate, add_aggregate,   add_status,
+                                                         add_rerun,  add_measure,  add_export,      add_crate,
+                                                         add_report, add_chart,    add_completions, add_manual};
 
 /// Takes in the words that the program was called with: `session` gets its work. Where there is none, since help was
 /// asked for or a word is wrong, it is printed, and this is what to exit with.

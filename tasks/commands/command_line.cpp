@@ -58,6 +58,51 @@ std::string unknown_word(const CLI::App& app) {
   return "";
 }
 
+std::vector<std::string> choices_of(const std::string& type) {
+  std::vector<std::string> choices;
+  constexpr std::string_view between = ", ";
+  for (std::size_t at = 0, comma = type.find(between); type.find(between) != std::string::npos && at < type.size();) {
+    choices.push_back(type.substr(at, comma - at));
+    at = comma == std::string::npos ? type.size() : comma + between.size();
+    comma = type.find(between, at);
+  }
+  return choices;
+}
+
+std::vector<OptionDescription> described_options(const CLI::App& app) {
+  std::vector<OptionDescription> list;
+  for (const auto* option : app.get_options()) {
+    OptionDescription described;
+    for (const auto& name : option->get_snames()) described.names.push_back("-" + name);
+    for (const auto& name : option->get_lnames()) described.names.push_back("--" + name);
+    if (described.names.empty()) described.place = option->get_name();
+    // A flag expects nothing, whatever its type is called.
+    if (option->get_items_expected_max() > 0) described.type = option->get_type_name();
+    described.choices = choices_of(described.type);
+    described.description = option->get_description();
+    described.required = option->get_required();
+    list.push_back(std::move(described));
+  }
+  return list;
+}
+
+ProgramDescription described_program(const CLI::App& app) {
+  ProgramDescription program{.name = app.get_name(),
+                             .description = app.get_description(),
+                             .version = "isojam " + std::string(version()),
+                             .footer = exit_codes,
+                             .options = described_options(app),
+                             .commands = {}};
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    auto options = described_options(*command);
+    std::erase_if(options, [](const OptionDescription& option) {  // every command has help: it stands with the program
+      return !option.names.empty() && option.names.back() == "--help";
+    });
+    program.commands.push_back({command->get_name(), command->get_description(), std::move(options)});
+  }
+  return program;
+}
+
 /// What is wrong with the text of a number that must be positive and finite; empty if nothing is.
 std::string not_positive(const std::string& text) {
   double value = 0;
@@ -138,6 +183,7 @@ std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& sessi
   app.footer(exit_codes);
   add_console_options(Options(app), session.console);
   for (const AddCommand add : all_commands) add(app, session);
+  session.program = described_program(app);
   try {
     app.parse(argc, argv);
   } catch (const std::invalid_argument& error) {

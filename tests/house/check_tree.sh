@@ -73,7 +73,7 @@ check_include() {  # file line header
   esac
 }
 
-readonly top=' engine tasks schemas tests examples docs CMakeLists.txt Containerfile Makefile README.md LICENSE .ci .git .gitignore .clang-format .clang-tidy '
+readonly top=' engine tasks schemas tests examples docs CMakeLists.txt CMakePresets.json Containerfile Makefile README.md LICENSE CITATION.cff CHANGELOG.md CONTRIBUTING.md .ci .git .gitignore .clang-format .clang-tidy '
 for name in $(ls -A); do
   [[ $top == *" $name "* || $name == build* || $name == results ]] || breach "$name" 1 'not at the top' "$name"
 done
