@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 namespace {
@@ -87,8 +89,8 @@ std::vector<Point> piece_sizes(const Network& network) {
     for (std::size_t l = 1; l < growth.within.size(); ++l) {
       const std::span<const int> piece = std::span(growth.order).first(growth.within[l]);
       const double square = square_gyration_radius(network, piece) + network.square_bond / 12;
-      points[l - 1].log_radius += std::log(square) / 2;
-      points[l - 1].log_size += std::log(static_cast<double>(piece.size()));
+      points[l - 1].log_radius += nearest::log(square) / 2;
+      points[l - 1].log_size += nearest::log(static_cast<double>(piece.size()));
       ++points[l - 1].pieces;
     }
   }

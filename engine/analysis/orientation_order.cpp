@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "engine/analysis/order.hpp"
+#include "engine/arithmetic/elementary.hpp"
 
 namespace isojam {
 
@@ -15,16 +17,36 @@ using Eigen::VectorXd;
 
 constexpr unsigned greatest_rank = 10;
 
-/// Real Y_lm(direction), m = −l..l.
+/// Normalised associated Legendre function of ranks m and l over sinᵐ, from that of m and m, by the recurrence in rank
+/// (the forward column method of Holmes and Featherstone 2002).
+double raised(double top, unsigned m, unsigned l, double z) {
+  double before = 0, here = top;
+  const double m2 = squared(m);
+  for (unsigned k = m + 1; k <= l; ++k) {
+    const double k2 = squared(k), b2 = squared(k - 1.0);
+    const double next = std::sqrt((4 * k2 - 1) / (k2 - m2)) *
+                        (z * here - (k > m + 1 ? std::sqrt((b2 - m2) / (4 * b2 - 1)) * before : 0));
+    before = here;
+    here = next;
+  }
+  return here;
+}
+
+/// Real Y_lm(direction), m = −l..l; of a unit vector.
 VectorXd real_harmonics(const Vector3d& direction, unsigned l) {
-  const double polar = std::atan2(std::hypot(direction.x(), direction.y()), direction.z());
-  const double azimuth = std::atan2(direction.y(), direction.x());
+  const double x = direction.x(), y = direction.y(), z = direction.z();
   VectorXd values(2 * l + 1);
-  values[l] = std::sph_legendre(l, 0, polar);
-  for (unsigned m = 1; m <= l; ++m) {
-    const double amplitude = std::sqrt(2.0) * std::sph_legendre(l, m, polar);
-    values[l + m] = amplitude * std::cos(m * azimuth);
-    values[l - m] = amplitude * std::sin(m * azimuth);
+  double top = 0.5 / std::sqrt(std::numbers::pi), cosine = 1, sine = 0;  // sinᵐ·cos and sin of m·azimuth
+  for (unsigned m = 0; m <= l; ++m) {
+    if (m > 0) {
+      top *= std::sqrt((2.0 * m + 1) / (2.0 * m));
+      const double next = x * cosine - y * sine;
+      sine = x * sine + y * cosine;
+      cosine = next;
+    }
+    const double amplitude = (m > 0 ? std::numbers::sqrt2 : 1) * raised(top, m, l, z);
+    values[l - m] = amplitude * sine;
+    values[l + m] = amplitude * cosine;
   }
   return values;
 }

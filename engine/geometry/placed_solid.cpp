@@ -29,7 +29,10 @@ void turn(const Eigen::Matrix3d& q, ConstArrays v, int n, double* turned) {
 void turn_row(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c, ConstArrays v, ConstArrays v_low,
               double* turned, double* turned_low) {
   const double *x = v.x, *y = v.y, *z = v.z, *x_low = v_low.x, *y_low = v_low.y, *z_low = v_low.z;
-#pragma GCC ivdep  // too many arrays for the compiler to check that they are distinct
+  // Too many arrays for g++ to check that they are distinct; clang, which has no such pragma, checks them.
+#ifndef __clang__
+#pragma GCC ivdep
+#endif
   for (int k = 0; k < 4; ++k) {
     const DoubleDouble ax = two_product(a.high, x[k]), by = two_product(b.high, y[k]), cz = two_product(c.high, z[k]);
     const DoubleDouble two = two_sum(ax.high, by.high), three = two_sum(two.high, cz.high);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 RelativePose relative_pose(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b,
@@ -13,8 +15,8 @@ RelativePose relative_pose(const Eigen::Quaterniond& a, const Eigen::Quaterniond
 
 namespace {
 
-/// sin(|θ|/2)/|θ| → 1/2 without a division by zero.
-double half_sinc(double angle) { return angle > 0 ? std::sin(angle / 2) / angle : 0.5; }
+/// sin(|θ|/2)/|θ|.
+double half_sinc(double angle) { return sinc(angle / 2) / 2; }
 
 void store(Pose& pose, int c, const DoubleDouble& value) {
   pose.orientation.coeffs()[c] = value.high;
@@ -71,7 +73,7 @@ bool Pose::operator==(const Pose& other) const {
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta) {
   const double angle = theta.norm();
   Eigen::Quaterniond turn;
-  turn.w() = -2 * std::pow(std::sin(angle / 4), 2);
+  turn.w() = -2 * squared(angle / 4 * sinc(angle / 4));
   turn.vec() = half_sinc(angle) * theta;
   return moved(pose, dx, turn);
 }
@@ -177,7 +179,7 @@ QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement) 
 Eigen::Quaterniond rotated(const Eigen::Quaterniond& q, const Eigen::Vector3d& theta) {
   const double angle = theta.norm();
   Eigen::Quaterniond turn;
-  turn.w() = std::cos(angle / 2);
+  turn.w() = nearest::cos(angle / 2);
   turn.vec() = half_sinc(angle) * theta;
   return (turn * q).normalized();
 }

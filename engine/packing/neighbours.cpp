@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 namespace {
@@ -84,7 +86,7 @@ class CellGrid {
 std::optional<Eigen::Vector3i> grid_cells(const PeriodicCell& cell, double reach, std::size_t particles) {
   Eigen::Vector3i cells;
   for (int c = 0; c < 3; ++c)
-    cells[c] = static_cast<int>(std::min(cell.heights()[c] / reach, std::cbrt(particles) + 1));
+    cells[c] = static_cast<int>(std::min(cell.heights()[c] / reach, nearest::cbrt(static_cast<double>(particles)) + 1));
   if (cells.minCoeff() < 3) return std::nullopt;
   return cells;
 }

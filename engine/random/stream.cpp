@@ -4,6 +4,8 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 namespace {
@@ -26,8 +28,8 @@ RandomStream::RandomStream(std::initializer_list<std::uint64_t> key) : engine_(s
 double RandomStream::uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
 double RandomStream::normal() {
-  const double radius = std::sqrt(-2 * std::log1p(-uniform()));
-  return radius * std::cos(2 * std::numbers::pi * uniform());
+  const double radius = std::sqrt(-2 * nearest::log1p(-uniform()));
+  return radius * nearest::cos(2 * std::numbers::pi * uniform());
 }
 
 std::uint64_t hash_of(std::string_view text) {

@@ -54,7 +54,7 @@ SoftSpace softest(const RigidityMatrix& matrix, const SoftRows& soft, Index k) {
   if (k >= constraints) return diagonalised(matrix, MatrixXd::Identity(constraints, constraints));
   RandomStream random{static_cast<std::uint64_t>(constraints), static_cast<std::uint64_t>(k)};
   MatrixXd q(constraints, k);
-  for (double& entry : q.reshaped()) entry = random.normal();
+  for (double& entry : q.reshaped()) entry = random.uniform() - 0.5;
   for (int round = 0; round < rounds; ++round) q = orthonormal(soft.damped(q));
   return diagonalised(matrix, q);
 }

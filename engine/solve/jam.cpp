@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/solve/multipliers/multipliers.hpp"
 #include "engine/solve/rearrangement.hpp"
 
@@ -209,7 +210,7 @@ class StrainStep {
   const JamStep& released(Packing& next) {
     const double left = 1 - expansion_step() / distance();
     MinimiseOptions options = options_.minimise;
-    options.control = control_at_pressure(options_, std::pow(left, 5) * last_state().pressure);
+    options.control = control_at_pressure(options_, nearest::pow(left, 5) * last_state().pressure);
     if (!follows()) return append(next, minimise(next, energy_, options, stop_));
     return append(next, follow_load(next, distance(), energy_, options, stop_));
   }

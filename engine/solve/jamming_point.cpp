@@ -6,13 +6,14 @@
 #include <limits>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/solve/straight_line.hpp"
 
 namespace isojam {
 
 namespace {
 
-double sixth_root(double energy) { return std::cbrt(std::sqrt(energy)); }
+double sixth_root(double energy) { return nearest::cbrt(std::sqrt(energy)); }
 
 /// φ against (E/N)^(1/6): φ_J is the intercept.
 Line fit_asymptote(std::span<const EnergyPoint> states, std::span<const int> chosen) {
@@ -29,18 +30,19 @@ double free_exponent(std::span<const EnergyPoint> states, std::span<const int> c
   if (chosen.size() < 4) return 0;
   const double nearest = states[static_cast<std::size_t>(chosen.front())].density;
   std::vector<double> log_energy;
-  for (const int k : chosen) log_energy.push_back(std::log(states[static_cast<std::size_t>(k)].energy_per_particle));
+  for (const int k : chosen)
+    log_energy.push_back(nearest::log(states[static_cast<std::size_t>(k)].energy_per_particle));
   const auto fit_at = [&](double gap) {
     std::vector<double> log_distance;
     for (const int k : chosen)
-      log_distance.push_back(std::log(states[static_cast<std::size_t>(k)].density - nearest + gap));
+      log_distance.push_back(nearest::log(states[static_cast<std::size_t>(k)].density - nearest + gap));
     return fit_line(log_distance, log_energy);
   };
   // The gap between φ_J and the nearest state is a scale parameter: search its logarithm.
-  const auto cost = [&](double log_gap) { return fit_at(std::exp(log_gap)).squared_residual; };
+  const auto cost = [&](double log_gap) { return fit_at(nearest::exp(log_gap)).squared_residual; };
   const auto [log_gap, unused] = boost::math::tools::brent_find_minima(
-      cost, std::log(window * 1e-3), std::log(window * 4), std::numeric_limits<double>::digits / 2);
-  return fit_at(std::exp(log_gap)).slope;
+      cost, nearest::log(window * 1e-3), nearest::log(window * 4), std::numeric_limits<double>::digits / 2);
+  return fit_at(nearest::exp(log_gap)).slope;
 }
 
 }  // namespace

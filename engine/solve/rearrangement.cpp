@@ -8,6 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 namespace {
@@ -29,8 +31,8 @@ Eigen::Matrix3d deformation(const PeriodicCell& before, const PeriodicCell& afte
 double squared_displacement(const Pose& before, const Pose& after, const Eigen::Matrix3d& f, double radius) {
   const Eigen::Vector3d dx = after.position - f * before.position;
   const Eigen::Quaterniond turn = after.orientation * before.orientation.conjugate();
-  const double angle = 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
-  return dx.squaredNorm() + std::pow(radius * angle, 2);
+  const double angle = 2 * nearest::atan2(turn.vec().norm(), std::abs(turn.w()));
+  return dx.squaredNorm() + squared(radius * angle);
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ Rearrangement rearrangement(const Packing& before, const JamStep& step_before, c
   Rearrangement found;
   const double distance = distance_to_jamming(step_before);
   const double ratio = 1 - (step_before.density - step_after.density) / distance;
-  found.energy_ratio = step_after.energy_per_particle / (step_before.energy_per_particle * std::pow(ratio, 6));
+  found.energy_ratio = step_after.energy_per_particle / (step_before.energy_per_particle * nearest::pow(ratio, 6));
   const auto old_pairs = touching_pairs(before), new_pairs = touching_pairs(after);
   std::vector<decltype(canonical_key(NeighbourPair{}))> both;
   std::set_intersection(old_pairs.begin(), old_pairs.end(), new_pairs.begin(), new_pairs.end(),

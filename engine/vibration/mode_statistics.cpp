@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 using Eigen::Index;
@@ -50,7 +52,7 @@ std::optional<AmplitudeShare> amplitude_share(const ModeSet& modes, std::span<co
 std::optional<DensityOfStates> density_of_states(const VectorXd& eigenvalues, double tolerance, int bins) {
   std::vector<double> logs;
   for (const double lambda : eigenvalues) {
-    if (lambda > tolerance) logs.push_back(std::log10(lambda) / 2);
+    if (lambda > tolerance) logs.push_back(nearest::log10(lambda) / 2);
   }
   std::sort(logs.begin(), logs.end());
   if (bins < 1 || logs.empty() || !(logs.front() < logs.back())) return std::nullopt;

@@ -186,7 +186,7 @@ VectorXd lanczos_start(const BlockMatrix& matrix) {
   const Index rows = 6 * Index{matrix.size()};
   RandomStream random{static_cast<std::uint64_t>(rows)};
   VectorXd start(rows);
-  for (double& entry : start) entry = random.normal();
+  for (double& entry : start) entry = random.uniform() - 0.5;
   remove_translations(matrix.root_masses, start);
   return start;
 }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 namespace {
 
@@ -68,8 +70,8 @@ Cost estimated_cost(const ReplicateSpec& spec, bool keep_path) {
   const double n = spec.particles;
   const double consolidation = consolidation_share * measured_step / spec.options.consolidation_step;
   Cost cost;
-  cost.cpu_seconds = law.at_100 * std::pow(n / 100, law.power) * (1 - consolidation_share + consolidation);
-  cost.memory_bytes = particle_bytes * n + factor_bytes * std::pow(n, factor_power);
+  cost.cpu_seconds = law.at_100 * nearest::pow(n / 100, law.power) * (1 - consolidation_share + consolidation);
+  cost.memory_bytes = particle_bytes * n + factor_bytes * nearest::pow(n, factor_power);
   const double packings = keep_path ? 1 + states : 1;
   cost.disk_bytes = record_text + step_text * steps_of_path + state_text * states + packings * packing_text * n;
   return cost;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/packing/cell/periodic_cell.hpp"
 
 namespace isojam {
@@ -22,7 +23,7 @@ double densest(const Mixture& mixture, int particles) {
   double diameter = 0;
   for (const auto& each : mixture.particles(particles))
     diameter = std::max(diameter, each.scale * each.unit->diameter());
-  auto steps = std::floor(particles / std::pow(2 * diameter, 3) * 1e4);
+  auto steps = std::floor(particles / cubed(2 * diameter) * 1e4);
   while (steps > 0 && side_at(particles, steps / 1e4) <= 2 * diameter) --steps;
   return steps / 1e4;
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "tasks/manifest/fields.hpp"
 
 namespace isojam {
@@ -107,7 +108,7 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
   const std::string name(to_string(solid.kind));
   // The other reading of the target ends consolidation just above jamming.
   const double distance =
-      options.target_before_relaxation ? 0 : std::pow(options.target_energy / solid.stiffness, 1.0 / 6);
+      options.target_before_relaxation ? 0 : nearest::pow(options.target_energy / solid.stiffness, 1.0 / 6);
   const double needed = solid.density + distance;
   const auto where = distance == 0 ? fmt::format("{} packings jam at about {:.3g}", name, solid.density)
                                    : fmt::format(
@@ -137,7 +138,7 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
 void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warnings) {
   const std::string name(to_string(solid.kind));
   look_at_density(options, solid, warnings);
-  const double last = solid.stiffness * std::pow(options.final_distance, 6);
+  const double last = solid.stiffness * nearest::pow(options.final_distance, 6);
   // Multipliers know what energy to expect.
   if (options.minimise.method != Method::multipliers && options.minimise.unjammed_energy >= last) {
     warnings.add("unjammed_energy", name,

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "tasks/packings/similarity.hpp"
 
 namespace isojam {
@@ -96,9 +97,9 @@ Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
   for (const auto& body : foreign.bodies) {
     const auto& match = matches[static_cast<std::size_t>(body.type)];
     particles.push_back({match.solid, body.size * match.place.scale});
-    volume += std::pow(particles.back().scale, 3);
+    volume += cubed(particles.back().scale);
   }
-  const double unit = std::cbrt(volume / static_cast<double>(particles.size()));
+  const double unit = nearest::cbrt(volume / static_cast<double>(particles.size()));
   if (!std::isfinite(unit) || !(unit > 0)) throw NoPackingFile("its particles have no size that a number can hold");
   for (auto& particle : particles) particle.scale /= unit;
   try {

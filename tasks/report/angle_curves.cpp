@@ -11,6 +11,7 @@
 #include "engine/analysis/alignment/critical_angles.hpp"
 #include "engine/analysis/alignment/empirical_cdf.hpp"
 #include "engine/analysis/alignment/random_alignment.hpp"
+#include "engine/arithmetic/elementary.hpp"
 
 namespace isojam {
 namespace {
@@ -23,15 +24,15 @@ constexpr double least_sampled = 0.001 * degree;
 /// Digits beyond what a chart shows cost a reader's time and disk.
 double shortened(double x) {
   if (x == 0) return 0;
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) - 5);
+  const double unit = nearest::pow(10, std::floor(nearest::log10(std::abs(x))) - 5);
   return std::round(x / unit) * unit;
 }
 
 Json sampled(const std::function<double(double)>& distribution, double largest) {
   Json curve = Json::array();
-  const double ratio = std::log(largest / least_sampled);
+  const double ratio = nearest::log(largest / least_sampled);
   for (int k = 0; k <= samples; ++k) {
-    const double theta = least_sampled * std::exp(ratio * k / samples);
+    const double theta = least_sampled * nearest::exp(ratio * k / samples);
     const double height = distribution(theta);
     if (height > 0) curve.push_back({shortened(theta / degree), shortened(height)});
   }
@@ -75,7 +76,7 @@ Json thinned_cdf(std::span<const double> angles) {
   for (const double angle : angles) degrees.push_back(std::max(angle / degree, angle_floor));
   const auto cdf = empirical_cdf(degrees);
   Json steps = Json::array();
-  const auto bin_of = [](double theta) { return std::floor(std::log10(theta) * bins_per_decade); };
+  const auto bin_of = [](double theta) { return std::floor(nearest::log10(theta) * bins_per_decade); };
   for (std::size_t k = 0; k < cdf.values.size(); ++k) {
     const bool last = k + 1 == cdf.values.size();
     if (!last && k > 0 && bin_of(cdf.values[k]) == bin_of(cdf.values[k + 1])) continue;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/analysis/power_law.hpp"
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/solve/straight_line.hpp"
 #include "tasks/json/options.hpp"
 #include "tasks/manifest/plan.hpp"
@@ -72,7 +73,7 @@ std::string point_of(const RecordSummary& summary) {
 
 std::string point_of(const Row& row) { return point_text(row.solid, row.particles, row.parameters); }
 
-double sixth_root(double energy) { return energy > 0 ? std::cbrt(std::sqrt(energy)) : 0; }
+double sixth_root(double energy) { return energy > 0 ? nearest::cbrt(std::sqrt(energy)) : 0; }
 
 /// Those of a state that charts draw against Δφ, by name.
 constexpr std::array drawn_quantities{"Z", "Z_ff", "Z_ef", "Z_l", "C", "omega_l", "omega_h", "K", "G"};

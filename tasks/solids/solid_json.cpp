@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/geometry/hull.hpp"
 #include "engine/geometry/solids/named_solids.hpp"
 
@@ -52,10 +53,10 @@ std::vector<Eigen::Vector3d> read_vertices(const JsonPlace& place) {
 Solid solid_from(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices) {
   try {
     auto solid = Solid::made_of(name, vertices);
-    if (std::pow(2 * solid->diameter(), 3) > largest_cell)
+    if (cubed(2 * solid->diameter()) > largest_cell)
       place.refuse("so long or so flat that its cell would need more particles than there can be",
                    fmt::format("{:.0f} times as long as the cube root of its volume at most",
-                               std::floor(std::cbrt(largest_cell) / 2)));
+                               std::floor(nearest::cbrt(largest_cell) / 2)));
     return solid;
   } catch (const NoSolid& error) {
     // Corners of a box have no place of their own.

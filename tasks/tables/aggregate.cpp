@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/manifest/base.hpp"
 #include "tasks/manifest/plan.hpp"
@@ -27,7 +28,7 @@ Values interpolated(std::span<const StateValues> states, double distance) {
       std::find_if(states.begin(), states.end(), [=](const StateValues& s) { return s.delta_phi >= distance; });
   if (above == states.begin() || above == states.end()) return {};
   const StateValues &low = above[-1], &high = *above;
-  const double weight = std::log(distance / low.delta_phi) / std::log(high.delta_phi / low.delta_phi);
+  const double weight = nearest::log(distance / low.delta_phi) / nearest::log(high.delta_phi / low.delta_phi);
   Values values = no_values();
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (low.values[i] && high.values[i]) values[i] = (1 - weight) * *low.values[i] + weight * *high.values[i];

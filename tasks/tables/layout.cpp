@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
+#include "engine/arithmetic/elementary.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/tables/lines.hpp"
 #include "tasks/tables/tables.hpp"
@@ -37,15 +38,15 @@ std::string text_without_spread(const Estimate& estimate, std::string_view plus_
 
 /// With a common power of ten.
 std::string small_text(const Estimate& estimate, std::string_view plus_minus) {
-  const double power = std::floor(std::log10(std::max(std::abs(*estimate.mean), *estimate.half_width)));
-  const double unit = std::pow(10.0, power);
+  const double power = std::floor(nearest::log10(std::max(std::abs(*estimate.mean), *estimate.half_width)));
+  const double unit = nearest::pow(10.0, power);
   return fmt::format("({:.2f}{}{:.2f})e{:+03.0f}", *estimate.mean / unit, plus_minus, *estimate.half_width / unit,
                      power);
 }
 
 /// With decimals that leave the half width two significant digits.
 std::string text_with_spread(const Estimate& estimate, std::string_view plus_minus) {
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(*estimate.half_width))), 0, 12);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(nearest::log10(*estimate.half_width))), 0, 12);
   return fmt::format("{:.{}f}{}{:.{}f}", *estimate.mean, decimals, plus_minus, *estimate.half_width, decimals);
 }
 

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 namespace {
@@ -51,8 +53,8 @@ std::vector<Direction> edge_directions(const ConvexSolid& solid, std::uint64_t m
 }
 
 // Both angles by atan2 of sine and cosine: accurate where arccos (at 0) and arcsin (at π/2) lose half the digits.
-double opposing_angle(const Vector3d& n, const Vector3d& m) { return std::atan2(n.cross(m).norm(), -n.dot(m)); }
-double elevation(const Vector3d& e, const Vector3d& n) { return std::atan2(std::abs(e.dot(n)), e.cross(n).norm()); }
+double opposing_angle(const Vector3d& n, const Vector3d& m) { return nearest::atan2(n.cross(m).norm(), -n.dot(m)); }
+double elevation(const Vector3d& e, const Vector3d& n) { return nearest::atan2(std::abs(e.dot(n)), e.cross(n).norm()); }
 
 std::optional<EdgeFace> best_edge_face(const std::vector<Direction>& edges, const std::vector<Direction>& faces) {
   std::optional<EdgeFace> best;

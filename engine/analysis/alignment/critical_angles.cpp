@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 namespace {
@@ -16,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double right_angle = std::numbers::pi / 2;
 
-double angle_between(const Vector3d& u, const Vector3d& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
+double angle_between(const Vector3d& u, const Vector3d& v) { return nearest::atan2(u.cross(v).norm(), u.dot(v)); }
 
 /// The vertex figure: angles of the edges and of the face normals at a vertex with the axis through it.
 struct VertexFigure {
@@ -78,10 +80,10 @@ std::optional<SharedAngles> shared_angles(const ConvexSolid& solid) {
 }
 
 void set_edge_angles(double half_dihedral, CriticalAngles& critical) {
-  const double sine = std::sin(half_dihedral);
+  const double sine = nearest::sin(half_dihedral);
   // Edge-edge: the edges cross at a right angle, each pair of faces symmetric about the line of contact.
   critical.ef_edge_edge = right_angle - half_dihedral;
-  critical.ff_edge_edge = std::acos(sine * sine);
+  critical.ff_edge_edge = nearest::acos(sine * sine);
   // Edge-face: the two faces at the edge are equally steep on the face that it lies in.
   critical.ff_edge_face = right_angle - half_dihedral;
 }
@@ -141,7 +143,7 @@ double inscribed_radius(const NormalCone& cone) {
   for (const Vector3d& side : cone.sides) {
     for (const Vector3d& other : cone.sides) look((side + other).stableNormalized());
   }
-  return std::asin(std::min(1.0, best));
+  return nearest::asin(std::min(1.0, best));
 }
 
 /// The greatest angle to the nearest corner that a direction of the cone can have: at a centre of three corners inside,
@@ -162,7 +164,7 @@ double farthest_from_corners(const NormalCone& cone, double tolerance) {
       }
     }
   }
-  return std::acos(std::max(-1.0, best));
+  return nearest::acos(std::max(-1.0, best));
 }
 
 }  // namespace
@@ -207,7 +209,7 @@ CriticalAngles critical_angles(const ConvexSolid& a, const ConvexSolid& b) {
   return {.ef_vertex_face = std::min(of_a.ef_vertex_face, of_b.ef_vertex_face),
           .ef_edge_edge = std::min(of_a.ef_edge_edge, of_b.ef_edge_edge),
           .ff_vertex_face = std::min(of_a.ff_vertex_face, of_b.ff_vertex_face),
-          .ff_edge_edge = std::acos(std::cos(of_a.ff_edge_face) * std::cos(of_b.ff_edge_face)),
+          .ff_edge_edge = nearest::acos(nearest::cos(of_a.ff_edge_face) * nearest::cos(of_b.ff_edge_face)),
           .ff_edge_face = std::min(of_a.ff_edge_face, of_b.ff_edge_face)};
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 double EmpiricalCdf::operator()(double x) const {
@@ -40,7 +42,7 @@ double kolmogorov_probability(double distance, long n) {
   const double lambda = (root + 0.12 + 0.11 / root) * distance;
   if (!(lambda > 0.2)) return 1;  // to 1e-12; the series converges slowly there
   double sum = 0;
-  for (int k = 1; k <= 100; ++k) sum += (k % 2 == 1 ? 2 : -2) * std::exp(-2 * k * k * lambda * lambda);
+  for (int k = 1; k <= 100; ++k) sum += (k % 2 == 1 ? 2 : -2) * nearest::exp(-2 * k * k * lambda * lambda);
   return std::clamp(sum, 0.0, 1.0);
 }
 

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 namespace {
@@ -17,7 +19,7 @@ std::vector<double> logarithms(std::span<const double> angles, double upper, dou
   std::vector<double> result;
   for (const double angle : angles) {
     if (!(angle >= 0) || !std::isfinite(angle)) throw std::invalid_argument("angles to split must be 0 or more");
-    if (angle < upper) result.push_back(std::log(std::max(angle, resolution)));
+    if (angle < upper) result.push_back(nearest::log(std::max(angle, resolution)));
   }
   std::sort(result.begin(), result.end());
   return result;
@@ -59,17 +61,17 @@ GapSplit split_at_gap(std::span<const double> angles, double upper, const GapOpt
     return result;
   }
   const auto cut_between = [&](double from, double to, std::size_t below) {
-    result.gap_from = std::exp(from);
-    result.gap_to = std::exp(to);
-    result.cutoff = std::exp((from + to) / 2);
+    result.gap_from = nearest::exp(from);
+    result.gap_to = nearest::exp(to);
+    result.cutoff = nearest::exp((from + to) / 2);
     result.below = static_cast<int>(below);
   };
   const Split split = best_split(x);
   result.separation = split.separation;
   result.critical = 0.75 + options.quantile * std::sqrt(0.075 / static_cast<double>(x.size()));
-  if (x.back() - x.front() < std::log(upper) - x.back()) {
+  if (x.back() - x.front() < nearest::log(upper) - x.back()) {
     result.verdict = GapVerdict::all_alike;
-    cut_between(x.back(), std::log(upper), x.size());
+    cut_between(x.back(), nearest::log(upper), x.size());
   } else if (split.separation > result.critical) {
     result.verdict = GapVerdict::separated;
     cut_between(x[split.below - 1], x[split.below], split.below);

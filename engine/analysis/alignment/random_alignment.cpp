@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <bit>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
+#include "engine/arithmetic/elementary.hpp"
 
 namespace isojam {
 
@@ -17,14 +19,14 @@ namespace {
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-double angle_between(const Vector3d& u, const Vector3d& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
+double angle_between(const Vector3d& u, const Vector3d& v) { return nearest::atan2(u.cross(v).norm(), u.dot(v)); }
 
 /// A stratified sample has as many cells of equal area along either cylindrical coordinate of the sphere.
 constexpr int bands = 256;
 
 Vector3d direction_at(double z, double azimuth) {
   const double r = std::sqrt(1 - z * z);
-  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+  return {r * nearest::cos(azimuth), r * nearest::sin(azimuth), z};
 }
 
 Vector3d random_direction(RandomStream& random) {
@@ -72,7 +74,9 @@ class Features {
     const Vector3d& left = solid_.faces()[static_cast<std::size_t>(edge.left)].normal;
     const Vector3d& right = solid_.faces()[static_cast<std::size_t>(edge.right)].normal;
     const double sense = left.cross(right).dot(edges_[e]) < 0 ? -1 : 1;
-    return Eigen::AngleAxisd(sense * (part * angle_between(left, right)), edges_[e]) * left;
+    const double angle = sense * (part * angle_between(left, right));
+    // Rodrigues: the axis is at right angles to what is turned.
+    return nearest::cos(angle) * left + nearest::sin(angle) * edges_[e].cross(left);
   }
 
   double nearest_normal(const Vector3d& direction) const {
@@ -87,7 +91,7 @@ class Features {
     std::uint64_t mask = solid_.arrays().star[outermost - solid_.vertices().begin()].edges;
     for (; mask != 0; mask &= mask - 1)
       least = std::min(least, std::abs(edges_[std::countr_zero(mask)].dot(direction)));
-    return std::asin(least);
+    return nearest::asin(least);
   }
 
  private:
@@ -101,9 +105,11 @@ struct Tails {
 
 /// Probabilities of at most and of at least k of n.
 Tails binomial_tails(long n, double p, long k) {
-  const boost::math::binomial count(static_cast<double>(n), p);
-  const auto above = k == 0 ? 1 : boost::math::cdf(boost::math::complement(count, static_cast<double>(k - 1)));
-  return {boost::math::cdf(count, static_cast<double>(k)), above};
+  // In software: as elementary.hpp has it, the same bits everywhere.
+  using Real = boost::multiprecision::cpp_bin_float_quad;
+  const boost::math::binomial_distribution<Real> count(static_cast<double>(n), Real(p));
+  const Real above = k == 0 ? Real(1) : boost::math::cdf(boost::math::complement(count, Real(k - 1)));
+  return {static_cast<double>(boost::math::cdf(count, Real(k))), static_cast<double>(above)};
 }
 
 }  // namespace
@@ -153,23 +159,23 @@ void RandomAlignment::sample(const ConvexSolid& solid) {
 }
 
 double RandomAlignment::sampling_error() const {
-  return is_sampled() ? std::pow(static_cast<double>(face_face_.size()), -0.75) : 0;
+  return is_sampled() ? nearest::pow(static_cast<double>(face_face_.size()), -0.75) : 0;
 }
 
 double RandomAlignment::face_face(double theta) const {
   if (theta <= 0) return 0;
   if (theta >= ff_max_) return 1;
   if (is_sampled()) {
-    if (theta <= caps_apart_) return faces_ * std::pow(std::sin(theta / 2), 2);
+    if (theta <= caps_apart_) return faces_ * squared(nearest::sin(theta / 2));
     return share_below(face_face_, theta);
   }
   const double inradius = constrained_ff_max_;  // of the polygon that a face subtends
-  if (theta <= inradius) return faces_ * std::pow(std::sin(theta / 2), 2);
+  if (theta <= inradius) return faces_ * squared(nearest::sin(theta / 2));
   // Azimuth ψ about the normal from the middle of a side, where the side is at the angle ρ, tan ρ = tan(inradius)/cos
   // ψ: within `cut` it is nearer than θ, and ∫ (1 − cos ρ) dψ = ψ − arcsin(cos(inradius) sin ψ).
-  const double cut = std::acos(std::tan(inradius) / std::tan(theta));
-  const double inside = cut - std::asin(std::cos(inradius) * std::sin(cut));
-  const double cap = (pi / face_sides_ - cut) * 2 * std::pow(std::sin(theta / 2), 2);
+  const double cut = nearest::acos(nearest::tan(inradius) / nearest::tan(theta));
+  const double inside = cut - nearest::asin(nearest::cos(inradius) * nearest::sin(cut));
+  const double cap = (pi / face_sides_ - cut) * 2 * squared(nearest::sin(theta / 2));
   return std::min(1.0, faces_ * face_sides_ / (2 * pi) * (inside + cap));
 }
 
@@ -178,16 +184,17 @@ double RandomAlignment::face_face(double theta) const {
 // from every side have n·e_k > sin θ. They are bounded by q arcs of circles about e_k, of geodesic curvature tan θ and
 // length φ cos θ, which meet at the exterior angle ε: the area is 2π − q(φ sin θ + ε).
 double RandomAlignment::cone_beyond(double theta) const {
-  const double half = pi / valence_, sine = std::sin(ef_max_), cosine = std::cos(ef_max_);
+  const double half = pi / valence_, sine = nearest::sin(ef_max_), cosine = nearest::cos(ef_max_);
   const Vector3d first(cosine, 0, sine);
-  const Vector3d second(cosine * std::cos(2 * half), cosine * std::sin(2 * half), sine);
+  const Vector3d second(cosine * nearest::cos(2 * half), cosine * nearest::sin(2 * half), sine);
   // The corner between them at colatitude ρ: cos ρ sin β − sin ρ cos β cos(π/q) = sin θ.
-  const double slope = cosine * std::cos(half), radius = std::hypot(sine, slope);
-  const double rho = std::acos(std::min(1.0, std::sin(theta) / radius)) - std::atan2(slope, sine);
-  const Vector3d corner(-std::sin(rho) * std::cos(half), -std::sin(rho) * std::sin(half), std::cos(rho));
-  const double phi = 2 * std::atan2(std::abs(corner.y()), corner.dot(Vector3d(-sine, 0, cosine)));
+  const double slope = cosine * nearest::cos(half), radius = nearest::hypot(sine, slope);
+  const double rho = nearest::acos(std::min(1.0, nearest::sin(theta) / radius)) - nearest::atan2(slope, sine);
+  const Vector3d corner(-nearest::sin(rho) * nearest::cos(half), -nearest::sin(rho) * nearest::sin(half),
+                        nearest::cos(rho));
+  const double phi = 2 * nearest::atan2(std::abs(corner.y()), corner.dot(Vector3d(-sine, 0, cosine)));
   const double exterior = angle_between(first.cross(corner), second.cross(corner));
-  return 2 * pi - valence_ * (phi * std::sin(theta) + exterior);
+  return 2 * pi - valence_ * (phi * nearest::sin(theta) + exterior);
 }
 
 double RandomAlignment::edge_face(double theta) const {
@@ -221,7 +228,8 @@ std::vector<AlignmentAngles> sample_edge_constrained(const ConvexSolid& solid, i
   for (int k = 0; k < n; ++k) {
     const auto chosen = static_cast<std::size_t>(random.uniform() * static_cast<double>(solid.edges().size()));
     const Vector3d direction = features.turned_about(chosen, random.uniform());
-    sample.push_back({features.nearest_normal(direction), std::abs(std::asin(features.edge(chosen).dot(direction)))});
+    sample.push_back(
+        {features.nearest_normal(direction), std::abs(nearest::asin(features.edge(chosen).dot(direction)))});
   }
   return sample;
 }
@@ -243,7 +251,7 @@ Randomness compare_with_random(std::span<const double> angles, const std::functi
   result.expected = options.fraction * static_cast<double>(n);
   const Tails tails = binomial_tails(n, options.fraction, result.below);
   result.probability = std::min({1.0, tails.at_least, tails.at_most});
-  if (std::pow(options.fraction, static_cast<double>(n)) > options.level) {
+  if (nearest::pow(options.fraction, static_cast<double>(n)) > options.level) {
     result.verdict = RandomnessVerdict::too_few;
   } else if (result.probability > options.level) {
     result.verdict = RandomnessVerdict::random;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 
 namespace {
@@ -102,7 +104,7 @@ void PeriodicCell::measure() {
   is_cube_ = is_multiple_of_identity(vectors_);
   side_ = h(0, 0);
   volume_ = is_cube_ ? side_ * side_ * side_ : h.col(0).dot(h.col(1).cross(h.col(2)));
-  if (!is_cube_) side_ = std::cbrt(volume_);
+  if (!is_cube_) side_ = nearest::cbrt(volume_);
   inverse_ = is_cube_ ? Eigen::Matrix3d(Eigen::Matrix3d::Identity() / side_) : Eigen::Matrix3d(h.inverse());
   for (int c = 0; c < 3; ++c) heights_[c] = is_cube_ ? side_ : 1 / inverse_.row(c).norm();
 }
@@ -181,10 +183,10 @@ bool is_legal(const PeriodicCell& cell, const ConvexSolid& solid) {
   return cell.shortest_translation() > least_side(solid);
 }
 
-double side_at(int n, double density) { return std::cbrt(n / density); }
+double side_at(int n, double density) { return nearest::cbrt(n / density); }
 
 int least_particles(const ConvexSolid& solid, double density) {
-  int n = static_cast<int>(density * std::pow(least_side(solid), 3));
+  int n = static_cast<int>(density * cubed(least_side(solid)));
   while (side_at(n, density) <= least_side(solid)) ++n;
   return n;
 }

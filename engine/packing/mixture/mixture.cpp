@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/packing/cell/periodic_cell.hpp"
 
 namespace isojam {
@@ -63,7 +64,7 @@ std::vector<Particle> Mixture::particles(int n) const {
   }
   const bool alike = std::all_of(particles.begin(), particles.end(),
                                  [&](const Particle& p) { return p.scale == particles.front().scale; });
-  const double unit = std::cbrt(n / volume);
+  const double unit = nearest::cbrt(n / volume);
   for (Particle& particle : particles) particle.scale = alike ? 1 : particle.scale * unit;
   return particles;
 }

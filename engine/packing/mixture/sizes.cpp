@@ -1,18 +1,31 @@
 #include "engine/packing/mixture/sizes.hpp"
 
 #include <boost/math/distributions/normal.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cassert>
 #include <charconv>
 #include <cmath>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
+
+namespace {
+
+/// In quadruple precision, in software: as elementary.hpp has it, the same bits everywhere.
+double normal_quantile(double share) {
+  using Real = boost::multiprecision::cpp_bin_float_quad;
+  return static_cast<double>(boost::math::quantile(boost::math::normal_distribution<Real>(), Real(share)));
+}
+
+}  // namespace
 
 double Sizes::quantile(double share) const {
   assert(share > 0 && share < 1);
   switch (law) {
     case SizeLaw::fixed: return from;
     case SizeLaw::uniform: return from + (to - from) * share;
-    case SizeLaw::log_normal: return from * std::exp(sigma / 3 * boost::math::quantile(boost::math::normal(), share));
+    case SizeLaw::log_normal: return from * nearest::exp(sigma / 3 * normal_quantile(share));
     case SizeLaw::discrete: break;
   }
   double below = 0;

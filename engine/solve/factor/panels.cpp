@@ -54,7 +54,9 @@ inline Lanes spread(double b) {
   for (int lane = 0; lane < lanes; ++lane) all[lane] = b;
   return all;
 }
-inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) { c -= a * b; }
+inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) {
+  for (int lane = 0; lane < lanes; ++lane) c[lane] = std::fma(-a[lane], b[lane], c[lane]);
+}
 inline void keep(Lanes& /*value*/) {}
 #endif
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/solve/minimise/descent.hpp"
 #include "engine/solve/minimise/step_model.hpp"
 
@@ -51,7 +52,7 @@ class Shift {
   }
   /// After a step that was accepted, by the ratio of its actual to its predicted decrease (Nielsen's rule).
   void adapt(double ratio) {
-    value_ = std::max(value_ * std::max(0.2, 1 - std::pow(2 * ratio - 1, 3)), least_);
+    value_ = std::max(value_ * std::max(0.2, 1 - cubed(2 * ratio - 1)), least_);
     growth_ = 2;
   }
   /// After a step that needed following up.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/packing/cell/strain.hpp"
 #include "engine/solve/minimise/descent.hpp"
 
@@ -82,7 +83,7 @@ bool acceptable(const EnvelopeEvaluation& from, const EnvelopeEvaluation& to, do
 }
 
 double adapted_shift(double shift, double ratio) {
-  return shift * std::max(least_change, 1 - std::pow(2 * std::min(ratio, 1.0) - 1, 3));
+  return shift * std::max(least_change, 1 - cubed(2 * std::min(ratio, 1.0) - 1));
 }
 
 Eigen::VectorXd limited(const Eigen::VectorXd& step, double longest) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/arithmetic/elementary.hpp"
 #include "engine/solve/factor/block_cholesky.hpp"
 #include "engine/solve/minimise/descent.hpp"
 #include "engine/solve/multipliers/envelope_state.hpp"
@@ -77,7 +78,6 @@ constexpr double longest_step = 0.1, longest_tangent = 0.4;  ///< inradii
 constexpr int damped_after = 3, most_renewals = 15;
 constexpr double damped_part = 0.5;
 constexpr double least_fall = 1e-4;
-constexpr double stalled_below = 0.03;  ///< of the mean force
 
 /// Forces that differ from the expected by more than this factor make new scales; fallen to the second they are those
 /// of a packing that is not jammed.
@@ -132,7 +132,7 @@ class Multipliers {
   /// From the equilibrium to one under the load of the options: p ∝ Δφ⁵.
   MinimiseSummary follow_load() {
     const double now = energy_.evaluate(packing_, Precision::double_double).pressure;
-    follow_tangent(packing_, Eigen::Matrix3d::Zero(), distance_ * std::pow(options_.control.pressure / now, 0.2));
+    follow_tangent(packing_, Eigen::Matrix3d::Zero(), distance_ * nearest::pow(options_.control.pressure / now, 0.2));
     return run();
   }
 
@@ -178,7 +178,7 @@ class Multipliers {
     first_force_ = evaluator_.unshifted(packing_).value.mean_force;
     set_scales(first_force_, distance_);
     const EnvelopeState from = evaluator_.unshifted(packing_);
-    const double fall = std::pow(ratio, 5);
+    const double fall = nearest::pow(ratio, 5);
     shift_ = first_shift * k0_;
     Tangent answer = tangent(from, imposed, tangent_shift * k0_, longest_tangent * packing_.solids.least_inradius(),
                              evaluator_, factor_, summary_.work);
@@ -235,7 +235,7 @@ class Multipliers {
     ++renewals_;
     const double force = here_.value.mean_force;
     if (!(force > force_ / off_scale && force < off_scale * force_))
-      set_scales(force, distance_ * std::pow(force / first_force_, 0.2));
+      set_scales(force, distance_ * nearest::pow(force / first_force_, 0.2));
     std::vector<ContactForce> forces = forces_of(here_.value);
     const double part = renewals_ > damped_after ? damped_part : 1;
     for (std::size_t k = 0; k < forces.size(); ++k)

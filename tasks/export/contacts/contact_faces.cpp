@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/arithmetic/elementary.hpp"
+
 namespace isojam {
 namespace {
 
@@ -48,7 +50,7 @@ ContactFaces aligned_faces(const Body& a, const Body& b, double cutoff) {
   for_each_bit(a.faces, [&](int i) {
     for_each_bit(b.faces, [&](int j) {
       const Vector3d n = a.normal(i), m = b.normal(j);
-      if (std::atan2(n.cross(m).norm(), -n.dot(m)) >= cutoff) return;
+      if (nearest::atan2(n.cross(m).norm(), -n.dot(m)) >= cutoff) return;
       least.offer(a.depth(i, b.centre + b.solid.faces()[j].offset * m), {bit(i), bit(j)});
     });
   });
@@ -64,7 +66,7 @@ void offer_edges(const Body& body, const Body& other, double cutoff, const Named
     const Vector3d direction = (head - tail).normalized();
     for_each_bit(other.faces, [&](int f) {
       const Vector3d n = other.normal(f);
-      if (std::atan2(std::abs(direction.dot(n)), direction.cross(n).norm()) >= cutoff) return;
+      if (nearest::atan2(std::abs(direction.dot(n)), direction.cross(n).norm()) >= cutoff) return;
       least.offer(other.depth(f, (tail + head) / 2), named(bit(edge.left) | bit(edge.right), bit(f)));
     });
   });
