@@ -16,14 +16,14 @@ namespace isojam {
 /// names in the rest, until it names none. The rest stands where it stood, in the same cell, and is not minimised anew:
 /// `here` tells how far it is from balance, which is as far as before if what went carried no force.
 struct Backbone {
-  Packing packing;  ///< what is left, in its order; no poses if that is nothing, and then all that follows is empty
-  std::vector<int> kept;     ///< its numbers in the whole, ascending
-  std::vector<int> removed;  ///< the others, ascending
-  int rounds = 0;            ///< in which some were taken away
-  Evaluation here;           ///< of what is left, as the rest of these
-  BlockMatrix hessian;
-  SpectrumEnds ends;
-  Stability stability;
+  Packing packing;             ///< what is left, in its order; no poses if that is nothing, and what follows is empty
+  std::vector<int> kept{};     ///< its numbers in the whole, ascending
+  std::vector<int> removed{};  ///< the others, ascending
+  int rounds = 0;              ///< in which some were taken away
+  Evaluation here{};           ///< of what is left, as the rest of these
+  BlockMatrix hessian{};
+  SpectrumEnds ends{};
+  Stability stability{};
 };
 
 Backbone backbone_of(const Packing& packing, const ModeOptions& options = {},
