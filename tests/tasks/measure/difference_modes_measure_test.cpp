@@ -64,7 +64,7 @@ TEST(DifferenceModesMeasure, CountsAsADenseSolverDoes) {
           Eigen::MatrixXd::Identity(6 * packing.size(), 6 * packing.size()) - still * still.transpose();
       const Eigen::MatrixXd matrix = apart * difference_hessian(packing, h, Precision::working) * apart;
       expect_count(found.at(key), matrix);
-      EXPECT_NEAR(found.at(key).at("least").get<double>(), symmetric_eigenvalues(matrix)[0], 1e-6 * matrix.norm());
+      EXPECT_NEAR(found.at(key).at("least").get<double>(), symmetric_eigenvalues(matrix)[0], 1e-12 * matrix.norm());
     }
   }
   EXPECT_GT(unstable, 0);
