@@ -67,9 +67,15 @@ void put_modes(Json& state, const Backbone& backbone) {
       "no modes, or one without a frequency");
 }
 
-/// Of the rest: what its forces leave unbalanced is what those that went had borne.
+/// Largest residual of a rest that is taken to be in balance: those that went bore next to no force.
+constexpr double balanced = 1e-3;
+
+/// A response is that of an equilibrium: the rest has none if it leaned on those that went.
 void put_response(Json& state, const Backbone& backbone) {
-  put_number(state["backbone"], "residual", backbone.here.residual);
+  const double residual = backbone.here.residual;
+  put_number(state["backbone"], "residual", residual);
+  if (!backbone.removed.empty() && !(residual <= balanced))
+    return put(state, K, std::nullopt, "particles that were removed bore force: the rest does not balance");
   const auto tensor = elastic_tensor(backbone);
   put(state, K, tensor ? std::optional(tensor->bulk_modulus()) : std::nullopt,
       "the Hessian is not positive definite: no response is defined");

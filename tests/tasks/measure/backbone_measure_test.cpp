@@ -1,5 +1,6 @@
 // Facts proved here, of what the backbone's measure puts into records:
 // - of a jammed packing that has no near-rattlers it is what contacts, modes, moduli and rigidity say of the whole;
+// - where those that go bore force the rest is said not to balance, and has no bulk modulus;
 // - small solids that float in its voids are counted and named, and change nothing else, where modes and moduli of the
 //   whole have no number; contacts of a mixture keep the classes that they have there.
 
@@ -98,6 +99,29 @@ TEST(BackboneMeasure, FloatingSolidsChangeNothingElse) {
   const auto modes = measure(Measure::modes, result).states[0].at("modes");
   EXPECT_EQ(modes.at("zero"), 3 + 6 * floating);
   EXPECT_TRUE(modes.at("omega_l").is_null()) << "there would be no need of a backbone";
+}
+
+TEST(BackboneMeasure, ARestThatDoesNotBalanceHasNoBulkModulus) {
+  const std::size_t nearest = *nearest_state(jammed());
+  const Packing& state = jammed().states[nearest];
+  RandomStream random{21};
+  int seen = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    JamResult result = jammed();
+    Packing thinned{state.solids, state.cell, {}};
+    for (const Pose& pose : state.poses) {
+      if (random.uniform() < 0.85) thinned.poses.push_back(pose);
+    }
+    result.states = {thinned};
+    result.state_steps = {result.state_steps[nearest]};
+    const auto found = measure(Measure::backbone, result).states[0].at("backbone");
+    if (found.at("removed") == 0 || found.at("Z").is_null()) continue;
+    ++seen;
+    EXPECT_GT(found.at("residual").get<double>(), 1e-3);
+    EXPECT_TRUE(found.at("K").is_null());
+    EXPECT_EQ(found.at("K_reason"), "particles that were removed bore force: the rest does not balance");
+  }
+  EXPECT_GT(seen, 0);
 }
 
 }  // namespace

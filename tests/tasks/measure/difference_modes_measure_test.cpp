@@ -44,7 +44,7 @@ TEST(DifferenceModesMeasure, CountsAsADenseSolverDoes) {
   const ConvexSolid& solid = platonic(SolidKind::icosahedron);
   const Packing drawn = random_packing(solid, least_particles(solid, 0.8), 0.8, random);
   long unstable = 0;
-  for (const Packing& packing : {lattice(4, 0.3), drawn}) {
+  for (const Packing& packing : {lattice(3, 0.3), drawn}) {
     const auto found = measure(Measure::difference_modes, result_of(packing)).states[0].at("difference_modes");
     const auto tolerance = found.at("tolerance").get<double>();
     const double modes = 6 * packing.size();
