@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "engine/rigidity/rigidity.hpp"
@@ -42,7 +43,7 @@ double polygon_margin(const std::vector<Vector3d>& corners, const Vector3d& norm
     if (const double length = inwards.norm(); length > 0)
       least = std::min(least, inwards.dot(point - corners[k]) / length);
   }
-  return least / std::sqrt(area);
+  return std::max(least / std::sqrt(area), -1.0);
 }
 
 ContactPatch polygon_patch(const Packing& packing, const Site& site, int face) {
@@ -93,7 +94,7 @@ ContactPatch edge_patch(const Site& site, const Alignment& alignment) {
   const Vector3d across = piece - site.normal * site.normal.dot(piece);
   const double size = across.squaredNorm();
   const double at = size > 0 ? across.dot(site.attack - patch.corners[0]) / size : 0;
-  patch.margin = std::min(at, 1 - at);
+  patch.margin = std::max(std::min(at, 1 - at), -1.0);
   return patch;
 }
 

@@ -16,9 +16,9 @@ struct ContactPatch {
   /// In A's body frame, V_p^(1/3); three or more in order around the polygon, two, or one.
   std::vector<Eigen::Vector3d> corners;
   /// How far inside the patch the contact's force acts: for a polygon its distance to the nearest side over the root of
-  /// the area, for an edge that to the nearer end over its length (½ in the middle), both seen along the normal; 1 for
-  /// a point. A positive margin means that the force is a sum of positive pushes at all corners, so that every small
-  /// change of it in force and torque is one too.
+  /// the area, for an edge that to the nearer end over its length (½ in the middle), both seen along the normal; −1
+  /// stands for all below; 1 for a point. A positive margin means that the force is a sum of positive pushes at all
+  /// corners, so that every small change of it in force and torque is one too.
   double margin = 1;
 };
 

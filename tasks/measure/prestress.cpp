@@ -22,7 +22,7 @@ constexpr Quantity held_by_second{"held_by_second", "/prestress/modes/held_by_se
 constexpr Quantity held_by_prestress{"held_by_prestress", "/prestress/modes/held_by_prestress", group, "1", "n_p"};
 constexpr std::array quantities{C_s, missing_s, missing_n, self_stress_s, held_by_second, held_by_prestress};
 
-/// s from which a tilt counts as a constraint, and others to see what that choice does.
+/// s from which a tilt counts as a constraint, and others to see what that choice does to their number.
 constexpr double threshold = 10;
 constexpr std::array thresholds{1.0, 3.0, 10.0, 30.0, 100.0};
 /// Packings up to this size have all their modes looked at, others as many as asked for at the soft end.
@@ -35,7 +35,8 @@ double missing(const Rigidity& rigidity, int particles) {
   return static_cast<double>(6L * particles - 3 - rigidity.rank) / particles;
 }
 
-void put_rank(Json& json, const Rigidity& rigidity) {
+void put_rank(Json& json, const Rigidity& rigidity, int particles) {
+  put_number(json, "missing", missing(rigidity, particles));
   json["constraints"] = rigidity.constraints;
   json["rank"] = rigidity.rank;
   put_number(json, "tolerance", rigidity.tolerance);
@@ -55,11 +56,10 @@ void put_counts(Json& state, const Packing& packing, const StateStiffness& stiff
     Json json;
     json["threshold"] = s;
     put_number(json, "C", stiff_constraint_number(n, stiffness.pairs, s));
-    const auto rigidity = analyse_rigidity(stiff_constraints(packing, stiffness.contacts, stiffness.pairs, s));
-    put_rank(json, rigidity);
-    json["self_stress"] = rigidity.self_stress;
-    put_number(json, "missing", missing(rigidity, n));
     if (s == threshold) {
+      const auto rigidity = analyse_rigidity(stiff_constraints(packing, stiffness.contacts, stiffness.pairs, s));
+      put_rank(json, rigidity, n);
+      json["self_stress"] = rigidity.self_stress;
       put(state, C_s, stiff_constraint_number(n, stiffness.pairs, s));
       put(state, missing_s, missing(rigidity, n));
       put(state, self_stress_s, rigidity.self_stress);
@@ -68,7 +68,7 @@ void put_counts(Json& state, const Packing& packing, const StateStiffness& stiff
   }
   state["prestress"]["thresholds"] = std::move(list);
   const auto normals = analyse_rigidity(normal_constraints(packing, stiffness.contacts));
-  put_rank(state["prestress"]["normals"], normals);
+  put_rank(state["prestress"]["normals"], normals, n);
   put(state, missing_n, missing(normals, n));
   state["prestress"]["without_second"] =
       std::count_if(stiffness.pairs.begin(), stiffness.pairs.end(), [](const auto& pair) { return !pair.has_second; });
