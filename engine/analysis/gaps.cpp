@@ -7,6 +7,27 @@
 
 namespace isojam {
 
+namespace {
+
+/// Whether planes along a face are as far apart as those of the best axis, to rounding: products of edges that lie in
+/// such planes are no better.
+bool is_of_faces(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, double width) {
+  const double enough = width - gap_tolerance(a, b, pose);
+  const auto apart = [&](SeparatingAxis::Kind kind, std::size_t face) {
+    const auto index = static_cast<std::uint8_t>(face);
+    return gap(a, b, pose, {kind, index, index}) >= enough;
+  };
+  for (std::size_t f = 0; f < a.faces().size(); ++f) {
+    if (apart(SeparatingAxis::Kind::face_a, f)) return true;
+  }
+  for (std::size_t f = 0; f < b.faces().size(); ++f) {
+    if (apart(SeparatingAxis::Kind::face_b, f)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<Gap> near_gaps(const Packing& packing, double widest) {
   if (!(widest > 0)) throw std::invalid_argument("gaps are looked for up to a positive width");
   const auto pairs = find_in_reach(packing, widest);
@@ -18,8 +39,9 @@ std::vector<Gap> near_gaps(const Packing& packing, double widest) {
                       b = placed[static_cast<std::size_t>(pairs[k].b)];
     const Eigen::Matrix3d to_a = a.rotation().transpose();
     const RelativePose pose{to_a * b.rotation(), to_a * displacement(packing, pairs[k])};
-    const SeparatingAxis axis = best_axis(a.solid(), b.solid(), pose);
-    all[k] = {pairs[k], gap(a.solid(), b.solid(), pose, axis), axis.kind != SeparatingAxis::Kind::edge_edge};
+    const double width = gap(a.solid(), b.solid(), pose, best_axis(a.solid(), b.solid(), pose));
+    const bool near = width > 0 && width < widest;
+    all[k] = {pairs[k], width, near && is_of_faces(a.solid(), b.solid(), pose, width)};
   });
   std::vector<Gap> gaps;
   for (const Gap& gap : all) {

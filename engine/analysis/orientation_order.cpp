@@ -32,9 +32,10 @@ double raised(double top, unsigned m, unsigned l, double z) {
   return here;
 }
 
-/// Real Y_lm(direction), m = −l..l; of a unit vector.
+/// Real Y_lm(direction), m = −l..l.
 VectorXd real_harmonics(const Vector3d& direction, unsigned l) {
-  const double x = direction.x(), y = direction.y(), z = direction.z();
+  const Vector3d unit = direction.normalized();
+  const double x = unit.x(), y = unit.y(), z = unit.z();
   VectorXd values(2 * l + 1);
   double top = 0.5 / std::sqrt(std::numbers::pi), cosine = 1, sine = 0;  // sinᵐ·cos and sin of m·azimuth
   for (unsigned m = 0; m <= l; ++m) {

@@ -98,6 +98,22 @@ ContactPatch edge_patch(const Site& site, const Alignment& alignment) {
   return patch;
 }
 
+/// From where the force of the contact acts to the corners; along the edge where there are two.
+std::vector<Vector3d> offsets(const ContactPatch& patch, const Vector3d& attack) {
+  std::vector<Vector3d> list;
+  for (const Vector3d& corner : patch.corners) {
+    const Vector3d offset = corner - attack;
+    const Vector3d piece = patch.corners.back() - patch.corners.front();
+    const double size = piece.squaredNorm();
+    if (patch.corners.size() == 2) {
+      list.emplace_back(size > 0 ? Vector3d(piece * (piece.dot(offset) / size)) : Vector3d::Zero());
+    } else {
+      list.push_back(offset);
+    }
+  }
+  return list;
+}
+
 }  // namespace
 
 std::vector<ContactPatch> contact_patches(const Packing& packing, std::span<const Contact> contacts,
@@ -125,11 +141,15 @@ RigidityMatrix corner_constraints(const Packing& packing, std::span<const Contac
   int row = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts[c].pair.a), j = static_cast<std::size_t>(contacts[c].pair.b);
-    const Vector3d& n = forces[c].normal;
-    for (const Vector3d& corner : patches[c].corners) {
-      const Vector3d lever_a = packing.poses[i].orientation * corner, lever_b = lever_a - contacts[c].displacement;
-      const Vector6d on_a = joined(n, lever_a.cross(n) / packing.solids[i].gyration_radius());
-      const Vector6d on_b = joined(-n, -lever_b.cross(n) / packing.solids[j].gyration_radius());
+    const Pose& pose = packing.poses[i];
+    const Vector3d area = pose.orientation * contacts[c].overlap.area / contacts[c].overlap.area.norm(),
+                   moment = pose.orientation * contacts[c].overlap.moment / contacts[c].overlap.area.norm();
+    for (const Vector3d& offset :
+         offsets(patches[c], pose.orientation.conjugate() * (forces[c].attack - pose.position))) {
+      const Vector3d couple = (pose.orientation * offset).cross(area);
+      const Vector6d on_a = joined(area, (moment + couple) / packing.solids[i].gyration_radius());
+      const Vector6d on_b =
+          joined(-area, (contacts[c].displacement.cross(area) - moment - couple) / packing.solids[j].gyration_radius());
       const double length = std::sqrt(on_a.squaredNorm() + on_b.squaredNorm());
       for (int k = 0; k < 6; ++k) {
         entries.emplace_back(row, 6 * contacts[c].pair.a + k, on_a[k] / length);

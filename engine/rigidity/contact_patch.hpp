@@ -28,8 +28,9 @@ std::vector<ContactPatch> contact_patches(const Packing& packing, std::span<cons
                                           std::span<const ContactForce> forces, std::span<const Alignment> alignments,
                                           std::span<const ContactClass> classes);
 
-/// A row of unit length for the push at each corner of each patch, along the contact's normal −F_A/|F|: f ≥ 0 with
-/// rowsᵀ·f = 0 are the states of self-stress that contacts can bear. Forces are left at 0.
+/// A row of unit length for the push at each corner of each patch: ∇V of the contact, which is what its force acts
+/// along, and the couple that takes it from where it acts to the corner. f ≥ 0 with rowsᵀ·f = 0 are the states of
+/// self-stress that contacts can bear. `forces` of the matrix are left at 0.
 RigidityMatrix corner_constraints(const Packing& packing, std::span<const Contact> contacts,
                                   std::span<const ContactForce> forces, std::span<const ContactPatch> patches);
 

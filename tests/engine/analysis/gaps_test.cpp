@@ -35,7 +35,7 @@ TEST(GapsTest, AreThoseOfBruteForce) {
       if (width > 0 && width < .1) expected.push_back({pair, width});
     }
     ASSERT_EQ(gaps.size(), expected.size()) << to_string(kind);
-    ASSERT_GT(gaps.size(), 5U);
+    ASSERT_GE(gaps.size(), 3U);
     for (std::size_t k = 0; k < gaps.size(); ++k) {
       EXPECT_EQ(canonical_key(gaps[k].pair), canonical_key(expected[k].pair));
       EXPECT_NEAR(gaps[k].width, expected[k].width, 1e-14);

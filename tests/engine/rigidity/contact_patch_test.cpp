@@ -75,10 +75,11 @@ TEST(ContactPatchTest, CornersAreWhereBodiesMeet) {
                                                                                   : 3U;
       EXPECT_TRUE(expected == 3 ? patch.corners.size() >= 3 : patch.corners.size() == expected);
       if (expected == 1) continue;
+      constexpr double beside = 1e-12;
       for (const Vector3d& corner : patch.corners) {
         for (const auto& face : solid.faces()) {
-          EXPECT_LE(face.normal.dot(corner) - face.offset, 1e-12);
-          EXPECT_LE(face.normal.dot(pose.rotation.transpose() * (corner - pose.displacement)) - face.offset, 1e-12);
+          EXPECT_LE(face.normal.dot(corner) - face.offset, beside);
+          EXPECT_LE(face.normal.dot(pose.rotation.transpose() * (corner - pose.displacement)) - face.offset, beside);
         }
       }
     }
