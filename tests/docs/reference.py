@@ -1,0 +1,232 @@
+"""reference.py SOURCE FACTS [--write]: the tables of docs/manifest.md and docs/results.md that schemas and program tell.
+
+SOURCE is the tree, FACTS the facts.json that the build makes beside the Python module. Between `<!-- begin NAME -->` and
+`<!-- end NAME -->` a page has the block of that name. Without --write the blocks that differ are named, and the exit code
+is 1 if there are any.
+"""
+
+import json
+import pathlib
+import re
+import sys
+
+from schema import Schema, cell, code, fields_of, kinds
+
+PARAMETERS = ("protocol", "minimiser")
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return ["| " + " | ".join(line) + " |" for line in lines]
+
+
+# ---- The manifest --------------------------------------------------------------------------------------------------
+def default_of(schema, field, required):
+    if required:
+        return "required"
+    return code(schema.resolved(field)["default"]) if "default" in schema.resolved(field) else ""
+
+
+def manifest_rows(schema, fields, required):
+    rows = []
+    for name, field in fields.items():
+        inner = schema.resolved(field)
+        what = kinds(schema, field)
+        if fields_of(inner) or name in ("solids", "base"):
+            what = "object, [below](#" + anchor("Key", name) + ")" if name not in ("base",) else "object"
+        rows.append([f"`{name}`", cell(what), cell(default_of(schema, field, name in required)),
+                     cell(inner.get("description", ""))])
+    return rows
+
+
+def heading(kind, path):
+    return f"### {kind}: {path}"
+
+
+def anchor(kind, path):
+    return re.sub(r"[^\w -]", "", f"{kind}: {path}").lower().replace(" ", "-")
+
+
+def forms(schema, node, path):
+    """The objects that a value may be, where it may be one of several."""
+    lines = []
+    for part in node.get("oneOf", []) + node.get("anyOf", []):
+        for inner_path, fields, required in schema.objects(schema.resolved(part), path):
+            lines += [heading("Key", inner_path), "", *table(("key", "value", "default", "meaning"),
+                                                             manifest_rows(schema, fields, required)), ""]
+    return lines
+
+
+def one_table(schema, title, parts):
+    rows = {}
+    for _, fields, required in parts:
+        for row in manifest_rows(schema, fields, required):
+            rows.setdefault(row[0], row)
+    return [heading("Key", title), "", *table(("key", "value", "default", "meaning"), list(rows.values())), ""]
+
+
+def manifest_block(schema):
+    top = schema.tree["properties"]
+    lines = table(("key", "value", "default", "meaning"),
+                  manifest_rows(schema, top, set(schema.tree["required"]))) + [""]
+    sweep = top["sweep"]
+    own = {name: field for name, field in sweep["properties"].items() if name in sweep["required"]}
+    rows = [[f"`{name}`", "list of " + cell(kinds(schema, field["items"]) if name != "solid" else "names and mixtures"),
+             "required", cell(schema.resolved(schema.resolved(field["items"]).get("anyOf", [field["items"]])[0])["description"])]
+            for name, field in own.items()]
+    lines += [heading("Key", "sweep"), "", *table(("key", "value", "default", "meaning"), rows), "",
+              "Beside these, lists of values of " +
+              ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
+              ", each as under the key of that name below.", ""]
+    for name in (*PARAMETERS, "replicates", "start", "shear"):
+        lines += one_table(schema, name, list(schema.objects(top[name], name)))
+    own = schema.resolved(top["solids"]["additionalProperties"])
+    lines += one_table(schema, "solids", [part for form in own["oneOf"] for part in schema.objects(form, "solids")])
+    mixture = schema.tree["definitions"]["mixture"]
+    lines += one_table(schema, "mixture", list(schema.objects(mixture, "mixture")))
+    sizes = schema.tree["definitions"]["sizes"]
+    return lines + one_table(schema, "size", [part for form in sizes["oneOf"] for part in schema.objects(form, "size")])
+
+
+# ---- Results -------------------------------------------------------------------------------------------------------
+def result_rows(schema, kind, fields, units, path):
+    rows = []
+    for name, field in fields.items():
+        inner = schema.resolved(field)
+        target = schema.definition_of(field)
+        where = f"{path}.{name}" if path else name
+        if target:
+            what = f"[{target}](#{anchor(kind, target)})"
+            what = ("list of " if "array" in inner.get("type", []) else "") + what
+            what += " or null" if {"type": "null"} in field.get("anyOf", []) else ""
+        elif fields_of(inner) or fields_of(inner.get("items", {})):
+            what = ("list of objects" if "items" in inner else "object") + f", [below](#{anchor(kind, where)})"
+            what += " or null" if "null" in inner.get("type", []) else ""
+        else:
+            what = cell(kinds(schema, field)) or "any"
+        unit = units.get((kind, where))
+        meaning = inner.get("description", "") + (f" Unit: {unit}." if unit else "")
+        rows.append([f"`{name}`", what, cell(meaning)])
+    return rows
+
+
+def objects_block(schema, kind, roots, units):
+    lines = []
+    for root_path, node in roots:
+        for path, fields, _ in schema.objects(node, root_path):
+            if path:
+                lines += [heading(kind, path), ""]
+            lines += [*table(("field", "value", "meaning"), result_rows(schema, kind, fields, units, path)), ""]
+    return lines
+
+
+def record_units(schema, quantities):
+    """Units of quantities by the place that they have in records."""
+    units = {}
+    for one in quantities:
+        if one["unit"] == "1":
+            continue
+        keys = one["pointer"].split("/")[1:]
+        root = "" if one["of"] == "replicate" else "state"
+        if keys[0].startswith("kind_"):
+            root, keys = "kind", keys[1:]
+        units["Record", ".".join(filter(None, (root, *keys)))] = one["unit"]
+    return units
+
+
+def quantity_block(record, tables, quantities):
+    known = {one["name"]: one for one in quantities}
+    rows = []
+    for name, field in tables.tree["properties"]["rows"]["items"]["properties"].items():
+        if field.get("$ref") != "#/definitions/estimate":
+            continue
+        one = known[name]
+        of_state = one["of"] == "state"
+        root = record.tree["definitions"]["state"] if of_state else None
+        above, meaning = (record.property_at(place, root).get("description", "") for place in
+                          (one["pointer"].rpartition("/")[0], one["pointer"]))
+        rows.append([f"`{name}`", one["group"], one["unit"], "state" if of_state else "replicate",
+                     f"`{one['pointer']}`", (above, meaning)])
+    every = [row[-1][1] for row in rows]
+    for row in rows:
+        above, meaning = row[-1]
+        alone = above and row[4].count("/") > 1 and (len(meaning.split()) < 5 or every.count(meaning) > 1)
+        row[-1] = cell(f"{above} {meaning}" if alone else meaning)
+    return table(("quantity", "table", "unit", "one of each", "place in records", "meaning"), rows) + [""]
+
+
+def tables_block(schema):
+    row = schema.tree["properties"]["rows"]["items"]
+    plain = {name: field for name, field in row["properties"].items() if field.get("$ref") != "#/definitions/estimate"}
+    series = row["properties"]["series"]["items"]["properties"]
+    lines = table(("field", "value", "meaning"), result_rows(schema, "Table", schema.tree["properties"], {}, "")) + [""]
+    parts = [("rows[]", plain)]
+    for name in ("goal", "differences", "critical_angles"):
+        fields = row["properties"][name]["properties"]
+        parts.append((f"rows[].{name}", {key: field for key, field in fields.items()
+                                         if field.get("$ref") != "#/definitions/estimate"}))
+    parts.append(("rows[].series[]", {key: field for key, field in series.items()
+                                      if field.get("$ref") != "#/definitions/estimate"}))
+    parts.append(("estimate", schema.tree["definitions"]["estimate"]["properties"]))
+    for path, fields in parts:
+        plain_rows = []
+        for key, field in fields.items():
+            inner = schema.resolved(field)
+            deeper = f"{path}.{key}"
+            links = {f"rows[].{name}" for name in ("goal", "differences", "critical_angles")}
+            what = f"object, [below](#{anchor('Table', deeper)})" if deeper in links else \
+                "object of estimates" if key == "all" else \
+                f"list of objects, [below](#{anchor('Table', deeper + '[]')})" if key == "series" else cell(kinds(schema, field))
+            plain_rows.append([f"`{key}`", what, cell(inner.get("description", ""))])
+        lines += [heading("Table", path), "", *table(("field", "value", "meaning"), plain_rows), ""]
+    return lines
+
+
+def blocks(source, facts):
+    quantities = json.loads(pathlib.Path(facts).read_text(encoding="utf-8"))["quantities"]
+    manifest, record, packing, tables = (Schema(source, name) for name in ("manifest", "replicate", "packing", "tables"))
+    definitions = [(name, node) for name, node in record.tree["definitions"].items() if fields_of(node)]
+    files = packing.tree["definitions"]
+    made = {
+        "manifest": manifest_block(manifest),
+        "quantities": quantity_block(record, tables, quantities),
+        "tables": tables_block(tables),
+        "records": objects_block(record, "Record", [("", record.tree), *definitions], record_units(record, quantities)),
+        "packings": objects_block(packing, "Packing", [(name, files[name]) for name in ("packing_file", "path_file")], {}),
+    }
+    return {name: "\n".join(lines).strip() for name, lines in made.items()}
+
+
+PAGES = ("docs/manifest.md", "docs/results.md")
+
+
+def rewritten(text, made, used):
+    def block(match):
+        name = match[1]
+        used.add(name)
+        return f"<!-- begin {name} -->\n\n{made[name]}\n\n<!-- end {name} -->"
+
+    return re.sub(r"<!-- begin (\w+) -->.*?<!-- end \1 -->", block, text, flags=re.S)
+
+
+def stale(source, facts, write=False):
+    """Pages whose blocks are not what schemas and program tell now, and blocks that no page has."""
+    made, used, pages = blocks(source, facts), set(), []
+    for name in PAGES:
+        path = pathlib.Path(source) / name
+        text = path.read_text(encoding="utf-8")
+        new = rewritten(text, made, used)
+        if new != text:
+            pages.append(name)
+            if write:
+                path.write_text(new, encoding="utf-8")
+    return pages, sorted(set(made) - used)
+
+
+if __name__ == "__main__":
+    changed, missing = stale(sys.argv[1], sys.argv[2], "--write" in sys.argv[3:])
+    for page in changed:
+        print(f"{page}: {'written' if '--write' in sys.argv[3:] else 'not what the schemas tell'}")
+    for name in missing:
+        print(f"no page has the block {name}")
+    sys.exit(1 if missing or (changed and "--write" not in sys.argv[3:]) else 0)
