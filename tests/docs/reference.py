@@ -1,7 +1,7 @@
 """reference.py SOURCE FACTS [--write]: the tables of docs/manifest.md and docs/results.md that schemas and program tell.
 
-SOURCE is the tree, FACTS the facts.json that the build makes beside the Python module. Between `<!-- begin NAME -->` and
-`<!-- end NAME -->` a page has the block of that name. Without --write the blocks that differ are named, and the exit code
+SOURCE is the tree, FACTS the facts.json that the build makes beside the Python module. Between `<!-- block NAME -->` and
+`<!-- end -->` a page has the block of that name. Without --write the blocks that differ are named, and the exit code
 is 1 if there are any.
 """
 
@@ -204,9 +204,9 @@ def rewritten(text, made, used):
     def block(match):
         name = match[1]
         used.add(name)
-        return f"<!-- begin {name} -->\n\n{made[name]}\n\n<!-- end {name} -->"
+        return f"<!-- block {name} -->\n\n{made[name]}\n\n<!-- end -->"
 
-    return re.sub(r"<!-- begin (\w+) -->.*?<!-- end \1 -->", block, text, flags=re.S)
+    return re.sub(r"<!-- block (\w+) -->.*?<!-- end -->", block, text, flags=re.S)
 
 
 def stale(source, facts, write=False):
