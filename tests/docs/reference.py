@@ -12,7 +12,8 @@ import sys
 
 from schema import Schema, cell, code, fields_of, kinds
 
-PARAMETERS = ("protocol", "minimiser")
+# Keys of the manifest that have tables of their own.
+OBJECTS = ("sweep", "protocol", "minimiser", "replicates", "start", "shear", "solids", "size")
 
 
 def table(head, rows):
@@ -32,8 +33,11 @@ def manifest_rows(schema, fields, required):
     for name, field in fields.items():
         inner = schema.resolved(field)
         what = kinds(schema, field)
-        if fields_of(inner) or name in ("solids", "base"):
-            what = "object, [below](#" + anchor("Key", name) + ")" if name not in ("base",) else "object"
+        if name in OBJECTS and name != "size" or name == "size" and "oneOf" in inner:
+            what = f"{what.split(' or object')[0]} or object" if name in ("replicates", "size") else "object"
+            what += f", [below](#{anchor('Key', name)})"
+        elif fields_of(inner) or name == "base":
+            what = "object"
         rows.append([f"`{name}`", cell(what), cell(default_of(schema, field, name in required)),
                      cell(inner.get("description", ""))])
     return rows
@@ -47,22 +51,19 @@ def anchor(kind, path):
     return re.sub(r"[^\w -]", "", f"{kind}: {path}").lower().replace(" ", "-")
 
 
-def forms(schema, node, path):
-    """The objects that a value may be, where it may be one of several."""
-    lines = []
-    for part in node.get("oneOf", []) + node.get("anyOf", []):
-        for inner_path, fields, required in schema.objects(schema.resolved(part), path):
-            lines += [heading("Key", inner_path), "", *table(("key", "value", "default", "meaning"),
-                                                             manifest_rows(schema, fields, required)), ""]
-    return lines
-
-
-def one_table(schema, title, parts):
-    rows = {}
-    for _, fields, required in parts:
+def own_tables(schema, parts):
+    """Tables of an object and those inside it; of one that may have several forms each key once."""
+    rows, paths = {}, {}
+    for path, fields, required in parts:
+        paths.setdefault(path, []).append(fields)
         for row in manifest_rows(schema, fields, required):
-            rows.setdefault(row[0], row)
-    return [heading("Key", title), "", *table(("key", "value", "default", "meaning"), list(rows.values())), ""]
+            rows.setdefault(path, {}).setdefault(row[0], row)
+    lines = []
+    for path, forms in paths.items():
+        for row in rows[path].values():
+            row[2] = "one of these" if len(forms) > 1 else row[2]
+        lines += [heading("Key", path), "", *table(("key", "value", "default", "meaning"), list(rows[path].values())), ""]
+    return lines
 
 
 def manifest_block(schema):
@@ -71,21 +72,22 @@ def manifest_block(schema):
                   manifest_rows(schema, top, set(schema.tree["required"]))) + [""]
     sweep = top["sweep"]
     own = {name: field for name, field in sweep["properties"].items() if name in sweep["required"]}
-    rows = [[f"`{name}`", "list of " + cell(kinds(schema, field["items"]) if name != "solid" else "names and mixtures"),
+    rows = [[f"`{name}`", "list of " + cell(kinds(schema, field["items"]) if name != "solid" else "names, or [mixtures](#key-mixture)"),
              "required", cell(schema.resolved(schema.resolved(field["items"]).get("anyOf", [field["items"]])[0])["description"])]
             for name, field in own.items()]
     lines += [heading("Key", "sweep"), "", *table(("key", "value", "default", "meaning"), rows), "",
               "Beside these, lists of values of " +
               ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
               ", each as under the key of that name below.", ""]
-    for name in (*PARAMETERS, "replicates", "start", "shear"):
-        lines += one_table(schema, name, list(schema.objects(top[name], name)))
+    for name in OBJECTS[1:6]:
+        lines += own_tables(schema, list(schema.objects(top[name], name)))
     own = schema.resolved(top["solids"]["additionalProperties"])
-    lines += one_table(schema, "solids", [part for form in own["oneOf"] for part in schema.objects(form, "solids")])
+    lines += own_tables(schema, [part for form in own["oneOf"] for part in schema.objects(form, "solids")])
     mixture = schema.tree["definitions"]["mixture"]
-    lines += one_table(schema, "mixture", list(schema.objects(mixture, "mixture")))
+    inside = [part for part in schema.objects(mixture, "mixture") if ".size" not in part[0]]
+    lines += own_tables(schema, inside)
     sizes = schema.tree["definitions"]["sizes"]
-    return lines + one_table(schema, "size", [part for form in sizes["oneOf"] for part in schema.objects(form, "size")])
+    return lines + own_tables(schema, [part for form in sizes["oneOf"] for part in schema.objects(form, "size")])
 
 
 # ---- Results -------------------------------------------------------------------------------------------------------

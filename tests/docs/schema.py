@@ -63,7 +63,7 @@ class Schema:
             yield path, fields, set(node.get("required", []))
         for name, field in fields.items():
             if self.definition_of(field) is None:
-                yield from self.objects(field, f"{path}.{name}" if path else name)
+                yield from self.objects(self.resolved(field), f"{path}.{name}" if path else name)
         inner = node.get("items")
         if inner is not None and self.definition_of(node) is None:
             yield from self.objects(inner, f"{path}[]")
