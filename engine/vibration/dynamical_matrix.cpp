@@ -33,7 +33,7 @@ Eigen::Matrix3d body_root(const ConvexSolid& solid) {
 std::vector<InverseRoot> inverse_roots(const Packing& packing) {
   std::vector<InverseRoot> result;
   const ConvexSolid* solid = nullptr;
-  Eigen::Matrix3d body;
+  Eigen::Matrix3d body = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < packing.poses.size(); ++i) {
     if (solid != &packing.solids[i]) body = body_root(packing.solids[i]);
     solid = &packing.solids[i];

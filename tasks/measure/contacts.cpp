@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/analysis/alignment/random_alignment.hpp"
+#include "engine/analysis/alignment/random_contact.hpp"
 #include "engine/analysis/order.hpp"
 #include "engine/packing/energy.hpp"
 #include "tasks/measure/flag.hpp"
@@ -185,8 +186,51 @@ class RandomContacts {
   std::vector<Shape> shapes_;
 };
 
+/// Random contacts of a packing where edges touch too, each kind as often as isotropic contacts of these solids have
+/// it.
+class IsotropicContacts {
+ public:
+  static RandomContact of(const Composition& solids, std::span<const Contact> contacts) {
+    if (solids.is_uniform() || contacts.empty()) return RandomContact(solids.unit(0));
+    IsotropicContacts shares(solids, contacts);
+    RandomContact random;
+    for (const auto& [shape, share] : shares.vertices_) random.add(share, RandomAlignment(*shape.second));
+    for (const auto& [pair, share] : shares.edges_)
+      random.add(share, RandomEdgeContact(*pair.first.second, *pair.second.second));
+    return random;
+  }
+
+ private:
+  using Shape = std::pair<std::string, const ConvexSolid*>;  ///< by name: the order of sums is that of the shapes
+
+  IsotropicContacts(const Composition& solids, std::span<const Contact> contacts) {
+    const double one = 1 / static_cast<double>(contacts.size());
+    for (const auto& contact : contacts) {
+      const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
+      const ContactShares shares = contact_shares(size_of(solids[a]), size_of(solids[b]));
+      const Shape shape_a = shape_of(solids.unit(a)), shape_b = shape_of(solids.unit(b));
+      vertices_[shape_a] += one * shares.vertex_of_a;
+      vertices_[shape_b] += one * shares.vertex_of_b;
+      edges_[std::minmax(shape_a, shape_b)] += one * shares.edge_edge;
+    }
+  }
+
+  static Shape shape_of(const ConvexSolid& unit) { return {unit.name(), &unit}; }
+
+  const ContactSize& size_of(const ConvexSolid& solid) {
+    const auto [place, is_new] = sizes_.try_emplace(&solid);
+    if (is_new) place->second = contact_size(solid);
+    return place->second;
+  }
+
+  std::map<const ConvexSolid*, ContactSize> sizes_;
+  std::map<Shape, double> vertices_;
+  std::map<std::pair<Shape, Shape>, double> edges_;
+};
+
 /// Of the state nearest jamming: the angles themselves, ascending, for whoever draws their CDFs, and whether more are
-/// near 0 than ideal random contacts would have.
+/// near 0 than ideal random contacts would have: those of vertices alone, and those of vertices and edges by their
+/// weights.
 Json angle_record(const Packing& packing, const ClassifiedContacts& classified) {
   std::vector<double> face_face, edge_face;
   for (const auto& alignment : classified.alignments) {
@@ -210,6 +254,11 @@ Json angle_record(const Packing& packing, const ClassifiedContacts& classified) 
       face_face, [&](double theta) { return random.face_face(theta); }, random.ff_max()));
   json["edge_face_random"] = compared(compare_with_random(
       edge_face, [&](double theta) { return random.edge_face(theta); }, random.ef_max()));
+  const RandomContact isotropic = IsotropicContacts::of(packing.solids, classified.contacts);
+  json["face_face_random_contact"] = compared(compare_with_random(
+      face_face, [&](double theta) { return isotropic.face_face(theta); }, isotropic.ff_max()));
+  json["edge_face_random_contact"] = compared(compare_with_random(
+      edge_face, [&](double theta) { return isotropic.edge_face(theta); }, isotropic.ef_max()));
   json["face_face"] = std::move(face_face);
   json["edge_face"] = std::move(edge_face);
   return json;

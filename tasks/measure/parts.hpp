@@ -31,6 +31,9 @@ Json contact_record(const ContactAnalysis& analysis);
 /// crystalline (Q6 is above crystalline_q6).
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest);
 
+/// x rounded to some significant digits: long lists need no more. x is finite.
+double to_digits(double x, int digits);
+
 /// Why a state cannot be freed or sheared; nullopt if it can: forces balance, and it bears a pressure.
 std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy& energy);
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "engine/analysis/order.hpp"
 #include "engine/analysis/power_law.hpp"
 #include "tasks/measure/parts.hpp"
@@ -18,6 +20,8 @@ std::optional<std::string_view> undecided(const ContactAnalysis& analysis) {
   if (!analysis.edge_face.has_cutoff()) return "no edge-face cut-off";
   return std::nullopt;
 }
+
+double to_digits(double x, int digits) { return parsed(fmt::format("{:.{}e}", x, digits - 1)).get<double>(); }
 
 std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy& energy) {
   constexpr double balanced = 1e-3;

@@ -11,6 +11,7 @@
 #include "engine/analysis/alignment/critical_angles.hpp"
 #include "engine/analysis/alignment/empirical_cdf.hpp"
 #include "engine/analysis/alignment/random_alignment.hpp"
+#include "engine/analysis/alignment/random_contact.hpp"
 #include "engine/arithmetic/elementary.hpp"
 
 namespace isojam {
@@ -50,8 +51,10 @@ Json critical_record(const CriticalAngles& angles) {
   return json;
 }
 
-Json random_record(const RandomAlignment& random) {
-  Json constrained, unconstrained;
+Json random_record(const ConvexSolid& solid) {
+  const RandomAlignment random(solid);
+  const RandomContact isotropic(solid);
+  Json constrained, unconstrained, all;
   constrained["which"] = "random, edge in face";
   constrained["face_face"] =
       sampled([&](double theta) { return random.constrained_face_face(theta); }, random.constrained_ff_max());
@@ -60,14 +63,17 @@ Json random_record(const RandomAlignment& random) {
   unconstrained["which"] = "random, unconstrained";
   unconstrained["face_face"] = sampled([&](double theta) { return random.face_face(theta); }, random.ff_max());
   unconstrained["edge_face"] = sampled([&](double theta) { return random.edge_face(theta); }, random.ef_max());
-  return {constrained, unconstrained};
+  all["which"] = "random, vertices and edges";
+  all["face_face"] = sampled([&](double theta) { return isotropic.face_face(theta); }, isotropic.ff_max());
+  all["edge_face"] = sampled([&](double theta) { return isotropic.edge_face(theta); }, isotropic.ef_max());
+  return {constrained, unconstrained, all};
 }
 
 }  // namespace
 
 Json angle_references(const Mixture& mixture) {
   Json json{{"critical", critical_record(critical_angles(mixture))}, {"random", Json::array()}};
-  if (mixture.is_one_solid()) json["random"] = random_record(RandomAlignment(*mixture.solid()));
+  if (mixture.is_one_solid()) json["random"] = random_record(*mixture.solid());
   return json;
 }
 

@@ -13,11 +13,13 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <tuple>
-#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "tasks/system/shortage.hpp"
@@ -189,35 +191,39 @@ class Run {
   std::exception_ptr error_;
 };
 
-/// What meets before it is stored: the result of jam, and that of every measurement.
-template <class>
-struct Meeting;
-template <std::size_t... k>
-struct Meeting<std::index_sequence<k...>> {
-  template <std::size_t>
-  using MeasuredAt = Measured;
-  using Joined = std::tuple<Jammed, MeasuredAt<k>...>;
-  using Node = flow::join_node<Joined, flow::key_matching<std::size_t>>;
-  using MeasureNode = flow::function_node<Jammed, Measured>;
+/// The result of one stage of a replicate, on its way to where all of them meet.
+struct Part {
+  std::size_t index = 0;
+  std::size_t place = 0;  ///< 0: of jam; k + 1: of all_measures[k]
+  std::variant<Jammed, Measured> result;
+};
 
-  Run& run;
-  std::array<MeasureNode, sizeof...(k)> measure;
-  Node join;
-
-  Meeting(flow::graph& graph, Run& the_run)
-      : run(the_run),
-        measure{MeasureNode(graph, flow::unlimited,
-                            [this](const Jammed& j) { return run.measure(all_measures[k], j); })...},
-        join(
-            graph, [](const Jammed& j) { return j.index; }, ((void)k, [](const Measured& m) { return m.index; })...) {
-    (flow::make_edge(measure[k], flow::input_port<k + 1>(join)), ...);
+/// What has come in of the replicates under way. (A join_node of oneTBB has ten ports, fewer than there are measures.)
+class Meeting {
+ public:
+  /// Stores the replicate of which this is the last part; whether it is.
+  bool add(const Part& part, Run& run) {
+    Replicate& replicate = under_way_[part.index];
+    if (part.place == 0) {
+      replicate.jammed = std::get<Jammed>(part.result);
+    } else {
+      replicate.measured[part.place - 1] = std::get<Measured>(part.result);
+    }
+    if (++replicate.parts <= all_measures.size()) return false;
+    std::array<const Measured*, all_measures.size()> measured{};
+    for (std::size_t k = 0; k < measured.size(); ++k) measured[k] = &replicate.measured[k];
+    run.store(replicate.jammed, measured);
+    under_way_.erase(part.index);
+    return true;
   }
 
-  void follow(flow::function_node<Placed, Jammed>& jam) {
-    flow::make_edge(jam, flow::input_port<0>(join));
-    for (auto& node : measure) flow::make_edge(jam, node);
-  }
-  void store(const Joined& joined) const { run.store(std::get<0>(joined), {&std::get<k + 1>(joined)...}); }
+ private:
+  struct Replicate {
+    Jammed jammed;
+    std::array<Measured, all_measures.size()> measured;
+    std::size_t parts = 0;
+  };
+  std::map<std::size_t, Replicate> under_way_;
 };
 
 /// Ends what an exception has left: the nodes go before the graph does, and none of its tasks may still find them.
@@ -237,24 +243,35 @@ void drain(flow::graph& graph) {
 }
 
 void build_and_wait(Run& run, int in_flight) {
-  using AllMeet = Meeting<std::make_index_sequence<all_measures.size()>>;
+  using PartNode = flow::function_node<Jammed, Part>;
+  using MeetingNode = flow::multifunction_node<Part, std::tuple<flow::continue_msg>>;
   flow::graph graph;
   flow::input_node<Input> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
   flow::limiter_node<Input> limiter(graph, static_cast<std::size_t>(in_flight));
   flow::function_node<Input, Placed> begin(graph, flow::unlimited, [&](const Input& i) { return run.begin(i); });
   flow::function_node<Placed, Jammed> jam(graph, flow::unlimited, [&](const Placed& p) { return run.jam(p); });
-  AllMeet all(graph, run);
-  flow::function_node<AllMeet::Joined> store(graph, flow::serial, [&](const AllMeet::Joined& joined) {
-    all.store(joined);
-    return flow::continue_msg();
+  Meeting meeting;
+  MeetingNode store(graph, flow::serial, [&](const Part& part, MeetingNode::output_ports_type& ports) {
+    if (meeting.add(part, run)) std::get<0>(ports).try_put(flow::continue_msg());
   });
+  std::vector<std::unique_ptr<PartNode>> parts;
+  parts.push_back(std::make_unique<PartNode>(graph, flow::unlimited, [](const Jammed& j) {
+    return Part{j.index, 0, j};
+  }));
+  for (std::size_t k = 0; k < all_measures.size(); ++k) {
+    parts.push_back(std::make_unique<PartNode>(graph, flow::unlimited, [&run, k](const Jammed& j) {
+      return Part{j.index, k + 1, run.measure(all_measures[k], j)};
+    }));
+  }
 
   flow::make_edge(input, limiter);
   flow::make_edge(limiter, begin);
   flow::make_edge(begin, jam);
-  all.follow(jam);
-  flow::make_edge(all.join, store);
-  flow::make_edge(store, limiter.decrementer());
+  for (const auto& part : parts) {
+    flow::make_edge(jam, *part);
+    flow::make_edge(*part, store);
+  }
+  flow::make_edge(flow::output_port<0>(store), limiter.decrementer());
   try {
     input.activate();
     graph.wait_for_all();

@@ -13,11 +13,8 @@ namespace isojam::panels {
 
 namespace {
 
-#ifdef __AVX__
+// Four also where there are no such vectors, and the compiler makes two of each: sums over lanes come out the same.
 constexpr int lanes = 4;
-#else
-constexpr int lanes = 2;
-#endif
 constexpr int vectors = height / lanes;
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 

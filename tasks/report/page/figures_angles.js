@@ -1,7 +1,11 @@
 'use strict';
 
-const randomColours = {'random, edge in face': '#777777', 'random, unconstrained': '#aaa9a2'};
-const randomDashes = {'random, edge in face': [5, 3], 'random, unconstrained': [1.5, 2.5]};
+const randomColours = {
+  'random, edge in face': '#777777', 'random, unconstrained': '#aaa9a2', 'random, vertices and edges': '#8c8b86',
+};
+const randomDashes = {
+  'random, edge in face': [5, 3], 'random, unconstrained': [1.5, 2.5], 'random, vertices and edges': [6, 2, 1.5, 2],
+};
 const topologyShapes = {'vertex-face': 'triangle-up', 'edge-edge': 'cross', 'edge-face': 'square'};
 
 /// Random curves are those of a solid, so that in one chart each is drawn once.
@@ -77,7 +81,7 @@ function anglePanel(placement, index, place, {x, y, kind, datasets, symbol}) {
 function angleNote(data, kind, symbol, together) {
   return `Cumulative distribution of $${symbol}$ over all contacts nearest jamming of a sweep point’s ` +
     `${countedText(data)}, beside ideal random contacts${together ? ' of each solid, dashed with an edge in the ' +
-      'face, dotted without constraint' : ''}; ${together ? 'hollow ' : ''}symbols mark the critical angles that the ` +
+      'face, dotted where a vertex touches, dash-dotted where vertices and edges do by their weights' : ''}; ${together ? 'hollow ' : ''}symbols mark the critical angles that the ` +
     `topologies allow${together ? ', filled ones tell the curves apart' : ''}. ` +
     (kind === 'face_face' ? 'Shaded: region 1, below the cut-off of face-face contacts (median of the replicates). ' +
       'Figure 2(b) of the paper.' : 'Figure 2(a) of the paper.');

@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/arithmetic/elementary.hpp"
+#include "engine/rigidity/pair_stiffness.hpp"
+#include "engine/rigidity/rigidity.hpp"
+#include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/mode_statistics.hpp"
+#include "engine/vibration/stability.hpp"
+#include "tasks/measure/parts.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr std::string_view group = "prestress";
+constexpr std::string_view per_particle = "per particle";
+constexpr Quantity C_s{"C_s", "/prestress/C_s", group, per_particle, "C_s"};
+constexpr Quantity missing_s{"missing_s", "/prestress/missing", group, per_particle, "m_s"};
+constexpr Quantity missing_n{"missing_n", "/prestress/normals/missing", group, per_particle, "m_n"};
+constexpr Quantity self_stress_s{"self_stress_s", "/prestress/self_stress", group, "1", "s_s"};
+constexpr Quantity held_by_second{"held_by_second", "/prestress/modes/held_by_second", group, "1", "n_2"};
+constexpr Quantity held_by_prestress{"held_by_prestress", "/prestress/modes/held_by_prestress", group, "1", "n_p"};
+constexpr std::array quantities{C_s, missing_s, missing_n, self_stress_s, held_by_second, held_by_prestress};
+
+/// s from which a tilt counts as a constraint, and others to see what that choice does to their number.
+constexpr double threshold = 10;
+constexpr std::array thresholds{1.0, 3.0, 10.0, 30.0, 100.0};
+/// Packings up to this size have all their modes looked at, others as many as asked for at the soft end.
+constexpr int all_modes_up_to = 150;
+/// States nearest to these, and to jamming, keep the stiffness of every contact.
+constexpr std::array kept_near{.02, .005};
+
+/// 6N − 3 − rank, over N.
+double missing(const Rigidity& rigidity, int particles) {
+  return static_cast<double>(6L * particles - 3 - rigidity.rank) / particles;
+}
+
+void put_rank(Json& json, const Rigidity& rigidity, int particles) {
+  put_number(json, "missing", missing(rigidity, particles));
+  json["constraints"] = rigidity.constraints;
+  json["rank"] = rigidity.rank;
+  put_number(json, "tolerance", rigidity.tolerance);
+  put_number(json, "least_kept", rigidity.least_kept);
+  put_number(json, "largest_dropped", rigidity.largest_dropped);
+}
+
+struct StateStiffness {
+  std::vector<Contact> contacts;
+  std::vector<PairStiffness> pairs;
+};
+
+void put_counts(Json& state, const Packing& packing, const StateStiffness& stiffness) {
+  const int n = packing.size();
+  Json list = Json::array();
+  for (const double s : thresholds) {
+    Json json;
+    json["threshold"] = s;
+    put_number(json, "C", stiff_constraint_number(n, stiffness.pairs, s));
+    if (s == threshold) {
+      const auto rigidity = analyse_rigidity(stiff_constraints(packing, stiffness.contacts, stiffness.pairs, s));
+      put_rank(json, rigidity, n);
+      json["self_stress"] = rigidity.self_stress;
+      put(state, C_s, stiff_constraint_number(n, stiffness.pairs, s));
+      put(state, missing_s, missing(rigidity, n));
+      put(state, self_stress_s, rigidity.self_stress);
+    }
+    list.push_back(std::move(json));
+  }
+  state["prestress"]["thresholds"] = std::move(list);
+  const auto normals = analyse_rigidity(normal_constraints(packing, stiffness.contacts));
+  put_rank(state["prestress"]["normals"], normals, n);
+  put(state, missing_n, missing(normals, n));
+  state["prestress"]["without_second"] =
+      std::count_if(stiffness.pairs.begin(), stiffness.pairs.end(), [](const auto& pair) { return !pair.has_second; });
+}
+
+/// The modes of a state, softest first, and from where their eigenvalues mean something.
+struct Modes {
+  ModeSet set;
+  double tolerance = 0;
+  bool all = false;
+};
+
+Modes modes_of(const Packing& packing, PackingEnergy& energy, int wanted) {
+  const auto here = energy.evaluate(packing, state_precision);
+  const auto matrix = dynamical_matrix(packing, energy.hessian(packing, state_precision));
+  const auto ends = spectrum_ends(matrix, {.lowest = wanted, .highest = 1});
+  Modes modes;
+  modes.tolerance =
+      zero_tolerance(matrix, ends.lambda_max, unbalanced_torque(here, packing.solids) * greatest_inverse_mass(packing));
+  modes.all = packing.size() <= all_modes_up_to;
+  modes.set = modes.all ? dense_modes(matrix) : ends.lowest;
+  modes.set.vectors = mode_displacements(packing, std::move(modes.set.vectors));
+  return modes;
+}
+
+/// What opposes the modes of a state that doubles resolve.
+struct Held {
+  int resolved = 0, by_second = 0, by_prestress = 0;
+  double sum_of_logs = 0;  ///< of λ of those held by prestress
+  double worst_sum = 0;    ///< of the shares, off λ, relative
+  Json lambda = Json::array(), normal = Json::array(), tilt = Json::array();
+};
+constexpr int listed_modes = 50;
+
+Held held_by(const StateStiffness& stiffness, const Modes& modes) {
+  Held held;
+  for (Eigen::Index k = 0; k < modes.set.size(); ++k) {
+    const double value = modes.set.eigenvalues[k];
+    if (value <= modes.tolerance) continue;
+    const auto shares = stiffness_shares(stiffness.contacts, stiffness.pairs, threshold, modes.set.vectors.col(k));
+    held.worst_sum = std::max(held.worst_sum, std::abs(shares.total() - value) / value);
+    held.by_second += shares.normal < value / 2;
+    if (shares.normal + shares.tilt < value / 2) {
+      ++held.by_prestress;
+      held.sum_of_logs += nearest::log(value);
+    }
+    if (held.resolved++ >= listed_modes) continue;
+    held.lambda.push_back(to_digits(value, 5));
+    held.normal.push_back(to_digits(shares.normal / value, 4));
+    held.tilt.push_back(to_digits(shares.tilt / value, 4));
+  }
+  return held;
+}
+
+void put_modes(Json& state, const StateStiffness& stiffness, const Modes& modes) {
+  Held held = held_by(stiffness, modes);
+  const auto known = [&](int count) {
+    return modes.all || count < held.resolved ? std::optional<double>(count) : std::nullopt;
+  };
+  constexpr std::string_view more = "all modes that were looked at are, and others may be";
+  put(state, held_by_second, known(held.by_second), more);
+  put(state, held_by_prestress, known(held.by_prestress), more);
+  Json& json = state["prestress"]["modes"];
+  json["looked_at"] = modes.set.size();
+  json["unresolved"] = modes.set.size() - held.resolved;
+  put_number(json, "worst_sum", held.worst_sum);
+  put_optional(json, "prestress_lambda",
+               held.by_prestress > 0 ? std::optional(nearest::exp(held.sum_of_logs / held.by_prestress)) : std::nullopt,
+               "no such modes");
+  json["lambda"] = std::move(held.lambda);
+  json["normal"] = std::move(held.normal);
+  json["tilt"] = std::move(held.tilt);
+}
+
+/// s of every normal and tilt, ascending, for whoever draws the bands.
+void put_bands(Json& json, const std::vector<PairStiffness>& pairs) {
+  constexpr double least = 0.1;
+  std::vector<double> normals, tilts;
+  for (const PairStiffness& pair : pairs) {
+    normals.push_back(to_digits(pair.relative_normal(), 4));
+    for (int k = 0; k < 5 && pair.relative_tilt(k) > least; ++k) tilts.push_back(to_digits(pair.relative_tilt(k), 4));
+  }
+  std::sort(normals.begin(), normals.end());
+  std::sort(tilts.begin(), tilts.end());
+  json["s_normal"] = normals;
+  json["s_tilt"] = tilts;
+}
+
+/// The states that keep the stiffness of every contact.
+std::vector<std::size_t> kept_states(const JamResult& jam) {
+  std::vector<std::size_t> kept;
+  if (const auto nearest = nearest_state(jam)) kept.push_back(*nearest);
+  for (const double distance : kept_near) {
+    if (!jam.phi_j || jam.states.empty()) break;
+    const auto off = [&](const Packing& p) {
+      return std::abs(nearest::log(std::max(p.density() - jam.phi_j->density, 1e-9) / distance));
+    };
+    const auto best = std::min_element(jam.states.begin(), jam.states.end(),
+                                       [&](const Packing& a, const Packing& b) { return off(a) < off(b); });
+    kept.push_back(static_cast<std::size_t>(best - jam.states.begin()));
+  }
+  return kept;
+}
+
+Measurement measure_prestress(const JamResult& jam, const MeasureOptions& options) {
+  Measurement measurement;
+  PackingEnergy energy;
+  const auto kept = kept_states(jam);
+  for (std::size_t k = 0; k < jam.states.size(); ++k) {
+    const Packing& packing = jam.states[k];
+    StateStiffness stiffness;
+    stiffness.contacts = energy.contacts(packing);
+    stiffness.pairs = pair_stiffnesses(packing, stiffness.contacts);
+    Json state;
+    put_counts(state, packing, stiffness);
+    put_modes(state, stiffness, modes_of(packing, energy, options.modes));
+    if (std::find(kept.begin(), kept.end(), k) != kept.end()) put_bands(state["prestress"], stiffness.pairs);
+    measurement.states.push_back(std::move(state));
+  }
+  return measurement;
+}
+
+}  // namespace
+
+const MeasureDefinition measures::prestress{
+    .quantities = quantities, .measure = measure_prestress, .needs_minima = true};
+
+}  // namespace isojam

@@ -1,0 +1,128 @@
+// Facts proved here, of what the backbone's measure puts into records:
+// - of a jammed packing that has no near-rattlers it is what contacts, modes, moduli and rigidity say of the whole;
+// - where those that go bore force the rest is said not to balance, and has no bulk modulus;
+// - small solids that float in its voids are counted and named, and change nothing else, where modes and moduli of the
+//   whole have no number; contacts of a mixture keep the classes that they have there.
+
+#include <gtest/gtest.h>
+
+#include "tasks/measure/measure.hpp"
+
+namespace isojam {
+namespace {
+
+const JamResult& jammed() {
+  static const JamResult result = [] {
+    RandomStream random{17};
+    JamOptions options;
+    options.consolidation_step = 0.05;
+    options.final_distance = 0.01;
+    options.minimise.residual = 1e-9;
+    const ConvexSolid& solid = platonic(SolidKind::octahedron);
+    return jam(random_packing(solid, least_particles(solid, options.max_density), 0.2, random), options);
+  }();
+  return result;
+}
+
+TEST(BackboneMeasure, OfTheWholeIsWhatTheOthersSay) {
+  ASSERT_EQ(jammed().status, JamStatus::jammed);
+  const auto backbone = measure(Measure::backbone, jammed()), contacts = measure(Measure::contacts, jammed()),
+             modes = measure(Measure::modes, jammed()), moduli = measure(Measure::moduli, jammed()),
+             rigidity = measure(Measure::rigidity, jammed());
+  int decided = 0;
+  for (std::size_t k = 0; k < jammed().states.size(); ++k) {
+    const auto& found = backbone.states[k].at("backbone");
+    ASSERT_EQ(found.at("removed"), 0) << "state " << k;
+    EXPECT_EQ(found.at("particles"), Json::array());
+    EXPECT_EQ(found.at("rounds"), 0);
+    EXPECT_EQ(found.at("Z"), contacts.states[k].at("Z"));
+    for (const auto* key : {"verdict", "zero", "negative", "zero_tolerance", "omega_l"})
+      EXPECT_EQ(found.at(key), modes.states[k].at("modes").at(key)) << key;
+    EXPECT_EQ(found.at("K"), moduli.states[k].at("moduli").at("K"));
+    for (const auto* rows : {"normals", "classes"}) {
+      const auto &ours = found.at(rows), &theirs = rigidity.states[k].at("rigidity").at(rows);
+      for (const auto* key : {"constraints", "rank"}) EXPECT_EQ(ours.at(key), theirs.at(key)) << rows;
+      if (theirs.at("floppy").is_null()) {
+        EXPECT_TRUE(ours.at("missing").is_null());
+        continue;
+      }
+      ++decided;
+      EXPECT_EQ(ours.at("missing").get<int>(), theirs.at("floppy").get<int>() - 3) << rows;
+    }
+  }
+  EXPECT_GT(decided, static_cast<int>(jammed().states.size())) << "no state has classes";
+}
+
+/// The state nearest jamming with small solids of the same shape, one behind another along the cell wherever they touch
+/// nothing.
+JamResult with_floating(int wanted) {
+  JamResult result = jammed();
+  const std::size_t nearest = *nearest_state(result);
+  const Packing state = result.states[nearest];
+  const ConvexSolid& solid = state.solids.only();
+  std::vector<Particle> particles(static_cast<std::size_t>(state.size()), Particle{&solid, 1, 0});
+  Packing packing = state;
+  RandomStream random{18};
+  for (int made = 0; made < wanted;) {
+    auto tried = particles;
+    tried.push_back({&solid, 0.03, 1});
+    Packing more{Composition(tried), state.cell, packing.poses};
+    more.poses.emplace_back();
+    more.poses.back().position =
+        state.cell.side() * Eigen::Vector3d(random.uniform(), random.uniform(), random.uniform());
+    const auto contacts = PackingEnergy().contacts(more);
+    const bool touches = std::any_of(contacts.begin(), contacts.end(),
+                                     [&](const Contact& contact) { return contact.pair.b == more.size() - 1; });
+    if (touches) continue;
+    ++made;
+    particles = tried;
+    packing = more;
+  }
+  result.states = {packing};
+  result.state_steps = {result.state_steps[nearest]};
+  return result;
+}
+
+TEST(BackboneMeasure, FloatingSolidsChangeNothingElse) {
+  constexpr int floating = 5;
+  const auto result = with_floating(floating);
+  const auto found = measure(Measure::backbone, result).states[0].at("backbone");
+  const auto all = measure(Measure::backbone, jammed());
+  const auto& before = all.states[*nearest_state(jammed())].at("backbone");
+  EXPECT_EQ(found.at("removed"), floating);
+  const int old = jammed().states[0].size();
+  Json numbers = Json::array();
+  for (int k = 0; k < floating; ++k) numbers.push_back(old + k);
+  EXPECT_EQ(found.at("particles"), numbers);
+  for (const auto* key : {"Z", "verdict", "zero", "negative", "zero_tolerance", "omega_l", "residual", "K", "normals"})
+    EXPECT_EQ(found.at(key), before.at(key)) << key;
+  const auto modes = measure(Measure::modes, result).states[0].at("modes");
+  EXPECT_EQ(modes.at("zero"), 3 + 6 * floating);
+  EXPECT_TRUE(modes.at("omega_l").is_null()) << "there would be no need of a backbone";
+}
+
+TEST(BackboneMeasure, ARestThatDoesNotBalanceHasNoBulkModulus) {
+  const std::size_t nearest = *nearest_state(jammed());
+  const Packing& state = jammed().states[nearest];
+  RandomStream random{21};
+  int seen = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    JamResult result = jammed();
+    Packing thinned{state.solids, state.cell, {}};
+    for (const Pose& pose : state.poses) {
+      if (random.uniform() < 0.85) thinned.poses.push_back(pose);
+    }
+    result.states = {thinned};
+    result.state_steps = {result.state_steps[nearest]};
+    const auto found = measure(Measure::backbone, result).states[0].at("backbone");
+    if (found.at("removed") == 0 || found.at("Z").is_null()) continue;
+    ++seen;
+    EXPECT_GT(found.at("residual").get<double>(), 1e-3);
+    EXPECT_TRUE(found.at("K").is_null());
+    EXPECT_EQ(found.at("K_reason"), "particles that were removed bore force: the rest does not balance");
+  }
+  EXPECT_GT(seen, 0);
+}
+
+}  // namespace
+}  // namespace isojam
