@@ -12,19 +12,20 @@ def pages(root):
         [*root.glob("docs/*.md"), *root.glob("examples/**/*.md")])
 
 
-def lines_of(text):
-    """Triples of a line's number, whether it is code in a block, and the line."""
+def lines_of(text, fences=False):
+    """Triples of a line's number, whether it is code in a block, and the line; that of a fence is empty unless asked
+    for, and then is code."""
     fence, before_blank, indented = None, True, False
     for number, line in enumerate(text.split("\n"), 1):
         mark = re.match(r"\s*(```+|~~~+)", line)
         if fence:
             closes = mark is not None and mark[1].startswith(fence)
-            yield number, not closes, line
+            yield number, not closes or fences, line
             fence = None if closes else fence
             continue
         if mark:
             fence = mark[1]
-            yield number, False, ""
+            yield number, fences, line if fences else ""
             continue
         # Four spaces make code where a paragraph cannot go on; in a list they may go on with its entry.
         deep = line.startswith("    ") and line.strip() != ""

@@ -17,7 +17,8 @@ import sys
 import tempfile
 import unittest
 
-from pages import code_lines, pages, spans
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "docs/site"))
+from pages import code_lines, pages, spans  # noqa: E402
 
 SOURCE, PROGRAM = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
 LINE = re.compile(r"(?:^|[\s(])(?:build/)?isojam ((?:-{1,2}[a-z-]+ )*[a-z]+\b.*)$")

@@ -11,7 +11,8 @@ import sys
 import tempfile
 import unittest
 
-from pages import anchors, links, pages
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "docs/site"))
+from pages import anchors, links, pages  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv[1]).resolve()
 

@@ -16,7 +16,8 @@ import unittest
 
 import yaml
 
-from pages import code_lines, pages, spans
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "docs/site"))
+from pages import code_lines, pages, spans  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv[1])
 
