@@ -31,7 +31,7 @@ def split(line, above):
         return line
     first, *others = parts_of(match[2])
     head = re.match(r"((?:alignas\(\d+\) )?[\w:<>, ]+?[\w>]) +([*&]?\w+(?:\[[^\]]*\])*(?: = .*|\{.*\})?)$", first)
-    if not others or not head or head[1] in ("return", "using") or not all(re.match(r"[*&]?\w+", one) for one in others):
+    if not others or not head or head[1] in ("return", "using") or not all(re.match(r"[*&]?\w", one) for one in others):
         return line
     own = f" /**< {match[3]} */" if match[3] else ""
     before = "" if match[3] else f"/** {above} */ "

@@ -16,9 +16,9 @@ from pages import lines_of, pages
 PLACES = {"README.md": "index.md", "docs/index.md": "pages.md"}
 REFERENCE = """# Headers of the engine
 
-[All declarations](api/namespaceisojam.html), [types](api/annotated.html) and [files](api/files.html), made of the comments
-in `engine/`. Begin with [the protocol](api/structisojam_1_1JamOptions.html), [packings](api/structisojam_1_1Packing.html),
-[energy and forces](api/classisojam_1_1PackingEnergy.html), [solids](api/classisojam_1_1ConvexSolid.html),
+[All declarations](api/namespaceisojam.html), [types](api/annotated.html) and [files](api/files.html), made of the
+comments in `engine/`. Begin with [the protocol](api/structisojam_1_1JamOptions.html),
+[packings](api/structisojam_1_1Packing.html), [energy and forces](api/classisojam_1_1PackingEnergy.html), [solids](api/classisojam_1_1ConvexSolid.html),
 [contacts](api/structisojam_1_1ContactAnalysis.html), [modes](api/structisojam_1_1SpectrumEnds.html) or
 [rank](api/structisojam_1_1Rigidity.html).
 """
@@ -51,6 +51,8 @@ def rewritten(root, page, needed):
         if not is_code:
             line = re.sub(r"(\]\()([^()\s]+)(\))", link, line)
             line = re.sub(r"(^\[[^\]]+\]:\s+)(\S+)($)", link, line)
+            # Python-Markdown takes what follows a comment directly for a part of it.
+            line = re.sub(r"^(<!--.*-->)$", r"\n\1\n", line)
         lines.append(line)
     return "\n".join(lines)
 
@@ -69,7 +71,8 @@ def gather(root, build):
         (source / place_of(file)).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(root / file, source / place_of(file))
     (source / "reference.md").write_text(REFERENCE, encoding="utf-8")
-    shutil.copy(root / "docs/site/mkdocs.yml", build / "mkdocs.yml")
+    shutil.copy(root / "docs/site/extra.css", source)
+    shutil.copy(root / "docs/site/mkdocs.yml", build)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Facts proved here: commands_test.py SOURCE PROGRAM
 
-- every command line of isojam that a page shows, in a block, in a line of text or in the table of docs/commands.md, names
+- every command line of isojam that a page shows, in a block, in the text or in the table of docs/commands.md, names
   a command and options that this program has, and is run and ends well: with a small results directory in place of the
   one it names; `run` with --dry-run. Of `chart`, which takes minutes, the options alone are looked at;
 - every manifest that such a line names is a good one;
@@ -23,9 +23,11 @@ from pages import code_lines, pages, spans  # noqa: E402
 SOURCE, PROGRAM = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
 LINE = re.compile(r"(?:^|[\s(])(?:build/)?isojam ((?:-{1,2}[a-z-]+ )*[a-z]+\b.*)$")
 # What usage has in place of values.
-STANDS_FOR = {"MANIFEST": "manifest.json", "DIR": "results", "DIR...": "results", "N": "1", "I/N": "1/2", "K/200": "1/200",
-              "GIB": "1", "FLAG,...": "crystalline", "PARAMETER=VALUE,...": "step_fraction=0.35",
-              "MEASURE,...": "clusters", "examples/NAME/manifest.json": "examples/01-four-solids/manifest.json", "YYYY-MM-DD": "2026-01-31", "L": "CC-BY-4.0", "NAME": "Ada", "MEASURES": "order"}
+STANDS_FOR = {"MANIFEST": "manifest.json", "DIR": "results", "DIR...": "results", "N": "1", "I/N": "1/2",
+              "K/200": "1/200", "GIB": "1", "FLAG,...": "crystalline", "PARAMETER=VALUE,...": "step_fraction=0.35",
+              "MEASURE,...": "clusters", "MEASURES": "order", "YYYY-MM-DD": "2026-01-31",
+              "L": "CC-BY-4.0", "NAME": "Ada",
+              "examples/NAME/manifest.json": "examples/01-four-solids/manifest.json"}
 
 
 def run(words, cwd):

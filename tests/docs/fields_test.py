@@ -1,9 +1,9 @@
 """Facts proved here: fields_test.py SOURCE FACTS
 
-- the tables of docs/manifest.md and docs/results.md are what the schemas, and the quantities that the program tells, make
+- the tables of docs/manifest.md and docs/results.md are what schemas, and the quantities that the program tells, make
   of them now (reference.py --write makes them again);
 - every name of a field of records, packings, paths and tables stands in docs/results.md with a meaning, every quantity
-  with its unit, every key of a manifest in docs/manifest.md with its default: looked for without the code that wrote them;
+  with its unit, every key of a manifest in docs/manifest.md with its default: found without the code that wrote them;
 - every flag has its row, every measure too;
 - a page that lacks one, has another default or a field without a meaning is found.
 """
@@ -63,7 +63,8 @@ def wrong_defaults(page, schema):
         while "$ref" in field:
             field = schema["definitions"][field["$ref"].rsplit("/", 1)[-1]]
         default = f"`{json.dumps(field['default'])}`" if "default" in field else None
-        if name not in rows and name not in page or default and not any(default in cells for cells in rows.get(name, [])):
+        found = any(default in cells for cells in rows.get(name, []))
+        if name not in page or default and not found:
             wrong.append(name)
     return sorted(set(wrong))
 
@@ -94,9 +95,11 @@ class Fields(unittest.TestCase):
 
     def test_what_is_missing_is_found(self):
         page, schema = text_of("docs/results.md"), [schema_of("replicate")]
-        self.assertEqual(missing_fields(page.replace("| `particles_moved` |", "| moved |"), schema), ["particles_moved"])
+        renamed = page.replace("| `particles_moved` |", "| moved |")
+        self.assertEqual(missing_fields(renamed, schema), ["particles_moved"])
         row = next(line for line in page.split("\n") if line.startswith("| `residual_floor` |"))
-        self.assertEqual(missing_fields(page.replace(row, "| `residual_floor` | number | |"), schema), ["residual_floor"])
+        bare = page.replace(row, "| `residual_floor` | number | |")
+        self.assertEqual(missing_fields(bare, schema), ["residual_floor"])
         page, schema = text_of("docs/manifest.md"), schema_of("manifest")
         self.assertEqual(wrong_defaults(page.replace("`0.35`", "`0.3`"), schema), ["step_fraction"])
         self.assertEqual(wrong_defaults(page.replace("fit_window", "window"), schema), ["fit_window"])

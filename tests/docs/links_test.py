@@ -51,7 +51,8 @@ class Links(unittest.TestCase):
                 page.write_text(text, encoding="utf-8")
                 return len(broken(root, page))
 
-            self.assertEqual(wrong("[x](other.md) ![y](other.md) [z](other.md#a-b-c) [t](other.md#twice)\n\n[r]: other.md\n"), 0)
+            good = "[x](other.md) ![y](other.md) [z](other.md#a-b-c) [t](other.md#twice)\n\n[r]: other.md\n"
+            self.assertEqual(wrong(good), 0)
             self.assertEqual(wrong("`[x](none.md)`\n\n    [x](none.md)\n\n```\n[x](none.md)\n```\n"), 0)
             for text in ("[x](none.md)", "![x](none.png)", "[x](other.md#none)", "[x](#none)", "[x](../out.md)",
                          "[x](other.md#a---b)", "[x](other.md#twice-1)", "text\n\n[r]: none.md"):

@@ -1,7 +1,7 @@
 """Facts proved here: project_test.py SOURCE
 
 - README.md has 150 lines at most, a picture, and names both commands, the licence and how to cite;
-- CITATION.cff is YAML with the keys that version 1.2.0 of its form asks for, names the version of CMakeLists.txt and the
+- CITATION.cff is YAML with the keys that version 1.2.0 of its form asks for, names the version of CMakeLists.txt, the
   licence of LICENSE, and the paper by the address that crates give it;
 - CHANGELOG.md has the headings of its form;
 - every verb of make that a page shows is one of the Makefile's, and the page on developing has all that a person types;
@@ -35,7 +35,8 @@ def faults(citation):
     version = re.search(r"project\(isojam VERSION (\S+)", text_of("CMakeLists.txt"))[1]
     if citation.get("version") != version:
         wrong.append("another version")
-    for person in citation.get("authors", []) + [one for other in citation.get("references", []) for one in other["authors"]]:
+    others = [person for other in citation.get("references", []) for person in other["authors"]]
+    for person in citation.get("authors", []) + others:
         if not ("name" in person or {"family-names", "given-names"} <= set(person)):
             wrong.append("an author without a name")
     for other in citation.get("references", []):

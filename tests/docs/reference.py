@@ -1,8 +1,8 @@
-"""reference.py SOURCE FACTS [--write]: the tables of docs/manifest.md and docs/results.md that schemas and program tell.
+"""reference.py SOURCE FACTS [--write]: what schemas and program tell of docs/manifest.md and docs/results.md.
 
-SOURCE is the tree, FACTS the facts.json that the build makes beside the Python module. Between `<!-- block NAME -->` and
-`<!-- end -->` a page has the block of that name. Without --write the blocks that differ are named, and the exit code
-is 1 if there are any.
+SOURCE is the tree, FACTS the facts.json that the build makes beside the Python module. A page has the tables of a name
+between `<!-- block NAME -->` and `<!-- end -->`. Without --write the pages whose tables differ are named, and the exit
+code is 1 if there are any.
 """
 
 import json
@@ -13,6 +13,7 @@ import sys
 from schema import Schema, cell, code, fields_of, kinds
 
 # Keys of the manifest that have tables of their own.
+KEY_HEAD = ("key", "value", "default", "meaning")
 OBJECTS = ("sweep", "protocol", "minimiser", "replicates", "start", "shear", "solids", "size")
 
 
@@ -62,20 +63,22 @@ def own_tables(schema, parts):
     for path, forms in paths.items():
         for row in rows[path].values():
             row[2] = "one of these" if len(forms) > 1 else row[2]
-        lines += [heading("Key", path), "", *table(("key", "value", "default", "meaning"), list(rows[path].values())), ""]
+        lines += [heading("Key", path), "", *table(KEY_HEAD, list(rows[path].values())), ""]
     return lines
 
 
 def manifest_block(schema):
     top = schema.tree["properties"]
-    lines = table(("key", "value", "default", "meaning"),
+    lines = table(KEY_HEAD,
                   manifest_rows(schema, top, set(schema.tree["required"]))) + [""]
     sweep = top["sweep"]
     own = {name: field for name, field in sweep["properties"].items() if name in sweep["required"]}
-    rows = [[f"`{name}`", "list of " + cell(kinds(schema, field["items"]) if name != "solid" else "names, or [mixtures](#key-mixture)"),
-             "required", cell(schema.resolved(schema.resolved(field["items"]).get("anyOf", [field["items"]])[0])["description"])]
-            for name, field in own.items()]
-    lines += [heading("Key", "sweep"), "", *table(("key", "value", "default", "meaning"), rows), "",
+    rows = []
+    for name, field in own.items():
+        item = schema.resolved(schema.resolved(field["items"]).get("anyOf", [field["items"]])[0])
+        what = "names, or [mixtures](#key-mixture)" if name == "solid" else kinds(schema, item)
+        rows.append([f"`{name}`", f"list of {what}", "required", cell(item["description"])])
+    lines += [heading("Key", "sweep"), "", *table(KEY_HEAD, rows), "",
               "Beside these, lists of values of " +
               ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
               ", each as under the key of that name below.", ""]
@@ -178,7 +181,8 @@ def tables_block(schema):
             links = {f"rows[].{name}" for name in ("goal", "differences", "critical_angles")}
             what = f"object, [below](#{anchor('Table', deeper)})" if deeper in links else \
                 "object of estimates" if key == "all" else \
-                f"list of objects, [below](#{anchor('Table', deeper + '[]')})" if key == "series" else cell(kinds(schema, field))
+                f"list of objects, [below](#{anchor('Table', deeper + '[]')})" if key == "series" else \
+                cell(kinds(schema, field))
             plain_rows.append([f"`{key}`", what, cell(inner.get("description", ""))])
         lines += [heading("Table", path), "", *table(("field", "value", "meaning"), plain_rows), ""]
     return lines
@@ -186,7 +190,8 @@ def tables_block(schema):
 
 def blocks(source, facts):
     quantities = json.loads(pathlib.Path(facts).read_text(encoding="utf-8"))["quantities"]
-    manifest, record, packing, tables = (Schema(source, name) for name in ("manifest", "replicate", "packing", "tables"))
+    names = ("manifest", "replicate", "packing", "tables")
+    manifest, record, packing, tables = (Schema(source, name) for name in names)
     definitions = [(name, node) for name, node in record.tree["definitions"].items() if fields_of(node)]
     files = packing.tree["definitions"]
     made = {
@@ -194,7 +199,8 @@ def blocks(source, facts):
         "quantities": quantity_block(record, tables, quantities),
         "tables": tables_block(tables),
         "records": objects_block(record, "Record", [("", record.tree), *definitions], record_units(record, quantities)),
-        "packings": objects_block(packing, "Packing", [(name, files[name]) for name in ("packing_file", "path_file")], {}),
+        "packings": objects_block(packing, "Packing", [(name, files[name]) for name in ("packing_file", "path_file")],
+                                  {}),
     }
     return {name: "\n".join(lines).strip() for name, lines in made.items()}
 
