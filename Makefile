@@ -1,5 +1,5 @@
-# Verbs: run test build bench bench-against equilibria paper docs test-asan fuzz test-slurm lint format packages clean. On
-# Debian 12 each first installs the packages it needs and lacks.
+# Verbs: run test build bench bench-against equilibria paper reproducibility docs test-asan fuzz test-slurm lint
+# format packages clean. On Debian 12 each first installs the packages it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
 JOBS ?= $(shell nproc)
@@ -16,11 +16,12 @@ PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-d
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
-                    libmpfr-dev voro++-dev python3 python3-gsd python3-vtk9 python3-numpy python3-pandas \
+                    libmpfr-dev voro++-dev coinor-libclp-dev python3 python3-gsd python3-vtk9 python3-numpy python3-pandas \
                     python3-matplotlib python3-yaml groff-base zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
-FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) clang-14 libclang-rt-14-dev llvm-14
+CLANG_PACKAGES   := clang-14
+FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) $(CLANG_PACKAGES) libclang-rt-14-dev llvm-14
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev libsuitesparse-dev libopenblas-serial-dev
 SLURM_PACKAGES   := slurm-wlm munge python3
 DOCS_PACKAGES    := mkdocs doxygen python3
@@ -108,6 +109,22 @@ docs:
 	mkdocs build --quiet --strict -f $(BUILD)/docs/mkdocs.yml
 	@echo '$(BUILD)/docs/site/index.html'
 
+# The same bytes from g++ and clang, with and without AVX2: three more builds, in directories of their own.
+REPRODUCIBLE = tests/reproducibility
+.PHONY: reproducibility
+reproducibility: isojam
+	$(call install,$(PROGRAM_PACKAGES) $(CLANG_PACKAGES) python3)
+	cmake -S . -B $(BUILD)-clang -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DISOJAM_NATIVE=ON -DISOJAM_TESTS=OFF
+	cmake --build $(BUILD)-clang -j $(JOBS) --target isojam
+	cmake -S . -B $(BUILD)-clang-portable -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=OFF
+	cmake --build $(BUILD)-clang-portable -j $(JOBS) --target isojam
+	cmake -S . -B $(BUILD)-portable -G Ninja -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=OFF
+	cmake --build $(BUILD)-portable -j $(JOBS) --target isojam
+	/usr/bin/python3 -B $(REPRODUCIBLE)/same_bytes.py $(REPRODUCIBLE)/manifest.json g++=$(BUILD)/isojam \
+	  g++-without-fma-in-libm=GLIBC_TUNABLES:glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,$(BUILD)/isojam \
+	  clang=$(BUILD)-clang/isojam g++-without-avx2=$(BUILD)-portable/isojam \
+	  clang-without-avx2=$(BUILD)-clang-portable/isojam
+
 # As root. Not a part of `test`: it starts daemons.
 test-slurm: build
 	$(call install,$(SLURM_PACKAGES))
@@ -156,7 +173,7 @@ fuzz:
 	bash tests/fuzz/run.sh $(BUILD)-fuzz $(FUZZ_SECONDS)
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-before $(BUILD)-fuzz $(BUILD)-lint
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-clang $(BUILD)-clang-portable $(BUILD)-portable $(BUILD)-before $(BUILD)-fuzz $(BUILD)-lint
 
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.

@@ -74,8 +74,8 @@ Backbone backbone_of(const Packing& packing, const ModeOptions& options, Precisi
     for (std::size_t k = 0; k < rest.kept.size(); ++k) {
       if (!goes[k]) kept.push_back(rest.kept[k]);
     }
-    ++rest.rounds;
-    rest = {.packing = part_of(packing, kept), .kept = std::move(kept), .rounds = rest.rounds};
+    Packing part = part_of(packing, kept);
+    rest = {.packing = std::move(part), .kept = std::move(kept), .rounds = rest.rounds + 1};
   }
   rest.removed = others(rest.kept, packing.size());
   return rest;

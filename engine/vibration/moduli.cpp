@@ -120,8 +120,10 @@ std::optional<PressureSlope> pressure_slope(const Packing& packing, const Pressu
     return energy.evaluate(neighbour, summary.precision).pressure;
   };
   const double phi = packing.density(), step = options.strain * phi;
-  const double below = pressure_at(phi - step, slope.below), above = pressure_at(phi + step, slope.above);
-  if (!is_equilibrium(slope.below) || !is_equilibrium(slope.above)) return std::nullopt;
+  const double below = pressure_at(phi - step, slope.below);
+  if (!is_equilibrium(slope.below)) return std::nullopt;
+  const double above = pressure_at(phi + step, slope.above);
+  if (!is_equilibrium(slope.above)) return std::nullopt;
   slope.bulk_modulus = phi * (above - below) / (2 * step);
   return slope;
 }

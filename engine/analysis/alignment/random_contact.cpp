@@ -123,14 +123,13 @@ std::array<double, dimensions> even_point(int k) {
 /// Half of the points are even in x and y, for the bulk of the distributions; half as the fourth powers of even ones,
 /// for small angles.
 struct Place {
-  Place(double u, double v, bool small) : x(small ? fourth(u) : u), y(small ? fourth(v) : v) {
-    weight = 2 / (1 + density(x) * density(y));
-  }
+  Place(double u, double v, bool small)
+      : x(small ? fourth(u) : u), y(small ? fourth(v) : v), weight(2 / (1 + density(x) * density(y))) {}
   static double fourth(double u) { return squared(squared(u)); }
   static double density(double x) { return 1 / (4 * std::sqrt(x) * std::sqrt(std::sqrt(x))); }
 
   double x, y;
-  double weight = 0;  ///< inverse density of points
+  double weight;  ///< inverse density of points
 };
 
 /// Over both kinds of parts.

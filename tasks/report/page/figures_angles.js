@@ -81,7 +81,8 @@ function anglePanel(placement, index, place, {x, y, kind, datasets, symbol}) {
 function angleNote(data, kind, symbol, together) {
   return `Cumulative distribution of $${symbol}$ over all contacts nearest jamming of a sweep point’s ` +
     `${countedText(data)}, beside ideal random contacts${together ? ' of each solid, dashed with an edge in the ' +
-      'face, dotted where a vertex touches, dash-dotted where vertices and edges do by their weights' : ''}; ${together ? 'hollow ' : ''}symbols mark the critical angles that the ` +
+      'face, dotted where a vertex touches, dash-dotted where vertices and edges do by their weights' : ''}; ` +
+    `${together ? 'hollow ' : ''}symbols mark the critical angles that the ` +
     `topologies allow${together ? ', filled ones tell the curves apart' : ''}. ` +
     (kind === 'face_face' ? 'Shaded: region 1, below the cut-off of face-face contacts (median of the replicates). ' +
       'Figure 2(b) of the paper.' : 'Figure 2(a) of the paper.');

@@ -32,9 +32,9 @@ Packing lattice(int side, double density) {
   const int n = side * side * side;
   Packing packing{platonic(SolidKind::octahedron), PeriodicCell(std::cbrt(n / density)), {}};
   for (int k = 0; k < n; ++k) {
+    const int x = k / (side * side), y = k / side % side, z = k % side;
     packing.poses.emplace_back();
-    packing.poses.back().position =
-        packing.cell.side() / side * Eigen::Vector3d(k / (side * side), k / side % side, k % side);
+    packing.poses.back().position = packing.cell.side() / side * Eigen::Vector3d(x, y, z);
   }
   return packing;
 }

@@ -1,0 +1,84 @@
+// Facts proved here:
+//   gaps of packings are those of all pairs and images by brute force; no pair that touches is among them;
+//   a face parallel to a vertex, edge or face at a distance h has a gap of h, and so have crossed edges; which of both
+//   it is, is told; a gap does not depend on which particle comes first;
+//   widths that are not positive are refused.
+
+#include "engine/analysis/gaps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <stdexcept>
+
+#include "engine/geometry/overlap/separating_axis.hpp"
+#include "engine/packing/energy.hpp"
+#include "tests/engine/analysis/constructed_contacts.hpp"
+#include "tests/engine/solve/solve_support.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(GapsTest, AreThoseOfBruteForce) {
+  for (const SolidKind kind : all_solids) {
+    const Packing packing = small_packing(kind, .55, 41);
+    const auto gaps = near_gaps(packing, .1);
+    std::vector<Gap> expected;
+    for (const auto& pair : find_in_reach_brute_force(packing, .1)) {
+      const auto &a = packing.poses[static_cast<std::size_t>(pair.a)],
+                 &b = packing.poses[static_cast<std::size_t>(pair.b)];
+      const Eigen::Matrix3d to_a = a.orientation.toRotationMatrix().transpose();
+      const RelativePose pose{to_a * b.orientation.toRotationMatrix(), to_a * displacement(packing, pair)};
+      const double width = gap(platonic(kind), platonic(kind), pose, best_axis(platonic(kind), platonic(kind), pose));
+      if (width > 0 && width < .1) expected.push_back({pair, width});
+    }
+    ASSERT_EQ(gaps.size(), expected.size()) << to_string(kind);
+    ASSERT_GT(gaps.size(), 5U);
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      EXPECT_EQ(canonical_key(gaps[k].pair), canonical_key(expected[k].pair));
+      EXPECT_NEAR(gaps[k].width, expected[k].width, 1e-14);
+    }
+    for (const Contact& contact : PackingEnergy().contacts(packing)) {
+      for (const Gap& one : gaps) EXPECT_NE(canonical_key(one.pair), canonical_key(contact.pair));
+    }
+  }
+}
+
+/// The gap of two bodies apart by h, and the same with the bodies exchanged.
+void expect_gap(const ConvexSolid& solid, const Contact& apart, double h, bool of_faces) {
+  for (const bool exchanged : {false, true}) {
+    const RelativePose& pose = apart.pose;
+    Packing packing{solid, PeriodicCell(100), std::vector<Pose>(2)};
+    packing.poses[exchanged ? 0 : 1].position = pose.displacement;
+    packing.poses[exchanged ? 0 : 1].orientation = Eigen::Quaterniond(pose.rotation);
+    const auto gaps = near_gaps(packing, .1);
+    ASSERT_EQ(gaps.size(), 1U);
+    EXPECT_NEAR(gaps[0].width, h, 1e-14);
+    EXPECT_EQ(gaps[0].of_faces, of_faces);
+  }
+}
+
+TEST(GapsTest, ConstructedOnes) {
+  RandomStream random{42};
+  for (const SolidKind kind : all_solids) {
+    const ConvexSolid& solid = platonic(kind);
+    for (const double h : {1e-9, 1e-5, 1e-2}) {
+      const double spin = random.uniform();
+      const auto face = constructed::face_site(solid, 1);
+      const auto at = [&](const constructed::Site& a) {
+        return constructed::contact(a, face, spin, Vector3d::Zero(), -h);
+      };
+      expect_gap(solid, at(constructed::vertex_site(solid, 0)), h, true);
+      expect_gap(solid, at(constructed::edge_site(solid, 0)), h, true);
+      expect_gap(solid, at(constructed::face_and_edges_site(solid, 0)), h, true);
+      const auto edge = constructed::edge_site(solid, 0);
+      expect_gap(solid, constructed::contact(edge, edge, 1, Vector3d::Zero(), -h), h, false);
+    }
+  }
+  EXPECT_THROW(near_gaps(small_packing(SolidKind::cube, .3, 1), 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace isojam

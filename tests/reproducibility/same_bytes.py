@@ -1,0 +1,66 @@
+"""Whether variants of the program give the same bytes: same_bytes.py MANIFEST NAME=PROGRAM [NAME=PROGRAM ...]
+
+Every variant runs the manifest in a directory of its own; a word VARIABLE:VALUE in front of the program is set in its
+environment, as in  old=GLIBC_TUNABLES:glibc.cpu.hwcaps=-FMA,build/isojam . Of each replicate the digest of its results
+is compared (all of the record but times and provenance) and the bytes of its packings and its path, with those of the
+first variant. Exits 1 and names what differs.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+
+def parsed(argument):
+    """NAME=[VARIABLE:VALUE,...]PROGRAM; the program is what follows the last comma."""
+    name, _, rest = argument.partition("=")
+    *settings, program = rest.rsplit(",", 1)
+    environment = dict(os.environ)
+    for setting in settings:
+        variable, _, value = setting.partition(":")
+        environment[variable] = value
+    return name, environment, program
+
+
+def results_of(directory):
+    """What must be the same, by name of file."""
+    results = {}
+    for path in sorted((directory / "records").iterdir()):
+        results[f"records/{path.name}"] = json.loads(path.read_text(encoding="utf-8"))["result_digest"]
+    for folder in ("packings", "paths"):
+        for path in sorted((directory / folder).iterdir()):
+            results[f"{folder}/{path.name}"] = path.read_bytes()
+    return results
+
+
+def run(manifest, environment, program, directory):
+    began = time.monotonic()
+    ended = subprocess.run([program, "run", manifest, "-o", str(directory), "--quiet"], env=environment,
+                           stdout=subprocess.DEVNULL, check=False)
+    if ended.returncode != 0:
+        sys.exit(f"{program} ended with {ended.returncode}")
+    return time.monotonic() - began
+
+
+def main():
+    manifest, *variants = sys.argv[1:]
+    expected, different = None, 0
+    with tempfile.TemporaryDirectory() as scratch:
+        for k, (name, environment, program) in enumerate(map(parsed, variants)):
+            seconds = run(manifest, environment, program, Path(scratch) / str(k))
+            found = results_of(Path(scratch) / str(k))
+            expected = expected or found
+            wrong = sorted(key for key in expected.keys() | found.keys() if expected.get(key) != found.get(key))
+            print(f"{name}: {len(found) - len(wrong)} of {len(found)} files the same, {seconds:.0f} s")
+            for key in wrong:
+                print(f"  {key} differs")
+            different += len(wrong)
+    sys.exit(1 if different or not expected else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,149 @@
+// Facts proved here, of what the measures of prestress, of floppy motions, of one-sided forces and of gaps put into
+// records, in states of jammed octahedra:
+// - numbers of constraints fall as their threshold rises, and the one called C_s is that of 10; missing ranks are those
+//   of the rigidity of the same rows; shares of modes add up, and lie in [0, 1] but for prestress that is negative;
+// - floppy motions are 6N − 3 less the rank of the normals; exponents begin at 2, where the force alone opposes;
+// - one-sided forces have as many dimensions as classes have states of self-stress;
+// - bins hold every contact and every gap; nearer to jamming fewer pairs are nearer than Δφ;
+// - packings too large for dense matrices, and states not above jamming, have the reason in place of numbers.
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "engine/analysis/gaps.hpp"
+#include "engine/rigidity/pair_stiffness.hpp"
+#include "engine/rigidity/rigidity.hpp"
+#include "engine/solve/jam.hpp"
+#include "tasks/measure/measure.hpp"
+
+namespace isojam {
+namespace {
+
+const JamResult& octahedra() {
+  static const JamResult result = [] {
+    RandomStream random{2024};
+    JamOptions options;
+    options.final_distance = 0.01;
+    options.step_fraction = 0.5;
+    return jam(random_packing(platonic(SolidKind::octahedron), 50, options.initial_density, random), options);
+  }();
+  return result;
+}
+
+/// What a measure says of every state, under its key.
+std::vector<Json> states_of(Measure what, const std::string& key) {
+  std::vector<Json> list;
+  for (const Json& state : measure(what, octahedra()).states) list.push_back(state.at(key));
+  EXPECT_EQ(list.size(), octahedra().states.size());
+  return list;
+}
+
+TEST(PrestressMeasure, CountsConstraintsAndModes) {
+  const auto states = states_of(Measure::prestress, "prestress");
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const Json& state = states[k];
+    const Packing& packing = octahedra().states[k];
+    const auto contacts = PackingEnergy().contacts(packing);
+    const auto pairs = pair_stiffnesses(packing, contacts);
+    double last = 1e9;
+    for (const Json& one : state.at("thresholds")) {
+      const double threshold = one.at("threshold"), C = one.at("C");
+      EXPECT_EQ(C, stiff_constraint_number(packing.size(), pairs, threshold));
+      EXPECT_LE(C, last);
+      last = C;
+      if (threshold == 10) {
+        EXPECT_EQ(state.at("C_s"), C);
+      }
+    }
+    const auto rigidity = analyse_rigidity(stiff_constraints(packing, contacts, pairs, 10));
+    EXPECT_EQ(state.at("missing").get<double>(),
+              static_cast<double>(6 * packing.size() - 3 - rigidity.rank) / packing.size());
+    EXPECT_EQ(state.at("self_stress").get<int>(), rigidity.self_stress);
+    const auto normals = analyse_rigidity(normal_constraints(packing, contacts));
+    EXPECT_EQ(state.at("normals").at("rank").get<int>(), normals.rank);
+    const Json& modes = state.at("modes");
+    EXPECT_EQ(modes.at("looked_at").get<int>(), 6 * packing.size() - 3);
+    EXPECT_LE(modes.at("worst_sum").get<double>(), 1e-6);
+    // Every motion that no normal opposes needs a mode of its own that normals hold by less than half, or nearly so.
+    EXPECT_GE(modes.at("held_by_second").get<int>(), (normals.floppy - 3) / 2);
+    EXPECT_LE(modes.at("held_by_prestress").get<int>(), modes.at("held_by_second").get<int>());
+    for (std::size_t m = 0; m < modes.at("lambda").size(); ++m) {
+      const double normal = modes.at("normal")[m], tilt = modes.at("tilt")[m];
+      EXPECT_GE(normal, 0);
+      EXPECT_GE(tilt, 0);
+    }
+  }
+  EXPECT_TRUE(states.back().contains("s_normal"));
+  EXPECT_EQ(states.back().at("s_normal").size(), PackingEnergy().contacts(octahedra().states.back()).size());
+}
+
+TEST(QuarticMeasure, CountsFloppyMotions) {
+  const auto states = states_of(Measure::quartic, "quartic");
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const Packing& packing = octahedra().states[k];
+    const auto normals = analyse_rigidity(normal_constraints(packing, PackingEnergy().contacts(packing)));
+    EXPECT_EQ(states[k].at("floppy").get<int>(), normals.floppy - 3);
+    const Json& first = states[k].at("rungs").front();
+    EXPECT_NEAR(first.at("median").get<double>(), 2, 0.5);
+    for (const Json& rung : states[k].at("rungs")) {
+      EXPECT_LE(rung.at("quartic").get<int>(), rung.at("motions").get<int>());
+      EXPECT_LE(rung.at("lower_quartile").get<double>(), rung.at("upper_quartile").get<double>());
+    }
+  }
+}
+
+TEST(OneSidedMeasure, IsTheSelfStressOfClasses) {
+  const auto states = states_of(Measure::one_sided, "one_sided"), ranks = states_of(Measure::rigidity, "rigidity");
+  int told = 0;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    if (states[k].at("dimension").is_null()) {
+      EXPECT_FALSE(states[k].at("dimension_reason").get<std::string>().empty());
+      continue;
+    }
+    ++told;
+    EXPECT_EQ(states[k].at("dimension").get<int>(), ranks[k].at("classes").at("self_stress").get<int>());
+    EXPECT_GT(states[k].at("least_margin").get<double>(), 0);
+    EXPECT_EQ(states[k].at("constraints"), ranks[k].at("classes").at("constraints"));
+  }
+  EXPECT_GT(told, 0);
+}
+
+TEST(GapsMeasure, CountsAll) {
+  const auto states = states_of(Measure::gaps, "gaps");
+  const auto sum = [](const Json& bins) {
+    const auto counts = bins.at("counts").get<std::vector<long>>();
+    return std::accumulate(counts.begin(), counts.end(), bins.at("below").get<long>());
+  };
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const Packing& packing = octahedra().states[k];
+    EXPECT_EQ(sum(states[k].at("faces")) + sum(states[k].at("edges")),
+              static_cast<long>(near_gaps(packing, .1).size()));
+    EXPECT_EQ(sum(states[k].at("face_face")) + sum(states[k].at("edge_face")) + sum(states[k].at("lower_order")),
+              static_cast<long>(PackingEnergy().contacts(packing).size()));
+    EXPECT_EQ(states[k].at("log10_gap").size(), states[k].at("faces").at("counts").size() + 1);
+    EXPECT_EQ(states[k].at("log10_force").size(), states[k].at("face_face").at("counts").size() + 1);
+  }
+  EXPECT_LT(states.back().at("within_distance").get<double>(), 1);
+}
+
+TEST(HoldingMeasures, SayWhyThereIsNothing) {
+  RandomStream random{7};
+  JamResult large;
+  large.states = {random_packing(platonic(SolidKind::dodecahedron), 201, .75, random)};
+  large.path.resize(1);
+  large.path[0].density = large.states[0].density();
+  large.state_steps = {0};
+  for (const JamResult& result : {large}) {
+    const Json state = measure(Measure::quartic, result).states[0].at("quartic");
+    for (const char* key : {"floppy", "quartic", "exponent", "coefficient"}) {
+      EXPECT_TRUE(state.at(key).is_null());
+      EXPECT_FALSE(state.at(std::string(key) + "_reason").get<std::string>().empty());
+    }
+  }
+  const Json gaps = measure(Measure::gaps, large).states[0].at("gaps");
+  EXPECT_TRUE(gaps.at("within_distance").is_null());
+}
+
+}  // namespace
+}  // namespace isojam
