@@ -1,5 +1,5 @@
-# Verbs: run test build bench bench-against equilibria paper reproducibility test-asan fuzz test-slurm lint format
-# packages clean. On Debian 12 each first installs the packages it needs and lacks.
+# Verbs: run test build bench bench-against equilibria paper reproducibility docs test-asan fuzz test-slurm lint
+# format packages clean. On Debian 12 each first installs the packages it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
 JOBS ?= $(shell nproc)
@@ -17,13 +17,14 @@ LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
                     libmpfr-dev voro++-dev coinor-libclp-dev python3 python3-gsd python3-vtk9 python3-numpy python3-pandas \
-                    python3-matplotlib groff-base zsh fish
+                    python3-matplotlib python3-yaml groff-base zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
 CLANG_PACKAGES   := clang-14
 FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) $(CLANG_PACKAGES) libclang-rt-14-dev llvm-14
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev libsuitesparse-dev libopenblas-serial-dev
 SLURM_PACKAGES   := slurm-wlm munge python3
+DOCS_PACKAGES    := mkdocs doxygen python3
 
 # $(call install,packages): the network is touched only if one of them is missing.
 define install
@@ -51,7 +52,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test test-asan fuzz test-slurm bench equilibria paper lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench equilibria paper docs lint format clean
 .DEFAULT_GOAL := build
 
 # Without what `isojam chart` alone needs.
@@ -97,6 +98,16 @@ test:
 	$(CONFIGURE) -DISOJAM_TESTS=ON
 	cmake --build $(BUILD) -j $(JOBS)
 	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure --no-tests=error --timeout $(TIMEOUT)
+
+# The pages and a reference of the engine's headers, as a site: nothing is compiled. A link that leads nowhere is an error,
+# and so is a public declaration without a comment.
+docs:
+	$(call install,$(DOCS_PACKAGES))
+	@rm -rf $(BUILD)/docs && mkdir -p $(BUILD)/docs/source
+	/usr/bin/python3 -B docs/site/gather.py . $(BUILD)/docs
+	DOCS_BUILD=$(BUILD)/docs doxygen docs/site/Doxyfile
+	mkdocs build --quiet --strict -f $(BUILD)/docs/mkdocs.yml
+	@echo '$(BUILD)/docs/site/index.html'
 
 # The same bytes from g++ and clang, with and without AVX2: three more builds, in directories of their own.
 REPRODUCIBLE = tests/reproducibility

@@ -10,6 +10,7 @@
 
 namespace isojam {
 
+/// Whether a cluster has a dimension.
 enum class DimensionVerdict {
   not_called,
   fitted,
@@ -23,8 +24,8 @@ inline constexpr std::array enum_names<DimensionVerdict>{
 
 /// Fractal dimension D, s ∝ ρ^D, of connected pieces of s particles and size ρ.
 struct FractalDimension {
-  DimensionVerdict verdict = DimensionVerdict::not_called;
-  double D = 0;
+  DimensionVerdict verdict = DimensionVerdict::not_called;  ///< whether there is one, and why not
+  double D = 0;                                             ///< the slope; 0 unless fitted
   double error = 0;  ///< standard error of the slope from the scatter about the line
   int points = 0;    ///< radii ℓ that the line was fitted to
 };
@@ -40,8 +41,8 @@ FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluste
 
 /// Sizes and extents of clusters of face-face contacts, the paper's Table IV; lengths in L.
 struct ClusterStatistics {
-  double S = 0;  ///< mean size of the cluster of a particle, Σs²/Σs over clusters, lone particles too
-  int largest = 0;
+  double S = 0;          ///< mean size of the cluster of a particle, Σs²/Σs over clusters, lone particles too
+  int largest = 0;       ///< particles of the largest cluster
   int winding_rank = 0;  ///< greatest of the clusters: 0 is no periodic percolation
   bool spans = false;    ///< some cluster is as long as the cell, or winds
   int longest = -1;      ///< index of the cluster of the greatest extent; the first that winds, if one does

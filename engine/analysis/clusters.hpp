@@ -26,8 +26,8 @@ struct Cluster {
   std::array<std::optional<double>, 3> extent;
   std::array<std::optional<double>, 3> body_extent;  ///< the same between outermost vertices
 
-  int size() const { return static_cast<int>(members.size()); }
-  int label() const { return members.front(); }
+  int size() const { return static_cast<int>(members.size()); }  ///< number of particles
+  int label() const { return members.front(); }                  ///< its first particle, which names it
   /// Percolation by closure through the periodic boundary, in 0..3 independent directions.
   int winding_rank() const { return static_cast<int>(windings.size()); }
   /// Percolation in the weaker sense: an extent without end, or of at least the side of the cell, V_cell^(1/3) where

@@ -40,8 +40,8 @@ struct ContactForce {
   /// the intersection with particle a itself.
   Eigen::Vector3d attack = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_a = Eigen::Vector3d::Zero(), torque_b = Eigen::Vector3d::Zero();  ///< about own centres
-  double depth = 0;  ///< length of the shortest translation that parts them
-  ContactKind kind = ContactKind::compound;
+  double depth = 0;                          ///< length of the shortest translation that parts them
+  ContactKind kind = ContactKind::compound;  ///< what touches
 };
 
 /// Of an intersection of A and B that has a volume, with S_A for its `area`, in A's frame.

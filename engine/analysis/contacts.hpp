@@ -14,6 +14,7 @@
 
 namespace isojam {
 
+/// Class of a contact by its angles, as counting constraints has it: 3, 2 and 1 of them.
 enum class ContactClass { face_face, edge_face, lower_order };
 template <>
 inline constexpr std::array enum_names<ContactClass>{EnumName{ContactClass::face_face, "face_face"},
@@ -22,21 +23,21 @@ inline constexpr std::array enum_names<ContactClass>{EnumName{ContactClass::face
 
 /// Mean contact and constraint numbers per particle, C = 3 Z_ff + 2 Z_ef + Z_l (the paper's Table III).
 struct ContactNumbers {
-  double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;
+  double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;  ///< contacts of all classes, of each, and constraints
 };
 
 /// Cut-offs between contact classes, of all contacts between solids of two shapes.
 struct ClassCutoffs {
-  CdfFit face_face, edge_face;
+  CdfFit face_face, edge_face;            ///< fits of the distributions of θ_ff and θ_ef
   GapSplit face_face_gap, edge_face_gap;  ///< the other method, in the same windows
-  CriticalAngles critical;
+  CriticalAngles critical;                ///< windows end at half the least of them
 };
 
 /// The cut-offs of one pair of shapes in a mixture of several.
 struct ShapePair {
   const ConvexSolid *a = nullptr, *b = nullptr;  ///< of unit volume
-  long contacts = 0;
-  ClassCutoffs cutoffs;
+  long contacts = 0;                             ///< between solids of these shapes
+  ClassCutoffs cutoffs;                          ///< that their contacts gave
 };
 
 /// Where there are several shapes, the base has for each method the cut-off of the pair of shapes that decides least:

@@ -8,7 +8,7 @@ namespace isojam {
 
 /// A pair of particles that nearly touch.
 struct Gap {
-  NeighbourPair pair;
+  NeighbourPair pair;  ///< which particles, and the image of b
   /// The largest distance of two parallel planes that keep them apart, over all normals of faces and all products of
   /// edges, V_p^(1/3): their distance, unless vertices are nearest, which are farther apart.
   double width = 0;

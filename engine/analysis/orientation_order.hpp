@@ -42,14 +42,16 @@ Order order_of(const Packing& packing, std::span<const Contact> contacts);
 
 /// Mean q_ij of pairs whose centres are k·width to (k + 1)·width apart.
 struct OrientationCorrelation {
+  /// Pairs at one distance.
   struct Bin {
-    long pairs = 0;
+    long pairs = 0;              ///< in the bin
     std::optional<double> mean;  ///< none without pairs
   };
-  double width = 0;  ///< V_p^(1/3)
-  std::vector<Bin> bins;
+  double width = 0;       ///< V_p^(1/3)
+  std::vector<Bin> bins;  ///< nearest first
 };
 
+/// Bins of a correlation, lengths in V_p^(1/3).
 struct OrientationCorrelationOptions {
   double width = 0.1;  ///< a quarter of the least inradius: a shell of neighbours takes several bins
   /// Greatest distance. By default half the side of the cell, where images begin to repeat.

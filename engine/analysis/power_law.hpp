@@ -7,10 +7,10 @@ namespace isojam {
 
 /// Power law y = prefactor · x^exponent, by least squares in logarithms.
 struct PowerLaw {
-  double exponent = 0, prefactor = 0;
-  double standard_error = 0;   ///< of the exponent; 0 with two points
-  double ci95_half_width = 0;  ///< of the exponent, Student t on n − 2 degrees of freedom; 0 with two points
-  int points = 0;
+  double exponent = 0, prefactor = 0;  ///< as above
+  double standard_error = 0;           ///< of the exponent; 0 with two points
+  double ci95_half_width = 0;          ///< of the exponent, Student t on n − 2 degrees of freedom; 0 with two points
+  int points = 0;                      ///< that were fitted
 };
 
 /// Fits the points with x > 0 and y > 0. nullopt if fewer than two x among them differ: with an interval, three are

@@ -8,6 +8,8 @@
 /// microsecond each: not for the innermost loops.
 namespace isojam::nearest {
 
+/// The functions of these names of the standard library.
+/// @{
 double sin(double x);
 double cos(double x);
 double tan(double x);
@@ -21,6 +23,7 @@ double log10(double x);
 double pow(double x, double y);
 double cbrt(double x);
 double hypot(double x, double y);
+/// @}
 
 }  // namespace isojam::nearest
 
@@ -29,7 +32,7 @@ namespace isojam {
 /// sin x / x, 1 at 0; right to 2 ε. By its series where |x| ≤ 1, and then in nanoseconds: for turns in innermost loops.
 double sinc(double x);
 
-inline double squared(double x) { return x * x; }
-inline double cubed(double x) { return x * x * x; }
+inline double squared(double x) { return x * x; }    ///< x²
+inline double cubed(double x) { return x * x * x; }  ///< x³
 
 }  // namespace isojam

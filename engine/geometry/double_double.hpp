@@ -9,11 +9,13 @@ namespace isojam {
 /// and reciprocal root 16 u², unless something over- or underflows. They rest on every operation being rounded once: no
 /// -ffast-math, no contraction.
 struct DoubleDouble {
-  double high = 0, low = 0;
+  double high = 0, low = 0;  ///< both parts
 
   DoubleDouble() = default;
+  /// Exactly that double.
   // NOLINTNEXTLINE(google-explicit-constructor): a double is a double-double, exactly, and formulae mix them.
   DoubleDouble(double value) : high(value) {}
+  /// The sum of both, which are as the class says.
   DoubleDouble(double head, double tail) : high(head), low(tail) {}
 };
 
@@ -36,8 +38,9 @@ inline DoubleDouble two_product(double a, double b) {
   return {product, std::fma(a, b, -product)};
 }
 
-inline DoubleDouble operator-(const DoubleDouble& a) { return {-a.high, -a.low}; }
+inline DoubleDouble operator-(const DoubleDouble& a) { return {-a.high, -a.low}; }  ///< −a, exactly
 
+/// a + b.
 inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble high = two_sum(a.high, b.high), low = two_sum(a.low, b.low);
   const DoubleDouble sum = fast_two_sum(high.high, high.low + low.high);
@@ -50,13 +53,15 @@ inline DoubleDouble short_sum(const DoubleDouble& a, const DoubleDouble& b) {
   return fast_two_sum(high.high, high.low + (a.low + b.low));
 }
 
-inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
+inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }  ///< a − b
 
+/// a·b.
 inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble product = two_product(a.high, b.high);
   return fast_two_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
 }
 
+/// a/b.
 inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
   const double first = a.high / b.high;
   const DoubleDouble rest = a - b * first;

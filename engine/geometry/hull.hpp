@@ -15,6 +15,7 @@ using FaceLoop = std::vector<int>;
 /// Points that are not the vertices of a convex polyhedron, or of none that the program can hold.
 class NoSolid : public std::invalid_argument {
  public:
+  /// Says why, and which point is to blame.
   explicit NoSolid(const std::string& why, int vertex = -1) : std::invalid_argument(why), vertex_(vertex) {}
   int vertex() const { return vertex_; }  ///< the point that is to blame, −1 if all are
 

@@ -16,11 +16,12 @@ namespace isojam {
 /// (tetrahedron) to 896 (dodecahedron, icosahedron), and as many of low parts that nothing but double-double reads.
 class PlacedSolid {
  public:
-  static constexpr int block = SolidArrays::block;
+  static constexpr int block = SolidArrays::block;  ///< doubles of a block of four vectors
 
-  const ConvexSolid& solid() const { return *solid_; }
-  int vertices() const { return solid_->arrays().vertices; }
-  int faces() const { return solid_->arrays().faces; }
+  const ConvexSolid& solid() const { return *solid_; }        ///< in its body frame
+  int vertices() const { return solid_->arrays().vertices; }  ///< how many
+  int faces() const { return solid_->arrays().faces; }        ///< how many
+  /// Body frame → lab frame.
   Eigen::Matrix3d rotation() const { return Eigen::Map<const Eigen::Matrix3d>(rotation_row()); }
 
   const double* vertex_block(int k) const { return vertices_ + block * k; }  ///< of vertices 4k … 4k + 3
@@ -28,15 +29,18 @@ class PlacedSolid {
   const double* offset() const { return solid_->arrays().offset; }           ///< of the face planes from the centre
   /// Components of one vector, x at [0], y at [4], z at [8].
   const double* vertex_at(int v) const { return vertices_ + at(v); }
-  const double* normal_at(int f) const { return normals_ + at(f); }
+  const double* normal_at(int f) const { return normals_ + at(f); }  ///< the same of the normal of face f
 
-  Eigen::Vector3d vertex(int v) const { return vector(vertex_at(v)); }
-  Eigen::Vector3d normal(int f) const { return vector(normal_at(f)); }
+  Eigen::Vector3d vertex(int v) const { return vector(vertex_at(v)); }  ///< from the centre, lab frame
+  Eigen::Vector3d normal(int f) const { return vector(normal_at(f)); }  ///< of face f, outward, lab frame
 
   /// Vectors with low parts, of solids placed in double-double only.
   DoubleDoubleVector vertex_double_double(int v) const { return {vertex(v), vector(vertex_at(v) + to_low_)}; }
+  /// Outward unit normal of face f.
   DoubleDoubleVector normal_double_double(int f) const { return {normal(f), vector(normal_at(f) + to_low_)}; }
+  /// Distance of its plane from the centre.
   DoubleDouble offset_double_double(int f) const { return {offset()[f], solid_->arrays().offset_low[f]}; }
+  /// Body frame → lab frame.
   DoubleDoubleMatrix rotation_double_double() const {
     return {rotation(), Eigen::Map<const Eigen::Matrix3d>(rotation_row() + to_low_)};
   }
@@ -67,13 +71,14 @@ class PlacedSolids {
   void resize(const ConvexSolid& solid, std::size_t count, bool low);
   /// The same for solids of several kinds.
   void resize(std::span<const ConvexSolid* const> solids, bool low);
-  std::size_t size() const { return count_; }
+  std::size_t size() const { return count_; }  ///< how many there is room for
 
   /// `rotation`: body frame → lab frame.
   void place(std::size_t k, const Eigen::Matrix3d& rotation);
   /// In double-double: vertices and normals have low parts.
   void place(std::size_t k, const DoubleDoubleMatrix& rotation);
 
+  /// The k-th, which has been placed.
   PlacedSolid operator[](std::size_t k) const {
     if (solid_ == nullptr) return unlike(k);
     const double* at = &lines_[k * stride_].value[0];
@@ -106,10 +111,13 @@ class PlacedSolids {
 /// A solid placed by itself.
 class LonePlacedSolid {
  public:
+  /// In doubles.
   LonePlacedSolid(const ConvexSolid& solid, const Eigen::Matrix3d& rotation);
+  /// In double-double.
   LonePlacedSolid(const ConvexSolid& solid, const DoubleDoubleMatrix& rotation);
 
-  PlacedSolid view() const { return alone_[0]; }
+  PlacedSolid view() const { return alone_[0]; }  ///< a view of it, good while this lives
+  /// The same.
   operator PlacedSolid() const { return view(); }  // NOLINT(google-explicit-constructor): to be handed to kernels
 
  private:

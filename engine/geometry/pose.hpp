@@ -9,35 +9,40 @@ namespace isojam {
 
 /// A vector in double-double, component by component.
 struct DoubleDoubleVector {
-  Eigen::Vector3d high = Eigen::Vector3d::Zero(), low = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high = Eigen::Vector3d::Zero(), low = Eigen::Vector3d::Zero();  ///< nearest doubles, and the rest
 
-  DoubleDouble operator[](int c) const { return {high[c], low[c]}; }
+  DoubleDouble operator[](int c) const { return {high[c], low[c]}; }  ///< component c
+  /// Sets component c.
   void set(int c, const DoubleDouble& value) { high[c] = value.high, low[c] = value.low; }
+  /// Exactly.
   DoubleDoubleVector operator-() const { return {-high, -low}; }
 };
 
 /// A matrix in double-double, entry by entry.
 struct DoubleDoubleMatrix {
-  Eigen::Matrix3d high = Eigen::Matrix3d::Identity(), low = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d high = Eigen::Matrix3d::Identity(), low = Eigen::Matrix3d::Zero();  ///< nearest doubles, and the rest
 
-  DoubleDouble operator()(int r, int c) const { return {high(r, c), low(r, c)}; }
+  DoubleDouble operator()(int r, int c) const { return {high(r, c), low(r, c)}; }  ///< entry of row r and column c
+  /// Sets the entry of row r and column c.
   void set(int r, int c, const DoubleDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
 };
 
+/// Product, each entry to 1e-31 of the greatest.
 DoubleDoubleMatrix operator*(const DoubleDoubleMatrix& a, const DoubleDoubleMatrix& b);
 
 /// Position of the centre (V_p^(1/3)) and orientation (quaternion q, body frame → lab frame) of a particle, each a
 /// double-double: x = position + position_low, q = orientation + orientation_low, with the first the nearest double of
 /// the sum. The rotation is the one by q/|q|, whatever |q|. Whoever assigns a first part resets the second.
 struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d position_low = Eigen::Vector3d::Zero();
-  Eigen::Vector4d orientation_low = Eigen::Vector4d::Zero();  ///< x, y, z, w, as in orientation.coeffs()
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< centre, V_p^(1/3), nearest doubles
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< q, nearest doubles
+  Eigen::Vector3d position_low = Eigen::Vector3d::Zero();           ///< the rest of the centre
+  Eigen::Vector4d orientation_low = Eigen::Vector4d::Zero();        ///< x, y, z, w, as in orientation.coeffs()
 
   bool operator==(const Pose& other) const;
 
-  DoubleDouble coordinate(int c) const { return {position[c], position_low[c]}; }
+  DoubleDouble coordinate(int c) const { return {position[c], position_low[c]}; }  ///< coordinate c of the centre
+  /// Component c of q, as in orientation.coeffs().
   DoubleDouble component(int c) const { return {orientation.coeffs()[c], orientation_low[c]}; }
 };
 
@@ -59,8 +64,8 @@ DoubleDoubleMatrix rotation_matrix(const Pose& pose);
 
 /// Solid B seen from the body frame of A: a point y of B's body frame lies at rotation·y + displacement.
 struct RelativePose {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< B's body frame → A's
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< B's centre in A's body frame
 };
 
 /// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).
@@ -69,17 +74,19 @@ RelativePose relative_pose(const Eigen::Quaterniond& a, const Eigen::Quaterniond
 
 /// Relative pose in quadruple precision, see RelativePose.
 struct QuadPose {
-  QuadMatrix rotation{Quad3{1, 0, 0}, Quad3{0, 1, 0}, Quad3{0, 0, 1}};
-  Quad3 displacement{};
+  QuadMatrix rotation{Quad3{1, 0, 0}, Quad3{0, 1, 0}, Quad3{0, 0, 1}};  ///< B's body frame → A's
+  Quad3 displacement{};                                                 ///< B's centre in A's body frame
 };
 
 /// Position in quadruple precision, low part included.
 Quad3 quad_position(const Pose& pose);
 /// Rotation by q/|q|, body frame → lab frame.
 QuadMatrix quad_rotation(const Pose& pose);
+/// The same in quadruple precision.
 Quad3 widened(const DoubleDoubleVector& v);
 QuadMatrix widened(const DoubleDoubleMatrix& m);
 QuadPose widened(const RelativePose& pose);
+/// The nearest doubles.
 RelativePose narrowed(const QuadPose& pose);
 /// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).
 QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement);

@@ -10,9 +10,11 @@ namespace isojam {
 
 /// Quadruple precision (113 bits), in software: for constants, for degenerate pairs and for oracles.
 __extension__ using Quad = __float128;
+/// A vector.
 using Quad3 = std::array<Quad, 3>;
 using QuadMatrix = std::array<Quad3, 3>;  ///< rows
 
+/// The sum of both parts, exactly.
 inline Quad widened(const DoubleDouble& x) { return Quad(x.high) + Quad(x.low); }
 
 /// Nearest double-double: the nearest double, and the nearest double of the rest.
@@ -21,24 +23,30 @@ inline DoubleDouble narrowed(Quad x) {
   return {high, static_cast<double>(x - Quad(high))};
 }
 
+/// The nearest doubles.
 inline Eigen::Vector3d rounded(const Quad3& p) {
   return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
 
-inline Quad3 operator+(const Quad3& p, const Quad3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
-inline Quad3 operator-(const Quad3& p, const Quad3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-inline Quad3 operator*(Quad s, const Quad3& p) { return {s * p[0], s * p[1], s * p[2]}; }
-inline Quad dot(const Quad3& p, const Quad3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+inline Quad3 operator+(const Quad3& p, const Quad3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }  ///< p + q
+inline Quad3 operator-(const Quad3& p, const Quad3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }  ///< p − q
+inline Quad3 operator*(Quad s, const Quad3& p) { return {s * p[0], s * p[1], s * p[2]}; }                   ///< s p
+inline Quad dot(const Quad3& p, const Quad3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }         ///< p·q
+/// p×q.
 inline Quad3 cross(const Quad3& p, const Quad3& q) {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
+/// M p.
 inline Quad3 operator*(const QuadMatrix& m, const Quad3& p) { return {dot(m[0], p), dot(m[1], p), dot(m[2], p)}; }
+/// M − N.
 inline QuadMatrix operator-(const QuadMatrix& m, const QuadMatrix& n) {
   return {m[0] - n[0], m[1] - n[1], m[2] - n[2]};
 }
+/// Mᵀ.
 inline QuadMatrix transposed(const QuadMatrix& m) {
   return {Quad3{m[0][0], m[1][0], m[2][0]}, Quad3{m[0][1], m[1][1], m[2][1]}, Quad3{m[0][2], m[1][2], m[2][2]}};
 }
+/// M N.
 inline QuadMatrix operator*(const QuadMatrix& m, const QuadMatrix& n) {
   const QuadMatrix columns = transposed(n);
   return transposed({m * columns[0], m * columns[1], m * columns[2]});
@@ -51,12 +59,13 @@ inline Quad square_root(Quad x) {
   return (guess + x / guess) / 2;
 }
 
+/// ∛x, by a step of Newton's method as well.
 inline Quad cube_root(Quad x) {
   if (x == 0) return 0;
   const Quad guess = std::cbrt(static_cast<long double>(x));
   return guess - (guess - x / (guess * guess)) / 3;
 }
 
-inline Quad norm(const Quad3& p) { return square_root(dot(p, p)); }
+inline Quad norm(const Quad3& p) { return square_root(dot(p, p)); }  ///< |p|
 
 }  // namespace isojam

@@ -13,8 +13,8 @@ namespace isojam {
 /// An enumerator and what files and messages call it.
 template <class Enum>
 struct EnumName {
-  Enum value;
-  std::string_view name;
+  Enum value;             ///< the enumerator
+  std::string_view name;  ///< what it is called
 };
 /// g++ deduces as much by itself; clang does so from 17 on, and clang-tidy 14 is what reads these headers.
 template <class Enum>
@@ -33,6 +33,7 @@ template <class Enum>
 concept NamedEnum = std::is_enum_v<Enum> && !enum_names<Enum>.empty();
 
 template <NamedEnum Enum>
+/// The name of an enumerator, which has one.
 constexpr std::string_view to_string(Enum value) {
   for (const auto& entry : enum_names<Enum>) {
     if (entry.value == value) return entry.name;

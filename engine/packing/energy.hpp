@@ -15,7 +15,7 @@ namespace isojam {
 /// E = Σ_pairs V²/4 (Smith, Fisher, Alam 2011, E_αβ = Y V²/4V_p) and what follows from the same overlaps; energies in
 /// Y·V_p, lengths in V_p^(1/3), pressure and stress in Y.
 struct Evaluation {
-  double energy = 0;
+  double energy = 0;       ///< E, and what a load adds
   double load_energy = 0;  ///< of `energy`, what Enthalpy added
   /// 6N: per particle (−F, −T/R), lab frame; R the particle's radius of gyration. Behind them what Enthalpy adds.
   Eigen::VectorXd gradient;
@@ -35,7 +35,7 @@ struct Evaluation {
   double residual_floor = 0;
   /// Energy that the same rounding can make: Σ|F|·ulp(L), and Σ ρ_c V²/2. Smaller differences mean nothing.
   double energy_noise = 0;
-  long contacts = 0;
+  long contacts = 0;  ///< touching pairs
 };
 
 /// Largest entry of stress + p·1 over p: how far the stress is from hydrostatic; 0 without pressure.
@@ -51,17 +51,17 @@ struct SecondOrder {
 
 /// A touching pair. `overlap`: vector area and moment in A's body frame.
 struct Contact {
-  NeighbourPair pair;
+  NeighbourPair pair;            ///< which particles, and the image of b
   Eigen::Vector3d displacement;  ///< x_b − x_a, the touching image, lab frame
   RelativePose pose;             ///< B in A's body frame
-  Overlap overlap;
+  Overlap overlap;               ///< V of both, and what bounds it
 };
 
 /// Terms that one contact adds to an Evaluation.
 struct ContactTerms {
-  Eigen::Vector3d dx, dtheta_a, dtheta_b;  ///< to the gradient: of a (of b −dx), and of rotations over R
-  Eigen::Matrix3d stress;                  ///< times −V_cell
-  double energy = 0, force = 0;
+  Eigen::Vector3d dx, dtheta_a, dtheta_b;   ///< to the gradient: of a (of b −dx), and of rotations over R
+  Eigen::Matrix3d stress;                   ///< times −V_cell
+  double energy = 0, force = 0;             ///< V²/4, and |F|
   double stiffness_a = 0, stiffness_b = 0;  ///< ½ |∇V|², ∇V by the coordinates of one particle
   double error = 0;                         ///< ρ_c, see Evaluation::residual_floor
 };
@@ -78,12 +78,13 @@ class PackingEnergy {
   /// those that touch once their centres are closer by `probe_distance` (V_p^(1/3)); with 0, the contacts alone.
   SecondOrder second_order(const Packing& packing, double probe_distance, Precision precision = Precision::working,
                            CellFreedom cell = CellFreedom::fixed);
+  /// second_order() without incipient contacts.
   BlockMatrix hessian(const Packing& packing, Precision precision = Precision::working);
   /// Touching pairs in order of (a, b, shift), as exact as the state: flat contacts near jamming have no force to speak
   /// of in working precision.
   std::vector<Contact> contacts(const Packing& packing, Precision precision = Precision::double_double);
 
-  long evaluations() const { return evaluations_; }
+  long evaluations() const { return evaluations_; }     ///< made since this was made
   const PairCounts& counts() const { return totals_; }  ///< summed over all evaluations
 
  private:

@@ -11,9 +11,10 @@ struct EnvelopeEvaluation;
 /// is the work of a dead load, which is the stress τ while F is 1; who strains far begins anew from there.
 class Enthalpy {
  public:
+  /// Of a cell that begins as `reference`.
   Enthalpy(const CellControl& control, const PeriodicCell& reference);
 
-  const CellControl& control() const { return control_; }
+  const CellControl& control() const { return control_; }  ///< what is done to the cell
 
   /// p (V − V₀) − V₀ τ:(F − 1).
   double work(const PeriodicCell& cell) const;

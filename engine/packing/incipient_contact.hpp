@@ -11,10 +11,11 @@ namespace isojam {
 /// of gyration, and behind these the strains ℓ·ε that are free: V ≈ at_rest + slope_a·s_a + slope_b·s_b +
 /// slope_strains·ε. V in V_p, slopes in V_p^(2/3).
 struct LinearisedOverlap {
-  double at_rest = 0;
-  Vector6d slope_a = Vector6d::Zero(), slope_b = Vector6d::Zero();
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> slope_strains{};
+  double at_rest = 0;                                                 ///< V at s = 0
+  Vector6d slope_a = Vector6d::Zero(), slope_b = Vector6d::Zero();    ///< by the steps of a and b
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> slope_strains{};  ///< by the strains that are free; empty without
 
+  /// V after a step of the whole packing, for the pair (a, b).
   double at(const Eigen::VectorXd& step, int a, int b) const {
     const double by_particles = at_rest + slope_a.dot(step.segment<6>(6 * a)) + slope_b.dot(step.segment<6>(6 * b));
     if (slope_strains.size() == 0) return by_particles;
@@ -26,7 +27,7 @@ struct LinearisedOverlap {
 /// is, and with the gap closed by that little, the probe distance. Where faces are about to come flush the second
 /// tangent is far the steeper one; V being convex in depth and tilt of a flat contact, both lie below it.
 struct IncipientContact {
-  int a = 0, b = 0;
+  int a = 0, b = 0;       ///< particles
   LinearisedOverlap now;  ///< tangent in the present state; 0 if the pair is apart
   /// Tangent with the gap closed, continued to the present state, where it is negative for a gap; 0 if still apart.
   LinearisedOverlap closed;
@@ -43,7 +44,7 @@ struct IncipientContact {
 
 /// Radii of gyration of a pair.
 struct GyrationRadii {
-  double a, b;
+  double a, b;  ///< of A and of B, V_p^(1/3)
 };
 
 /// Tangent of V for an overlap (vector area S_A and moment M_A in the lab frame) at displacement r = x_B − x_A.

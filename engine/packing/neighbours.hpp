@@ -12,8 +12,8 @@ namespace isojam {
 /// columns of h being the lattice vectors.
 /// a == b never occurs in a legal cell; the same (a, b) may occur with several shifts.
 struct NeighbourPair {
-  int a = 0, b = 0;
-  Eigen::Vector3i shift = Eigen::Vector3i::Zero();
+  int a = 0, b = 0;                                 ///< particles, a < b
+  Eigen::Vector3i shift = Eigen::Vector3i::Zero();  ///< lattice vectors from b to the image that is meant
 };
 
 /// The order of pairs everywhere: by (a, b, shift).
@@ -36,6 +36,7 @@ std::vector<NeighbourPair> find_neighbours(const Packing& packing, double reach)
 /// All pairs and images that are no farther apart than their circumradii and `skin`, in the same order. By a grid for
 /// each of the classes of size, radii of a class within a factor of 2: small particles pay nothing for large ones.
 std::vector<NeighbourPair> find_in_reach(const Packing& packing, double skin);
+/// find_in_reach() from all pairs: the oracle.
 std::vector<NeighbourPair> find_in_reach_brute_force(const Packing& packing, double skin);
 
 /// find_neighbours() from all N(N−1)/2 pairs: the oracle.

@@ -14,12 +14,12 @@ namespace isojam {
 
 /// N solids of mean volume V_p = 1 in a periodic cell: a value. Positions are not wrapped into the cell.
 struct Packing {
-  Composition solids;
-  PeriodicCell cell;
-  std::vector<Pose> poses;
+  Composition solids;       ///< of every particle
+  PeriodicCell cell;        ///< that it repeats in
+  std::vector<Pose> poses;  ///< centre and orientation of every particle
 
-  int size() const { return static_cast<int>(poses.size()); }
-  double density() const { return size() / cell.volume(); }
+  int size() const { return static_cast<int>(poses.size()); }  ///< N
+  double density() const { return size() / cell.volume(); }    ///< φ = N V_p/V_cell
 };
 
 /// Random packing of n particles at density φ in a cube: positions uniform in the cell, orientations uniform on SO(3).

@@ -7,14 +7,14 @@ namespace isojam {
 /// Second derivatives of one touching pair's energy, lab frame, per particle (x, R·θ), R its radius of gyration:
 /// H(E) = ½ (g gᵀ + V H(V)), g = ∇V.
 struct PairHessian {
-  Matrix6d aa = Matrix6d::Zero(), ab = Matrix6d::Zero(), bb = Matrix6d::Zero();
+  Matrix6d aa = Matrix6d::Zero(), ab = Matrix6d::Zero(), bb = Matrix6d::Zero();  ///< by (A, A), (A, B) and (B, B)
 };
 
 /// The energy E = V²/4 of one pair with its derivatives, as in PairHessian; Y·V_p.
 struct PairEnergy {
-  PairHessian hessian;
-  Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();
-  double energy = 0;
+  PairHessian hessian;                                                    ///< second derivatives
+  Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();  ///< first derivatives, (−F, −T/R) of each
+  double energy = 0;                                                      ///< V²/4
 };
 
 /// The energy of A and B, B's centre at r = x_B − x_A, in double-double; both placed so.

@@ -21,6 +21,7 @@ struct PairCounts {
   long clipped = 0;       ///< of these, answered by the slow path
   long touching = 0;      ///< V > 0
 
+  /// Adds another evaluation's.
   PairCounts& operator+=(const PairCounts& term);
 };
 
@@ -50,7 +51,7 @@ struct PairOverlap {
 
 /// The pairs of a list that touch, in its order, in blocks that are made in parallel.
 struct TouchingPairs {
-  std::vector<std::vector<PairOverlap>> blocks;
+  std::vector<std::vector<PairOverlap>> blocks;  ///< in the order of the list
 };
 
 /// Finds the touching pairs of a list, parallel over blocks of it on oneTBB where there are enough of them. `placed` as

@@ -15,9 +15,10 @@ enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2 };
 /// distributions of the standard library are not, so the mapping to uniforms is our own.
 class RandomStream {
  public:
+  /// The stream of that key.
   RandomStream(std::initializer_list<std::uint64_t> key);
 
-  std::uint64_t bits() { return engine_(); }
+  std::uint64_t bits() { return engine_(); }  ///< 64 of them, all as likely
   /// Uniform in [0, 1), all 2^53 multiples of 2^-53 equally likely.
   double uniform();
   /// Standard normal (Box–Muller).

@@ -44,6 +44,7 @@ struct OneSidedStresses {
   double least_margin = 1;   ///< of all contacts that are not points
   double median_margin = 1;  ///< of the same
 };
+/// Of contacts with their forces, angles and classes, one of each; else std::invalid_argument.
 OneSidedStresses one_sided_stresses(const Packing& packing, std::span<const Contact> contacts,
                                     std::span<const ContactForce> forces, std::span<const Alignment> alignments,
                                     std::span<const ContactClass> classes);

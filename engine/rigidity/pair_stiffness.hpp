@@ -9,7 +9,9 @@
 
 namespace isojam {
 
+/// Coordinates of a pair, as in PairStiffness.
 using Vector12d = Eigen::Matrix<double, 12, 1>;
+/// Second derivatives by these.
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
 /// How one contact opposes motions of its two particles, r = {x_A, R_A·θ_A, x_B, R_B·θ_B}, R radii of gyration:
@@ -28,7 +30,7 @@ struct PairStiffness {
   /// Relative motions of the pair at right angles to the normal in which the second term is diagonal, orthonormal, and
   /// their stiffness κ, descending.
   Eigen::Matrix<double, 12, 5> tilts;
-  Eigen::Matrix<double, 5, 1> tilt_stiffness;
+  Eigen::Matrix<double, 5, 1> tilt_stiffness;  ///< κ_k, Y·V_p^(1/3)
   /// Whether the second term could be had: of a pair whose loop does not close it is 0.
   bool has_second = false;
 
@@ -36,7 +38,7 @@ struct PairStiffness {
   /// prestress; for an edge that lies in a face to within its depth δ, and for tilts of such faces, 1/δ and more. A
   /// contact tilted by α out of flat has s ~ δ/(R α²).
   double relative_tilt(int k) const { return tilt_stiffness[k] * length / force; }
-  double relative_normal() const { return normal_stiffness * length / force; }
+  double relative_normal() const { return normal_stiffness * length / force; }  ///< the same of the normal
   /// Number of tilts with s above the threshold.
   int stiff_tilts(double threshold) const;
 };
@@ -58,10 +60,11 @@ RigidityMatrix stiff_constraints(const Packing& packing, std::span<const Contact
 /// Energy of a motion u, 6N as D has it, by what opposes it: uᵀHu = normal + tilt + prestress, and the last two are the
 /// second term. Tilts are those that are stiff.
 struct StiffnessShares {
-  double normal = 0, tilt = 0, prestress = 0;
+  double normal = 0, tilt = 0, prestress = 0;  ///< shares of the motion's energy
 
-  double total() const { return normal + tilt + prestress; }
+  double total() const { return normal + tilt + prestress; }  ///< uᵀHu
 };
+/// Of a motion; one element of `pairs` per contact.
 StiffnessShares stiffness_shares(std::span<const Contact> contacts, std::span<const PairStiffness> pairs,
                                  double threshold, const Eigen::Ref<const Eigen::VectorXd>& u);
 

@@ -9,11 +9,11 @@ namespace isojam {
 /// Rank of the constraints, whether they are independent: 6N − constraints = floppy − self_stress, exactly (Maxwell
 /// 1864, Calladine 1978).
 struct Rigidity {
-  int constraints = 0;  ///< rows; Z·N/2 from normals, C·N/2 by class
-  int rank = 0;
-  int self_stress = 0;  ///< states of self-stress, constraints − rank: the redundancy C·N/2 − rank
-  int floppy = 0;       ///< motions that no constraint opposes, 6N − rank; 3 translations always among them
-  double tolerance = 0;
+  int constraints = 0;   ///< rows; Z·N/2 from normals, C·N/2 by class
+  int rank = 0;          ///< of the rows
+  int self_stress = 0;   ///< states of self-stress, constraints − rank: the redundancy C·N/2 − rank
+  int floppy = 0;        ///< motions that no constraint opposes, 6N − rank; 3 translations always among them
+  double tolerance = 0;  ///< singular values up to this are zero
   /// The least singular value of the rows that counts, from above and right to some per cent, and the largest that
   /// does not; rows are of unit length. The rank is as certain as they are apart. 0 where there is none.
   double least_kept = 0, largest_dropped = 0;
@@ -23,8 +23,9 @@ struct Rigidity {
   bool full_rank() const { return floppy == 3; }  ///< rank 6N − 3
 };
 
+/// What is wanted, and what counts as zero.
 struct RigidityOptions {
-  bool stresses = false;
+  bool stresses = false;  ///< whether a basis of the states of self-stress is wanted
   /// Times what the forces of the state leave unbalanced: they are a state of self-stress in the state nearest by that
   /// is in balance, and have a singular value of as much as is missing here, or less.
   double margin = 100;

@@ -15,6 +15,7 @@ namespace isojam {
 // Quasi-static shear of a jammed packing: strain or stress in small steps, with a new equilibrium after each. Strain γ
 // and shear stress s are conjugate, dE = V s dγ, so that s = G γ with the shear modulus G where the answer is linear.
 
+/// Which shear.
 enum class ShearMode {
   pure,   ///< ε = γ/2 (x̂x̂ − ŷŷ), s = (σ_xx − σ_yy)/2
   simple  ///< x → x + γ y, s = σ_xy
@@ -23,6 +24,7 @@ template <>
 inline constexpr std::array enum_names<ShearMode>{EnumName{ShearMode::pure, "pure"},
                                                   EnumName{ShearMode::simple, "simple"}};
 
+/// What is given in it.
 enum class ShearControl {
   strain,  ///< γ is given, the volume kept
   stress   ///< s is given, and the pressure kept: the cell is free
@@ -31,35 +33,38 @@ template <>
 inline constexpr std::array enum_names<ShearControl>{EnumName{ShearControl::strain, "strain"},
                                                      EnumName{ShearControl::stress, "stress"}};
 
+/// How a packing is sheared.
 struct ShearOptions {
-  ShearMode mode = ShearMode::pure;
-  ShearControl control = ShearControl::strain;
-  double step = 1e-3;   ///< Δγ of a step; under stress control Δs/p, p the pressure at the start
-  double until = 0.02;  ///< γ or s/p at which the load turns back or ends
-  bool back = false;    ///< whether the load goes back to zero again
-  MinimiseOptions minimise;
+  ShearMode mode = ShearMode::pure;             ///< which shear
+  ShearControl control = ShearControl::strain;  ///< what is given
+  double step = 1e-3;        ///< Δγ of a step; under stress control Δs/p, p the pressure at the start
+  double until = 0.02;       ///< γ or s/p at which the load turns back or ends
+  bool back = false;         ///< whether the load goes back to zero again
+  MinimiseOptions minimise;  ///< how equilibria are found
 };
 
 /// An equilibrium under shear; energies in Y·V_p, stress and pressure in Y.
 struct ShearState {
-  Packing packing;
+  Packing packing;    ///< in equilibrium
   double load = 0;    ///< γ or s/p that was asked for
   double strain = 0;  ///< γ; under stress control as the deformation since the start has it
   double stress = 0;  ///< s
-  Eigen::Matrix3d full_stress = Eigen::Matrix3d::Zero();
-  double pressure = 0, energy = 0;
-  long contacts = 0;
+  Eigen::Matrix3d full_stress = Eigen::Matrix3d::Zero();  ///< σ
+  double pressure = 0, energy = 0;                        ///< p, and E
+  long contacts = 0;                                      ///< touching pairs
   /// Work done in the step less what is stored: positive where the packing gave way.
   double dissipated = 0;
   /// Whether it did: the mode that the step was taken along had become unstable, or more than drop_part of the energy
   /// was dissipated.
   bool dropped = false;
-  int descents = 0;  ///< saddles that the state was followed down from
-  MinimiseSummary summary{};
+  int descents = 0;           ///< saddles that the state was followed down from
+  MinimiseSummary summary{};  ///< of the last minimisation
 };
 
+/// Part of the energy that a step must dissipate to count as one in which the packing gave way.
 inline constexpr double drop_part = 0.01;
 
+/// How a shear ended.
 enum class ShearEnd {
   not_called,
   completed,       ///< as far as asked for
@@ -74,9 +79,10 @@ inline constexpr std::array enum_names<ShearEnd>{
     EnumName{ShearEnd::no_equilibrium, "no_equilibrium"}, EnumName{ShearEnd::unjammed, "unjammed"},
     EnumName{ShearEnd::cell_limit, "cell_limit"},         EnumName{ShearEnd::interrupted, "interrupted"}};
 
+/// What came of a shear.
 struct ShearResult {
-  ShearEnd ended = ShearEnd::not_called;
-  std::vector<ShearState> states;  ///< the first as it came
+  ShearEnd ended = ShearEnd::not_called;  ///< why it went no farther
+  std::vector<ShearState> states;         ///< the first as it came
 };
 
 /// Shears an equilibrium. Under strain control its volume stays; under stress control its pressure, and s is reached by
@@ -86,6 +92,7 @@ ShearResult shear(const Packing& start, const ShearOptions& options, std::stop_t
 
 /// s of a stress, and the deviator with that s.
 double shear_stress(const Eigen::Matrix3d& stress, ShearMode mode);
+/// Traceless and symmetric, nothing else in it.
 Eigen::Matrix3d deviator_with(double shear_stress, ShearMode mode);
 /// F of a strain γ.
 DoubleDoubleMatrix shear_deformation(double strain, ShearMode mode);

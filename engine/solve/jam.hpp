@@ -41,7 +41,7 @@ inline constexpr std::array enum_names<CellShape>{EnumName{CellShape::isotropic,
 /// Jamming protocol of Smith, Fisher, Alam 2011 (and 2010): consolidate in small isotropic strain steps, then expand
 /// towards φ_J, minimising after each. Energies in Y·V_p.
 struct JamOptions {
-  double initial_density = 0.05;
+  double initial_density = 0.05;  ///< φ of the random packing
   /// Δφ of a strain step on the way up. Over 16 packings of 100 each, steps of .005, .01 and .02 gave the same φ_J and
   /// the same scatter (octahedra .684, .684, .684 with standard deviations .004, .005, .003): the longest costs least.
   double consolidation_step = 0.02;
@@ -57,7 +57,7 @@ struct JamOptions {
   /// longest_step, nor far beyond final_distance. A step that failed is tried again at half its length, whichever of
   /// these it was; the fraction that this makes grows back where a step succeeds.
   double step_fraction = 0.35;
-  double longest_step = 0.05;
+  double longest_step = 0.05;  ///< Δφ that no step exceeds
   /// A step in which the packing gives way (rearrangement.hpp), or comes apart, is tried again at half its length until
   /// it is no longer than this fraction of φ − φ_J: so closely is the density of such an event known. 0: no step is.
   double event_resolution = 0;
@@ -68,16 +68,17 @@ struct JamOptions {
   /// E/N falls below consolidation_energy, or consolidation_evaluations are spent. The state at the target is then
   /// minimised fully.
   double consolidation_residual = 1e-3;
-  double consolidation_energy = 1e-14;
-  int consolidation_evaluations = 2000;
-  Consolidation consolidation = Consolidation::relaxed;
+  double consolidation_energy = 1e-14;                   ///< E/N below which a state on the way up counts as unjammed
+  int consolidation_evaluations = 2000;                  ///< that a state on the way up gets at most
+  Consolidation consolidation = Consolidation::relaxed;  ///< which of the two ways up
   /// Under pressure control the states of the expansion are those of ever lower pressures, volume and particles in
   /// balance with it: a step in which Δφ is expected to fall by a fraction is one to (1 − fraction)⁵ of the pressure.
   Control control = Control::density;
-  CellShape cell = CellShape::isotropic;
-  MinimiseOptions minimise;
+  CellShape cell = CellShape::isotropic;  ///< whether the cell gives way to shear
+  MinimiseOptions minimise;               ///< of the states of the expansion
 };
 
+/// Way up, and way down.
 enum class JamStage { consolidation, expansion };
 template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "consolidation"},
@@ -87,7 +88,7 @@ inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidatio
 /// particles move alike; where the packing gives way, at a fold, energy is lost and a few particles move far.
 struct Rearrangement {
   double energy_ratio = 0;  ///< E over the one that (Δφ₁/Δφ₀)⁶ lets expect, with Δφ as the state before shows it
-  int contacts_lost = 0, contacts_gained = 0;
+  int contacts_lost = 0, contacts_gained = 0;  ///< pairs that touched before alone, and that touch now alone
   /// Participation number (Σu²)²/Σu⁴ of the particles' displacements u beside the affine ones, translation and R·turn.
   double particles_moved = 0;
 };
@@ -95,23 +96,25 @@ struct Rearrangement {
 /// The control of the cell in a stage: at the density that the packing has, or under pressure control and once the
 /// expansion has begun, at a pressure.
 CellControl control_at_density(const JamOptions& options);
+/// The same at a pressure (Y).
 CellControl control_at_pressure(const JamOptions& options, double pressure);
 
 /// A minimised state on the path; energy in Y·V_p, pressure in Y.
 struct JamStep {
-  JamStage stage = JamStage::consolidation;
-  double density = 0;
-  double energy_per_particle = 0;
-  double pressure = 0;
-  double deviator = 0;  ///< largest entry of stress + p·1 over p: what is not hydrostatic; 0 without pressure
-  MinimiseSummary summary;
-  int descents = 0;                            ///< saddles that the state was followed down from before it was kept
+  JamStage stage = JamStage::consolidation;  ///< way up or way down
+  double density = 0;                        ///< φ
+  double energy_per_particle = 0;            ///< E/N
+  double pressure = 0;                       ///< p
+  double deviator = 0;      ///< largest entry of stress + p·1 over p: what is not hydrostatic; 0 without pressure
+  MinimiseSummary summary;  ///< how its minimisation ended
+  int descents = 0;         ///< saddles that the state was followed down from before it was kept
   std::optional<Rearrangement> rearrangement;  ///< since the state before; of states that followed one
   /// Of an expansion step: the branch of equilibria came to its end in it. The packing lost all contact forces, or slid
   /// without end.
   bool lost = false;
 };
 
+/// How a run ended.
 enum class JamStatus {
   not_called,
   jammed,            ///< φ_J was bracketed by states down to final_distance
@@ -134,15 +137,16 @@ inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called
                                                   EnumName{JamStatus::not_finite, "not_finite"},
                                                   EnumName{JamStatus::interrupted, "interrupted"}};
 
+/// What came of a run.
 struct JamResult {
-  JamStatus status = JamStatus::not_called;
-  std::vector<JamStep> path;
+  JamStatus status = JamStatus::not_called;  ///< why it ended
+  std::vector<JamStep> path;                 ///< every minimised strain step
   std::vector<Packing> states;   ///< minimised packings of the expansion on its last branch, in the order of expansion
   std::vector<int> state_steps;  ///< index in `path` of each: equilibria, or ended by minimise.energy_change
-  std::optional<JammingPoint> phi_j;
-  long evaluations = 0;
-  PairCounts counts;  ///< work of the pair loop, summed over all evaluations
-  MinimiseWork work;  ///< of the minimisers, summed over all steps
+  std::optional<JammingPoint> phi_j;  ///< none with fewer than two states
+  long evaluations = 0;               ///< of energy and forces, in all steps
+  PairCounts counts;                  ///< work of the pair loop, summed over all evaluations
+  MinimiseWork work;                  ///< of the minimisers, summed over all steps
 };
 
 /// Energies of the states, as fit_jamming_point() is given them.
@@ -163,7 +167,7 @@ struct JamProgress {
   /// Before the first step: the packing counts as jammed, however low its energy, and that step is one of expansion.
   bool jammed = false;
 
-  bool ended() const { return result.status != JamStatus::not_called; }
+  bool ended() const { return result.status != JamStatus::not_called; }  ///< whether no step is left
 };
 
 /// Progress of a run before its first strain step.

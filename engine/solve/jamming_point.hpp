@@ -8,14 +8,14 @@ namespace isojam {
 
 /// A minimised state on the way to jamming; energies in Y·V_p.
 struct EnergyPoint {
-  double density = 0;
-  double energy_per_particle = 0;
-  double slope = 0;  ///< dE/dφ per particle = p/φ²
+  double density = 0;              ///< φ
+  double energy_per_particle = 0;  ///< E/N
+  double slope = 0;                ///< dE/dφ per particle = p/φ²
 };
 
 /// φ_J as the asymptote of (E/N)^(1/6), linear in φ: E ∝ Δφ⁶ (Smith, Fisher, Alam 2011; their Table I).
 struct JammingPoint {
-  double density = 0;
+  double density = 0;          ///< φ_J
   double standard_error = 0;   ///< of the fit; 0 with two states
   double ci95_half_width = 0;  ///< Student t on the fit's degrees of freedom; 0 with fewer than three states
   double single_state = 0;     ///< φ − 6E/(dE/dφ) of the state nearest jamming

@@ -32,6 +32,7 @@ struct Rearrangements {
   /// Means over the steps in which it gave way and came to another equilibrium; nullopt if there is none.
   std::optional<double> particles_moved, contacts_lost, contacts_gained;
 };
+/// Of the path of a run.
 Rearrangements rearrangements(std::span<const JamStep> path);
 
 }  // namespace isojam

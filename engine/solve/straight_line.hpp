@@ -6,8 +6,8 @@ namespace isojam {
 
 /// Least-squares line y = intercept + slope·x.
 struct Line {
-  double intercept = 0, slope = 0;
-  double squared_residual = 0;
+  double intercept = 0, slope = 0;                    ///< of the line
+  double squared_residual = 0;                        ///< Σ (y − line)²
   double intercept_variance = 0, slope_variance = 0;  ///< 0 with two points
 };
 

@@ -21,11 +21,12 @@ struct Backbone {
   std::vector<int> removed{};  ///< the others, ascending
   int rounds = 0;              ///< in which some were taken away
   Evaluation here{};           ///< of what is left, as the rest of these
-  BlockMatrix hessian{};
-  SpectrumEnds ends{};
-  Stability stability{};
+  BlockMatrix hessian{};       ///< of what is left
+  SpectrumEnds ends{};         ///< its modes
+  Stability stability{};       ///< counts of its modes, and that no near-rattler is left
 };
 
+/// Takes near-rattlers away until none is named.
 Backbone backbone_of(const Packing& packing, const ModeOptions& options = {},
                      Precision precision = Precision::double_double);
 
@@ -34,9 +35,10 @@ Packing part_of(const Packing& packing, std::span<const int> kept);
 
 /// The contacts between these, with their numbers in that part, and the places of those contacts in the list.
 struct PartContacts {
-  std::vector<Contact> contacts;
-  std::vector<std::size_t> places;
+  std::vector<Contact> contacts;    ///< numbered as in the part
+  std::vector<std::size_t> places;  ///< of each in the list of all
 };
+/// Of the part with these particles of so many.
 PartContacts contacts_within(std::span<const Contact> contacts, std::span<const int> kept, int particles);
 
 /// Elastic tensor of what is left alone: elastic_tensor() of it, at its own stress, per volume of the whole cell.

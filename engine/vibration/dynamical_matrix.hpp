@@ -27,6 +27,7 @@ double greatest_inverse_mass(const Packing& packing);
 
 /// Both halves of D, 6N × 6N, and of its border where it has one.
 Eigen::SparseMatrix<double> sparse_matrix(const BlockMatrix& matrix);
+/// The same, dense.
 Eigen::MatrixXd dense_matrix(const BlockMatrix& matrix);
 
 /// The three translations of the packing as a whole, 6N × 3, orthonormal: null vectors of D in any state.

@@ -11,6 +11,7 @@
 
 namespace isojam {
 
+/// How the way downhill ended.
 enum class DownhillEnd {
   not_called,
   was_minimum,      ///< no negative mode to begin with: the packing is as it came
@@ -25,22 +26,25 @@ inline constexpr std::array enum_names<DownhillEnd>{
     EnumName{DownhillEnd::reached_minimum, "reached_minimum"}, EnumName{DownhillEnd::lost_balance, "lost_balance"},
     EnumName{DownhillEnd::still_unstable, "still_unstable"},   EnumName{DownhillEnd::undetermined, "undetermined"}};
 
+/// How far it is followed.
 struct DownhillOptions {
   int max_descents = 5;  ///< a saddle below a saddle is seldom, three of them are unheard of
   /// Largest displacement of a particle in the first trial along the mode, in inradii; halved until the energy falls.
   double first_step = 0.1;
-  MinimiseOptions minimise;
+  MinimiseOptions minimise;         ///< how equilibria on the way are found
   ModeOptions modes{.highest = 1};  ///< only the lowest is followed; λ_max is for the tolerance
 };
 
+/// What came of it.
 struct DownhillResult {
-  DownhillEnd ended = DownhillEnd::not_called;
-  Packing packing;
-  MinimiseSummary summary{};  ///< of the last minimisation
-  Stability stability{};      ///< of `packing`; not called where balance was lost
-  int descents = 0;           ///< saddles left behind
-  double energy_drop = 0;     ///< of the enthalpy, from the first equilibrium to the last
+  DownhillEnd ended = DownhillEnd::not_called;  ///< why it went no farther
+  Packing packing;                              ///< where it ended
+  MinimiseSummary summary{};                    ///< of the last minimisation
+  Stability stability{};                        ///< of `packing`; not called where balance was lost
+  int descents = 0;                             ///< saddles left behind
+  double energy_drop = 0;                       ///< of the enthalpy, from the first equilibrium to the last
 
+  /// Whether it was a saddle when it came, as far as is known.
   bool was_unstable() const { return descents > 0 || stability.negative > 0; }
 };
 

@@ -18,9 +18,9 @@ namespace isojam {
 struct ElasticTensor {
   Matrix6d affine = Matrix6d::Zero();  ///< all centres follow the strain, orientations fixed
   Matrix6d relaxed = Matrix6d::Zero();  ///< the packing relaxes at every strain: affine − Ξᵀ D⁺ Ξ, Ξ = ∂²E/∂r∂ε over V
-  double pressure = 0;
+  double pressure = 0;                  ///< p, Y
 
-  double affine_bulk_modulus() const;
+  double affine_bulk_modulus() const;          ///< K without relaxation, Y
   double bulk_modulus() const;                 ///< K
   std::array<double, 5> shear_moduli() const;  ///< of the traceless five, ascending; a negative one is unstable
   double mean_shear_modulus() const;           ///< over them (Voigt's average)
@@ -33,6 +33,7 @@ struct ElasticTensor {
 std::optional<ElasticTensor> elastic_tensor(const Packing& packing, const BlockMatrix& hessian,
                                             std::span<const Contact> contacts, const Evaluation& evaluation);
 
+/// How far the neighbours are, and how well in balance.
 struct PressureSlopeOptions {
   /// Strain Δφ/φ of the neighbours. K ∝ (φ − φ_J)⁴ curves, so that it must stay small beside (φ − φ_J)/φ; less is lost
   /// to rounding.
@@ -42,6 +43,7 @@ struct PressureSlopeOptions {
   MinimiseOptions minimise{.residual = 1e-9, .max_evaluations = 1000};
 };
 
+/// K from two neighbouring equilibria.
 struct PressureSlope {
   double bulk_modulus = 0;       ///< φ dp/dφ by central difference
   MinimiseSummary below, above;  ///< of the two neighbours

@@ -9,6 +9,7 @@
 
 namespace isojam {
 
+/// How a set of modes was found.
 enum class ModeEnd {
   not_called,
   converged,       ///< at the first attempt
@@ -25,26 +26,27 @@ inline constexpr std::array enum_names<ModeEnd>{
 /// Eigenpairs D u = λ u, λ = ω², beyond the three translations: those are null vectors in any state, known exactly, and
 /// projected out.
 struct ModeSet {
-  ModeEnd ended = ModeEnd::not_called;
-  Eigen::VectorXd eigenvalues;  ///< ascending
-  Eigen::MatrixXd vectors;      ///< 6N × modes, orthonormal, no translation in them; coordinates as D
-  double residual = 0;          ///< max ‖Du − λu‖ / λ_max
+  ModeEnd ended = ModeEnd::not_called;  ///< how they were found
+  Eigen::VectorXd eigenvalues;          ///< ascending
+  Eigen::MatrixXd vectors;              ///< 6N × modes, orthonormal, no translation in them; coordinates as D
+  double residual = 0;                  ///< max ‖Du − λu‖ / λ_max
   /// Relative error max (‖Du − λu‖ + ε λ_max)/|λ|: an eigenvalue of D lies no farther (Weyl), and D is no better known
   /// than to ε λ_max. Infinity if some λ is 0.
   double relative_error = 0;
-  int attempts = 0;
+  int attempts = 0;  ///< of the Lanczos method
 
-  Eigen::Index size() const { return eigenvalues.size(); }
+  Eigen::Index size() const { return eigenvalues.size(); }  ///< number of modes
 };
 
 /// Both ends of a spectrum, eigenvalues in (Y/ρ)·V_p^(-2/3).
 struct SpectrumEnds {
-  ModeSet lowest, highest;
-  double lambda_max = 0;  ///< greatest |λ|
+  ModeSet lowest, highest;  ///< beyond the translations
+  double lambda_max = 0;    ///< greatest |λ|
 
-  bool complete() const { return lowest.size() > 0 && highest.size() > 0; }
+  bool complete() const { return lowest.size() > 0 && highest.size() > 0; }  ///< whether there are modes at both ends
 };
 
+/// How many modes, and how they are sought.
 struct ModeOptions {
   int lowest = 50, highest = 50;  ///< modes wanted, all if there are fewer
   /// Shift −σ/λ_max of the first attempt. Above what rounding leaves of the translations in the factorisation, and
@@ -55,7 +57,7 @@ struct ModeOptions {
   /// Relative accuracy of the highest: the bound, eigenvalues are as good as its square. They lie dense, more costs
   /// time.
   double highest_tolerance = 1e-8;
-  int restarts = 300;
+  int restarts = 300;  ///< of the Krylov space, at most
   /// Particles up to which the dense solver takes over: 6N = 3000, 216 MB and half a minute.
   int largest_dense = 500;
 };

@@ -11,6 +11,7 @@
 
 namespace isojam {
 
+/// What the counts of modes say.
 enum class Verdict {
   not_called,
   stable,       ///< three zero modes, no negative one: a strict minimum but for translations
@@ -26,22 +27,24 @@ inline constexpr std::array enum_names<Verdict>{
 
 /// A particle that its contacts may not hold.
 struct NearRattler {
+  /// Why.
   enum class Reason {
     few_contacts,        ///< fewer than four
     vanishing_stiffness  ///< a zero or negative mode with all others at rest, or one that is mostly its own
   };
-  int particle = 0;
-  Reason reason = Reason::few_contacts;
-  int contacts = 0;
-  double least_eigenvalue = 0;  ///< of its own block of D
+  int particle = 0;                      ///< by number
+  Reason reason = Reason::few_contacts;  ///< why it may be loose
+  int contacts = 0;                      ///< of the particle
+  double least_eigenvalue = 0;           ///< of its own block of D
 };
 template <>
 inline constexpr std::array enum_names<NearRattler::Reason>{
     EnumName{NearRattler::Reason::few_contacts, "few_contacts"},
     EnumName{NearRattler::Reason::vanishing_stiffness, "vanishing_stiffness"}};
 
+/// Counts of all modes.
 struct Stability {
-  Verdict verdict = Verdict::not_called;
+  Verdict verdict = Verdict::not_called;     ///< what they say
   int zero = 0, negative = 0, positive = 0;  ///< of all 6N modes, and strains, exact by Sylvester's inertia
   double tolerance = 0;                      ///< |λ| up to this is zero
   double translation_error = 0;              ///< max ‖D t‖ over the three translations; below tolerance

@@ -33,16 +33,17 @@ bool is_strictly_jammed(const Stability& stability);
 /// The direction of least stiffness among those in which the cell gives way and particles follow: a step as moved()
 /// takes it, with strains of unit length, and its second derivative. nullopt if particles alone give way.
 struct SoftStrain {
-  Eigen::VectorXd step;
-  double stiffness = 0;
+  Eigen::VectorXd step;  ///< 6N, and strains behind
+  double stiffness = 0;  ///< second derivative along it
 };
+/// The softest such direction of a Hessian bordered by strains.
 std::optional<SoftStrain> softest_strain(const BlockMatrix& hessian);
 
 /// What becomes of an equilibrium when its cell is freed at the pressure that it has.
 struct FreedCell {
   DownhillResult result;  ///< of particles and cell together
   double strain = 0;      ///< |½ (FᵀF − 1)|, F from the cell that it was in to the one that it is in
-  double density = 0, energy_per_particle = 0, pressure = 0, deviator = 0;
+  double density = 0, energy_per_particle = 0, pressure = 0, deviator = 0;  ///< of the state that it came to rest in
 };
 
 /// Frees the cell of an equilibrium whose φ − φ_J is about `distance`: first to the equilibrium that the multiplier

@@ -8,6 +8,7 @@
 
 namespace isojam {
 
+/// What came of a fit.
 enum class FitVerdict {
   not_called,
   fitted,
@@ -29,11 +30,11 @@ inline constexpr std::array enum_names<FitVerdict>{EnumName{FitVerdict::not_call
 /// Least-squares fit of the paper's basis c_f(θ) = H(θ−α)[a_0 − Σ_{n=1..3} a_n (θ−α)^n] to an empirical CDF on
 /// [0, upper], upper half the least critical angle.
 struct CdfFit {
-  FitVerdict verdict = FitVerdict::not_called;
-  double alpha = 0;            ///< radians
-  double a[4] = {0, 0, 0, 0};  ///< a_0 ≤ c(upper)
-  double a0_error = 0;         ///< standard error of a_0 from the angles above the jump, taken as independent
-  double error = 0;            ///< ∫ (c_f − c)² dθ
+  FitVerdict verdict = FitVerdict::not_called;  ///< whether there is a cut-off, and why not
+  double alpha = 0;                             ///< radians
+  double a[4] = {0, 0, 0, 0};                   ///< a_0 ≤ c(upper)
+  double a0_error = 0;  ///< standard error of a_0 from the angles above the jump, taken as independent
+  double error = 0;     ///< ∫ (c_f − c)² dθ
   /// Largest deviation sup |c_f − c| beyond the jump, where c ≥ a_0. Noise of n independent angles exceeds 1.358/√n in
   /// one set of twenty, more rarely about a curve fitted to them.
   double deviation = 0;

@@ -10,8 +10,8 @@ namespace isojam {
 /// what each of them allows in its own best orientation: below it, no feature of the solid keeps an angle from a
 /// contact.
 struct CriticalAngles {
-  double ef_vertex_face = 0, ef_edge_edge = 0;
-  double ff_vertex_face = 0, ff_edge_edge = 0, ff_edge_face = 0;
+  double ef_vertex_face = 0, ef_edge_edge = 0;  ///< θ_ef of a vertex on a face, and of two edges crossed
+  double ff_vertex_face = 0, ff_edge_edge = 0, ff_edge_face = 0;  ///< θ_ff of these, and of an edge in a face
 
   double ef_min() const;                          ///< least of the θ_ef
   double ff_min() const;                          ///< least of the θ_ff

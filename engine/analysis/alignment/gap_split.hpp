@@ -8,6 +8,7 @@
 
 namespace isojam {
 
+/// What came of a search for a gap.
 enum class GapVerdict {
   not_called,
   separated,  ///< two groups of angles with a gap between
@@ -21,6 +22,7 @@ inline constexpr std::array enum_names<GapVerdict>{
     EnumName{GapVerdict::all_alike, "all_alike"}, EnumName{GapVerdict::no_gap, "no_gap"},
     EnumName{GapVerdict::too_few, "too_few"}};
 
+/// How gaps are told from noise.
 struct GapOptions {
   /// Smaller angles (radians) count as this one: what alignment() promises at zero.
   double resolution = 1e-12;
@@ -31,7 +33,7 @@ struct GapOptions {
 /// Two groups of angles below `upper`, split in x = log θ where the variance between the groups,
 /// η = w_0 w_1 (μ_1 − μ_0)²/σ² as a fraction of the whole, is greatest (Otsu's criterion).
 struct GapSplit {
-  GapVerdict verdict = GapVerdict::not_called;
+  GapVerdict verdict = GapVerdict::not_called;  ///< whether there is a cut-off, and why not
   double cutoff = 0;      ///< radians, the middle of the gap in log θ; 0 unless separated or all_alike
   double separation = 0;  ///< η
   /// Value that η must exceed. Without a gap, angles that follow any power law, c ∝ θ^p, have

@@ -22,7 +22,9 @@ namespace isojam {
 /// half the least angle between two face normals, which is in closed form for any solid.
 class RandomAlignment {
  public:
+  /// How distributions are found.
   enum class Way { closed_where_regular, sampled };
+  /// Of contacts of this solid with itself.
   explicit RandomAlignment(const ConvexSolid& solid, Way way = Way::closed_where_regular);
 
   /// Distribution of θ_ff, the angle from a random direction to the nearest face normal: the part of the sphere within
@@ -31,13 +33,16 @@ class RandomAlignment {
   /// Distribution of θ_ef, the least angle from a random direction to the sides of the polygon that the vertex's normal
   /// cone cuts out of the sphere: 1 − the part of that polygon farther than θ from all sides, by Gauss and Bonnet.
   double edge_face(double theta) const;
+  /// The distribution of θ_ff where an edge lies in the face.
   double constrained_face_face(double theta) const;
+  /// That of θ_ef, which is 0.
   double constrained_edge_face(double theta) const { return theta < 0 ? 0 : 1; }
 
   double ff_max() const { return ff_max_; }                          ///< where face_face reaches 1
   double ef_max() const { return ef_max_; }                          ///< where edge_face does
   double constrained_ff_max() const { return constrained_ff_max_; }  ///< where constrained_face_face does
 
+  /// Whether the solid is not regular, and its distributions are those of a sample.
   bool is_sampled() const { return !face_face_.empty(); }
   /// What sampling does to a distribution function: n^(-3/4) of n points, one in each of n cells of a sphere, is its
   /// standard deviation but for a factor near 1. 0 in closed form.
@@ -56,7 +61,7 @@ class RandomAlignment {
 
 /// The angles of one contact.
 struct AlignmentAngles {
-  double face_face = 0, edge_face = 0;
+  double face_face = 0, edge_face = 0;  ///< θ_ff and θ_ef
 };
 
 /// Samples n orientations at random, the oracle of the unconstrained distributions: angles from the features of the
@@ -65,6 +70,7 @@ std::vector<AlignmentAngles> sample_unconstrained(const ConvexSolid& solid, int 
 /// Samples n turns of a random edge that lies in the face.
 std::vector<AlignmentAngles> sample_edge_constrained(const ConvexSolid& solid, int n, RandomStream& random);
 
+/// How angles compare with random ones.
 enum class RandomnessVerdict {
   not_called,
   hyper_random,  ///< more angles near 0 than random contacts would have
@@ -78,6 +84,7 @@ inline constexpr std::array enum_names<RandomnessVerdict>{
     EnumName{RandomnessVerdict::random, "random"}, EnumName{RandomnessVerdict::sub_random, "sub_random"},
     EnumName{RandomnessVerdict::too_few, "too_few"}};
 
+/// What counts as near 0, and as chance.
 struct RandomnessOptions {
   double fraction = 0.1;  ///< "near 0" is where the random CDF stays below this: few enough that its curve is straight
   double level = 0.01;    ///< of the test, on each side
@@ -85,10 +92,10 @@ struct RandomnessOptions {
 
 /// How many angles are near 0, against how many random contacts would have there.
 struct Randomness {
-  RandomnessVerdict verdict = RandomnessVerdict::not_called;
-  double angle = 0;        ///< end of the range near 0
-  long below = 0;          ///< angles there
-  double expected = 0;     ///< of random contacts
+  RandomnessVerdict verdict = RandomnessVerdict::not_called;  ///< what the test says
+  double angle = 0;                                           ///< end of the range near 0
+  long below = 0;                                             ///< angles there
+  double expected = 0;                                        ///< of random contacts
   double probability = 1;  ///< of at least so many (hyper-random) or at most so many, binomial, the smaller of both
 };
 

@@ -19,14 +19,16 @@ struct ContactSize {
   double surface = 0;         ///< S
   double mean_curvature = 0;  ///< M
 };
+/// Of this solid.
 ContactSize contact_size(const ConvexSolid& solid);
 
 /// Shares of all contacts of two solids; their sum is 1.
 struct ContactShares {
   double vertex_of_a = 0;  ///< on a face of B
-  double vertex_of_b = 0;
-  double edge_edge = 0;
+  double vertex_of_b = 0;  ///< on a face of A
+  double edge_edge = 0;    ///< edges of both crossed
 };
+/// Of solids with these sizes, by the mean area of the sum.
 ContactShares contact_shares(const ContactSize& a, const ContactSize& b);
 
 /// Distributions of alignment angles where an edge of A touches one of B. Edges are as likely as ℓ α, the common normal
@@ -39,12 +41,13 @@ ContactShares contact_shares(const ContactSize& a, const ContactSize& b);
 /// solids; sizes mean nothing.
 class RandomEdgeContact {
  public:
+  /// Of edges of these two.
   RandomEdgeContact(const ConvexSolid& a, const ConvexSolid& b);
 
-  double face_face(double theta) const { return face_face_(theta); }
-  double edge_face(double theta) const { return edge_face_(theta); }
-  double ff_max() const { return face_face_.largest; }
-  double ef_max() const { return edge_face_.largest; }
+  double face_face(double theta) const { return face_face_(theta); }  ///< distribution of θ_ff
+  double edge_face(double theta) const { return edge_face_(theta); }  ///< distribution of θ_ef
+  double ff_max() const { return face_face_.largest; }                ///< where face_face reaches 1
+  double ef_max() const { return edge_face_.largest; }                ///< where edge_face does
 
  private:
   /// A distribution by what grows with the angle and needs no inverse function: its sine, or the chord 2 sin(θ/2).
@@ -79,11 +82,11 @@ class RandomContact {
   void add(double share, RandomAlignment vertices) { vertices_.push_back({share, std::move(vertices)}); }
   void add(double share, RandomEdgeContact edges) { edges_.push_back({share, std::move(edges)}); }
 
-  double face_face(double theta) const;
-  double edge_face(double theta) const;
-  double ff_max() const;
-  double ef_max() const;
-  double edge_edge_share() const;
+  double face_face(double theta) const;  ///< distribution of θ_ff
+  double edge_face(double theta) const;  ///< distribution of θ_ef
+  double ff_max() const;                 ///< where face_face reaches 1
+  double ef_max() const;                 ///< where edge_face does
+  double edge_edge_share() const;        ///< share of contacts that are of two edges
 
  private:
   template <class Angles>

@@ -12,10 +12,10 @@ namespace isojam {
 
 /// An Overlap in quadruple precision: V in V_p, S_A and M_A in V_p^(2/3) and V_p, in A's body frame.
 struct QuadOverlap {
-  Quad volume = 0;
-  Quad3 area{}, moment{};
-  std::uint64_t faces_a = 0, faces_b = 0;
-  std::uint64_t edges_a = 0, edges_b = 0;
+  Quad volume = 0;                         ///< V
+  Quad3 area{}, moment{};                  ///< S_A and M_A
+  std::uint64_t faces_a = 0, faces_b = 0;  ///< bits of the faces that bound the intersection
+  std::uint64_t edges_a = 0, edges_b = 0;  ///< bits of the edges with a segment inside the other
 };
 
 /// A ∩ B in quadruple precision: a convex polyhedron in A's body frame.
@@ -23,11 +23,11 @@ struct QuadIntersection {
   /// A polygon on face `face` of A or of B, counter-clockwise seen from outside.
   struct Polygon {
     std::vector<int> loop;  ///< indices of points
-    int face = 0;
-    bool of_a = true;
+    int face = 0;           ///< of A or of B, by number
+    bool of_a = true;       ///< which of both
   };
-  std::vector<Quad3> points;  ///< the polygons', and others that were cut away
-  std::vector<Polygon> faces;
+  std::vector<Quad3> points;   ///< the polygons', and others that were cut away
+  std::vector<Polygon> faces;  ///< all that bound it
 };
 
 /// A cut by the face planes of B one after another. Nothing is left of solids that are apart, and what is left of those

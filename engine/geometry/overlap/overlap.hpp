@@ -23,14 +23,14 @@ enum class OverlapPath : std::uint8_t { separated, loop, clip };
 /// F_A = −(V/2) S_A and the torque T_A = −(V/2) M_A.
 /// Bit i of faces_a: face i of A bounds the intersection. Bit e of edges_a: edge e of A has a segment inside B.
 struct Overlap {
-  double volume = 0;
-  Eigen::Vector3d area = Eigen::Vector3d::Zero();
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  std::uint64_t faces_a = 0, faces_b = 0;
-  std::uint64_t edges_a = 0, edges_b = 0;
-  OverlapPath path = OverlapPath::separated;
+  double volume = 0;                                 ///< V, V_p
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();    ///< S_A, V_p^(2/3)
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< M_A, V_p
+  std::uint64_t faces_a = 0, faces_b = 0;            ///< bits of the faces that bound the intersection
+  std::uint64_t edges_a = 0, edges_b = 0;            ///< bits of the edges with a segment inside the other
+  OverlapPath path = OverlapPath::separated;         ///< which way the answer came
 
-  bool touching() const { return volume > 0; }
+  bool touching() const { return volume > 0; }  ///< whether there is an intersection
 };
 
 /// Intersection of A with B, B's centre at r = x_B − x_A, by the closed loop where their surfaces cross. Notation:
@@ -56,7 +56,9 @@ Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVe
 Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, SeparatingAxis& axis);
 Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
 
+/// Six numbers of a particle, translation first.
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+/// Second derivatives by these.
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Vector (translation, rotation).
@@ -73,7 +75,7 @@ inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d
 ///   u_B = (n_j, (y−x_B)×n_j)
 /// The other blocks follow from it by rigid motion of both bodies, set_own_hessian().
 struct OverlapHessian {
-  Matrix6d aa, ab, bb;
+  Matrix6d aa, ab, bb;  ///< by (A, A), (A, B) and (B, B)
 };
 
 /// overlap() and its Hessian, overwritten, from one loop. The Hessian is zero where the loop does not close: a

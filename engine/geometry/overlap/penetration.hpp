@@ -8,8 +8,8 @@ namespace isojam {
 /// How far A and B reach into each other along an axis, and which: the shortest translation that parts them is `depth`
 /// long and goes along it.
 struct Penetration {
-  SeparatingAxis axis;
-  Quad depth = 0;  ///< V_p^(1/3); negative if they are apart, and then no more than their distance
+  SeparatingAxis axis;  ///< along which both are parted soonest
+  Quad depth = 0;       ///< V_p^(1/3); negative if they are apart, and then no more than their distance
 };
 
 /// The axis of least depth among all face normals and edge-edge products, told apart in quadruple precision where

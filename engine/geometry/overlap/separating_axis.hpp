@@ -11,10 +11,11 @@ namespace isojam {
 
 /// A candidate separating axis of two solids, remembered by the features that make it, so that it turns with them.
 struct SeparatingAxis {
+  /// What makes the axis: the normal of a face, or the product of two edges.
   enum class Kind : std::uint8_t { none, face_a, face_b, edge_edge };
-  Kind kind = Kind::none;
-  std::uint8_t a = 0;  ///< face of A, or edge of A
-  std::uint8_t b = 0;  ///< face of B, or edge of B
+  Kind kind = Kind::none;  ///< none: no axis is known
+  std::uint8_t a = 0;      ///< face of A, or edge of A
+  std::uint8_t b = 0;      ///< face of B, or edge of B
 };
 
 /// Gap between A and B along the axis (negative: they overlap along it; −infinity for Kind::none).

@@ -15,6 +15,7 @@ namespace isojam {
 /// the Platonic solids in the order of all_solids, the others that have names of their own, then by name and vertices.
 class Solid {
  public:
+  /// The Platonic solid of that kind.
   Solid(SolidKind kind) : solid_(&platonic(kind)) {}  // NOLINT(google-explicit-constructor): is one of them
   /// The solid with that name of its own (named_vertices); nullopt if there is none.
   static std::optional<Solid> named(std::string_view name);
@@ -23,7 +24,9 @@ class Solid {
   /// The one that a packing points to, which must be one of these.
   static Solid of(const ConvexSolid& solid) { return Solid(solid); }
 
+  /// What it stands for.
   const ConvexSolid& operator*() const { return *solid_; }
+  /// What it stands for.
   const ConvexSolid* operator->() const { return solid_; }
 
   /// Whether it has to be defined by vertices.
@@ -38,6 +41,7 @@ class Solid {
   const ConvexSolid* solid_;
 };
 
+/// Its name.
 inline std::string_view to_string(const Solid& solid) { return solid->name(); }
 
 }  // namespace isojam

@@ -26,14 +26,15 @@ inline bool frees_volume(CellFreedom cell) { return cell == CellFreedom::isotrop
 /// What is done to the cell while a packing is minimised: the variable-cell method (Smith, Srivastava, Fisher, Alam
 /// 2014, PRE 89, 042203). Energy becomes enthalpy, E + p V_cell.
 struct CellControl {
-  CellFreedom cell = CellFreedom::fixed;
-  double pressure = 0;  ///< p > 0 (Y), where the volume is free
+  CellFreedom cell = CellFreedom::fixed;  ///< which strains are free
+  double pressure = 0;                    ///< p > 0 (Y), where the volume is free
   /// τ, symmetric and traceless: the stress asked for is −p·1 + τ, where all strains are free.
   Eigen::Matrix3d deviator = Eigen::Matrix3d::Zero();
 };
 
 /// Orthonormal basis, as columns in Mandel's components (strain.hpp), of the strains that are degrees of freedom.
 using StrainBasis = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
+/// Of the strains that are free; no columns where the cell is fixed.
 StrainBasis strain_basis(CellFreedom cell);
 /// The one with so many: 0, 1, 5 or 6.
 CellFreedom freedom_of(Eigen::Index strains);

@@ -22,9 +22,9 @@ class PeriodicCell {
   bool is_cube() const { return is_cube_; }
   /// L of a cube; of other cells V_cell^(1/3).
   double side() const { return side_; }
-  double volume() const { return volume_; }
-  DoubleDouble volume_double_double() const;
-  const DoubleDoubleMatrix& vectors() const { return vectors_; }
+  double volume() const { return volume_; }                       ///< V_cell, V_p
+  DoubleDouble volume_double_double() const;                      ///< the same to 1e-31
+  const DoubleDoubleMatrix& vectors() const { return vectors_; }  ///< the lattice vectors, as columns
   /// Distances between opposite faces of the cell: what lies n cells apart along a lattice vector is no nearer than n
   /// of these.
   const Eigen::Vector3d& heights() const { return heights_; }
@@ -37,6 +37,7 @@ class PeriodicCell {
     if (is_cube_) return side_ * s;
     return vectors_.high * s;
   }
+  /// One component of translation().
   DoubleDouble translation_double_double(int component, const Eigen::Vector3i& shift) const;
 
   /// Integers k with fractional(d) + k in [−½, ½) along each lattice vector.

@@ -12,12 +12,14 @@ namespace isojam {
 //   (ε_xx, ε_yy, ε_zz, √2 ε_yz, √2 ε_zx, √2 ε_xy)   (Mandel),
 // in which rotations are orthogonal and eigenvalues mean something.
 
-/// The tensor with these six components, and the six components of the symmetric part of a tensor.
+/// The tensor with these six components.
 Eigen::Matrix3d strain_tensor(const Vector6d& components);
+/// The six components of the symmetric part of a tensor.
 Vector6d strain_components(const Eigen::Matrix3d& tensor);
 
 /// 3 × 6: column I is the change of r by the I-th unit strain.
 using Strains = Eigen::Matrix<double, 3, 6>;
+/// Of a centre-to-centre vector.
 Strains strained(const Eigen::Vector3d& r);
 
 /// Orthonormal basis of the traceless tensors, as columns.

@@ -13,17 +13,17 @@ namespace isojam {
 
 /// What is known of a contact before its envelope is: its multiplier μ, and a guess of its shift w; see ProximalTerms.
 struct ContactForce {
-  NeighbourPair pair;
-  Vector6d multiplier = Vector6d::Zero();
-  Vector6d shift = Vector6d::Zero();
+  NeighbourPair pair;                      ///< which particles, and the image of b
+  Vector6d multiplier = Vector6d::Zero();  ///< μ, in B's body frame
+  Vector6d shift = Vector6d::Zero();       ///< w, in B's body frame
 };
 
 /// A contact of an envelope: A touches the ghost of B, or the contact has a multiplier.
 struct EnvelopeContact {
-  NeighbourPair pair;
+  NeighbourPair pair;                                      ///< which particles, and the image of b
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< x_b − x_a, the touching image, lab frame
-  Vector6d multiplier = Vector6d::Zero();
-  ProximalContact at;
+  Vector6d multiplier = Vector6d::Zero();                  ///< μ, in B's body frame
+  ProximalContact at;                                      ///< its envelope there
 };
 
 /// Φ(x; μ) = Σ_contacts min_w [ e(w) + ½ ρ |w|² − μ·w ] of a packing: its energy with every contact no stiffer than ρ.
@@ -37,8 +37,8 @@ struct EnvelopeEvaluation {
   Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
   double mean_force = 0;        ///< mean |F| where A and the ghost touch
   double multiplier_error = 0;  ///< largest |∇e − μ| of a contact
-  long touching = 0;
-  long overlaps = 0;  ///< with Hessian, that finding the shifts took
+  long touching = 0;            ///< contacts whose A touches the ghost
+  long overlaps = 0;            ///< with Hessian, that finding the shifts took
 };
 
 /// Evaluates envelopes of packings. Holds caches only, as PackingEnergy does.

@@ -36,7 +36,7 @@ struct ProximalContact {
   double energy = 0;                                                      ///< e at the ghost
   int iterations = 0;                                                     ///< overlaps with Hessian that it took
   bool touching = false;                                                  ///< A and the ghost
-  bool converged = true;
+  bool converged = true;                                                  ///< false if Newton's method found no minimum
 
   /// Second derivatives of Φ: the Schur complement of H_ww + ρ in those of e, to first order in w.
   PairHessian curvature() const;
@@ -58,8 +58,9 @@ ProximalContact proximal_contact(const PlacedSolid& a, const ConvexSolid& solid_
 ProximalContact unshifted_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
                                   const DoubleDoubleVector& r, double stiffness);
 
-/// A shift or wrench from B's body frame to the lab frame and back.
+/// A shift or wrench from B's body frame to the lab frame.
 Vector6d to_lab(const Pose& b, const Vector6d& w);
+/// The other way round.
 Vector6d to_body(const Pose& b, const Vector6d& w);
 
 }  // namespace isojam

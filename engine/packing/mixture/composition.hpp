@@ -13,7 +13,7 @@ namespace isojam {
 struct Particle {
   const ConvexSolid* unit;  ///< immutable, outlives every packing that has it
   double scale = 1;         ///< of its lengths
-  int kind = 0;
+  int kind = 0;             ///< by number, from 0
 
   bool operator==(const Particle& other) const = default;
 };
@@ -27,25 +27,28 @@ class Composition {
   /// One of `particles` each, at least one; they are uniform if all are of one kind and unit volume.
   explicit Composition(std::span<const Particle> particles);
 
-  bool is_uniform() const { return one_ != nullptr; }
+  bool is_uniform() const { return one_ != nullptr; }  ///< whether all particles are alike and of unit volume
   /// The solid of all particles, which are uniform.
   const ConvexSolid& only() const;
   /// The solid of particle i, in its size.
   const ConvexSolid& operator[](std::size_t i) const { return one_ ? *one_ : *mixed_->solids[i]; }
   /// The solid of particle i in unit volume: its shape. One pointer for one shape.
   const ConvexSolid& unit(std::size_t i) const { return one_ ? *one_ : *mixed_->particles[i].unit; }
-  int kind(std::size_t i) const { return one_ ? 0 : mixed_->particles[i].kind; }
-  int kinds() const { return one_ ? 1 : mixed_->kinds; }
+  int kind(std::size_t i) const { return one_ ? 0 : mixed_->particles[i].kind; }  ///< kind of particle i
+  int kinds() const { return one_ ? 1 : mixed_->kinds; }                          ///< how many there are
   /// Whether all particles have one shape, if not one size.
   bool has_one_shape() const;
   /// The solids of all particles, none if they are uniform.
   std::span<const ConvexSolid* const> solids() const;
-  std::span<const Particle> particles() const;
+  std::span<const Particle> particles() const;  ///< one each; none if they are uniform
 
   /// Extremes over all particles, lengths in V_p^(1/3).
   const ConvexSolid& widest() const { return one_ ? *one_ : *mixed_->widest; }  ///< of greatest diameter
+  /// Least distance of a face from its solid's centroid.
   double least_inradius() const { return one_ ? one_->inradius() : mixed_->least_inradius; }
+  /// Greatest distance of a vertex from its solid's centroid.
   double greatest_circumradius() const { return one_ ? one_->circumradius() : mixed_->greatest_circumradius; }
+  /// Mean of these over all particles.
   double mean_circumradius() const { return one_ ? one_->circumradius() : mixed_->mean_circumradius; }
   /// Circumradius over radius of gyration: how far from the centre a force may act.
   double greatest_lever() const {

@@ -13,9 +13,9 @@ namespace isojam {
 
 /// One kind of particles in a mixture.
 struct MixtureKind {
-  Solid solid = SolidKind::tetrahedron;
-  double fraction = 1;  ///< of the particles, by number
-  Sizes sizes{};
+  Solid solid = SolidKind::tetrahedron;  ///< its shape
+  double fraction = 1;                   ///< of the particles, by number
+  Sizes sizes{};                         ///< of its particles
 
   // NOLINTNEXTLINE(modernize-use-nullptr): it takes the 0 of a defaulted comparison for a pointer
   friend auto operator<=>(const MixtureKind&, const MixtureKind&) = default;
@@ -24,7 +24,9 @@ struct MixtureKind {
 /// What packings are made of: one solid, or several kinds of solids and sizes. A value.
 class Mixture {
  public:
-  Mixture(Solid solid) : Mixture({{solid}}, "") {}   // NOLINT(google-explicit-constructor): the simplest one
+  /// All particles alike.
+  Mixture(Solid solid) : Mixture({{solid}}, "") {}  // NOLINT(google-explicit-constructor): the simplest one
+  /// The same of a Platonic solid.
   Mixture(SolidKind kind) : Mixture(Solid(kind)) {}  // NOLINT(google-explicit-constructor)
   /// Kinds whose fractions sum to 1. Without a name it has one that says what it is.
   Mixture(std::vector<MixtureKind> kinds, std::string name);
@@ -33,8 +35,8 @@ class Mixture {
   bool is_one_solid() const;
   /// The solid of all particles, which are alike.
   const Solid& solid() const { return kinds_.front().solid; }
-  const std::vector<MixtureKind>& kinds() const { return kinds_; }
-  const std::string& name() const { return name_; }
+  const std::vector<MixtureKind>& kinds() const { return kinds_; }  ///< in the order given
+  const std::string& name() const { return name_; }                 ///< what files and messages call it
 
   /// n particles, kind by kind: as many of each as its fraction of n says, rounded so that they are n (largest
   /// remainders); the m of a kind with sizes the quantiles (k + ½)/m of their law. Scaled so that their mean volume is
@@ -52,6 +54,7 @@ class Mixture {
   std::string name_;
 };
 
+/// Its name.
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
 /// Least number of particles of a mixture whose cubic cell is legal up to density φ; 2^17 if that is not enough.

@@ -9,6 +9,7 @@
 
 namespace isojam {
 
+/// How sizes are distributed.
 enum class SizeLaw { fixed, discrete, uniform, log_normal };
 template <>
 inline constexpr std::array enum_names<SizeLaw>{
@@ -17,7 +18,7 @@ inline constexpr std::array enum_names<SizeLaw>{
 
 /// One of several sizes, and the share of particles that have it.
 struct SizeShare {
-  double size = 1, fraction = 1;
+  double size = 1, fraction = 1;  ///< a length, and a share by number
 
   // NOLINTNEXTLINE(modernize-use-nullptr): it takes the 0 of a defaulted comparison for a pointer
   friend auto operator<=>(const SizeShare&, const SizeShare&) = default;
@@ -26,7 +27,7 @@ struct SizeShare {
 /// How the sizes of one kind of particles are distributed: lengths, to scale with those of the other kinds of a
 /// mixture.
 struct Sizes {
-  SizeLaw law = SizeLaw::fixed;
+  SizeLaw law = SizeLaw::fixed;   ///< which of them
   double from = 1;                ///< the size, or the least, or the median
   double to = 1;                  ///< of `uniform`: the greatest
   double sigma = 0;               ///< of `log_normal`: standard deviation of ln V, V the volume

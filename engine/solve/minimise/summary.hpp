@@ -8,6 +8,7 @@
 
 namespace isojam {
 
+/// Why a minimisation ended.
 enum class StopReason {
   not_called,        ///< nothing was minimised
   residual_reached,  ///< forces balance to the residual asked for
@@ -43,22 +44,23 @@ struct MinimiseWork {
   long envelope_overlaps = 0;          ///< overlaps with Hessian that these took
   long local_factorisations = 0;       ///< of the Hessian of a few particles
 
+  /// Adds the work of another minimisation.
   MinimiseWork& operator+=(const MinimiseWork& term);
   bool operator==(const MinimiseWork&) const = default;
 };
 
 /// Outcome of one minimisation; the default says that none was run.
 struct MinimiseSummary {
-  StopReason reason = StopReason::not_called;
-  double energy = 0;                         ///< E, without the work against a pressure
-  double residual = 0;                       ///< as Evaluation::residual
-  double residual_floor = 0;                 ///< as Evaluation::residual_floor, in the same state
-  Precision precision = Precision::working;  ///< of the last evaluation
-  long evaluations = 0;
-  long iterations = 0;
-  MinimiseWork work;
+  StopReason reason = StopReason::not_called;  ///< why it ended
+  double energy = 0;                           ///< E, without the work against a pressure
+  double residual = 0;                         ///< as Evaluation::residual
+  double residual_floor = 0;                   ///< as Evaluation::residual_floor, in the same state
+  Precision precision = Precision::working;    ///< of the last evaluation
+  long evaluations = 0;                        ///< of energy and forces
+  long iterations = 0;                         ///< of the minimiser
+  MinimiseWork work;                           ///< beside the evaluations
 
-  bool converged() const { return reason == StopReason::residual_reached; }
+  bool converged() const { return reason == StopReason::residual_reached; }  ///< whether it found what was asked for
 };
 
 /// Whether forces balance to the residual asked for, or as well as double-double can tell.

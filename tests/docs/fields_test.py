@@ -1,0 +1,109 @@
+"""Facts proved here: fields_test.py SOURCE FACTS
+
+- the tables of docs/manifest.md and docs/results.md are what schemas, and the quantities that the program tells, make
+  of them now (reference.py --write makes them again);
+- every name of a field of records, packings, paths and tables stands in docs/results.md with a meaning, every quantity
+  with its unit, every key of a manifest in docs/manifest.md with its default: found without the code that wrote them;
+- every flag has its row, every measure too;
+- a page that lacks one, has another default or a field without a meaning is found.
+"""
+
+import json
+import pathlib
+import re
+import sys
+import unittest
+
+import reference
+
+SOURCE, FACTS = map(pathlib.Path, sys.argv[1:3])
+
+
+def text_of(name):
+    return (SOURCE / name).read_text(encoding="utf-8")
+
+
+def schema_of(name):
+    return json.loads(text_of(f"schemas/{name}.schema.json"))
+
+
+def fields(node):
+    """Pairs of a name and the schema of every field below a node."""
+    if isinstance(node, list):
+        for value in node:
+            yield from fields(value)
+    elif isinstance(node, dict):
+        if isinstance(node.get("properties"), dict):
+            yield from node["properties"].items()
+        for value in node.values():
+            yield from fields(value)
+
+
+def rows_of(page):
+    """Cells of every row of a table whose first one is a name, by that name."""
+    rows = {}
+    for line in page.split("\n"):
+        match = re.match(r"\| `([^`]+)` \|(.*)\|$", line)
+        if match:
+            cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", match[2])]
+            rows.setdefault(match[1], []).append(cells)
+    return rows
+
+
+def missing_fields(page, schemas):
+    rows = rows_of(page)
+    names = {name for schema in schemas for name, _ in fields(schema)}
+    return sorted(name for name in names if name not in rows or not all(cells[-1] for cells in rows[name]))
+
+
+def wrong_defaults(page, schema):
+    """Keys that the page lacks, or has with no such default."""
+    rows, wrong = rows_of(page), []
+    for name, field in fields(schema):
+        while "$ref" in field:
+            field = schema["definitions"][field["$ref"].rsplit("/", 1)[-1]]
+        default = f"`{json.dumps(field['default'])}`" if "default" in field else None
+        found = any(default in cells for cells in rows.get(name, []))
+        if name not in page or default and not found:
+            wrong.append(name)
+    return sorted(set(wrong))
+
+
+class Fields(unittest.TestCase):
+    def test_tables_are_those_of_today(self):
+        stale, missing = reference.stale(SOURCE, FACTS)
+        self.assertEqual((stale, missing), ([], []), "tests/docs/reference.py SOURCE FACTS --write makes them again")
+
+    def test_results_have_every_field(self):
+        page, schemas = text_of("docs/results.md"), [schema_of(name) for name in ("replicate", "packing", "tables")]
+        self.assertGreater(len({name for schema in schemas for name, _ in fields(schema)}), 200)
+        self.assertEqual(missing_fields(page, schemas), [])
+        self.assertIn("(w, x, y, z)", page)
+        for one in json.loads(FACTS.read_text(encoding="utf-8"))["quantities"]:
+            self.assertTrue(any(one["unit"] in cells for cells in rows_of(page)[one["name"]]), one["name"])
+
+    def test_the_manifest_has_every_key(self):
+        page, schema = text_of("docs/manifest.md"), schema_of("manifest")
+        self.assertGreater(len(list(fields(schema))), 80)
+        self.assertEqual(wrong_defaults(page, schema), [])
+        for measure in schema["properties"]["measure"]["items"]["enum"]:
+            self.assertIn(measure, rows_of(page.split("## Measures")[1].split("\n## ")[0]))
+
+    def test_flags_have_rows(self):
+        page = text_of("docs/results.md").split("## Flags")[1].split("\n## ")[0]
+        self.assertEqual(set(rows_of(page)), set(schema_of("manifest")["properties"]["exclude"]["items"]["enum"]))
+
+    def test_what_is_missing_is_found(self):
+        page, schema = text_of("docs/results.md"), [schema_of("replicate")]
+        renamed = page.replace("| `particles_moved` |", "| moved |")
+        self.assertEqual(missing_fields(renamed, schema), ["particles_moved"])
+        row = next(line for line in page.split("\n") if line.startswith("| `residual_floor` |"))
+        bare = page.replace(row, "| `residual_floor` | number | |")
+        self.assertEqual(missing_fields(bare, schema), ["residual_floor"])
+        page, schema = text_of("docs/manifest.md"), schema_of("manifest")
+        self.assertEqual(wrong_defaults(page.replace("`0.35`", "`0.3`"), schema), ["step_fraction"])
+        self.assertEqual(wrong_defaults(page.replace("fit_window", "window"), schema), ["fit_window"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,73 @@
+"""Facts proved here: links_test.py SOURCE
+
+- every relative link and picture of the pages leads to a file of the tree, and every anchor to a heading that has it on
+  GitHub and in the site alike;
+- what is missing, a link that leaves the tree and an anchor that the two name differently are found; code is no link;
+- every page of docs/ is linked from its index, and every example with a page from that of the examples.
+"""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "docs/site"))
+from pages import anchors, links, pages  # noqa: E402
+
+SOURCE = pathlib.Path(sys.argv[1]).resolve()
+
+
+def broken(root, page):
+    """What is wrong with the links of a page, one line for each."""
+    wrong = []
+    for number, target in links(page.read_text(encoding="utf-8")):
+        if "://" in target or target.startswith("mailto:"):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (page.parent / path).resolve() if path else page
+        if not file.is_relative_to(root):
+            wrong.append(f"{page}:{number}: {target} leaves the tree")
+        elif not file.exists():
+            wrong.append(f"{page}:{number}: there is no {target}")
+        elif anchor and (file.suffix != ".md" or anchor not in anchors(file.read_text(encoding="utf-8"))):
+            wrong.append(f"{page}:{number}: no heading has the anchor of {target} in both ways of naming it")
+    return wrong
+
+
+class Links(unittest.TestCase):
+    def test_all_lead_somewhere(self):
+        found = pages(SOURCE)
+        self.assertGreater(len(found), 20)
+        self.assertGreater(sum(len(links(page.read_text(encoding="utf-8"))) for page in found), 100)
+        self.assertEqual([line for page in found for line in broken(SOURCE, page)], [])
+
+    def test_what_is_broken_is_found(self):
+        with tempfile.TemporaryDirectory() as here:
+            root = pathlib.Path(here).resolve()
+            (root / "other.md").write_text("# A `b`, c\n\n## a - b\n\n## twice\n\n## twice\n", encoding="utf-8")
+            page = root / "page.md"
+
+            def wrong(text):
+                page.write_text(text, encoding="utf-8")
+                return len(broken(root, page))
+
+            good = "[x](other.md) ![y](other.md) [z](other.md#a-b-c) [t](other.md#twice)\n\n[r]: other.md\n"
+            self.assertEqual(wrong(good), 0)
+            self.assertEqual(wrong("`[x](none.md)`\n\n    [x](none.md)\n\n```\n[x](none.md)\n```\n"), 0)
+            for text in ("[x](none.md)", "![x](none.png)", "[x](other.md#none)", "[x](#none)", "[x](../out.md)",
+                         "[x](other.md#a---b)", "[x](other.md#twice-1)", "text\n\n[r]: none.md"):
+                self.assertEqual(wrong(text), 1, text)
+
+    def test_indexes_are_complete(self):
+        def linked(page):
+            return {(page.parent / target.partition("#")[0]).resolve() for _, target in
+                    links(page.read_text(encoding="utf-8"))}
+
+        docs = set((SOURCE / "docs").glob("*.md")) - {SOURCE / "docs/index.md"}
+        self.assertEqual(docs - linked(SOURCE / "docs/index.md"), set())
+        examples = set((SOURCE / "examples").glob("*/README.md"))
+        self.assertEqual(examples - linked(SOURCE / "examples/README.md"), set())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

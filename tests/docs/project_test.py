@@ -1,0 +1,101 @@
+"""Facts proved here: project_test.py SOURCE
+
+- README.md has 150 lines at most, a picture, and names both commands, the licence and how to cite;
+- CITATION.cff is YAML with the keys that version 1.2.0 of its form asks for, names the version of CMakeLists.txt, the
+  licence of LICENSE, and the paper by the address that crates give it;
+- CHANGELOG.md has the headings of its form;
+- every verb of make that a page shows is one of the Makefile's, and the page on developing has all that a person types;
+- a citation without a key, or of another version, is refused.
+"""
+
+import copy
+import pathlib
+import re
+import sys
+import unittest
+
+import yaml
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "docs/site"))
+from pages import code_lines, pages, spans  # noqa: E402
+
+SOURCE = pathlib.Path(sys.argv[1])
+
+
+def text_of(name):
+    return (SOURCE / name).read_text(encoding="utf-8")
+
+
+def faults(citation):
+    """What is wrong with a citation, after https://citation-file-format.github.io, version 1.2.0."""
+    wrong = [f"no {key}" for key in ("cff-version", "message", "title", "authors", "version", "license", "references")
+             if not citation.get(key)]
+    if citation.get("cff-version") != "1.2.0" or citation.get("type", "software") not in ("software", "dataset"):
+        wrong.append("another form")
+    version = re.search(r"project\(isojam VERSION (\S+)", text_of("CMakeLists.txt"))[1]
+    if citation.get("version") != version:
+        wrong.append("another version")
+    others = [person for other in citation.get("references", []) for person in other["authors"]]
+    for person in citation.get("authors", []) + others:
+        if not ("name" in person or {"family-names", "given-names"} <= set(person)):
+            wrong.append("an author without a name")
+    for other in citation.get("references", []):
+        wrong += [f"a reference without {key}" for key in ("type", "title", "authors") if not other.get(key)]
+    return wrong
+
+
+def verbs_of(makefile):
+    return set(re.findall(r"^([a-z][a-z-]*):(?!=)", makefile, re.M))
+
+
+class Project(unittest.TestCase):
+    def test_the_first_page(self):
+        page = text_of("README.md")
+        self.assertLessEqual(page.count("\n"), 150)
+        self.assertRegex(page, r"!\[[^\]]+\]\(examples/[^)]+\.png\)")
+        for word in ("make run", "make test", "CITATION.cff", "BSD-3-Clause", "docs/index.md"):
+            self.assertIn(word, page)
+
+    def test_the_citation(self):
+        citation = yaml.safe_load(text_of("CITATION.cff"))
+        self.assertEqual(faults(citation), [])
+        self.assertEqual(citation["license"], "BSD-3-Clause")
+        self.assertTrue(text_of("LICENSE").startswith("BSD 3-Clause License"))
+        crate = text_of("tasks/crate/crate.cpp")
+        self.assertIn(f"https://doi.org/{citation['references'][0]['doi']}", crate)
+        for person in citation["references"][0]["authors"]:
+            self.assertIn(f"\"{person['given-names']} {person['family-names']}\"", crate)
+
+    def test_a_bad_citation_is_refused(self):
+        good = yaml.safe_load(text_of("CITATION.cff"))
+        for key in ("cff-version", "message", "title", "authors", "version", "license"):
+            bad = copy.deepcopy(good)
+            del bad[key]
+            self.assertIn(f"no {key}", faults(bad))
+        self.assertEqual(faults({**good, "version": "0.0.9"}), ["another version"])
+        self.assertEqual(faults({**good, "authors": [{"given-names": "Ada"}]}), ["an author without a name"])
+
+    def test_the_changelog(self):
+        page = text_of("CHANGELOG.md")
+        self.assertTrue(page.startswith("# Changelog\n"))
+        self.assertRegex(page, r"\n## \[(Unreleased|\d+\.\d+\.\d+\] - \d{4}-\d{2}-\d{2})")
+        self.assertLessEqual(set(re.findall(r"^### (.*)$", page, re.M)),
+                             {"Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"})
+
+    def test_verbs(self):
+        verbs = verbs_of(text_of("Makefile"))
+        self.assertLessEqual({"run", "test", "docs"}, verbs)
+        shown = set()
+        for page in pages(SOURCE):
+            text = page.read_text(encoding="utf-8")
+            for number, words in code_lines(text) + spans(text):
+                match = re.match(r"(?:\S+=\S+ )*make ([a-z][a-z-]*)", words)
+                if match:
+                    self.assertIn(match[1], verbs, f"{page}:{number}")
+                    shown.add(match[1])
+        not_typed = {"isojam", "browser", "lint-sources"}
+        self.assertEqual(verbs - shown - not_typed, set())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

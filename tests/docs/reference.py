@@ -1,0 +1,240 @@
+"""reference.py SOURCE FACTS [--write]: what schemas and program tell of docs/manifest.md and docs/results.md.
+
+SOURCE is the tree, FACTS the facts.json that the build makes beside the Python module. A page has the tables of a name
+between `<!-- block NAME -->` and `<!-- end -->`. Without --write the pages whose tables differ are named, and the exit
+code is 1 if there are any.
+"""
+
+import json
+import pathlib
+import re
+import sys
+
+from schema import Schema, cell, code, fields_of, kinds
+
+# Keys of the manifest that have tables of their own.
+KEY_HEAD = ("key", "value", "default", "meaning")
+OBJECTS = ("sweep", "protocol", "minimiser", "replicates", "start", "shear", "solids", "size")
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return ["| " + " | ".join(line) + " |" for line in lines]
+
+
+# ---- The manifest --------------------------------------------------------------------------------------------------
+def default_of(schema, field, required):
+    if required:
+        return "required"
+    return code(schema.resolved(field)["default"]) if "default" in schema.resolved(field) else ""
+
+
+def manifest_rows(schema, fields, required):
+    rows = []
+    for name, field in fields.items():
+        inner = schema.resolved(field)
+        what = kinds(schema, field)
+        if name in OBJECTS and name != "size" or name == "size" and "oneOf" in inner:
+            what = f"{what.split(' or object')[0]} or object" if name in ("replicates", "size") else "object"
+            what += f", [below](#{anchor('Key', name)})"
+        elif fields_of(inner) or name == "base":
+            what = "object"
+        rows.append([f"`{name}`", cell(what), cell(default_of(schema, field, name in required)),
+                     cell(inner.get("description", ""))])
+    return rows
+
+
+def heading(kind, path):
+    return f"### {kind}: {path}"
+
+
+def anchor(kind, path):
+    return re.sub(r"[^\w -]", "", f"{kind}: {path}").lower().replace(" ", "-")
+
+
+def own_tables(schema, parts):
+    """Tables of an object and those inside it; of one that may have several forms each key once."""
+    rows, paths = {}, {}
+    for path, fields, required in parts:
+        paths.setdefault(path, []).append(fields)
+        for row in manifest_rows(schema, fields, required):
+            rows.setdefault(path, {}).setdefault(row[0], row)
+    lines = []
+    for path, forms in paths.items():
+        for row in rows[path].values():
+            row[2] = "one of these" if len(forms) > 1 else row[2]
+        lines += [heading("Key", path), "", *table(KEY_HEAD, list(rows[path].values())), ""]
+    return lines
+
+
+def manifest_block(schema):
+    top = schema.tree["properties"]
+    lines = table(KEY_HEAD,
+                  manifest_rows(schema, top, set(schema.tree["required"]))) + [""]
+    sweep = top["sweep"]
+    own = {name: field for name, field in sweep["properties"].items() if name in sweep["required"]}
+    rows = []
+    for name, field in own.items():
+        item = schema.resolved(schema.resolved(field["items"]).get("anyOf", [field["items"]])[0])
+        what = "names, or [mixtures](#key-mixture)" if name == "solid" else kinds(schema, item)
+        rows.append([f"`{name}`", f"list of {what}", "required", cell(item["description"])])
+    lines += [heading("Key", "sweep"), "", *table(KEY_HEAD, rows), "",
+              "Beside these, lists of values of " +
+              ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
+              ", each as under the key of that name below.", ""]
+    for name in OBJECTS[1:6]:
+        lines += own_tables(schema, list(schema.objects(top[name], name)))
+    own = schema.resolved(top["solids"]["additionalProperties"])
+    lines += own_tables(schema, [part for form in own["oneOf"] for part in schema.objects(form, "solids")])
+    mixture = schema.tree["definitions"]["mixture"]
+    inside = [part for part in schema.objects(mixture, "mixture") if ".size" not in part[0]]
+    lines += own_tables(schema, inside)
+    sizes = schema.tree["definitions"]["sizes"]
+    return lines + own_tables(schema, [part for form in sizes["oneOf"] for part in schema.objects(form, "size")])
+
+
+# ---- Results -------------------------------------------------------------------------------------------------------
+def result_rows(schema, kind, fields, units, path):
+    rows = []
+    for name, field in fields.items():
+        inner = schema.resolved(field)
+        target = schema.definition_of(field)
+        where = f"{path}.{name}" if path else name
+        if target:
+            what = f"[{target}](#{anchor(kind, target)})"
+            what = ("list of " if "array" in inner.get("type", []) else "") + what
+            what += " or null" if {"type": "null"} in field.get("anyOf", []) else ""
+        elif fields_of(inner) or fields_of(inner.get("items", {})):
+            what = ("list of objects" if "items" in inner else "object") + f", [below](#{anchor(kind, where)})"
+            what += " or null" if "null" in inner.get("type", []) else ""
+        else:
+            what = cell(kinds(schema, field)) or "any"
+        unit = units.get((kind, where))
+        meaning = inner.get("description", "") + (f" Unit: {unit}." if unit else "")
+        rows.append([f"`{name}`", what, cell(meaning)])
+    return rows
+
+
+def objects_block(schema, kind, roots, units):
+    lines = []
+    for root_path, node in roots:
+        for path, fields, _ in schema.objects(node, root_path):
+            if path:
+                lines += [heading(kind, path), ""]
+            lines += [*table(("field", "value", "meaning"), result_rows(schema, kind, fields, units, path)), ""]
+    return lines
+
+
+def record_units(schema, quantities):
+    """Units of quantities by the place that they have in records."""
+    units = {}
+    for one in quantities:
+        if one["unit"] == "1":
+            continue
+        keys = one["pointer"].split("/")[1:]
+        root = "" if one["of"] == "replicate" else "state"
+        if keys[0].startswith("kind_"):
+            root, keys = "kind", keys[1:]
+        units["Record", ".".join(filter(None, (root, *keys)))] = one["unit"]
+    return units
+
+
+def quantity_block(record, tables, quantities):
+    known = {one["name"]: one for one in quantities}
+    rows = []
+    for name, field in tables.tree["properties"]["rows"]["items"]["properties"].items():
+        if field.get("$ref") != "#/definitions/estimate":
+            continue
+        one = known[name]
+        of_state = one["of"] == "state"
+        root = record.tree["definitions"]["state"] if of_state else None
+        above, meaning = (record.property_at(place, root).get("description", "") for place in
+                          (one["pointer"].rpartition("/")[0], one["pointer"]))
+        rows.append([f"`{name}`", one["group"], one["unit"], "state" if of_state else "replicate",
+                     f"`{one['pointer']}`", (above, meaning)])
+    every = [row[-1][1] for row in rows]
+    for row in rows:
+        above, meaning = row[-1]
+        alone = above and row[4].count("/") > 1 and (len(meaning.split()) < 5 or every.count(meaning) > 1)
+        row[-1] = cell(f"{above} {meaning}" if alone else meaning)
+    return table(("quantity", "table", "unit", "one of each", "place in records", "meaning"), rows) + [""]
+
+
+def tables_block(schema):
+    row = schema.tree["properties"]["rows"]["items"]
+    plain = {name: field for name, field in row["properties"].items() if field.get("$ref") != "#/definitions/estimate"}
+    series = row["properties"]["series"]["items"]["properties"]
+    lines = table(("field", "value", "meaning"), result_rows(schema, "Table", schema.tree["properties"], {}, "")) + [""]
+    parts = [("rows[]", plain)]
+    for name in ("goal", "differences", "critical_angles"):
+        fields = row["properties"][name]["properties"]
+        parts.append((f"rows[].{name}", {key: field for key, field in fields.items()
+                                         if field.get("$ref") != "#/definitions/estimate"}))
+    parts.append(("rows[].series[]", {key: field for key, field in series.items()
+                                      if field.get("$ref") != "#/definitions/estimate"}))
+    parts.append(("estimate", schema.tree["definitions"]["estimate"]["properties"]))
+    for path, fields in parts:
+        plain_rows = []
+        for key, field in fields.items():
+            inner = schema.resolved(field)
+            deeper = f"{path}.{key}"
+            links = {f"rows[].{name}" for name in ("goal", "differences", "critical_angles")}
+            what = f"object, [below](#{anchor('Table', deeper)})" if deeper in links else \
+                "object of estimates" if key == "all" else \
+                f"list of objects, [below](#{anchor('Table', deeper + '[]')})" if key == "series" else \
+                cell(kinds(schema, field))
+            plain_rows.append([f"`{key}`", what, cell(inner.get("description", ""))])
+        lines += [heading("Table", path), "", *table(("field", "value", "meaning"), plain_rows), ""]
+    return lines
+
+
+def blocks(source, facts):
+    quantities = json.loads(pathlib.Path(facts).read_text(encoding="utf-8"))["quantities"]
+    names = ("manifest", "replicate", "packing", "tables")
+    manifest, record, packing, tables = (Schema(source, name) for name in names)
+    definitions = [(name, node) for name, node in record.tree["definitions"].items() if fields_of(node)]
+    files = packing.tree["definitions"]
+    made = {
+        "manifest": manifest_block(manifest),
+        "quantities": quantity_block(record, tables, quantities),
+        "tables": tables_block(tables),
+        "records": objects_block(record, "Record", [("", record.tree), *definitions], record_units(record, quantities)),
+        "packings": objects_block(packing, "Packing", [(name, files[name]) for name in ("packing_file", "path_file")],
+                                  {}),
+    }
+    return {name: "\n".join(lines).strip() for name, lines in made.items()}
+
+
+PAGES = ("docs/manifest.md", "docs/results.md")
+
+
+def rewritten(text, made, used):
+    def block(match):
+        name = match[1]
+        used.add(name)
+        return f"<!-- block {name} -->\n\n{made[name]}\n\n<!-- end -->"
+
+    return re.sub(r"<!-- block (\w+) -->.*?<!-- end -->", block, text, flags=re.S)
+
+
+def stale(source, facts, write=False):
+    """Pages whose blocks are not what schemas and program tell now, and blocks that no page has."""
+    made, used, pages = blocks(source, facts), set(), []
+    for name in PAGES:
+        path = pathlib.Path(source) / name
+        text = path.read_text(encoding="utf-8")
+        new = rewritten(text, made, used)
+        if new != text:
+            pages.append(name)
+            if write:
+                path.write_text(new, encoding="utf-8")
+    return pages, sorted(set(made) - used)
+
+
+if __name__ == "__main__":
+    changed, missing = stale(sys.argv[1], sys.argv[2], "--write" in sys.argv[3:])
+    for page in changed:
+        print(f"{page}: {'written' if '--write' in sys.argv[3:] else 'not what the schemas tell'}")
+    for name in missing:
+        print(f"no page has the block {name}")
+    sys.exit(1 if missing or (changed and "--write" not in sys.argv[3:]) else 0)

@@ -1,0 +1,123 @@
+"""JSON Schemas of the project as tables: which objects there are, what each of their fields is, may be and means."""
+
+import json
+import pathlib
+
+
+class Schema:
+    """One of schemas/, draft-07 as far as these use it."""
+
+    def __init__(self, root, name):
+        self.name = name
+        self.tree = json.loads((pathlib.Path(root) / f"schemas/{name}.schema.json").read_text(encoding="utf-8"))
+
+    def resolved(self, node):
+        """The node with what it refers to; its own description goes before."""
+        inner = node
+        for part in node.get("allOf", []) + ([self.at(node["$ref"])] if "$ref" in node else []):
+            inner = {**self.resolved(part), **inner}
+        return inner
+
+    def at(self, reference):
+        node = self.tree
+        for key in reference.removeprefix("#/").split("/"):
+            node = node[key]
+        return node
+
+    def definition_of(self, node):
+        """The name of the definition that a node refers to, if that has fields of its own."""
+        for part in [node, *node.get("allOf", []), node.get("items", {}), *node.get("anyOf", [])]:
+            name = part.get("$ref", "").rsplit("/", 1)[-1]
+            if name and fields_of(self.tree["definitions"][name]):
+                return name
+        return None
+
+    def property_at(self, pointer, node=None):
+        """The schema of the value at a JSON pointer of a document, from the root or from a node."""
+        node = self.tree if node is None else node
+        for key in pointer.split("/")[1:]:
+            node = self.resolved(node)
+            if key in node.get("properties", {}):
+                node = node["properties"][key]
+            elif key.startswith("kind_"):
+                node = self.tree["definitions"]["kind"]
+            else:
+                raise KeyError(f"{self.name}: {pointer}")
+        return self.resolved(node)
+
+    def names(self, node=None):
+        """Every name of a field, wherever it stands."""
+        node = self.tree if node is None else node
+        if isinstance(node, list):
+            return set().union(*map(self.names, node)) if node else set()
+        if not isinstance(node, dict):
+            return set()
+        found = set(node["properties"]) if isinstance(node.get("properties"), dict) else set()
+        return found.union(*(self.names(value) for value in node.values()))
+
+    def objects(self, node, path=""):
+        """Pairs of a path and the fields of the object there: the object itself, then those inside it, in their order.
+        What definitions describe is left to them."""
+        fields = fields_of(node)
+        if fields:
+            yield path, fields, set(node.get("required", []))
+        for name, field in fields.items():
+            if self.definition_of(field) is None:
+                yield from self.objects(self.resolved(field), f"{path}.{name}" if path else name)
+        inner = node.get("items")
+        if inner is not None and self.definition_of(node) is None:
+            yield from self.objects(inner, f"{path}[]")
+        for part in node.get("oneOf", []) + node.get("anyOf", []):
+            if "$ref" not in part and path:
+                yield from self.objects(part, path)
+
+
+def fields_of(node):
+    return node.get("properties", {}) if node.get("type") != "null" else {}
+
+
+def cell(text):
+    return text.replace("|", "\\|")
+
+
+def code(value):
+    return f"`{json.dumps(value, ensure_ascii=False)}`"
+
+
+def bounds(node):
+    said = []
+    for key, sign in (("minimum", "≥"), ("exclusiveMinimum", ">"), ("maximum", "≤"), ("exclusiveMaximum", "<")):
+        if key in node:
+            said.append(f"{sign} {number(node[key])}")
+    return ", ".join(said)
+
+
+def number(x):
+    """As a person writes it: the largest whole number that doubles count to has a name of its own."""
+    return "2^53" if x == 2**53 else f"{x:g}" if isinstance(x, float) else str(x)
+
+
+def kinds(schema, node):
+    """What a value may be, in words."""
+    node = schema.resolved(node)
+    if "const" in node:
+        return code(node["const"])
+    if "enum" in node:
+        return ", ".join(code(value) for value in node["enum"])
+    names = node.get("type", [])
+    names = [names] if isinstance(names, str) else list(names)
+    if not names:
+        parts = [kinds(schema, part) for part in node.get("oneOf", []) + node.get("anyOf", [])]
+        return " or ".join(dict.fromkeys(part for part in parts if part))
+    words = []
+    for name in names:
+        if name == "array":
+            inner = schema.resolved(node.get("items", {}))
+            least, most = node.get("minItems"), node.get("maxItems")
+            many = f"{least} " if least and least == most else f"up to {most} " if most else ""
+            words.append(f"list of {many}{kinds(schema, inner) or 'values'}")
+        elif name in ("number", "integer"):
+            words.append(" ".join(filter(None, (name, bounds(node)))))
+        else:
+            words.append({"string": "text", "boolean": "`true`, `false`"}.get(name, name))
+    return " or ".join(words)
