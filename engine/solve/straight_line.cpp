@@ -1,11 +1,9 @@
 #include "engine/solve/straight_line.hpp"
 
-#include <array>
-#include <boost/math/distributions/students_t.hpp>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
-#include <cstddef>
 #include <numeric>
+
+#include "engine/arithmetic/distributions.hpp"
 
 namespace isojam {
 
@@ -32,30 +30,6 @@ Line fit_line(std::span<const double> x, std::span<const double> y) {
   return line;
 }
 
-namespace {
-
-/// In quadruple precision, in software: as elementary.hpp has it, the same bits everywhere. Two thirds of a
-/// millisecond.
-double student_quantile(double degrees) {
-  using Real = boost::multiprecision::cpp_bin_float_quad;
-  return static_cast<double>(
-      boost::math::quantile(boost::math::students_t_distribution<Real>(Real(degrees)), Real(0.975)));
-}
-
-constexpr std::size_t tabulated = 32;
-
-std::array<double, tabulated> first_quantiles() {
-  std::array<double, tabulated> values{};
-  for (std::size_t n = 1; n < tabulated; ++n) values[n] = student_quantile(static_cast<double>(n));
-  return values;
-}
-
-}  // namespace
-
-double student_95(double degrees) {
-  static const auto table = first_quantiles();
-  const bool whole = degrees >= 1 && degrees < static_cast<double>(tabulated) && degrees == std::floor(degrees);
-  return whole ? table[static_cast<std::size_t>(degrees)] : student_quantile(degrees);
-}
+double student_95(double degrees) { return student_two_sided(0.95, std::lround(degrees)); }
 
 }  // namespace isojam

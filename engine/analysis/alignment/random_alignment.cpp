@@ -3,13 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
-#include <boost/math/distributions/binomial.hpp>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
+#include "engine/arithmetic/distributions.hpp"
 #include "engine/arithmetic/elementary.hpp"
 
 namespace isojam {
@@ -98,19 +97,6 @@ class Features {
   const ConvexSolid& solid_;
   std::vector<Vector3d> edges_;
 };
-
-struct Tails {
-  double at_most = 0, at_least = 0;
-};
-
-/// Probabilities of at most and of at least k of n.
-Tails binomial_tails(long n, double p, long k) {
-  // In software: as elementary.hpp has it, the same bits everywhere.
-  using Real = boost::multiprecision::cpp_bin_float_quad;
-  const boost::math::binomial_distribution<Real> count(static_cast<double>(n), Real(p));
-  const Real above = k == 0 ? Real(1) : boost::math::cdf(boost::math::complement(count, Real(k - 1)));
-  return {static_cast<double>(boost::math::cdf(count, Real(k))), static_cast<double>(above)};
-}
 
 }  // namespace
 
@@ -249,7 +235,7 @@ Randomness compare_with_random(std::span<const double> angles, const std::functi
   result.angle = high;
   result.below = std::count_if(angles.begin(), angles.end(), [&](double angle) { return angle < high; });
   result.expected = options.fraction * static_cast<double>(n);
-  const Tails tails = binomial_tails(n, options.fraction, result.below);
+  const BinomialTails tails = binomial_tails(n, options.fraction, result.below);
   result.probability = std::min({1.0, tails.at_least, tails.at_most});
   if (nearest::pow(options.fraction, static_cast<double>(n)) > options.level) {
     result.verdict = RandomnessVerdict::too_few;

@@ -12,9 +12,9 @@ namespace isojam {
 namespace {
 
 /// The force of each listed pair, by a merge of two lists in canonical order; null if it has none.
-std::vector<const ContactForce*> by_pair(const std::vector<NeighbourPair>& pairs,
-                                         std::span<const ContactForce> forces) {
-  std::vector<const ContactForce*> found(pairs.size(), nullptr);
+std::vector<const ContactMultiplier*> by_pair(const std::vector<NeighbourPair>& pairs,
+                                              std::span<const ContactMultiplier> forces) {
+  std::vector<const ContactMultiplier*> found(pairs.size(), nullptr);
   std::size_t next = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     while (next < forces.size() && canonical_key(forces[next].pair) < canonical_key(pairs[k])) ++next;
@@ -78,7 +78,7 @@ void EnvelopeEnergy::place(const Packing& packing) {
 
 /// Of the listed pairs those that have a force or touch.
 std::vector<std::size_t> EnvelopeEnergy::near_pairs(const Packing& packing,
-                                                    const std::vector<const ContactForce*>& force_of,
+                                                    const std::vector<const ContactMultiplier*>& force_of,
                                                     std::span<const char> only) {
   const std::vector<NeighbourPair>& pairs = list_.pairs();
   std::vector<char> near(pairs.size(), 0);
@@ -109,14 +109,14 @@ EnvelopeEvaluation EnvelopeEnergy::evaluate_pairs(const Packing& packing, const 
   return summed(std::move(contacts), packing.size());
 }
 
-EnvelopeEvaluation EnvelopeEnergy::evaluate(const Packing& packing, std::span<const ContactForce> forces,
+EnvelopeEvaluation EnvelopeEnergy::evaluate(const Packing& packing, std::span<const ContactMultiplier> forces,
                                             double stiffness, std::span<const char> only) {
   place(packing);
-  const std::vector<const ContactForce*> force_of = by_pair(list_.pairs(), forces);
+  const std::vector<const ContactMultiplier*> force_of = by_pair(list_.pairs(), forces);
   const std::vector<std::size_t> near = near_pairs(packing, force_of, only);
   return evaluate_pairs(packing, near, [&](std::size_t slot, const DoubleDoubleVector& r, EnvelopeContact& out) {
     Vector6d start = Vector6d::Zero();
-    if (const ContactForce* force = force_of[near[slot]]) out.multiplier = force->multiplier, start = force->shift;
+    if (const ContactMultiplier* force = force_of[near[slot]]) out.multiplier = force->multiplier, start = force->shift;
     out.at = proximal_contact(placed_[out.pair.a], packing.solids[out.pair.b], packing.poses[out.pair.b], r,
                               {out.multiplier, stiffness}, start);
   });
@@ -124,7 +124,7 @@ EnvelopeEvaluation EnvelopeEnergy::evaluate(const Packing& packing, std::span<co
 
 EnvelopeEvaluation EnvelopeEnergy::unshifted(const Packing& packing, double stiffness) {
   place(packing);
-  const std::vector<const ContactForce*> none(list_.pairs().size(), nullptr);
+  const std::vector<const ContactMultiplier*> none(list_.pairs().size(), nullptr);
   return evaluate_pairs(
       packing, near_pairs(packing, none, {}), [&](std::size_t, const DoubleDoubleVector& r, EnvelopeContact& out) {
         out.at =
@@ -172,8 +172,8 @@ BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellF
   return sum;
 }
 
-std::vector<ContactForce> forces_of(const EnvelopeEvaluation& evaluation) {
-  std::vector<ContactForce> forces;
+std::vector<ContactMultiplier> forces_of(const EnvelopeEvaluation& evaluation) {
+  std::vector<ContactMultiplier> forces;
   forces.reserve(evaluation.contacts.size());
   for (const EnvelopeContact& contact : evaluation.contacts)
     forces.push_back({contact.pair, contact.multiplier, contact.at.shift});

@@ -12,7 +12,7 @@
 namespace isojam {
 
 /// What is known of a contact before its envelope is: its multiplier μ, and a guess of its shift w; see ProximalTerms.
-struct ContactForce {
+struct ContactMultiplier {
   NeighbourPair pair;                      ///< which particles, and the image of b
   Vector6d multiplier = Vector6d::Zero();  ///< μ, in B's body frame
   Vector6d shift = Vector6d::Zero();       ///< w, in B's body frame
@@ -47,14 +47,14 @@ class EnvelopeEnergy {
   /// `forces` in order of (a, b, shift); pairs without one have μ = 0. With `only`, one flag for each particle,
   /// contacts without a flagged particle are left out. Throws std::invalid_argument unless
   /// is_legal(cell, solids.widest()).
-  EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactForce> forces, double stiffness,
+  EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactMultiplier> forces, double stiffness,
                               std::span<const char> only = {});
   /// The touching pairs as they are, each with the multiplier ∇e: no contact is shifted and Φ = E.
   EnvelopeEvaluation unshifted(const Packing& packing, double stiffness);
 
  private:
   void place(const Packing& packing);
-  std::vector<std::size_t> near_pairs(const Packing& packing, const std::vector<const ContactForce*>& force_of,
+  std::vector<std::size_t> near_pairs(const Packing& packing, const std::vector<const ContactMultiplier*>& force_of,
                                       std::span<const char> only);
   template <class Find>
   EnvelopeEvaluation evaluate_pairs(const Packing& packing, const std::vector<std::size_t>& near, const Find& find);
@@ -77,6 +77,6 @@ EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEva
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellFreedom cell = CellFreedom::fixed);
 
 /// Multipliers and shifts of the contacts as they are.
-std::vector<ContactForce> forces_of(const EnvelopeEvaluation& evaluation);
+std::vector<ContactMultiplier> forces_of(const EnvelopeEvaluation& evaluation);
 
 }  // namespace isojam

@@ -1,24 +1,13 @@
 #include "engine/packing/mixture/sizes.hpp"
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cassert>
 #include <charconv>
 #include <cmath>
 
+#include "engine/arithmetic/distributions.hpp"
 #include "engine/arithmetic/elementary.hpp"
 
 namespace isojam {
-
-namespace {
-
-/// In quadruple precision, in software: as elementary.hpp has it, the same bits everywhere.
-double normal_quantile(double share) {
-  using Real = boost::multiprecision::cpp_bin_float_quad;
-  return static_cast<double>(boost::math::quantile(boost::math::normal_distribution<Real>(), Real(share)));
-}
-
-}  // namespace
 
 double Sizes::quantile(double share) const {
   assert(share > 0 && share < 1);

@@ -21,7 +21,7 @@ constexpr double least_change = 0.2;
 
 }  // namespace
 
-EnvelopeState EnvelopeEvaluator::at(Packing packing, const std::vector<ContactForce>& forces,
+EnvelopeState EnvelopeEvaluator::at(Packing packing, const std::vector<ContactMultiplier>& forces,
                                     const std::vector<char>& only) {
   if (load_.control().cell != CellFreedom::fixed && !is_legal(packing.cell, packing.solids.widest())) {
     cell_limit_ = true;
@@ -63,8 +63,8 @@ Vector6d step_of_b(const EnvelopeContact& contact, const Eigen::VectorXd& step, 
   return of_b;
 }
 
-std::vector<ContactForce> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step) {
-  std::vector<ContactForce> forces = forces_of(state.value);
+std::vector<ContactMultiplier> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step) {
+  std::vector<ContactMultiplier> forces = forces_of(state.value);
   const Eigen::Matrix3d strain = strain_of(step, state.packing.size());
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const EnvelopeContact& contact = state.value.contacts[k];

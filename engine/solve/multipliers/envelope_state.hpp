@@ -30,7 +30,7 @@ class EnvelopeEvaluator {
   void set_stiffness(double value) { stiffness_ = value; }
 
   /// `only` as in EnvelopeEnergy::evaluate(); without the load then.
-  EnvelopeState at(Packing packing, const std::vector<ContactForce>& forces, const std::vector<char>& only = {});
+  EnvelopeState at(Packing packing, const std::vector<ContactMultiplier>& forces, const std::vector<char>& only = {});
   EnvelopeState unshifted(Packing packing);
 
   /// Second derivatives, those of the load included.
@@ -51,7 +51,7 @@ Vector6d step_of_b(const EnvelopeContact& contact, const Eigen::VectorXd& step, 
 
 /// Forces to evaluate the state after `step`, as moved() takes it, with: multipliers as they are, shifts
 /// as the step changes them to first order.
-std::vector<ContactForce> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step);
+std::vector<ContactMultiplier> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step);
 
 /// Whether going from one to the other makes good the decrease that was promised. Where Φ no longer resolves it, the
 /// forces decide.

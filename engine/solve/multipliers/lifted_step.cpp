@@ -50,7 +50,7 @@ std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stif
   const Eigen::VectorXd step = -factor.solve(gradient);
   if (!(largest_displacement(step) <= longest)) return std::nullopt;
   const Eigen::Matrix3d strain = strain_of(step, state.packing.size());
-  std::vector<ContactForce> forces;
+  std::vector<ContactMultiplier> forces;
   auto curvature = curvatures.begin();
   for (const EnvelopeContact& contact : state.value.contacts) {
     if (!contact.at.touching) continue;

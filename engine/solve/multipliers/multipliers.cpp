@@ -182,7 +182,7 @@ class Multipliers {
     shift_ = first_shift * k0_;
     Tangent answer = tangent(from, imposed, tangent_shift * k0_, longest_tangent * packing_.solids.least_inradius(),
                              evaluator_, factor_, summary_.work);
-    for (ContactForce& force : answer.forces) force.multiplier *= fall;
+    for (ContactMultiplier& force : answer.forces) force.multiplier *= fall;
     set_scales(fall * first_force_, distance);
     here_ = evaluator_.at(moved(strained, answer.step), answer.forces);
   }
@@ -236,7 +236,7 @@ class Multipliers {
     const double force = here_.value.mean_force;
     if (!(force > force_ / off_scale && force < off_scale * force_))
       set_scales(force, distance_ * nearest::pow(force / first_force_, 0.2));
-    std::vector<ContactForce> forces = forces_of(here_.value);
+    std::vector<ContactMultiplier> forces = forces_of(here_.value);
     const double part = renewals_ > damped_after ? damped_part : 1;
     for (std::size_t k = 0; k < forces.size(); ++k)
       forces[k].multiplier += part * (here_.value.contacts[k].at.wrench - forces[k].multiplier);

@@ -10,8 +10,8 @@ namespace isojam {
 
 /// How an equilibrium answers a change of density or pressure to first order.
 struct Tangent {
-  Eigen::VectorXd step;              ///< as moved() takes it, beside the strain that was imposed
-  std::vector<ContactForce> forces;  ///< multipliers as they were, shifts as the change makes them
+  Eigen::VectorXd step;                   ///< as moved() takes it, beside the strain that was imposed
+  std::vector<ContactMultiplier> forces;  ///< multipliers as they were, shifts as the change makes them
 };
 
 /// The answer −M⁻¹ ∂g of the equilibrium `from`, M the second derivatives of Φ + `shift`·1, ∂g the change of its

@@ -33,9 +33,9 @@ bool same_bits(const EnvelopeEvaluation& p, const EnvelopeEvaluation& q) {
 }
 
 /// Forces of the contacts, each changed at random by as much as it is.
-std::vector<ContactForce> changed(const EnvelopeEvaluation& exact, RandomStream& random) {
-  std::vector<ContactForce> forces = forces_of(exact);
-  for (ContactForce& force : forces) {
+std::vector<ContactMultiplier> changed(const EnvelopeEvaluation& exact, RandomStream& random) {
+  std::vector<ContactMultiplier> forces = forces_of(exact);
+  for (ContactMultiplier& force : forces) {
     const double size = force.multiplier.norm() / 2;
     for (double& entry : force.multiplier) entry += size * random.normal();
   }
@@ -75,7 +75,7 @@ TEST_P(EnvelopeOf, DerivativesAgreeWithDifferences) {
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
   // Stiff enough for shifts to be small: contacts of a random packing overlap deeply.
   const double stiffness = 100 * some_stiffness(exact);
-  const std::vector<ContactForce> forces = changed(exact, random);
+  const std::vector<ContactMultiplier> forces = changed(exact, random);
   const EnvelopeEvaluation here = envelope.evaluate(packing_, forces, stiffness);
   const Eigen::VectorXd along = testing_packings::random_step(random, packing_.size());
   const double h = 1e-6;
@@ -97,7 +97,7 @@ TEST_P(EnvelopeOf, LiesBelowTheEnergyAndGrowsWithTheStiffness) {
   RandomStream random{313, static_cast<std::uint64_t>(GetParam())};
   EnvelopeEnergy envelope;
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
-  const std::vector<ContactForce> forces = changed(exact, random);
+  const std::vector<ContactMultiplier> forces = changed(exact, random);
   double last = -std::numeric_limits<double>::infinity();
   for (const double factor : {1.0, 10.0, 100.0, 1e6}) {
     const EnvelopeEvaluation here = envelope.evaluate(packing_, forces, factor * some_stiffness(exact));
@@ -112,7 +112,7 @@ TEST_P(EnvelopeOf, FlaggedParticlesHaveTheirContactsAndNoOther) {
   RandomStream random{314, static_cast<std::uint64_t>(GetParam())};
   EnvelopeEnergy envelope;
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
-  const std::vector<ContactForce> forces = changed(exact, random);
+  const std::vector<ContactMultiplier> forces = changed(exact, random);
   const EnvelopeEvaluation whole = envelope.evaluate(packing_, forces, some_stiffness(exact));
   std::vector<char> flags(packing_.poses.size(), 0);
   for (int k = 0; k < 5; ++k) flags[static_cast<std::size_t>(60 * random.uniform())] = 1;
@@ -133,7 +133,7 @@ TEST_P(EnvelopeOf, IsMadeUpOfWhatMovedAndWhatDidNot) {
   RandomStream random{317, static_cast<std::uint64_t>(GetParam())};
   EnvelopeEnergy envelope;
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
-  const std::vector<ContactForce> forces = changed(exact, random);
+  const std::vector<ContactMultiplier> forces = changed(exact, random);
   const double stiffness = some_stiffness(exact);
   const EnvelopeEvaluation before = envelope.evaluate(packing_, forces, stiffness);
   std::vector<char> flags(static_cast<std::size_t>(packing_.size()), 0);
@@ -155,7 +155,7 @@ TEST_P(EnvelopeOf, IsMadeUpOfWhatMovedAndWhatDidNot) {
 TEST_P(EnvelopeOf, IsTheSameBitsWhateverCameBefore) {
   RandomStream random{315, static_cast<std::uint64_t>(GetParam())};
   const EnvelopeEvaluation exact = EnvelopeEnergy().unshifted(packing_, 1);
-  const std::vector<ContactForce> forces = changed(exact, random);
+  const std::vector<ContactMultiplier> forces = changed(exact, random);
   const double stiffness = some_stiffness(exact);
   const EnvelopeEvaluation fresh = EnvelopeEnergy().evaluate(packing_, forces, stiffness);
   EnvelopeEnergy used;

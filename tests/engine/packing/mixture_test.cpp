@@ -167,8 +167,8 @@ TEST(MixtureEnvelope, IsTheEnergyAndHasItsSlopes) {
   EXPECT_NEAR(unshifted.value, exact.energy, 1e-12 * exact.energy);
   EXPECT_LE((unshifted.gradient - exact.gradient).norm(), 1e-12 * exact.gradient.norm());
   RandomStream random{6};
-  std::vector<ContactForce> forces = forces_of(unshifted);
-  for (ContactForce& force : forces) {
+  std::vector<ContactMultiplier> forces = forces_of(unshifted);
+  for (ContactMultiplier& force : forces) {
     const double size = force.multiplier.norm() / 4;
     for (double& entry : force.multiplier) entry += size * random.normal();
   }

@@ -1,0 +1,20 @@
+#pragma once
+
+// In quadruple precision, in software, as elementary.hpp has it: the same bits on every processor.
+
+namespace isojam {
+
+/// t with P(|T| ≤ t) = share for Student's T of so many degrees of freedom, a whole number ≥ 1; 0 < share < 1. By the
+/// finite series in cos² of atan(t/√ν) (Abramowitz & Stegun 26.7.3 and 26.7.4): a few milliseconds for 100 000 degrees.
+double student_two_sided(double share, long degrees);
+
+/// x with P(X ≤ x) = share for a normal X of mean 0 and variance 1; 0 < share < 1.
+double normal_quantile(double share);
+
+/// Probabilities of at most and of at least k successes in n trials of probability p, 0 ≤ k ≤ n, 0 ≤ p ≤ 1.
+struct BinomialTails {
+  double at_most = 0, at_least = 0;
+};
+BinomialTails binomial_tails(long n, double p, long k);
+
+}  // namespace isojam
