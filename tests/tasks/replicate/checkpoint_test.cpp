@@ -63,7 +63,7 @@ TEST(Checkpoint, TheRestOfARunInACellThatGivesWayHasTheSameBits) {
   manifest["measure"] = {"contacts"};
   manifest["protocol"]["control"] = "pressure";
   manifest["protocol"]["cell"] = "free";
-  expect_the_same_bits(test::make_plan(parse_manifest(manifest.dump(), "tiny"))[0]);
+  expect_the_same_bits(test::make_plan(parse_manifest(manifest.dump(), "tiny"))[2]);
 }
 
 TEST(Checkpoint, TheRestOfARunHasTheSameBits) {

@@ -117,7 +117,7 @@ TEST_F(Adding, GivesWhatARunWithAllWouldHave) {
 }
 
 TEST_F(Adding, FollowsStatesToMinimaAsARunDoes) {
-  auto manifest = parse_json(R"({"name": "saddle", "seed": 5, "sweep": {"solid": ["icosahedron"], "particles": [40]},
+  auto manifest = parse_json(R"({"name": "saddle", "seed": 7, "sweep": {"solid": ["icosahedron"], "particles": [40]},
                                  "replicates": 1, "protocol": {"final_distance": 0.015}, "keep_path": true,
                                  "measure": ["contacts", "clusters", "modes"]})",
                              "saddle");
