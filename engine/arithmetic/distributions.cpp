@@ -79,9 +79,13 @@ BinomialTails binomial_tails(long n, double p, long k) {
   if (p == 1) return {k == n ? 1.0 : 0.0, 1};
   const Quad q = 1 - Quad(p), odds = p / q;
   const Quad here = expq(lgammaq(n + 1) - lgammaq(k + 1) - lgammaq(n - k + 1) + k * logq(p) + (n - k) * logq(q));
+  // The tail that falls from k on; it may be far below what the other one can show.
+  if (k >= n * p) {
+    const Quad at_least = series(here, k, n, 1, [&](long j) { return (n - j) * odds / (j + 1); });
+    return {static_cast<double>(1 - at_least + here), static_cast<double>(at_least)};
+  }
   const Quad at_most = series(here, k, 0, -1, [&](long j) { return Quad(j) / (n - j + 1) / odds; });
-  const Quad at_least = series(here, k, n, 1, [&](long j) { return (n - j) * odds / (j + 1); });
-  return {static_cast<double>(at_most), static_cast<double>(at_least)};
+  return {static_cast<double>(at_most), static_cast<double>(1 - at_most + here)};
 }
 
 }  // namespace isojam
