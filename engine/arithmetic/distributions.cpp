@@ -80,7 +80,7 @@ BinomialTails binomial_tails(long n, double p, long k) {
   const Quad q = 1 - Quad(p), odds = p / q;
   const Quad here = expq(lgammaq(n + 1) - lgammaq(k + 1) - lgammaq(n - k + 1) + k * logq(p) + (n - k) * logq(q));
   // The tail that falls from k on; it may be far below what the other one can show.
-  if (k >= n * p) {
+  if (static_cast<double>(k) >= static_cast<double>(n) * p) {
     const Quad at_least = series(here, k, n, 1, [&](long j) { return (n - j) * odds / (j + 1); });
     return {static_cast<double>(1 - at_least + here), static_cast<double>(at_least)};
   }
