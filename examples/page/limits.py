@@ -6,7 +6,7 @@ from estimates import resamples, student
 from scaling import line
 
 FORMS = (0.5, 1.0, None)  # exponents of Δφ; None: the one that fits best
-GRID = tuple(0.2 + 0.05 * i for i in range(37))  # 0.2 … 2
+GRID = tuple(round(0.2 + 0.05 * i, 2) for i in range(37))  # 0.2 … 2
 
 
 def fitted(points, exponent):
@@ -17,7 +17,7 @@ def fitted(points, exponent):
     return intercept, slope, exponent, off
 
 
-def limit(paths, window, exponent, draws=200, seed=1):
+def limit(paths, window, exponent, draws=100, seed=1):
     """The limit a of a + b Δφ^x over (Δφ, y) with window[0] ≤ Δφ < window[1], of all replicates together, with a 95 %
     interval from samples of replicates with replacement, widened as Student's t is against the normal; and x. None if
     fewer than three replicates or four points are there."""

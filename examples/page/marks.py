@@ -11,10 +11,13 @@ class PageError(Exception):
     """The page does not have the parts that it must have."""
 
 
-def renewed(page, blocks, data, value_of=None):
-    """The page with every part made anew: blocks is {name: function of data}, value_of a function of (data, name)."""
+def renewed(page, blocks, data, value_of=None, every=True):
+    """The page with every part made anew: blocks is {name: function of data}, value_of a function of (data, name). It
+    must have every block once, or, if not `every`, some of them."""
     names = [match.group(2) for match in BLOCK.finditer(page)]
-    if sorted(names) != sorted(blocks):
+    if not every and not names or not set(names) <= set(blocks):
+        raise PageError(f"the page must have some of these blocks: {', '.join(sorted(blocks))}")
+    if every and sorted(names) != sorted(blocks):
         raise PageError(f"the page must have every block once: {', '.join(sorted(blocks))}; "
                         f"not so: {', '.join(sorted(set(names) ^ set(blocks))) or 'one is there twice'}")
     page = BLOCK.sub(lambda match: match.group(1) + blocks[match.group(2)](data) + match.group(3), page)

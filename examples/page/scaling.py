@@ -21,21 +21,23 @@ def line(x, y):
 
 def jamming_density(phi, energy, start, window, exponent=6):
     """Where (E/N)^(1/exponent) ends if it is linear in φ over the states with lower ≤ φ − φ_J < upper. Which states
-    these are depends on φ_J: from `start` on until they stay the same. None if too few are left."""
+    these are depends on φ_J: from `start` on until they stay the same; where they go round, the mean of the round. None
+    if too few are left."""
     lower, upper = window
-    found, before = start, None
-    for _ in range(100):
+    found, seen, history = start, [], []
+    while True:
         chosen = [i for i, x in enumerate(phi) if lower <= x - found < upper and energy[i] > 0]
-        if chosen == before:
-            return found
+        if chosen in seen:
+            round_of = history[seen.index(chosen):]
+            return sum(round_of) / len(round_of)
         if len(chosen) < LEAST_STATES:
             return None
-        before = chosen
         intercept, slope, _ = line([phi[i] for i in chosen], [energy[i] ** (1 / exponent) for i in chosen])
         if slope <= 0:
             return None
         found = -intercept / slope
-    return None
+        seen.append(chosen)
+        history.append(found)
 
 
 def free_exponent(phi, energy, start, window):

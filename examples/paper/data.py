@@ -38,6 +38,10 @@ def densities(replicate):
     return [found[0] if found[0] is not None else start, *found[1:], free[0] if free else None]
 
 
+def chosen(found, choice):
+    return found[choice] if choice < len(found) and found[choice] is not None else found[0]
+
+
 class Data:
     """Records of a directory. Nothing in them that is counted is crystalline or short of its goal."""
 
@@ -63,19 +67,17 @@ class Data:
 
     @functools.cache
     def distances(self, solid, particles, choice=0):
-        """Δφ of every state of every replicate, by that choice of φ_J; None for a replicate that it gives none."""
-        made = []
-        for replicate, found in zip(self.counted(solid, particles), self.densities(solid, particles)):
-            density = found[choice] if choice < len(found) else None
-            made.append(None if density is None else [x - density for x in replicate["states"]["phi"]])
-        return made
+        """Δφ of every state of every replicate, by that choice of φ_J, or by the first where it gives none: choices are
+        compared over the same replicates."""
+        return [[x - chosen(found, choice) for x in replicate["states"]["phi"]] for replicate, found in zip(
+            self.counted(solid, particles), self.densities(solid, particles))]
 
     def phi_j(self, solid, particles):
         """With half the range over fits as systematic error."""
         found = self.densities(solid, particles)
         if not found:
             return None
-        choices = [estimate_of([f[i] if i < len(f) else None for f in found]) for i in range(4)]
+        choices = [estimate_of([chosen(f, i) for f in found]) for i in range(4)]
         return of_choices(choices[0], choices[1:])
 
     def column(self, solid, particles, name):
@@ -83,9 +85,9 @@ class Data:
         return [r["states"].get(name) for r in self.counted(solid, particles)]
 
     def paths(self, solid, particles, name, choice=0):
-        """(Δφ, values) of every replicate that has both."""
+        """(Δφ, values) of every replicate that has them."""
         return [(x, y) for x, y in zip(self.distances(solid, particles, choice), self.column(solid, particles, name))
-                if x is not None and y is not None]
+                if y is not None]
 
     def nearest(self, solid, particles, name):
         """In the states nearest jamming."""
@@ -96,7 +98,7 @@ class Data:
         return estimate_of([at(x, y, distance) for x, y in self.paths(solid, particles, name)])
 
     def nearest_distance(self, solid, particles):
-        return estimate_of([x[-1] for x in self.distances(solid, particles) if x])
+        return estimate_of([x[-1] for x in self.distances(solid, particles)])
 
     def slopes(self, solid, particles, name, edges):
         """Local exponents in Δφ by bin, with what the choice of φ_J does as systematic error."""
@@ -106,7 +108,7 @@ class Data:
     def network(self, solid, particles, name):
         """Of every replicate that has them: (Δφ, what network.py made of every state)."""
         return [(x, r["network"][name]) for x, r in zip(self.distances(solid, particles),
-                                                        self.counted(solid, particles)) if "network" in r and x]
+                                                        self.counted(solid, particles)) if "network" in r]
 
     def of(self, figure):
         """Our estimate of a figure of the paper; None if it was not measured."""

@@ -7,7 +7,7 @@ import statistics
 from data import SIZES, SOLIDS
 from estimates import estimate_of, single_half_width, student
 from scaling import jamming_density
-from text import interval, number, signed, significant, spread, table
+from text import counted, interval, number, signed, significant, spread, table
 from verdicts import verdict
 
 # Rounded dice in a box, the third column of the paper's Table I.
@@ -17,6 +17,7 @@ EXPERIMENT = {"tetrahedron": (0.64, 0.01), "octahedron": (0.64, 0.01), "icosahed
 STABLE_FROM = {"tetrahedron": 0.04, "octahedron": 0.02, "icosahedron": 0.01, "dodecahedron": 0.01}
 FITS = {"< .02": (0, 0.02), "< .04": (0, 0.04), ".01 – .06": (0.01, 0.06), ".02 – .06": (0.02, 0.06),
         ".02 – .12": (0.02, 0.12), ".04 – .16": (0.04, 0.16), "stable – .12": (None, 0.12), "stable – .16": (None, 0.16)}
+TARGET = 3.2e-5
 BASE = ({"before": False, "step": 0.02, "budget": 2000}, "< .02")
 
 
@@ -95,7 +96,8 @@ def refitted(replicates, fit, solid):
 
 
 def ranked(data):
-    """Settings with four solids, best first: (χ², root mean square of paper − ours, setting, window, estimates)."""
+    """Settings with four solids, best first: (χ², root mean square of paper − ours, setting, window, estimates,
+    paper − ours)."""
     theirs = {f["solid"]: f["value"] for f in data.figures if f["place"] == "Table I" and f["particles"] == 100}
     made = []
     for setting, solids in settings_of(data).items():
@@ -116,11 +118,13 @@ def deviation_of(estimate):
 
 
 def is_base(entry):
-    return entry[3] == BASE[1] and all(entry[2][key] == value for key, value in BASE[0].items())
+    return entry[3] == BASE[1] and is_base_setting(entry[2])
 
 
 def name_of(setting, window):
     reading = "before" if setting["before"] else "after"
+    if setting["target"] != TARGET:
+        reading += f", {significant(setting['target'], 1)}"
     return [reading, number(setting["step"], 3), str(setting["budget"]), window]
 
 
@@ -142,30 +146,33 @@ def search(data, best=6):
         f"intervals of our means.\n")
 
 
+def moved_by(data, setting, solid):
+    """Shift of φ_J, 10⁻⁴, against the base setting, in pairs of replicates that began alike."""
+    every = [r for r in itertools.chain(*data.search.values())
+             if r["solid"] == solid and r["status"] == "done" and "crystalline" not in r["flags"]]
+    base = {r["replicate"]: r["phi_j"] for r in every if is_base_setting(r["setting"])}
+    return estimate_of([1e4 * (r["phi_j"] - base[r["replicate"]]) for r in every
+                        if r["setting"] == setting and r["replicate"] in base])
+
+
+def is_base_setting(setting):
+    return setting["target"] == TARGET and all(setting[key] == value for key, value in BASE[0].items())
+
+
 def levers(data):
-    """What each choice of the way up moves, in pairs of replicates that began alike."""
-    base, rows = {}, []
-    every = list(itertools.chain(*data.search.values()))
-    for r in every:
-        if r["status"] == "done" and all(r["setting"][k] == v for k, v in BASE[0].items()) \
-                and r["setting"]["target"] == 3.2e-5:
-            base[r["solid"], r["replicate"]] = r
-    for setting in settings_of(data):
-        setting = dict(setting)
-        cells = []
-        for solid in SOLIDS:
-            moved = [1e4 * (r["phi_j"] - base[solid, r["replicate"]]["phi_j"]) for r in every
-                     if r["status"] == "done" and r["setting"] == setting and r["solid"] == solid
-                     and (solid, r["replicate"]) in base
-                     and not {"crystalline"} & {*r["flags"], *base[solid, r["replicate"]]["flags"]}]
-            estimate = estimate_of(moved)
-            cells.append(f"{interval(estimate)} ({estimate['n']})" if estimate else "–")
-        if all(setting[k] == v for k, v in BASE[0].items()) and setting["target"] == 3.2e-5:
-            continue
-        rows.append(([setting["before"], setting["step"], setting["budget"]],
-                     [*name_of(setting, "")[:3], *cells]))
+    """What each choice of the way up moves."""
+    rows = []
+    for setting in map(dict, settings_of(data)):
+        if not is_base_setting(setting):
+            rows.append(([setting["target"] != TARGET, setting["before"], setting["step"], setting["budget"]],
+                         [*name_of(setting, "")[:3], *(counted(moved_by(data, setting, s)) for s in SOLIDS)]))
     return table(["target read", "step", "budget", *SOLIDS], [row for _, row in sorted(rows)]) if rows else \
         "Not in these records.\n"
+
+
+def levers_of(data, solid, reading, step, budget):
+    setting = {"before": reading == "before", "step": float(step), "budget": int(budget), "target": TARGET}
+    return counted(moved_by(data, setting, solid))
 
 
 def windows(data):
@@ -179,8 +186,7 @@ def windows(data):
                 window = (STABLE_FROM[solid] if fit[0] is None else fit[0], fit[1])
                 there = jamming_density(r["states"]["phi"], r["states"]["E"], r["phi_j"]["phi_j"], window)
                 moved.append(None if there is None else 1e4 * (there - near[0]))
-            estimate = estimate_of(moved)
-            cells.append(f"{interval(estimate)} ({estimate['n']})" if estimate else "–")
+            cells.append(counted(estimate_of(moved)))
         rows.append([name, *cells])
     return table(["fit over Δφ", *SOLIDS], rows)
 

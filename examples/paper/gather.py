@@ -3,7 +3,7 @@
 Writes OUT/records.json: of each replicate of the studies below RESULTS its flags, cost, φ_J and, of every state, what the
 page needs, column by column; from the contacts of every state (keep_path) what network.py makes of them. And
 OUT/search.json: φ and E/N of every state of the search of the protocol. To keep them small numbers are rounded: φ to
-eight digits, all others to five. Studies that are not there, or not complete, are left out or count with what they have.
+nine digits, E/N to six, all others to four. Studies that are not there, or not complete, are left out or count with what they have.
 """
 
 import csv
@@ -66,18 +66,27 @@ def columns_of(states):
 
 def quantiles(angles):
     """Angles below which (i + ½)/POINTS of them lie, in degrees."""
-    return [math.degrees(angles[min(len(angles) - 1, int((i + 0.5) / POINTS * len(angles)))])
-            for i in range(POINTS)]
+    ordered = sorted(angles)
+    return [math.degrees(ordered[int((i + 0.5) / POINTS * len(ordered))]) for i in range(POINTS)]
 
 
-def nearest_of(nearest):
-    """What is drawn of the state nearest jamming alone."""
-    curves = {name: quantiles(sorted(angles)) for name in ("edge_face", "face_face")
-              if (angles := found(nearest, f"angles/{name}"))}
-    spectra = {name: omega for name in ("lowest", "highest") if (omega := found(nearest, f"modes/{name}/omega"))}
-    return {"curves": curves, "spectra": spectra,
-            "random_angle": found(nearest, "angles/edge_face_random/angle"),
-            "random_verdict": found(nearest, "angles/edge_face_random/verdict")}
+def drawn_of(records):
+    """What figures need, by solid and size, of replicates that are not crystalline: angles of all states nearest jamming
+    together, and of the first its spectrum in the nearest state with three zero modes."""
+    angles, made = {}, {}
+    for record in records:
+        if record["status"] != "done" or "crystalline" in record["flags"]:
+            continue
+        name, nearest = f"{record['spec']['solid']} {record['spec']['particles']}", record["nearest"]
+        for kind in ("edge_face", "face_face"):
+            angles.setdefault(name, {}).setdefault(kind, []).extend(found(nearest, f"angles/{kind}") or [])
+        resolved = [state for state in record["states"] if found(state, "modes/zero") == 3]
+        if resolved and "spectrum" not in made.setdefault(name, {}):
+            made[name] |= {"replicate": record["spec"]["replicate"], "delta_phi": resolved[-1]["delta_phi"],
+                           "spectrum": [found(resolved[-1], f"modes/{end}/omega") for end in ("lowest", "highest")]}
+    for name, kinds in angles.items():
+        made.setdefault(name, {}).update({kind: quantiles(some) for kind, some in kinds.items() if some})
+    return made
 
 
 def contacts_of(isojam, directory, name):
@@ -107,7 +116,7 @@ def network_of(contacts, record):
     made = {"by_cutoffs": [], "regions": [], "emerged": [], "hyper_random": [], "neighbours": []}
     for i, state in enumerate(contacts):
         fits = {"ff": columns["cut_ff"][i], "ef": columns["cut_ef"][i],
-                "gap_ff": gap_of(record["states"][i], "face_face"), "gap_ef": gap_of(record["states"][i], "edge_face")}
+                "gap_ff": gap_of(record["states"][i], "face_face")}
         made["by_cutoffs"].append(network.by_cutoffs(state, fits, particles))
         counts = network.regions(state, critical)
         made["regions"].append(counts)
@@ -129,21 +138,22 @@ def replicate_of(record):
     return {**made, "phi_j": {key: record["phi_j"].get(key) for key in (
                 "phi_j", "ci95_half_width", "exponent", "residual")},
             "evaluations": [record["path"][state["step"]]["evaluations"] for state in record["states"]],
-            "states": columns_of(record["states"]), "nearest": nearest_of(record["nearest"])}
+            "states": columns_of(record["states"])}
 
 
 def study_of(isojam, directory, critical):
-    replicates, commits = [], set()
+    replicates, records = [], []
     for name, record in records_of(directory):
-        commits.add(record["provenance"]["git"])
+        records.append(record)
         made = replicate_of(record)
-        angle = found(made, "nearest/random_angle")
+        angle = found(record, "nearest/angles/edge_face_random/angle")
         if angle and (directory / "paths" / f"{name}.json").exists():
             record["critical"] = critical[record["spec"]["solid"]]
             record["random_angle"] = angle
             made["network"] = network_of(contacts_of(isojam, directory, name), record)
         replicates.append(made)
-    return {"git": sorted(commits), "replicates": replicates}
+    return {"git": sorted({r["provenance"]["git"] for r in records}), "drawn": drawn_of(records),
+            "replicates": replicates}
 
 
 def search_of(directory):
@@ -162,13 +172,13 @@ def search_of(directory):
     return made
 
 
-def rounded(value, digits=5):
+def rounded(value, digits=4):
     if isinstance(value, float):
         return float(f"{value:.{digits}g}")
     if isinstance(value, list):
         return [rounded(item, digits) for item in value]
     if isinstance(value, dict):
-        return {key: rounded(item, 8 if key in ("phi", "phi_j") else 6 if key == "E" else digits)
+        return {key: rounded(item, 9 if key in ("phi", "phi_j") else 6 if key == "E" else digits)
                 for key, item in value.items()}
     return value
 

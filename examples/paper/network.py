@@ -23,17 +23,12 @@ def classes(state, cut_ff, cut_ef, particles):
 
 
 def by_cutoffs(state, fits, particles):
-    """C at the fitted cut-offs times each of FACTORS, C with one of them halved or doubled, and C and Z_ff by gaps.
-    None where there is no fit, or no gap."""
+    """[C at the fitted cut-offs times each of FACTORS, Z_ff by the gap in θ_ff]. None where there is no fit, or no gap."""
     ff, ef = fits["ff"], fits["ef"]
     known = ff is not None and ef is not None
-    found = {"C": [classes(state, f * ff, f * ef, particles)["C"] if known else None for f in FACTORS],
-             "C_ff": [classes(state, f * ff, ef, particles)["C"] if known else None for f in FACTORS],
-             "C_ef": [classes(state, ff, f * ef, particles)["C"] if known else None for f in FACTORS]}
-    gap_ff, gap_ef = fits["gap_ff"], fits["gap_ef"]
-    gaps = gap_ff is not None and gap_ef is not None
-    return {**found, "C_gap": classes(state, gap_ff, gap_ef, particles)["C"] if gaps else None,
-            "Z_ff_gap": classes(state, gap_ff, 0, particles)["Z_ff"] if gap_ff is not None else None}
+    gap = fits["gap_ff"]
+    return [[classes(state, f * ff, f * ef, particles)["C"] if known else None for f in FACTORS],
+            classes(state, gap, 0, particles)["Z_ff"] if gap is not None else None]
 
 
 def regions(state, critical):
@@ -71,8 +66,9 @@ def neighbours(state, cut_ff, particles):
 
 
 def hindrance(found):
-    """From entries of `neighbours` of several states of one size: q, the probability that another contact of a particle
-    with a face-face contact is face-face; p, that of any contact; variance over mean of k, and that of a binomial."""
+    """From an entry of `neighbours` and the number of contacts: q, the probability that another contact of a particle with
+    a face-face contact is face-face; p, what it would be if face-face contacts were drawn at random among all, (n − 1)/
+    (M − 1); variance over mean of k; the share of particles with two and more, and that of a Poisson distribution."""
     counts, pairs, others, contacts = found
     particles = sum(counts)
     total = sum(k * n for k, n in enumerate(counts))
@@ -80,6 +76,6 @@ def hindrance(found):
         return None
     mean = total / particles
     variance = sum(n * (k - mean) ** 2 for k, n in enumerate(counts)) / particles
-    return {"q": pairs / others, "p": total / (2 * contacts), "dispersion": variance / mean,
+    return {"q": pairs / others, "p": (total / 2 - 1) / (contacts - 1), "dispersion": variance / mean,
             "two_or_more": sum(counts[2:]) / particles,
             "poisson": 1 - math.exp(-mean) * (1 + mean)}

@@ -126,6 +126,13 @@ class Scaling(unittest.TestCase):
         self.assertEqual(scaling.at([4, 2, 1], [16, 3, 12], 2), 3)
 
 
+    def test_jamming_density_goes_round(self):
+        # States that enter and leave the window as φ_J moves: the mean of the round, whatever it began with.
+        bent = [e * (1 + 30 * (x - 0.7)) for x, e in zip(self.PHI, self.law(5))]
+        found = {round(scaling.jamming_density(self.PHI, bent, 0.7 - start, (0.03, 0.06)), 9) for start in (0, 0.001)}
+        self.assertEqual(len(found), 1)
+
+
 class Limits(unittest.TestCase):
     X = [0.02 * 0.7 ** i for i in range(10)]
 
@@ -161,9 +168,14 @@ class Marks(unittest.TestCase):
         self.assertEqual(marks.without_marks(made.splitlines()[-1]), "Z is Z 100: 5, so.")
 
     def test_refused(self):
-        for page in (self.PAGE + self.PAGE, "", self.PAGE.replace("block one", "block two")):
-            with self.assertRaisesRegex(marks.PageError, "every block once"):
-                marks.renewed(page, {"one": str}, 5, lambda data, name: name)
+        for page, blocks in ((self.PAGE + self.PAGE, {"one": str}), ("", {"one": str}), (self.PAGE, {"one": str, "two": str})):
+            with self.assertRaises(marks.PageError):
+                marks.renewed(page, blocks, 5, lambda data, name: name)
+        with self.assertRaises(marks.PageError):
+            marks.renewed(self.PAGE, {"two": str}, 5, lambda data, name: name, every=False)
+        with self.assertRaises(marks.PageError):
+            marks.renewed(self.PAGE, {"one": str}, 5)
+        marks.renewed(self.PAGE, {"one": str, "two": str}, 5, lambda data, name: name, every=False)
 
 
 if __name__ == "__main__":
