@@ -1,5 +1,5 @@
-"""Means over replicates with intervals: pure functions. An estimate is a dict of mean, half_width (95 %, Student t; None
-of one value), n and, where something was varied that replicates do not vary, systematic."""
+"""Means over replicates with intervals: pure functions. An estimate is a dict of mean, half_width (95 %, Student t;
+None of one value), n and, where something was varied that replicates do not vary, systematic."""
 
 import functools
 import math

@@ -1,5 +1,6 @@
 """Pages with parts that are made from data: blocks, `<!-- block NAME -->` … `<!-- end -->`, and numbers within a
-sentence, `<!-- = NAME -->…<!-- / -->`. What stands between is replaced by what NAME gives; all else is left as it is."""
+sentence, `<!-- = NAME -->…<!-- / -->`. What stands between is replaced by what NAME gives; all else is left as it
+is."""
 
 import re
 

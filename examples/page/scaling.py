@@ -72,8 +72,8 @@ def slopes(x, y):
 
 
 def binned(paths, edges):
-    """Estimates for bins between rising edges, from lists of (x, value), one list per replicate. A replicate counts once
-    in a bin, by the mean of what it has there."""
+    """Estimates for bins between rising edges, from lists of (x, value), one list per replicate. A replicate counts
+    once in a bin, by the mean of what it has there."""
     bins = []
     for lower, upper in zip(edges, edges[1:]):
         means = []

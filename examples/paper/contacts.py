@@ -103,8 +103,8 @@ def cutoff_range(data, solid, particles, distance=None):
             fitted.append(both[1])
         near = [c for c in found[HALF_TO_TWICE] if c is not None]
         half.append((max(near) - min(near)) / 2 if len(near) == 3 else None)
-    return ([estimate_of([c[i] for c in by_factor]) for i in range(len(FACTORS))], estimate_of(fitted), estimate_of(gaps),
-            estimate_of(half))
+    return ([estimate_of([c[i] for c in by_factor]) for i in range(len(FACTORS))], estimate_of(fitted),
+            estimate_of(gaps), estimate_of(half))
 
 
 def cutoffs(data):
@@ -162,8 +162,8 @@ def regions(data):
             if not paths:
                 continue
             for part in range(3):
-                found = [binned([[(max(x, 0), 100 * c[part] / sum(c)) for x, c in zip(*path)] for path in paths], edges)[0]
-                         for edges in DISTANCES]
+                shares = [[(max(x, 0), 100 * c[part] / sum(c)) for x, c in zip(*path)] for path in paths]
+                found = [binned(shares, edges)[0] for edges in DISTANCES]
                 rows.append([f"{solid} {particles}", str(part + 1), *(counted(e) for e in found)])
     return table(["contacts, %", "region", *(bin_name(*d) for d in DISTANCES)], rows) if rows else \
         "Not in these records.\n"
@@ -239,7 +239,8 @@ def order_parameter(data):
             row += [interval(z := estimate_of([value_near(r, "Z_ff") for r in without])), spread(z), str(len(crystals)),
                     ", ".join(number(v, 2) for r in crystals if (v := value_near(r, "Z_ff")) is not None) or "–"]
             rows.append(row)
-    return table(["", "n", "r(Z_ff, φ_J)", "r(Z_ff, Q6)", "r(Z_ff, S)", "Z_ff", "one packing", "crystals", "their Z_ff"], rows)
+    return table(["", "n", "r(Z_ff, φ_J)", "r(Z_ff, Q6)", "r(Z_ff, S)", "Z_ff", "one packing", "crystals",
+                  "their Z_ff"], rows)
 
 
 def value_near(replicate, column):
@@ -247,5 +248,5 @@ def value_near(replicate, column):
     return values[-1] if values else None
 
 
-BLOCKS = {f.__name__: f for f in (table_2, table_3, table_4, figure_3, cutoffs, isostatic, regions, emergence, hindrances,
-                                  order_parameter)}
+BLOCKS = {f.__name__: f for f in (table_2, table_3, table_4, figure_3, cutoffs, isostatic, regions, emergence,
+                                  hindrances, order_parameter)}

@@ -15,7 +15,8 @@ def summary(data):
         rows.append([solid, *(cell for n in SIZES for cell in (counted(data.phi_j(solid, n)), theirs[n])),
                      *(interval(data.nearest(solid, 100, column)) for column in ("Z", "Z_ff", "C")),
                      interval(data.nearest(solid, 400, "C"))])
-    return table(["", "φ_J, N = 100", "paper", "φ_J, N = 400", "paper", "Z, 100", "Z_ff, 100", "C, 100", "C, 400"], rows)
+    return table(["", "φ_J, N = 100", "paper", "φ_J, N = 400", "paper", "Z, 100", "Z_ff, 100", "C, 100",
+                  "C, 400"], rows)
 
 
 def rigidity(data):
@@ -27,7 +28,8 @@ def rigidity(data):
             if not rank:
                 continue
             full = 6 * particles - 3
-            short = estimate_of([full - y[-1] for y in data.column(solid, particles, "rank") if y and y[-1] is not None])
+            short = estimate_of([full - y[-1] for y in data.column(solid, particles, "rank")
+                                 if y and y[-1] is not None])
             rows.append([f"{solid} {particles}", str(rank["n"]),
                          significant(data.nearest_distance(solid, particles)["mean"], 2), interval(constraints),
                          interval(rank), str(full), interval(stress), interval(short), interval(normals)])
@@ -43,8 +45,8 @@ def cubes(data):
     failed = sum(r["status"] != "done" for r in every)
     row = [str(len(every)), str(failed), str(len(data.counted("cube", 100))), interval(data.phi_j("cube", 100)),
            *(interval(data.nearest("cube", 100, column)) for column in columns)]
-    return table(["replicates", "failed", "n", "φ_J", "Z", "Z_ff", "C", "S", "percolate", "zero modes", "negative modes",
-                  "states of self-stress"], [row])
+    return table(["replicates", "failed", "n", "φ_J", "Z", "Z_ff", "C", "S", "percolate", "zero modes",
+                  "negative modes", "states of self-stress"], [row])
 
 
 def cost(data):

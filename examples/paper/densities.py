@@ -16,7 +16,8 @@ EXPERIMENT = {"tetrahedron": (0.64, 0.01), "octahedron": (0.64, 0.01), "icosahed
 # Lower ends that the paper's stable states leave, from the caption of its Figure 3.
 STABLE_FROM = {"tetrahedron": 0.04, "octahedron": 0.02, "icosahedron": 0.01, "dodecahedron": 0.01}
 FITS = {"< .02": (0, 0.02), "< .04": (0, 0.04), ".01 – .06": (0.01, 0.06), ".02 – .06": (0.02, 0.06),
-        ".02 – .12": (0.02, 0.12), ".04 – .16": (0.04, 0.16), "stable – .12": (None, 0.12), "stable – .16": (None, 0.16)}
+        ".02 – .12": (0.02, 0.12), ".04 – .16": (0.04, 0.16), "stable – .12": (None, 0.12),
+        "stable – .16": (None, 0.16)}
 TARGET = 3.2e-5
 BASE = ({"before": False, "step": 0.02, "budget": 2000}, "< .02")
 
@@ -38,7 +39,8 @@ def table_1(data):
                      str(estimate["n"]) if estimate else "0", spread(estimate), said(figure),
                      signed(figure["value"] - estimate["mean"], 4) if estimate else "–", verdict(estimate, figure),
                      f"{number(value, 2)} ± {number(error, 2)}"])
-    return table(["", "ours", "n", "one packing", "paper", "paper − ours", "the paper's lies", "dice (experiment)"], rows)
+    return table(["", "ours", "n", "one packing", "paper", "paper − ours", "the paper's lies",
+                  "dice (experiment)"], rows)
 
 
 def offsets_of(data):
@@ -75,8 +77,8 @@ def offsets(data):
     text = table(["paper − ours", "N = 100", "N = 400", "400 less 100", "sd of that, single packings"], rows)
     if len(both) == len(SOLIDS):
         chi = sum(((s[400][0] - s[100][0]) / math.hypot(s[100][1], s[400][1])) ** 2 for s in both.values())
-        text += (f"\nOf the last two columns χ² = {number(chi, 2)} for four solids; of single packings it would be as small "
-                 f"or smaller in {significant(100 * chi_square_below(chi, 4), 2)} of 100 cases.\n")
+        text += (f"\nOf the last two columns χ² = {number(chi, 2)} for four solids; of single packings it would be as "
+                 f"small or smaller in {significant(100 * chi_square_below(chi, 4), 2)} of 100 cases.\n")
     return text
 
 
@@ -108,7 +110,8 @@ def ranked(data):
             off = {s: theirs[s] - found[s]["mean"] for s in SOLIDS}
             # One packing's standard deviation about our mean: half_width is t·sd/√n.
             chi = sum((off[s] / deviation_of(found[s])) ** 2 for s in SOLIDS)
-            made.append((chi, math.sqrt(statistics.fmean(x * x for x in off.values())), dict(setting), name, found, off))
+            root_mean_square = math.sqrt(statistics.fmean(x * x for x in off.values()))
+            made.append((chi, root_mean_square, dict(setting), name, found, off))
     return sorted(made, key=lambda entry: entry[0])
 
 

@@ -72,8 +72,9 @@ def spectra(data, out):
         low = sorted(low)[-50:]
         total = 6 * particles - 3
         for start, part in ((0, low), (total - len(high), sorted(high))):
+            label = None if start else f"{solid} {particles}, Δφ {curves['delta_phi']:.2g}"
             axes.plot([(start + i + 1) / total for i in range(len(part))], part, MARKERS[solid], markersize=3,
-                      color=COLOURS[solid], label=f"{solid} {particles}, Δφ {curves['delta_phi']:.2g}" if not start else None)
+                      color=COLOURS[solid], label=label)
     axes.set(yscale="log", xlabel="rank / (6N − 3)", ylabel="ω  (V$_p^{-1/3}$ (Y/ρ)$^{1/2}$)")
     axes.legend(fontsize=8)
     save(figure, out / "spectra.png")

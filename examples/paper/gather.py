@@ -1,9 +1,10 @@
 """Gathers what the page is made from: python3 gather.py ISOJAM RESULTS OUT
 
-Writes OUT/records.json: of each replicate of the studies below RESULTS its flags, cost, φ_J and, of every state, what the
-page needs, column by column; from the contacts of every state (keep_path) what network.py makes of them. And
+Writes OUT/records.json: of each replicate of the studies below RESULTS its flags, cost, φ_J and, of every state, what
+the page needs, column by column; from the contacts of every state (keep_path) what network.py makes of them. And
 OUT/search.json: φ and E/N of every state of the search of the protocol. To keep them small numbers are rounded: φ to
-nine digits, E/N to six, all others to four. Studies that are not there, or not complete, are left out or count with what they have.
+nine digits, E/N to six, all others to four. Studies that are not there, or not complete, are left out or count with
+what they have.
 """
 
 import csv
@@ -71,8 +72,8 @@ def quantiles(angles):
 
 
 def drawn_of(records):
-    """What figures need, by solid and size, of replicates that are not crystalline: angles of all states nearest jamming
-    together, and of the first its spectrum in the nearest state with three zero modes."""
+    """What figures need, by solid and size, of replicates that are not crystalline: angles of all states nearest
+    jamming together, and of the first its spectrum in the nearest state with three zero modes."""
     angles, made = {}, {}
     for record in records:
         if record["status"] != "done" or "crystalline" in record["flags"]:

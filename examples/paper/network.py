@@ -23,7 +23,7 @@ def classes(state, cut_ff, cut_ef, particles):
 
 
 def by_cutoffs(state, fits, particles):
-    """[C at the fitted cut-offs times each of FACTORS, Z_ff by the gap in θ_ff]. None where there is no fit, or no gap."""
+    """[C at the fitted cut-offs times each of FACTORS, Z_ff by the gap in θ_ff]; None where there is no fit, or gap."""
     ff, ef = fits["ff"], fits["ef"]
     known = ff is not None and ef is not None
     gap = fits["gap_ff"]
@@ -66,9 +66,10 @@ def neighbours(state, cut_ff, particles):
 
 
 def hindrance(found):
-    """From an entry of `neighbours` and the number of contacts: q, the probability that another contact of a particle with
-    a face-face contact is face-face; p, what it would be if face-face contacts were drawn at random among all, (n − 1)/
-    (M − 1); variance over mean of k; the share of particles with two and more, and that of a Poisson distribution."""
+    """From an entry of `neighbours` and the number of contacts: q, the probability that another contact of a particle
+    with a face-face contact is face-face; p, what it would be if face-face contacts were drawn at random among all,
+    (n − 1)/(M − 1); variance over mean of k; the share of particles with two and more, and that of a Poisson
+    distribution."""
     counts, pairs, others, contacts = found
     particles = sum(counts)
     total = sum(k * n for k, n in enumerate(counts))

@@ -158,8 +158,8 @@ def backbone(data):
             rows.append([f"{solid} {particles}", *nearest, *(counted(s) for s in slopes)])
     if not rows:
         return MISSING
-    return table(["nearest jamming", "removed", "Z of the rest", "Z of all", "zero modes", "negative", "short of full rank",
-                  "slope of ⟨ω_l⟩, Δφ = .0005 – .005", "of K"], rows)
+    return table(["nearest jamming", "removed", "Z of the rest", "Z of all", "zero modes", "negative",
+                  "short of full rank", "slope of ⟨ω_l⟩, Δφ = .0005 – .005", "of K"], rows)
 
 
 def localisation(data):
@@ -188,7 +188,8 @@ def stability(data):
             ends = [r["states"] for r in done]
             rows.append([name.removeprefix("paper-"), solid, str(len(every)), str(len(every) - len(done)),
                          *(str(sum(flag in r["flags"] for r in done)) for flag in ("goal_not_reached", "crystalline")),
-                         *(str(sum(bool(s[key][-1]) for s in ends)) for key in ("percolates", "spans")), str(len(states)),
+                         *(str(sum(bool(s[key][-1]) for s in ends)) for key in ("percolates", "spans")),
+                         str(len(states)),
                          str(sum(z == 3 and n == 0 for z, n, *_ in states)),
                          str(sum((n or 0) > 0 for _, n, *_ in states)), str(sum(r > 0 for _, _, r, *_ in states)),
                          str(sum(d > 0 for *_, d, _ in states)), power(max(r for *_, r in states))])

@@ -1,7 +1,7 @@
 """Facts proved here: python3 page_test.py examples/page
 
-- Student's t is that of tables; an interval of normal samples covers their mean in 95 of 100 cases; the binomial tail is
-  the sum of its terms; of choices, the systematic error is half their range;
+- Student's t is that of tables; an interval of normal samples covers their mean in 95 of 100 cases; the binomial tail
+  is the sum of its terms; of choices, the systematic error is half their range;
 - numbers show two digits of their error, without a leading zero, and a minus is a minus;
 - φ_J of an exact power law is found whatever the window, and states outside of it do not matter; with a free exponent
   both are found; of too few states there is none;
@@ -168,14 +168,15 @@ class Marks(unittest.TestCase):
         self.assertEqual(marks.without_marks(made.splitlines()[-1]), "Z is Z 100: 5, so.")
 
     def test_refused(self):
-        for page, blocks in ((self.PAGE + self.PAGE, {"one": str}), ("", {"one": str}), (self.PAGE, {"one": str, "two": str})):
+        two = {"one": str, "two": str}
+        for page, blocks in ((self.PAGE + self.PAGE, {"one": str}), ("", {"one": str}), (self.PAGE, two)):
             with self.assertRaises(marks.PageError):
                 marks.renewed(page, blocks, 5, lambda data, name: name)
         with self.assertRaises(marks.PageError):
             marks.renewed(self.PAGE, {"two": str}, 5, lambda data, name: name, every=False)
         with self.assertRaises(marks.PageError):
             marks.renewed(self.PAGE, {"one": str}, 5)
-        marks.renewed(self.PAGE, {"one": str, "two": str}, 5, lambda data, name: name, every=False)
+        marks.renewed(self.PAGE, two, 5, lambda data, name: name, every=False)
 
 
 if __name__ == "__main__":

@@ -2,10 +2,10 @@
 
 - the committed page, and what the project's first page has of it, are what the committed data say, to every block and
   every number in a sentence; a page with one of them changed, without a block or with one twice, is refused;
-- a figure of the paper lies in the mean's interval, as one packing, or outside, by however little; with fewer than three
-  packings, or where they spread by half of the figure, that is undecided;
-- contacts are classed by cut-offs as the program classes them; regions, what has emerged, and how face-face contacts are
-  spread are as counted by hand, and contacts drawn at random neither hinder nor favour each other;
+- a figure of the paper lies in the mean's interval, as one packing, or outside, by however little; with fewer than
+  three packings, or where they spread by half of the figure, that is undecided;
+- contacts are classed by cut-offs as the program classes them; regions, what has emerged, and how face-face contacts
+  are spread are as counted by hand, and contacts drawn at random neither hinder nor favour each other;
 - shifts of φ_J are differences of the same replicates, crystals left out; settings are ranked by χ², and one that gives
   the paper's values is the first;
 - gathering the results of a small run gives means, and φ_J, of the tables that the program makes of them.
@@ -81,10 +81,12 @@ class Verdicts(unittest.TestCase):
     def test_by_the_intervals(self):
         single = 0.01 * 17 ** 0.5
         for sign in (-1, 1):
-            for off, word in ((0.0, MEAN), (0.0099, MEAN), (0.0101, ONE), (0.99 * single, ONE), (1.01 * single, OUTSIDE)):
+            for off, word in ((0.0, MEAN), (0.0099, MEAN), (0.0101, ONE), (0.99 * single, ONE),
+                              (1.01 * single, OUTSIDE)):
                 self.assertEqual(verdict(of(0.7 + sign * off, 0.01), {"value": 0.7}), word, off)
                 # A systematic error widens both.
-                self.assertEqual(verdict(of(0.7 + sign * (off + 0.02), 0.01, systematic=0.02), {"value": 0.7}), word, off)
+                wide = of(0.7 + sign * (off + 0.02), 0.01, systematic=0.02)
+                self.assertEqual(verdict(wide, {"value": 0.7}), word, off)
 
     def test_the_papers_own_interval_counts(self):
         self.assertEqual(verdict(of(0.715, 0.001), {"value": 0.7}), OUTSIDE)
@@ -204,8 +206,8 @@ class Search(unittest.TestCase):
 
 
 class Gathered(unittest.TestCase):
-    MANIFEST = {"name": "paper-100", "seed": 3, "sweep": {"solid": ["dodecahedron"], "particles": [24]}, "replicates": 3,
-                "protocol": {"initial_density": 0.2, "consolidation_step": 0.04, "step_fraction": 0.4,
+    MANIFEST = {"name": "paper-100", "seed": 3, "sweep": {"solid": ["dodecahedron"], "particles": [24]},
+                "replicates": 3, "protocol": {"initial_density": 0.2, "consolidation_step": 0.04, "step_fraction": 0.4,
                              "final_distance": 0.02, "fit_window": 0.1},
                 "keep_path": True, "measure": ["contacts", "order", "clusters", "modes", "moduli", "rigidity"]}
 
@@ -215,11 +217,13 @@ class Gathered(unittest.TestCase):
             for name, replicates in (("paper-100", 3), ("paper-search-protocol", 1)):
                 manifest = results / f"{name}.json"
                 manifest.write_text(json.dumps({**self.MANIFEST, "name": name, "replicates": replicates}))
-                subprocess.run([ISOJAM, "run", manifest, "-o", results / name, "--quiet"], check=True, capture_output=True)
-            subprocess.run(["/usr/bin/python3", "-B", PAPER / "gather.py", ISOJAM, results, results / "out"], check=True,
-                           capture_output=True)
-            made = subprocess.run([ISOJAM, "aggregate", results / "paper-100", "--exclude", "crystalline,goal_not_reached",
-                                   "--format", "json", "--quiet"], check=True, capture_output=True, text=True)
+                subprocess.run([ISOJAM, "run", manifest, "-o", results / name, "--quiet"], check=True,
+                               capture_output=True)
+            subprocess.run(["/usr/bin/python3", "-B", PAPER / "gather.py", ISOJAM, results, results / "out"],
+                           check=True, capture_output=True)
+            made = subprocess.run([ISOJAM, "aggregate", results / "paper-100", "--exclude",
+                                   "crystalline,goal_not_reached", "--format", "json", "--quiet"], check=True,
+                                  capture_output=True, text=True)
             row = json.loads(made.stdout)["rows"][0]
             data = Data(results / "out")
         counted = data.counted("dodecahedron", 24)
