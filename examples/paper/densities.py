@@ -98,21 +98,32 @@ def refitted(replicates, fit, solid):
 
 
 def ranked(data):
-    """Settings with four solids, best first: (χ², root mean square of paper − ours, setting, window, estimates,
+    """Settings that have all solids that were searched, best first: (χ², root mean square of paper − ours, setting, window, estimates,
     paper − ours)."""
     theirs = {f["solid"]: f["value"] for f in data.figures if f["place"] == "Table I" and f["particles"] == 100}
-    made = []
+    made, searched = [], searched_solids(data)
     for setting, solids in settings_of(data).items():
         for name, fit in FITS.items():
-            found = {s: refitted(solids.get(s, []), fit, s) for s in SOLIDS}
+            found = {s: refitted(solids.get(s, []), fit, s) for s in searched}
             if any(not e or e["n"] < 3 for e in found.values()):
                 continue
-            off = {s: theirs[s] - found[s]["mean"] for s in SOLIDS}
+            off = {s: theirs[s] - found[s]["mean"] for s in searched}
             # One packing's standard deviation about our mean: half_width is t·sd/√n.
-            chi = sum((off[s] / deviation_of(found[s])) ** 2 for s in SOLIDS)
+            chi = sum((off[s] / deviation_of(found[s])) ** 2 for s in searched)
             root_mean_square = math.sqrt(statistics.fmean(x * x for x in off.values()))
             made.append((chi, root_mean_square, dict(setting), name, found, off))
     return sorted(made, key=lambda entry: entry[0])
+
+
+def searched_solids(data):
+    """Those of which some setting has three replicates: of a search under way, not all."""
+    return [s for s in SOLIDS if any(len(solids.get(s, [])) >= 3 for solids in settings_of(data).values())]
+
+
+def all_inside(entries):
+    """In how many settings every value of the paper lies within the interval of our mean."""
+    return sum(all(abs(off) <= found[s]["half_width"] for s, off in offs.items())
+               for _, _, _, _, found, offs in entries)
 
 
 def deviation_of(estimate):
@@ -132,7 +143,7 @@ def name_of(setting, window):
 
 
 def search(data, best=6):
-    entries = ranked(data)
+    entries, searched = ranked(data), searched_solids(data)
     if not entries:
         return "Not in these records.\n"
     shown = entries[:best] + [entry for entry in entries[best:] if is_base(entry)]
@@ -141,12 +152,11 @@ def search(data, best=6):
         shown.append(by_size)
     rows = [[str(entries.index(e) + 1), *name_of(e[2], e[3]), number(e[0], 2), number(e[1], 4),
              *(f"{number(e[4][s]['mean'], 4)} ± {number(e[4][s]['half_width'], 4)} ({signed(e[5][s], 4)})"
-               for s in SOLIDS)] for e in shown]
-    inside = sum(all(abs(e[5][s]) <= e[4][s]["half_width"] for s in SOLIDS) for e in entries)
+               for s in searched)] for e in shown]
     return table(["rank", "target read", "step", "budget", "window", "χ²", "rms offset",
-                  *(f"{s}, ours (paper − ours)" for s in SOLIDS)], rows) + (
-        f"\n{len(entries)} settings and windows; in {inside} of them all four values of the paper lie within the "
-        f"intervals of our means.\n")
+                  *(f"{s}, ours (paper − ours)" for s in searched)], rows) + (
+        f"\n{len(entries)} settings and windows of {len(searched)} solids; in {all_inside(entries)} of them all of the "
+        f"paper's values lie within the intervals of our means.\n")
 
 
 def moved_by(data, setting, solid):

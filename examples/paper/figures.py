@@ -21,7 +21,7 @@ from scaling import at  # noqa: E402
 COLOURS = dict(zip(SOLIDS, ("#b2182b", "#2166ac", "#1b7837", "#e08214")))
 MARKERS = dict(zip(SOLIDS, ("^", "D", "o", "p")))
 GRID = [0.16 * 2 ** (-i / 2) for i in range(19)]
-SETTINGS = {"figure.dpi": 100, "font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
+SETTINGS = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
             "legend.frameon": False, "axes.titlesize": 9}
 
 
@@ -125,13 +125,13 @@ def contacts(data, out):
             axes.axhline(limit, color="0.5", linewidth=0.8, linestyle=":")
         axes.set(xscale="log", xlabel="Δφ", title=title)
     three[2].legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    save(figure, out / "contacts.png")
+    save(figure, out / "contacts.png", 80)
 
 
-def save(figure, path):
+def save(figure, path, dpi=100):
     figure.tight_layout()
     # Without the version of the program that drew it: the same data give the same file.
-    figure.savefig(path, metadata={"Software": None})
+    figure.savefig(path, dpi=dpi, metadata={"Software": None}, pil_kwargs={"optimize": True})
     pyplot.close(figure)
 
 

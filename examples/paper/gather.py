@@ -179,7 +179,7 @@ def rounded(value, digits=4):
     if isinstance(value, list):
         return [rounded(item, digits) for item in value]
     if isinstance(value, dict):
-        return {key: rounded(item, 9 if key in ("phi", "phi_j") else 6 if key == "E" else digits)
+        return {key: rounded(item, 9 if key in ("phi", "phi_j", "angles") else 6 if key == "E" else digits)
                 for key, item in value.items()}
     return value
 

@@ -2,11 +2,15 @@
 
 from contacts import cutoff_range, limit_of
 from data import SIZES, SOLIDS
-from densities import is_base, levers_of, ranked
+from densities import all_inside, is_base, levers_of, ranked, searched_solids
 from estimates import estimate_of
 from network import FACTORS, hindrance
 from text import counted, interval, number, significant, signed
 from vibrations import EDGES, apparent_exponent
+
+
+PLURALS = {"tetrahedron": "tetrahedra", "octahedron": "octahedra", "icosahedron": "icosahedra",
+           "dodecahedron": "dodecahedra"}
 
 
 class UnknownValue(Exception):
@@ -24,6 +28,10 @@ def total(data, what):
     states = [(r, i) for s in SOLIDS for n in SIZES for r in data.counted(s, n) for i in range(len(r["states"]["phi"]))]
     if what == "states":
         return str(len(states))
+    if what in ("far", "loose"):  # where double precision still tells a loose particle from a soft one
+        far = [r["states"]["near_rattlers"][i] > 0 for s in SOLIDS for n in SIZES
+               for r, x in zip(data.counted(s, n), data.distances(s, n)) for i in range(len(x)) if x[i] >= 0.0025]
+        return str(len(far) if what == "far" else sum(far))
     if what == "negative":
         return str(sum((r["states"]["negative"][i] or 0) > 0 for r, i in states))
     return str(sum(r["states"][what][i] > 0 for r, i in states))
@@ -32,7 +40,8 @@ def total(data, what):
 def emergence_total(data, what):
     pairs = [pair for s in SOLIDS for n in SIZES for (_, a), (_, b) in zip(
         data.network(s, n, "emerged"), data.network(s, n, "hyper_random")) for pair in zip(a, b)]
-    return str(len(pairs) if what == "states" else pairs.count((1, 0)))
+    kinds = {"alone": (1, 0), "neither": (0, 0), "second": (0, 1)}
+    return str(len(pairs) if what == "states" else pairs.count(kinds[what]))
 
 
 def search_value(data, what):
@@ -45,7 +54,7 @@ def search_value(data, what):
             "base_chi": number(base[0], 2) if base else "–", "base_rms": number(base[1], 4) if base else "–",
             "base_rank": str(entries.index(base) + 1) if base else "–",
             "least_rms": number(min(e[1] for e in entries), 4),
-            "all_inside": str(sum(all(abs(e[5][s]) <= e[4][s]["half_width"] for s in SOLIDS) for e in entries))}[what]
+            "all_inside": str(all_inside(entries)), "solids": ", ".join(PLURALS[s] for s in searched_solids(data))}[what]
 
 
 def value_of(data, name):
