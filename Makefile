@@ -73,14 +73,15 @@ run: isojam
 
 # The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
 # interrupted goes on. A replicate that failed (exit 1) is counted on the page.
-PAPER = n100 n400 n400-tetrahedra nearest cubes base window reading energy rule-base rule
+PAPER = n100 n100-tetrahedra n400 n400-tetrahedra search-protocol cubes rule-base rule
 paper: build
-	$(call install,python3)
+	$(call install,python3 python3-matplotlib)
 	@for study in $(PAPER); do \
 	  $(BUILD)/isojam run examples/paper/$$study.json >/dev/null || [ $$? = 1 ] || exit 1; \
 	done
-	@for study in paper-100 paper-400; do $(BUILD)/isojam report results/$$study; done
+	@for study in paper-100 paper-100-tetrahedra; do $(BUILD)/isojam report results/$$study; done
 	@/usr/bin/python3 -B examples/paper/gather.py $(BUILD)/isojam results results/paper
+	@/usr/bin/python3 -B examples/paper/figures.py results/paper results/paper
 	@/usr/bin/python3 -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
 
 # All that `run` and `test` install, and nothing else: for the layer of an image.

@@ -1,203 +1,222 @@
 """Gathers what the page is made from: python3 gather.py ISOJAM RESULTS OUT
 
-Writes OUT/tables.json, the tables that `ISOJAM aggregate` makes of RESULTS/paper-100, paper-400, paper-400-tetrahedra
-and paper-cubes and, apart from them, of paper-nearest, all without replicates that are crystalline or ended short of
-their goal (near-rattlers are no reason to leave one out); and OUT/records.json, what the page needs of single records:
-costs, counts of unstable states, ranks, and jamming densities of replicates that began alike and were jammed in
-different ways. To keep them small, numbers are rounded to six digits, and what is given against Δφ is without its
-bootstrap. Studies that are not there, or not complete, are left out or count with what they have.
+Writes OUT/records.json: of each replicate of the studies below RESULTS its flags, cost, φ_J and, of every state, what
+the page needs, column by column; from the contacts of every state (keep_path) what network.py makes of them. And
+OUT/search.json: φ and E/N of every state of the search of the protocol. To keep them small numbers are rounded: φ to
+nine digits, E/N to six, all others to four. Studies that are not there, or not complete, are left out or count with
+what they have.
 """
 
+import csv
 import json
-import shutil
+import math
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
-from verdicts import estimate_of
+import network
 
-MAIN = ("paper-100", "paper-400", "paper-400-tetrahedra", "paper-cubes")
-NEAREST = ("paper-nearest",)
-LEFT_OUT = {"crystalline", "goal_not_reached"}
-# Studies that do one thing otherwise, and the one that does not.
-VARIED = {"paper-rule": "paper-rule-base", "paper-window": "paper-base", "paper-energy": "paper-base",
-          "paper-reading": "paper-base"}
+STUDIES = ("paper-100", "paper-100-tetrahedra", "paper-400", "paper-400-tetrahedra", "paper-cubes", "paper-rule",
+           "paper-rule-base")
+SEARCHES = ("paper-search-protocol", "paper-search-energy")
+# Column of a state: where it is in the record.
+COLUMNS = {
+    "phi": "phi", "delta_phi": "delta_phi", "E": "energy_per_particle", "residual": "residual", "descents": "descents",
+    "Z": "Z", "Z_ff": "Z_ff", "Z_ef": "Z_ef", "Z_l": "Z_l", "C": "C",
+    "cut_ff": "face_face_fit/cutoff", "cut_ef": "edge_face_fit/cutoff",
+    "Z_ff_fixed": "fixed_cutoffs/Z_ff", "Z_ef_fixed": "fixed_cutoffs/Z_ef", "Z_l_fixed": "fixed_cutoffs/Z_l",
+    "C_fixed": "fixed_cutoffs/C", "Q6": "order/Q6", "S_order": "order/S",
+    "S": "clusters/S", "percolates": "clusters/percolates", "spans": "clusters/spans", "l_max": "clusters/l_max",
+    "body_l_max": "clusters/body_l_max", "D_max": "clusters/D",
+    "zero": "modes/zero", "negative": "modes/negative", "omega_l": "modes/omega_l", "omega_h": "modes/omega_h",
+    "amplitude": "modes/face_face_amplitude", "members": "modes/face_face_particles", "K": "moduli/K",
+    "rows": "rigidity/classes/constraints", "rank": "rigidity/classes/rank",
+    "self_stress": "rigidity/classes/self_stress", "self_stress_normals": "rigidity/normals/self_stress",
+    "backbone_removed": "backbone/removed", "backbone_Z": "backbone/Z", "backbone_zero": "backbone/zero",
+    "backbone_negative": "backbone/negative", "backbone_omega_l": "backbone/omega_l", "backbone_K": "backbone/K",
+    "backbone_missing": "backbone/classes/missing",
+    "unstable_exact": "difference_modes/exact/share", "unstable_h4": "difference_modes/h4/share",
+    "unstable_h6": "difference_modes/h6/share", "unstable_h8": "difference_modes/h8/share"}
+POINTS = 60  # of a curve of angles
 
 
 def records_of(directory):
-    """Records in order of name; none if the directory is not there."""
+    """(name, record), in order of name; none if the directory is not there."""
     for path in sorted((directory / "records").glob("*.json")):
         with open(path, encoding="utf-8") as file:
-            yield json.load(file)
+            yield path.stem, json.load(file)
 
 
-def key_of(record):
-    return record["spec"]["solid"], record["spec"]["particles"], record["spec"]["replicate"]
-
-
-def cost_of(records):
-    """CPU seconds of a study by solid and by stage."""
-    solids, stages = {}, {}
-    for record in records:
-        solid = record["spec"]["solid"]
-        solids.setdefault(solid, []).append(round(record["timing"]["cpu_seconds"], 1))
-        for stage, seconds in record["timing"].get("stages", {}).items():
-            stages[stage] = stages.get(stage, 0) + seconds
-    return {"cpu_seconds": solids, "stages": {stage: round(seconds, 1) for stage, seconds in sorted(stages.items())}}
-
-
-def stability_of(records):
-    """By solid: replicates, those that failed and those left out; states, those that are not minima with three zero
-    modes, those with a near-rattler, the worst imbalance of forces; and what clusters do in the states nearest
-    jamming."""
-    counts = {}
-    for record in records:
-        here = counts.setdefault(
-            record["spec"]["solid"],
-            {"states": 0, "negative": 0, "near_rattlers": 0, "stable_and_three_zero": 0, "residual": 0,
-             "replicates": 0, "failed": 0, "percolate": 0, "span": 0, "crystalline": 0, "goal_not_reached": 0})
-        here["replicates"] += 1
-        if record["status"] != "done":
-            here["failed"] += 1
-            continue
-        for flag in LEFT_OUT:
-            here[flag] += flag in record["flags"]
-        clusters = record["nearest"].get("clusters", {})
-        here["percolate"] += clusters.get("percolates") or 0
-        here["span"] += clusters.get("spans") or 0
-        for state in record["states"]:
-            modes = state["modes"]
-            here["states"] += 1
-            here["negative"] += modes["negative"] > 0
-            here["near_rattlers"] += len(modes["near_rattlers"]) > 0
-            here["stable_and_three_zero"] += modes["negative"] == 0 and modes["zero"] == 3
-            here["residual"] = max(here["residual"], state["residual"])
-    return counts
-
-
-def counting(records):
-    """Those that neither failed nor are left out."""
-    return [record for record in records if record["status"] == "done" and not LEFT_OUT & set(record["flags"])]
-
-
-def rigidity_of(records):
-    """Rank of the constraints by class in the states nearest jamming, by solid and size."""
-    ranks = {}
-    for record in counting(records):
-        solid, particles, replicate = key_of(record)
-        classes = record["nearest"]["rigidity"]["classes"]
-        ranks.setdefault(f"{solid} {particles}", []).append(
-            {"replicate": replicate, "constraints": classes["constraints"], "rank": classes["rank"],
-             "self_stress": classes["self_stress"], "full_rank": 6 * particles - 3})
-    return ranks
-
-
-def extents_of(records):
-    """Largest extent of a cluster between vertices, over L, in the states nearest jamming; by solid and size."""
-    extents = {}
-    for record in counting(records):
-        solid, particles, _ = key_of(record)
-        extent = record["nearest"]["clusters"].get("body_l_max")
-        if extent is not None:
-            extents.setdefault(f"{solid} {particles}", []).append(extent)
-    return {name: {"body_l_max": estimate_of(values)} for name, values in extents.items()}
-
-
-def by_key(directory):
-    """Of each replicate that did not fail: φ_J, its flags, and the worst residual of the states behind φ_J."""
-    return {key_of(r): {"phi_j": r["phi_j"]["phi_j"], "flags": r["flags"], "residual": r["phi_j"]["residual"]}
-            for r in records_of(directory) if r["status"] == "done"}
-
-
-def minimisations_of(directory):
-    """Of each state of the expansions: solid, distance from jamming, evaluations, residual and why it was left."""
-    return [{"solid": r["spec"]["solid"], "delta_phi": s["delta_phi"], "residual": s["residual"],
-             "evaluations": r["path"][s["step"]]["evaluations"], "stopped": s["stopped"]}
-            for r in records_of(directory) for s in r.get("states", [])]
-
-
-def pairs_of(results):
-    """φ_J of replicates that began alike: in the study that is the base, and with one thing done otherwise."""
-    pairs = {}
-    for name, reference in VARIED.items():
-        base = by_key(results / reference)
-        for key, varied in by_key(results / name).items():
-            if key in base:
-                pairs.setdefault(name, []).append(
-                    {"solid": key[0], "particles": key[1], "replicate": key[2], "base": base[key], "varied": varied})
-    return pairs
-
-
-def rounded(value):
-    if isinstance(value, float):
-        return float(f"{value:.6g}")
-    if isinstance(value, list):
-        return [rounded(item) for item in value]
-    if isinstance(value, dict):
-        return {key: rounded(item) for key, item in value.items()}
+def found(value, place):
+    for key in place.split("/"):
+        if not isinstance(value, dict) or key not in value:
+            return None
+        value = value[key]
     return value
 
 
-def without_bootstrap(value):
+def columns_of(states):
+    """Those columns that some state has."""
+    columns = {name: [found(state, place) for state in states] for name, place in COLUMNS.items()}
+    for fit, column in (("face_face_fit", "cut_ff"), ("edge_face_fit", "cut_ef")):
+        columns[column] = [value if found(state, f"{fit}/verdict") == "fitted" else None
+                           for value, state in zip(columns[column], states)]
+    columns["near_rattlers"] = [len(found(state, "modes/near_rattlers") or []) for state in states]
+    return {name: values for name, values in columns.items() if any(value is not None for value in values)}
+
+
+def quantiles(angles):
+    """Angles below which (i + ½)/POINTS of them lie, in degrees."""
+    ordered = sorted(angles)
+    return [math.degrees(ordered[int((i + 0.5) / POINTS * len(ordered))]) for i in range(POINTS)]
+
+
+def drawn_of(records):
+    """What figures need, by solid and size, of replicates that are not crystalline: angles of all states nearest
+    jamming together, and of the first its spectrum in the nearest state with three zero modes."""
+    angles, made = {}, {}
+    for record in records:
+        if record["status"] != "done" or "crystalline" in record["flags"]:
+            continue
+        name, nearest = f"{record['spec']['solid']} {record['spec']['particles']}", record["nearest"]
+        for kind in ("edge_face", "face_face"):
+            angles.setdefault(name, {}).setdefault(kind, []).extend(found(nearest, f"angles/{kind}") or [])
+        resolved = [state for state in record["states"] if found(state, "modes/zero") == 3]
+        if resolved and "spectrum" not in made.setdefault(name, {}):
+            made[name] |= {"replicate": record["spec"]["replicate"], "delta_phi": resolved[-1]["delta_phi"],
+                           "spectrum": [found(resolved[-1], f"modes/{end}/omega") for end in ("lowest", "highest")]}
+    for name, kinds in angles.items():
+        made.setdefault(name, {}).update({kind: quantiles(some) for kind, some in kinds.items() if some})
+    return made
+
+
+def contacts_of(isojam, directory, name):
+    """Of every state of a replicate its contacts, as network.py takes them."""
+    command = [isojam, "export", directory, name, "--format", "contacts", "--path"]
+    states = {}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        for row in csv.DictReader(process.stdout):
+            state = states.setdefault(int(row["state"]), {key: [] for key in ("a", "b", "theta_ef", "theta_ff")})
+            for key, kind in (("a", int), ("b", int), ("theta_ef", float), ("theta_ff", float)):
+                state[key].append(kind(row[key]))
+        error = process.stderr.read()
+    if process.returncode:
+        sys.exit(f"{name}: {error}")
+    return [states[i] for i in sorted(states)]
+
+
+def gap_of(state, which):
+    return found(state, f"{which}_gap/cutoff") if found(state, f"{which}_gap/verdict") == "separated" else None
+
+
+def network_of(contacts, record):
+    """Of every state: C by other cut-offs, shares of the regions of c(θ_ff), what has emerged, and how face-face
+    contacts are spread over particles."""
+    particles, columns = record["spec"]["particles"], columns_of(record["states"])
+    critical = math.radians(min(value for name, value in record["critical"].items() if name.startswith("ff")))
+    made = {"by_cutoffs": [], "regions": [], "emerged": [], "hyper_random": [], "neighbours": []}
+    for i, state in enumerate(contacts):
+        fits = {"ff": columns["cut_ff"][i], "ef": columns["cut_ef"][i],
+                "gap_ff": gap_of(record["states"][i], "face_face")}
+        made["by_cutoffs"].append(network.by_cutoffs(state, fits, particles))
+        counts = network.regions(state, critical)
+        made["regions"].append(counts)
+        made["emerged"].append(int(network.emerged(counts, critical)))
+        made["hyper_random"].append(int(network.hyper_random(state, record["random_angle"])))
+        made["neighbours"].append([*network.neighbours(state, fits["ff"], particles), len(state["a"])]
+                                  if fits["ff"] is not None else None)
+    return made
+
+
+def replicate_of(record):
+    """What the page needs of a record, but for its contacts."""
+    spec = record["spec"]
+    made = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"],
+            "status": record["status"], "flags": record.get("flags") or [],
+            "cpu": record["timing"]["cpu_seconds"], "stages": record["timing"].get("stages", {})}
+    if record["status"] != "done":
+        return made
+    return {**made, "phi_j": {key: record["phi_j"].get(key) for key in (
+                "phi_j", "ci95_half_width", "exponent", "residual")},
+            "evaluations": [record["path"][state["step"]]["evaluations"] for state in record["states"]],
+            "states": columns_of(record["states"])}
+
+
+def study_of(isojam, directory, critical):
+    replicates, records = [], []
+    for name, record in records_of(directory):
+        records.append(record)
+        made = replicate_of(record)
+        angle = found(record, "nearest/angles/edge_face_random/angle")
+        if angle and (directory / "paths" / f"{name}.json").exists():
+            record["critical"] = critical[record["spec"]["solid"]]
+            record["random_angle"] = angle
+            made["network"] = network_of(contacts_of(isojam, directory, name), record)
+        replicates.append(made)
+    return {"git": sorted({r["provenance"]["git"] for r in records}), "drawn": drawn_of(records),
+            "replicates": replicates}
+
+
+def search_of(directory):
+    """Of each replicate its settings, flags, φ_J and the states that windows are laid over."""
+    made = []
+    for _, record in records_of(directory):
+        spec, protocol = record["spec"], record["spec"]["protocol"]
+        one = {"solid": spec["solid"], "replicate": spec["replicate"], "flags": record.get("flags") or [],
+               "setting": {"before": protocol["target_before_relaxation"], "step": protocol["consolidation_step"],
+                           "budget": protocol["consolidation_evaluations"], "target": protocol["target_energy"]},
+               "cpu": record["timing"]["cpu_seconds"], "status": record["status"]}
+        if record["status"] == "done":
+            one |= {"phi_j": record["phi_j"]["phi_j"], "phi": [s["phi"] for s in record["states"]],
+                    "E": [s["energy_per_particle"] for s in record["states"]]}
+        made.append(one)
+    return made
+
+
+def rounded(value, digits=4):
+    if isinstance(value, float):
+        return float(f"{value:.{digits}g}")
+    if isinstance(value, list):
+        return [rounded(item, digits) for item in value]
     if isinstance(value, dict):
-        return {key: without_bootstrap(item) for key, item in value.items() if key not in ("bootstrap95", "ci95")}
-    return [without_bootstrap(item) for item in value] if isinstance(value, list) else value
+        return {key: rounded(item, 9 if key in ("phi", "phi_j", "angles") else 6 if key == "E" else digits)
+                for key, item in value.items()}
+    return value
 
 
-def copy_of_those_that_count(results, directories):
-    """Results as isojam reads them, but for the replicates that are left out."""
-    copies = []
+def critical_angles(isojam, directories):
+    """Of each solid, in degrees: closed forms, which tables carry."""
+    made = {}
     for directory in directories:
-        copy = results / directory.name
-        (copy / "records").mkdir(parents=True)
-        shutil.copy(directory / "manifest.json", copy)
-        for path in sorted((directory / "records").glob("*.json")):
-            with open(path, encoding="utf-8") as file:
-                left_out = LEFT_OUT & set(json.load(file).get("flags") or [])
-            if not left_out:
-                shutil.copy(path, copy / "records")
-        if any((copy / "records").iterdir()):
-            copies.append(copy)
-    return copies
-
-
-def rows_of(isojam, directories):
-    """The rows that isojam makes of the directories together."""
-    with tempfile.TemporaryDirectory() as here:
-        copies = copy_of_those_that_count(Path(here), directories)
-        if not copies:
-            return []
-        command = [isojam, "aggregate", *copies, "--exclude", "none", "--format", "json", "--quiet"]
+        command = [isojam, "aggregate", directory, "--exclude", "none", "--format", "json", "--quiet"]
         rows = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["rows"]
-    # Nothing is excluded from what is left.
-    rows = [{key: value for key, value in row.items() if key != "excluded"} for row in rows]
-    return [{**row, "series": without_bootstrap(row["series"])} for row in rows]
+        made |= {row["solid"]: row["critical_angles"] for row in rows if row.get("critical_angles")}
+    return made
 
 
 def write(path, value):
-    """A line for each entry two levels down: small, and changes show."""
-    parts = [f'"{name}": ' + ("[\n" + ",\n".join(json.dumps(row) for row in entry) + "\n]" if isinstance(entry, list) else
-                              "{\n" + ",\n".join(f'"{key}": {json.dumps(row)}' for key, row in entry.items()) + "\n}")
-             for name, entry in rounded(value).items()]
+    """A line for each replicate: changes show."""
+    parts = []
+    for name, entry in rounded(value).items():
+        rows = entry["replicates"] if isinstance(entry, dict) else entry
+        head = "".join(f'"{key}": {json.dumps(item)}, ' for key, item in entry.items() if key != "replicates") \
+            if isinstance(entry, dict) else ""
+        lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in rows)
+        parts.append(f'"{name}": ' + (f'{{{head}"replicates": [\n{lines}\n]}}' if isinstance(entry, dict)
+                                      else f"[\n{lines}\n]"))
     path.write_text("{\n" + ",\n".join(parts) + "\n}\n", encoding="utf-8")
 
 
 def main():
     isojam, results, out = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
-    main_studies, nearest = ([results / name for name in names if (results / name / "records").is_dir()]
-                             for names in (MAIN, NEAREST))
-    studies = {}
-    for path in [*main_studies, *nearest]:
-        records = list(records_of(path))
-        studies[path.name] = {"git": sorted({r["provenance"]["git"] for r in records}), "cost": cost_of(records),
-                              "stability": stability_of(records), "rigidity": rigidity_of(records),
-                              "extents": extents_of(records)}
     out.mkdir(parents=True, exist_ok=True)
-    write(out / "tables.json", {"main": rows_of(isojam, main_studies), "nearest": rows_of(isojam, nearest)})
-    write(out / "records.json", {"studies": studies, "pairs": pairs_of(results),
-                                   "minimisations": {name: minimisations_of(results / name)
-                                                     for name in ("paper-rule", "paper-rule-base")}})
+    critical = critical_angles(isojam, [results / name for name in STUDIES if (results / name / "records").is_dir()])
+    studies = {name: study_of(isojam, results / name, critical) for name in STUDIES
+               if (results / name / "records").is_dir()}
+    write(out / "records.json", {**{name: study for name, study in studies.items() if study["replicates"]},
+                                 "critical_angles": {"angles": critical, "replicates": []}})
+    write(out / "search.json", {name: search_of(results / name) for name in SEARCHES
+                                if (results / name / "records").is_dir()})
 
 
 if __name__ == "__main__":

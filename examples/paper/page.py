@@ -1,64 +1,20 @@
-"""Sets our tables beside the paper's: python3 page.py PAGE [-o OUT] [--data DIR] [--check]
+"""Sets our tables beside the paper's: python3 page.py PAGE [-o OUT] [--data DIR] [--check] [--some]
 
-PAGE holds blocks, `<!-- block NAME -->` ... `<!-- end -->`, that are made anew from DIR/tables.json, DIR/records.json
-(see gather.py), data by default, and data/paper.json; what stands between the blocks is left as it is. Writes to OUT,
-PAGE itself by default; with --check writes nothing and fails if a block is not what the data say.
+PAGE holds blocks and numbers within sentences (see ../page/marks.py) that are made anew from DIR/records.json and
+DIR/search.json (see gather.py), data by default, and data/paper.json; all else is left as it is. Writes to OUT, PAGE
+itself by default; with --check writes nothing and fails if a part is not what the data say. With --some PAGE, another
+one, need not have all blocks.
 """
 
 import argparse
-import json
-import re
 import shutil
 import sys
 from pathlib import Path
 
-from blocks import BLOCKS
+from blocks import BLOCKS, value_of
+from data import COMMITTED, Data
+from marks import PageError, renewed
 from verdicts import overlap
-
-COMMITTED = Path(__file__).resolve().parent / "data"
-BLOCK = re.compile(r"(<!-- block (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
-
-
-def read(path):
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
-
-
-class Data:
-    """What the blocks are made from, of the directory and of the paper."""
-
-    def __init__(self, directory):
-        self.rows = {(study, row["solid"], row["particles"]): row
-                     for study, rows in read(directory / "tables.json").items() for row in rows}
-        self.records = read(directory / "records.json")
-        self.extents = {name: values for found in self.records["studies"].values()
-                        for name, values in found["extents"].items()}
-        self.figures = read(COMMITTED / "paper.json")["figures"]
-
-    def estimate(self, solid, particles, column, delta_phi=None, study="main"):
-        """At Δφ, or nearest jamming; None if it was not measured."""
-        if column == "body_l_max":
-            return self.extents.get(f"{solid} {particles}", {}).get(column)
-        source = self.rows.get((study, solid, particles))
-        if source and delta_phi is not None:
-            source = next((p for p in source["series"] if p["delta_phi"] == delta_phi), None)
-        if not source:
-            return None
-        return source.get(column)
-
-    def of(self, figure):
-        return self.estimate(figure["solid"], figure["particles"], figure["column"], figure.get("delta_phi"),
-                             figure.get("study", "main"))
-
-
-def renewed(page, data):
-    def block(match):
-        return match.group(1) + BLOCKS[match.group(2)](data) + match.group(3)
-
-    names = [match.group(2) for match in BLOCK.finditer(page)]
-    if sorted(names) != sorted(BLOCKS):
-        sys.exit(f"the page must have every block once: {', '.join(sorted(BLOCKS))}")
-    return BLOCK.sub(block, page)
 
 
 def agreement(data, committed):
@@ -87,16 +43,21 @@ def main():
     parser.add_argument("-o", "--out", type=Path)
     parser.add_argument("--data", type=Path, default=COMMITTED)
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--some", action="store_true")
     arguments = parser.parse_args()
     page, data = arguments.page.read_text(encoding="utf-8"), Data(arguments.data)
-    made = renewed(page, data)
+    try:
+        made = renewed(page, BLOCKS, data, value_of, every=not arguments.some)
+    except PageError as error:
+        sys.exit(str(error))
     if arguments.check:
         sys.exit(0 if made == page else f"{arguments.page}: a block is not what {arguments.data} says")
     out = arguments.out or arguments.page
     out.write_text(made, encoding="utf-8")
     if out.parent.resolve() != arguments.page.parent.resolve():
         for image in sorted(arguments.page.parent.glob("*.png")):
-            shutil.copy(image, out.parent)
+            if not (out.parent / image.name).exists():
+                shutil.copy(image, out.parent)
     if arguments.data.resolve() != COMMITTED:
         print(agreement(data, Data(COMMITTED)))
 

@@ -1,29 +1,13 @@
-"""What of the paper agrees with our estimates: pure functions of an estimate and of what the paper says."""
+"""Where a figure of the paper lies among ours: pure functions of an estimate and of what the paper says."""
 
-import math
-import statistics
-from dataclasses import dataclass
+import sys
+from pathlib import Path
 
-# Student's t at .975, for 1, 2 … 15 degrees of freedom.
-T_975 = (12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281, 2.2010, 2.1788, 2.1604,
-         2.1448, 2.1314)
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
 
+from estimates import single_half_width  # noqa: E402
 
-def estimate_of(values):
-    """Mean and half width of its 95 % interval (Student t), as isojam's tables have them, of up to sixteen values."""
-    n = len(values)
-    if n == 0:
-        return None
-    width = T_975[n - 2] * statistics.stdev(values) / math.sqrt(n) if n > 1 else None
-    return {"mean": statistics.mean(values), "half_width": width, "n": n}
-
-
-@dataclass
-class Verdict:
-    """`word` is one of "agrees", "differs" and "undecided"; `why` says by which interval, or why it is open."""
-
-    word: str
-    why: str
+MEAN, ONE, OUTSIDE, UNDECIDED = "in the mean's interval", "as one packing", "**outside**", "undecided"
 
 
 def uncertainty(figure):
@@ -33,35 +17,21 @@ def uncertainty(figure):
     return 0.5 * 10.0 ** -figure["digits"] if "digits" in figure else 0.0
 
 
-def single_half_width(estimate):
-    """Half width of the 95 % prediction interval of one more packing, t·sd·√(1 + 1/n), from that of the mean,
-    t·sd/√n."""
-    return estimate["half_width"] * math.sqrt(estimate["n"] + 1)
-
-
 def verdict(estimate, figure):
-    """A figure within the interval of our mean agrees, or, taken to be of one packing, within the spread of ours.
-
-    Where that spread is half of the figure and more, such agreement says nothing. A figure with `limit` is approached
-    by the mean: it agrees to that fraction or does not, if the whole interval is on one side of that.
-    """
+    """Whether the figure, give or take its own uncertainty, lies within the interval of our mean (both errors added),
+    or within what one more packing of ours would give, or outside of both. Where packings spread by half of the figure and
+    more, or there are fewer than three, that says nothing."""
     if not estimate or estimate["n"] < 3 or estimate["half_width"] is None:
-        return Verdict("undecided", "fewer than three packings")
+        return UNDECIDED
     value = figure["value"]
-    if "limit" in figure:
-        off, width = abs(estimate["mean"] / value - 1), estimate["half_width"] / abs(value)
-        said = f"{100 * (estimate['mean'] / value - 1):+.1f} %"
-        if abs(off - figure["limit"]) < width:
-            return Verdict("undecided", said)
-        return Verdict("agrees" if off <= figure["limit"] else "differs", said)
+    systematic = estimate.get("systematic", 0.0)
     distance = max(0.0, abs(estimate["mean"] - value) - uncertainty(figure) * (1 + 1e-9))
-    if distance > single_half_width(estimate):
-        return Verdict("differs", "")
-    if value != 0 and single_half_width(estimate) > 0.5 * abs(value):
-        return Verdict("undecided", "our packings spread by half of it")
-    if distance <= estimate["half_width"]:
-        return Verdict("agrees", "with the mean")
-    return Verdict("agrees", "with single packings, not with their mean")
+    single = single_half_width(estimate) + systematic
+    if distance > single:
+        return OUTSIDE
+    if value != 0 and single > 0.5 * abs(value):
+        return UNDECIDED
+    return MEAN if distance <= estimate["half_width"] + systematic else ONE
 
 
 def overlap(ours, theirs):

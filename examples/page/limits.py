@@ -1,0 +1,45 @@
+"""What a quantity tends to as Δφ → 0, and how well that is known: pure functions."""
+
+import math
+
+from estimates import resamples, student
+from scaling import line
+
+FORMS = (0.5, 1.0, None)  # exponents of Δφ; None: the one that fits best
+GRID = tuple(round(0.2 + 0.05 * i, 2) for i in range(37))  # 0.2 … 2
+
+
+def fitted(points, exponent):
+    """(a, b, x, squared residual) of y = a + b Δφ^x, at the exponent or at that of GRID which fits best."""
+    if exponent is None:
+        return min((fitted(points, x) for x in GRID), key=lambda fit: fit[3])
+    intercept, slope, off = line([x ** exponent for x, _ in points], [y for _, y in points])
+    return intercept, slope, exponent, off
+
+
+def limit(paths, window, exponent, draws=100, seed=1):
+    """The limit a of a + b Δφ^x over (Δφ, y) with window[0] ≤ Δφ < window[1], of all replicates together, with a 95 %
+    interval from samples of replicates with replacement, widened as Student's t is against the normal; and x. None if
+    fewer than three replicates or four points are there."""
+    inside = [[(x, y) for x, y in path if window[0] <= x < window[1] and y is not None] for path in paths]
+    inside = [path for path in inside if path]
+    if len(inside) < 3 or len({x for path in inside for x, _ in path}) < 4:
+        return None
+    a, _, x, _ = fitted([point for path in inside for point in path], exponent)
+    found = sorted(fitted([point for i in chosen for point in inside[i]], exponent)[0]
+                   for chosen in resamples(len(inside), draws, seed))
+    mean = sum(found) / draws
+    deviation = math.sqrt(sum((value - mean) ** 2 for value in found) / (draws - 1))
+    return {"mean": a, "half_width": student(len(inside) - 1) * deviation, "n": len(inside), "exponent": x}
+
+
+def limit_of_choices(paths, windows, central=(0, None)):
+    """The limit by window and form, {(window number, form): estimate}, and that of the central choice, with half the
+    range over all that could be had as its systematic error."""
+    every = {(i, form): limit(paths, window, form) for i, window in enumerate(windows) for form in FORMS}
+    found = [estimate for estimate in every.values() if estimate]
+    chosen = every[central]
+    if not chosen:
+        return every, None
+    means = [estimate["mean"] for estimate in found]
+    return every, {**chosen, "systematic": 0.5 * (max(means) - min(means))}

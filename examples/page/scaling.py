@@ -1,0 +1,99 @@
+"""Power laws of Δφ = φ − φ_J, and φ_J itself, from the states of expansions: pure functions.
+
+A path is a list of states in order of falling φ; what is told of a state is a number or None."""
+
+import math
+
+from estimates import estimate_of
+
+LEAST_STATES = 2
+
+
+def line(x, y):
+    """Intercept, slope and squared residual of least squares."""
+    n = len(x)
+    mean_x, mean_y = sum(x) / n, sum(y) / n
+    xx = sum((a - mean_x) ** 2 for a in x)
+    slope = sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / xx
+    intercept = mean_y - slope * mean_x
+    return intercept, slope, sum((b - intercept - slope * a) ** 2 for a, b in zip(x, y))
+
+
+def jamming_density(phi, energy, start, window, exponent=6):
+    """Where (E/N)^(1/exponent) ends if it is linear in φ over the states with lower ≤ φ − φ_J < upper. Which states
+    these are depends on φ_J: from `start` on until they stay the same; where they go round, the mean of the round. None
+    if too few are left."""
+    lower, upper = window
+    found, seen, history = start, [], []
+    while True:
+        chosen = [i for i, x in enumerate(phi) if lower <= x - found < upper and energy[i] > 0]
+        if chosen in seen:
+            round_of = history[seen.index(chosen):]
+            return sum(round_of) / len(round_of)
+        if len(chosen) < LEAST_STATES:
+            return None
+        intercept, slope, _ = line([phi[i] for i in chosen], [energy[i] ** (1 / exponent) for i in chosen])
+        if slope <= 0:
+            return None
+        found = -intercept / slope
+        seen.append(chosen)
+        history.append(found)
+
+
+def free_exponent(phi, energy, start, window):
+    """(φ_J, exponent) of E ∝ (φ − φ_J)^x with both free, over the states within the window of `start`, by least squares
+    of ln E. None of fewer than four states."""
+    chosen = [i for i, x in enumerate(phi) if window[0] <= x - start < window[1] and energy[i] > 0]
+    if len(chosen) < 4:
+        return None
+    x, y = [phi[i] for i in chosen], [math.log(energy[i]) for i in chosen]
+    least, reach = min(x), max(x) - min(x)
+
+    def off(gap):
+        return line([math.log(a - least + gap) for a in x], y)[2]
+
+    # In the logarithm of the gap between φ_J and the last state there is one minimum: golden section.
+    low, high, ratio = math.log(reach * 1e-4), math.log(reach * 10), (math.sqrt(5) - 1) / 2
+    for _ in range(120):
+        first, second = high - ratio * (high - low), low + ratio * (high - low)
+        low, high = (low, second) if off(math.exp(first)) < off(math.exp(second)) else (first, high)
+    gap = math.exp(0.5 * (low + high))
+    return least - gap, line([math.log(a - least + gap) for a in x], y)[1]
+
+
+def slopes(x, y):
+    """(geometric mean of x, d ln y / d ln x) between neighbouring states where both have numbers above zero."""
+    found = []
+    for (x1, y1), (x2, y2) in zip(zip(x, y), zip(x[1:], y[1:])):
+        if None in (x1, x2, y1, y2) or min(x1, x2, y1, y2) <= 0 or x1 == x2:
+            continue
+        found.append((math.sqrt(x1 * x2), math.log(y2 / y1) / math.log(x2 / x1)))
+    return found
+
+
+def binned(paths, edges):
+    """Estimates for bins between rising edges, from lists of (x, value), one list per replicate. A replicate counts
+    once in a bin, by the mean of what it has there."""
+    bins = []
+    for lower, upper in zip(edges, edges[1:]):
+        means = []
+        for path in paths:
+            here = [value for x, value in path if lower <= x < upper and value is not None]
+            if here:
+                means.append(sum(here) / len(here))
+        bins.append(estimate_of(means))
+    return bins
+
+
+def local_slopes(paths, edges):
+    """Local exponents by bin, from (x values, y values) per replicate."""
+    return binned([slopes(x, y) for x, y in paths], edges)
+
+
+def at(x, y, where):
+    """y at x = where, linear in ln x between the neighbours that have numbers; None outside of them. x falls."""
+    known = [(a, b) for a, b in zip(x, y) if b is not None and a > 0]
+    for (x1, y1), (x2, y2) in zip(known, known[1:]):
+        if x2 <= where <= x1:
+            return y1 + (y2 - y1) * math.log(where / x1) / math.log(x2 / x1)
+    return None

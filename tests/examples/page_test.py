@@ -1,0 +1,183 @@
+"""Facts proved here: python3 page_test.py examples/page
+
+- Student's t is that of tables; an interval of normal samples covers their mean in 95 of 100 cases; the binomial tail
+  is the sum of its terms; of choices, the systematic error is half their range;
+- numbers show two digits of their error, without a leading zero, and a minus is a minus;
+- φ_J of an exact power law is found whatever the window, and states outside of it do not matter; with a free exponent
+  both are found; of too few states there is none;
+- local slopes of a power law are its exponent, in every bin; gaps are not bridged; a replicate counts once in a bin;
+- a limit is found by the form that the data have, its interval covers it in 90 of 100 noisy cases or more, and forms
+  that the data do not have show in the systematic error;
+- a page without a block, or with one twice, is refused; values in sentences are renewed, and nothing else is touched.
+"""
+
+import math
+import random
+import sys
+import unittest
+
+sys.path.insert(0, sys.argv[1])
+
+import estimates  # noqa: E402
+import limits  # noqa: E402
+import marks  # noqa: E402
+import scaling  # noqa: E402
+import text  # noqa: E402
+
+
+class Estimates(unittest.TestCase):
+    def test_student(self):
+        for freedom, t in ((1, 12.7062), (2, 4.3027), (7, 2.3646), (15, 2.1314), (30, 2.0423), (1000, 1.9623)):
+            self.assertAlmostEqual(estimates.student(freedom), t, places=4)
+        self.assertAlmostEqual(estimates.student(5, 0.95), 2.0150, places=4)
+
+    def test_binomial(self):
+        for n, p in ((12, 0.1), (40, 0.5), (7, 0.93)):
+            for k in range(n + 2):
+                exact = sum(math.comb(n, j) * p ** j * (1 - p) ** (n - j) for j in range(k, n + 1))
+                self.assertAlmostEqual(estimates.binomial_at_least(k, n, p), exact, places=12)
+
+    def test_estimates(self):
+        ours = estimates.estimate_of([0.71, None, 0.69, 0.70])
+        self.assertAlmostEqual(ours["mean"], 0.7)
+        self.assertAlmostEqual(ours["half_width"], 4.302653 * 0.01 / 3 ** 0.5, places=7)
+        self.assertEqual(ours["n"], 3)
+        self.assertIsNone(estimates.estimate_of([0.7])["half_width"])
+        self.assertIsNone(estimates.estimate_of([None]))
+        chosen = estimates.of_choices(ours, [{"mean": 0.72}, None, {"mean": 0.66}])
+        self.assertAlmostEqual(chosen["systematic"], 0.03)
+        self.assertEqual(chosen["mean"], ours["mean"])
+
+    def test_coverage(self):
+        stream = random.Random(3)
+        for n in (3, 8, 40):
+            hits, trials = 0, 3000
+            for _ in range(trials):
+                ours = estimates.estimate_of([stream.gauss(2, 1) for _ in range(n)])
+                hits += abs(ours["mean"] - 2) <= ours["half_width"]
+            self.assertAlmostEqual(hits / trials, 0.95, delta=4 * (0.95 * 0.05 / trials) ** 0.5)
+
+    def test_correlation(self):
+        self.assertAlmostEqual(estimates.correlation([1, 2, 3, 4], [2, 4, 6, 8]), 1)
+        self.assertAlmostEqual(estimates.correlation([1, 2, 3, 4], [1, -1, -1, 1]), 0)
+        self.assertIsNone(estimates.correlation([1, 1, 1], [1, 2, 3]))
+        low, high = estimates.correlation_interval(0.6, 16)
+        self.assertAlmostEqual(low, 0.148, places=3)  # tables of Fisher's z
+        self.assertAlmostEqual(high, 0.8445, places=3)
+        self.assertEqual(estimates.resamples(5, 4, 9), estimates.resamples(5, 4, 9))
+
+
+class Text(unittest.TestCase):
+    def test_numbers(self):
+        def of(mean, half_width, **more):
+            return {"mean": mean, "half_width": half_width, "n": 16, **more}
+
+        for estimate, said in ((of(0.68354, 0.00271), ".6835 ± .0027"), (of(-0.05, 0.031), "−.050 ± .031"),
+                               (of(12.13, 0.0), "12.13 in all"), (of(2.434, None), "2.434 (one)"),
+                               (of(39.4, 11.2), "39 ± 11"), (of(11.62, 0.091, systematic=0.24), "11.62 ± .09 ± .24"),
+                               (of(0.9996, 0.012), "1.000 ± .012"), (None, "–")):
+            self.assertEqual(text.interval(estimate), said)
+        self.assertEqual(text.number(-0.0001, 2), ".00")
+        self.assertEqual(text.number(-12.345, 1), "−12.3")
+        self.assertEqual(text.number(0.5, 0), "0")
+        self.assertEqual(text.significant(0.012345, 3), ".0123")
+        self.assertEqual(text.significant(1234.5, 2), "1200")
+        self.assertEqual(text.power(9.3e-7), "1·10⁻⁶")
+        self.assertEqual(text.power(2.1e-7), "3·10⁻⁷")
+
+
+class Scaling(unittest.TestCase):
+    PHI = [0.7 + 0.16 * 0.7 ** i for i in range(14)]
+
+    def law(self, exponent, jammed=0.7):
+        return [3e-2 * (x - jammed) ** exponent for x in self.PHI]
+
+    def test_jamming_density(self):
+        for window in ((0, 0.02), (0.02, 0.12), (0.01, 0.04)):
+            found = scaling.jamming_density(self.PHI, self.law(6), 0.703, window)
+            self.assertAlmostEqual(found, 0.7, places=10)
+        bent = [e * (1.5 if x > 0.72 else 1) for x, e in zip(self.PHI, self.law(6))]
+        self.assertAlmostEqual(scaling.jamming_density(self.PHI, bent, 0.7, (0, 0.02)), 0.7, places=10)
+        self.assertGreater(abs(scaling.jamming_density(self.PHI, bent, 0.7, (0.01, 0.06)) - 0.7), 1e-4)
+        self.assertIsNone(scaling.jamming_density(self.PHI, self.law(6), 0.7, (0.0, 0.001)))
+
+    def test_free_exponent(self):
+        for exponent in (5.2, 6.0, 7.1):
+            jammed, found = scaling.free_exponent(self.PHI, self.law(exponent), 0.699, (0, 0.05))
+            self.assertAlmostEqual(found, exponent, places=4)
+            self.assertAlmostEqual(jammed, 0.7, places=6)
+        self.assertIsNone(scaling.free_exponent(self.PHI[:3], self.law(6)[:3], 0.7, (0, 1)))
+
+    def test_slopes(self):
+        x = [p - 0.7 for p in self.PHI]
+        edges = [0.001 * 2 ** i for i in range(9)]
+        for found in scaling.local_slopes([(x, self.law(6)), (x, self.law(6))], edges):
+            if found:
+                self.assertAlmostEqual(found["mean"], 6, places=9)
+                self.assertEqual(found["n"], 2)
+        self.assertEqual(len(scaling.slopes([4, 2, 1], [16, None, 1])), 0)
+        self.assertEqual(scaling.slopes([4, 1], [16, 1]), [(2.0, 2.0)])
+        # One replicate with three values in the bin weighs as much as one with one.
+        self.assertAlmostEqual(scaling.binned([[(1, 1), (1, 2), (1, 3)], [(1, 4)]], [0.5, 2])[0]["mean"], 3)
+
+    def test_at(self):
+        self.assertAlmostEqual(scaling.at([4, 2, 1], [16, None, 12], 2), 14)
+        self.assertIsNone(scaling.at([4, 2, 1], [16, 3, 12], 0.5))
+        self.assertEqual(scaling.at([4, 2, 1], [16, 3, 12], 2), 3)
+
+
+    def test_jamming_density_goes_round(self):
+        # States that enter and leave the window as φ_J moves: the mean of the round, whatever it began with.
+        bent = [e * (1 + 30 * (x - 0.7)) for x, e in zip(self.PHI, self.law(5))]
+        found = {round(scaling.jamming_density(self.PHI, bent, 0.7 - start, (0.03, 0.06)), 9) for start in (0, 0.001)}
+        self.assertEqual(len(found), 1)
+
+
+class Limits(unittest.TestCase):
+    X = [0.02 * 0.7 ** i for i in range(10)]
+
+    def paths(self, exponent, noise, stream, n=8):
+        return [[(x, 12 - 8 * x ** exponent + own + stream.gauss(0, 0.1 * noise)) for x in self.X]
+                for own in (stream.gauss(0, noise) for _ in range(n))]
+
+    def test_exact(self):
+        for exponent in (0.5, 0.65, 1.0, 1.5):
+            paths = self.paths(exponent, 0, random.Random(1))
+            free = limits.limit(paths, (0, 0.02), None)
+            self.assertAlmostEqual(free["mean"], 12, places=9)
+            self.assertAlmostEqual(free["exponent"], exponent)
+            _, chosen = limits.limit_of_choices(paths, [(0, 0.03), (0, 0.01)])
+            self.assertGreater(chosen["systematic"], 1e-3)
+        self.assertIsNone(limits.limit(paths[:2], (0, 1), 1.0))
+        self.assertIsNone(limits.limit(paths, (0, 1e-4), 1.0))
+
+    def test_coverage(self):
+        stream, hits, trials = random.Random(5), 0, 100
+        for _ in range(trials):
+            found = limits.limit(self.paths(1.0, 0.1, stream), (0, 0.03), 1.0, draws=60)
+            hits += abs(found["mean"] - 12) <= found["half_width"]
+        self.assertGreaterEqual(hits, 90)
+
+
+class Marks(unittest.TestCase):
+    PAGE = "before\n<!-- block one -->\nold\n<!-- end -->\nZ is <!-- = Z 100 -->9<!-- / -->, so.\n"
+
+    def test_renewed(self):
+        made = marks.renewed(self.PAGE, {"one": lambda data: f"{data}\n"}, 5, lambda data, name: f"{name}: {data}")
+        self.assertEqual(made, self.PAGE.replace("old", "5").replace("-->9<", "-->Z 100: 5<"))
+        self.assertEqual(marks.without_marks(made.splitlines()[-1]), "Z is Z 100: 5, so.")
+
+    def test_refused(self):
+        two = {"one": str, "two": str}
+        for page, blocks in ((self.PAGE + self.PAGE, {"one": str}), ("", {"one": str}), (self.PAGE, two)):
+            with self.assertRaises(marks.PageError):
+                marks.renewed(page, blocks, 5, lambda data, name: name)
+        with self.assertRaises(marks.PageError):
+            marks.renewed(self.PAGE, {"two": str}, 5, lambda data, name: name, every=False)
+        with self.assertRaises(marks.PageError):
+            marks.renewed(self.PAGE, {"one": str}, 5)
+        marks.renewed(self.PAGE, two, 5, lambda data, name: name, every=False)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
