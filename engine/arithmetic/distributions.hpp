@@ -11,10 +11,12 @@ double student_two_sided(double share, long degrees);
 /// x with P(X ≤ x) = share for a normal X of mean 0 and variance 1; 0 < share < 1.
 double normal_quantile(double share);
 
-/// Probabilities of at most and of at least k successes in n trials of probability p, 0 ≤ k ≤ n, 0 ≤ p ≤ 1.
+/// Both tails of a binomial distribution.
 struct BinomialTails {
-  double at_most = 0, at_least = 0;
+  double at_most = 0;   ///< P(X ≤ k)
+  double at_least = 0;  ///< P(X ≥ k)
 };
+/// Probabilities of at most and of at least k successes in n trials of probability p, 0 ≤ k ≤ n, 0 ≤ p ≤ 1.
 BinomialTails binomial_tails(long n, double p, long k);
 
 }  // namespace isojam
