@@ -19,8 +19,8 @@ using Matrix12d = Eigen::Matrix<double, 12, 12>;
 /// The first term opposes motions that change V to first order, along its normal alone. All others are left to the
 /// second: the tilts of faces and edges that lie in a face, as a matter of shape, and what the force does by turning
 /// and shifting with the contact, its prestress. (A face that lies flat on a face has no tilt of its own: V is then its
-/// polygon times the depth at the centroid, until the faces part within the polygon.) Of the twelve directions six move the pair as a whole, one is the
-/// normal, five are left.
+/// polygon times the depth at the centroid, until the faces part within the polygon.) Of the twelve directions six move
+/// the pair as a whole, one is the normal, five are left.
 struct PairStiffness {
   Vector12d normal;             ///< g/|g|
   double normal_stiffness = 0;  ///< ½ |g|², Y·V_p^(1/3)
