@@ -79,15 +79,18 @@ class Fields(unittest.TestCase):
         self.assertGreater(len({name for schema in schemas for name, _ in fields(schema)}), 200)
         self.assertEqual(missing_fields(page, schemas), [])
         self.assertIn("(w, x, y, z)", page)
+        rows = rows_of(page)
         for one in json.loads(FACTS.read_text(encoding="utf-8"))["quantities"]:
-            self.assertTrue(any(one["unit"] in cells for cells in rows_of(page)[one["name"]]), one["name"])
+            self.assertTrue(any(one["unit"] in cells for cells in rows.get(one["name"], [])),
+                            f"docs/results.md has no row of {one['name']} with its unit")
 
     def test_the_manifest_has_every_key(self):
         page, schema = text_of("docs/manifest.md"), schema_of("manifest")
         self.assertGreater(len(list(fields(schema))), 80)
         self.assertEqual(wrong_defaults(page, schema), [])
+        rows = rows_of(page.split("## Measures")[1].split("\n## ")[0])
         for measure in schema["properties"]["measure"]["items"]["enum"]:
-            self.assertIn(measure, rows_of(page.split("## Measures")[1].split("\n## ")[0]))
+            self.assertTrue(measure in rows, f"docs/manifest.md has no row of {measure} under Measures")
 
     def test_flags_have_rows(self):
         page = text_of("docs/results.md").split("## Flags")[1].split("\n## ")[0]
