@@ -40,7 +40,9 @@ TEST(Warnings, DefaultsAndExamplesHaveNone) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(ISOJAM_SOURCE_DIR "/examples")) {
     if (entry.path().extension() != ".json" || entry.path().parent_path().filename() == "data") continue;
     ++seen;
-    EXPECT_EQ(warnings_of(read_manifest(entry.path().string())), Lines{}) << entry.path();
+    // It asks what too few evaluations do.
+    const std::size_t expected = entry.path().filename() == "search-protocol.json" ? 1 : 0;
+    EXPECT_EQ(warnings_of(read_manifest(entry.path().string())).size(), expected) << entry.path();
   }
   EXPECT_GT(seen, 10);
 }
