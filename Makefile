@@ -1,4 +1,4 @@
-# Verbs: run test build bench bench-against equilibria paper reproducibility docs test-asan fuzz test-slurm lint
+# Verbs: run test build bench bench-against equilibria paper rigidity reproducibility docs test-asan fuzz test-slurm lint
 # format packages clean. On Debian 12 each first installs the packages it needs and lacks.
 #   make lint LINT='engine/solve/jam.cpp'
 BUILD ?= build
@@ -52,7 +52,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DISOJAM_NATIVE=ON -DCMAKE_EXPORT_CO
 # and forth between `make run` and `make test` compiles nothing twice.
 CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISOJAM_TESTS=OFF)
 
-.PHONY: build run test test-asan fuzz test-slurm bench equilibria paper docs lint format clean
+.PHONY: build run test test-asan fuzz test-slurm bench equilibria paper rigidity docs lint format clean
 .DEFAULT_GOAL := build
 
 # Without what `isojam chart` alone needs.
@@ -73,16 +73,42 @@ run: isojam
 
 # The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
 # interrupted goes on. A replicate that failed (exit 1) is counted on the page.
-PAPER = n100 n100-tetrahedra n400 n400-tetrahedra search-protocol cubes rule-base rule
+PAPER = n100 n100-tetrahedra n400 n400-tetrahedra search-protocol search-400 cubes rule-base rule
+studies = @for study in $(1); do \
+	  $(BUILD)/isojam run examples/$(2)/$$study.json $(3) >/dev/null || [ $$? = 1 ] || exit 1; \
+	done
+# Measures that are added to the records of the directories, and not again.
+measure = @for results in $(1); do \
+	  $(BUILD)/isojam measure results/$$results --add $(subst $(space),$(comma),$(strip $(2))) >/dev/null || [ $$? = 1 ] || exit 1; \
+	done
+comma = ,
+space = $(subst ,, )
 paper: build
 	$(call install,python3 python3-matplotlib)
-	@for study in $(PAPER); do \
-	  $(BUILD)/isojam run examples/paper/$$study.json >/dev/null || [ $$? = 1 ] || exit 1; \
-	done
+	$(call studies,$(PAPER),paper)
+	$(call measure,paper-100 paper-100-tetrahedra,backbone difference_modes)
+	$(call measure,paper-400 paper-400-tetrahedra,backbone)
+	$(call measure,paper-rule paper-rule-base,difference_modes)
 	@for study in paper-100 paper-100-tetrahedra; do $(BUILD)/isojam report results/$$study; done
 	@/usr/bin/python3 -B examples/paper/gather.py $(BUILD)/isojam results results/paper
 	@/usr/bin/python3 -B examples/paper/figures.py results/paper results/paper
 	@/usr/bin/python3 -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
+
+# The studies of examples/rigidity, and of the paper's the small ones and a quarter of the large ones, which `paper`
+# goes on with; then its page.
+RIGIDITY = n50 n50-tetrahedra n200 n200-tetrahedra n800
+HOLDING = prestress one_sided gaps
+rigidity: build
+	$(call install,python3 python3-matplotlib)
+	$(call studies,n100 n100-tetrahedra,paper)
+	$(call studies,$(RIGIDITY),rigidity)
+	$(call studies,n400 n400-tetrahedra,paper,--shard 1/4)
+	$(call measure,rigidity-50 rigidity-50-tetrahedra paper-100 paper-100-tetrahedra rigidity-200 \
+	  rigidity-200-tetrahedra,$(HOLDING) quartic)
+	$(call measure,paper-400 paper-400-tetrahedra,$(HOLDING))
+	@/usr/bin/python3 -B examples/rigidity/gather.py $(BUILD)/isojam results results/rigidity
+	@/usr/bin/python3 -B examples/rigidity/figures.py results/rigidity results/rigidity
+	@/usr/bin/python3 -B examples/rigidity/page.py examples/rigidity/README.md --data results/rigidity -o results/rigidity/README.md
 
 # All that `run` and `test` install, and nothing else: for the layer of an image.
 .PHONY: packages

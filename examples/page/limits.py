@@ -1,6 +1,6 @@
 """What a quantity tends to as Δφ → 0, and how well that is known: pure functions."""
 
-import math
+import statistics
 
 from estimates import resamples, student
 from scaling import line
@@ -17,20 +17,40 @@ def fitted(points, exponent):
     return intercept, slope, exponent, off
 
 
+def sums(points, exponent):
+    """Of one replicate what least squares need: n, Σx, Σy, Σx², Σxy, Σy² with x = Δφ^exponent."""
+    x, y = [a ** exponent for a, _ in points], [b for _, b in points]
+    return (len(x), sum(x), sum(y), sum(a * a for a in x), sum(a * b for a, b in zip(x, y)), sum(b * b for b in y))
+
+
+def from_sums(parts):
+    """Intercept and squared residual of all parts together."""
+    n, x, y, xx, xy, yy = (sum(column) for column in zip(*parts))
+    spread = xx - x * x / n
+    slope = (xy - x * y / n) / spread if spread > 0 else 0.0
+    return (y - slope * x) / n, yy - y * y / n - slope * (xy - x * y / n)
+
+
 def limit(paths, window, exponent, draws=100, seed=1):
     """The limit a of a + b Δφ^x over (Δφ, y) with window[0] ≤ Δφ < window[1], of all replicates together, with a 95 %
-    interval from samples of replicates with replacement, widened as Student's t is against the normal; and x. None if
-    fewer than three replicates or four points are there."""
+    interval from samples of replicates with replacement, widened as Student's t is against the normal; and x, of which
+    the half width is from the same samples. None if fewer than three replicates or four points are there."""
     inside = [[(x, y) for x, y in path if window[0] <= x < window[1] and y is not None] for path in paths]
     inside = [path for path in inside if path]
     if len(inside) < 3 or len({x for path in inside for x, _ in path}) < 4:
         return None
     a, _, x, _ = fitted([point for path in inside for point in path], exponent)
-    found = sorted(fitted([point for i in chosen for point in inside[i]], exponent)[0]
-                   for chosen in resamples(len(inside), draws, seed))
-    mean = sum(found) / draws
-    deviation = math.sqrt(sum((value - mean) ** 2 for value in found) / (draws - 1))
-    return {"mean": a, "half_width": student(len(inside) - 1) * deviation, "n": len(inside), "exponent": x}
+    # About the limit, so that sums of squares do not cancel.
+    tried = GRID if exponent is None else (exponent,)
+    parts = {e: [sums([(d, y - a) for d, y in path], e) for path in inside] for e in tried}
+    found = []
+    for chosen in resamples(len(inside), draws, seed):
+        fits = [(*from_sums([parts[e][i] for i in chosen]), e) for e in tried]
+        intercept, _, e = min(fits, key=lambda fit: fit[1])
+        found.append((a + intercept, e))
+    t = student(len(inside) - 1)
+    return {"mean": a, "half_width": t * statistics.stdev(fit[0] for fit in found), "n": len(inside), "exponent": x,
+            "exponent_half_width": t * statistics.stdev(fit[1] for fit in found)}
 
 
 def limit_of_choices(paths, windows, central=(0, None)):

@@ -79,13 +79,20 @@ def offsets(data):
         chi = sum(((s[400][0] - s[100][0]) / math.hypot(s[100][1], s[400][1])) ** 2 for s in both.values())
         text += (f"\nOf the last two columns χ² = {number(chi, 2)} for four solids; of single packings it would be as "
                  f"small or smaller in {significant(100 * chi_square_below(chi, 4), 2)} of 100 cases.\n")
+        every = sum((off / sd) ** 2 for sizes in both.values() for off, sd in sizes.values())
+        text += (f"Of all eight offsets, in sd, it is {number(every, 1)}; of single packings it would be as large or larger "
+                 f"in {significant(100 - 100 * chi_square_below(every, 8), 1)} of 100.\n")
     return text
 
 
-def settings_of(data):
+def searched_of(data, particles):
+    return [r for r in itertools.chain(*data.search.values()) if r.get("particles", 100) == particles]
+
+
+def settings_of(data, particles=100):
     """{setting: {solid: replicates that count}} of the search."""
     made = {}
-    for replicate in itertools.chain(*data.search.values()):
+    for replicate in searched_of(data, particles):
         if replicate["status"] == "done" and not {"crystalline"} & set(replicate["flags"]):
             key = tuple(sorted(replicate["setting"].items()))
             made.setdefault(key, {}).setdefault(replicate["solid"], []).append(replicate)
@@ -97,12 +104,12 @@ def refitted(replicates, fit, solid):
     return estimate_of([jamming_density(r["phi"], r["E"], r["phi_j"], window) for r in replicates])
 
 
-def ranked(data):
-    """Settings that have all solids that were searched, best first: (χ², root mean square of paper − ours, setting, window, estimates,
-    paper − ours)."""
-    theirs = {f["solid"]: f["value"] for f in data.figures if f["place"] == "Table I" and f["particles"] == 100}
-    made, searched = [], searched_solids(data)
-    for setting, solids in settings_of(data).items():
+def ranked(data, particles=100):
+    """Settings that have all solids that were searched, best first: (χ², root mean square of paper − ours, setting,
+    window, estimates, paper − ours)."""
+    theirs = {f["solid"]: f["value"] for f in data.figures if f["place"] == "Table I" and f["particles"] == particles}
+    made, searched = [], searched_solids(data, particles)
+    for setting, solids in settings_of(data, particles).items():
         for name, fit in FITS.items():
             found = {s: refitted(solids.get(s, []), fit, s) for s in searched}
             if any(not e or e["n"] < 3 for e in found.values()):
@@ -115,9 +122,9 @@ def ranked(data):
     return sorted(made, key=lambda entry: entry[0])
 
 
-def searched_solids(data):
+def searched_solids(data, particles=100):
     """Those of which some setting has three replicates: of a search under way, not all."""
-    return [s for s in SOLIDS if any(len(solids.get(s, [])) >= 3 for solids in settings_of(data).values())]
+    return [s for s in SOLIDS if any(len(solids.get(s, [])) >= 3 for solids in settings_of(data, particles).values())]
 
 
 def all_inside(entries):
@@ -159,9 +166,31 @@ def search(data, best=6):
         f"paper's values lie within the intervals of our means.\n")
 
 
+def both_sizes(data):
+    """Settings and windows of which both sizes are known: (χ² of all values, the entry of N = 100, that of 400)."""
+    small = {(tuple(sorted(e[2].items())), e[3]): e for e in ranked(data)}
+    found = [(small[key], e) for e in ranked(data, 400) if (key := (tuple(sorted(e[2].items())), e[3])) in small]
+    return sorted(((a[0] + b[0], a, b) for a, b in found), key=lambda entry: entry[0])
+
+
+def search_400(data, best=4):
+    entries = both_sizes(data)
+    if not entries:
+        return "Not in these records.\n"
+    searched = searched_solids(data, 400)
+    rows = [[*name_of(b[2], b[3]), number(a[0], 2), number(b[0], 2),
+             *(f"{number(b[4][s]['mean'], 4)} ± {number(b[4][s]['half_width'], 4)} ({signed(b[5][s], 4)})"
+               for s in searched)] for _, a, b in entries[:best]]
+    return table(["target read", "step", "budget", "window", "χ², N = 100", "χ², N = 400",
+                  *(f"{s}, N = 400, ours (paper − ours)" for s in searched)], rows) + (
+        f"\n{len(entries)} settings and windows of {len(searched)} solids with N = 400; in "
+        f"{sum(all_inside([a]) and all_inside([b]) for _, a, b in entries)} of them all values of both sizes lie within "
+        f"the intervals of our means.\n")
+
+
 def moved_by(data, setting, solid):
     """Shift of φ_J, 10⁻⁴, against the base setting, in pairs of replicates that began alike."""
-    every = [r for r in itertools.chain(*data.search.values())
+    every = [r for r in searched_of(data, 100)
              if r["solid"] == solid and r["status"] == "done" and "crystalline" not in r["flags"]]
     base = {r["replicate"]: r["phi_j"] for r in every if is_base_setting(r["setting"])}
     return estimate_of([1e4 * (r["phi_j"] - base[r["replicate"]]) for r in every
@@ -204,4 +233,4 @@ def windows(data):
     return table(["fit over Δφ", *SOLIDS], rows)
 
 
-BLOCKS = {f.__name__: f for f in (table_1, offsets, search, levers, windows)}
+BLOCKS = {f.__name__: f for f in (table_1, offsets, search, search_400, levers, windows)}

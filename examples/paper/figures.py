@@ -4,43 +4,12 @@ spectra.png (the paper's Figure 1a), vibrations.png (1b), angles.png (2), contac
 gather.py writes it. Of N = 400 where that was measured; N = 100 beside it where the paper has it so.
 """
 
-import math
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402
-
 # data.py finds what pages have in common.
-from data import SIZES, SOLIDS, Data  # noqa: E402
-from estimates import estimate_of  # noqa: E402
-from scaling import at  # noqa: E402
-
-COLOURS = dict(zip(SOLIDS, ("#b2182b", "#2166ac", "#1b7837", "#e08214")))
-MARKERS = dict(zip(SOLIDS, ("^", "D", "o", "p")))
-GRID = [0.16 * 2 ** (-i / 2) for i in range(19)]
-SETTINGS = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
-            "legend.frameon": False, "axes.titlesize": 9}
-
-
-def mean_path(data, solid, particles, column):
-    """Geometric means over replicates at distances where at least half of them have a value, and factors of the 95 %
-    interval: of frequencies, which spread over decades; means with half widths of all else."""
-    logarithmic = column.startswith("omega")
-    paths = [(x, [math.log(v) if v else None for v in y] if logarithmic else y)
-             for x, y in data.paths(solid, particles, column)]
-    x, y, error = [], [], []
-    for distance in GRID:
-        estimate = estimate_of([at(a, b, distance) for a, b in paths])
-        if estimate and estimate["n"] >= max(2, len(data.counted(solid, particles)) / 2):
-            mean, width = estimate["mean"], estimate["half_width"]
-            x.append(distance)
-            y.append(math.exp(mean) if logarithmic else mean)
-            error.append((math.exp(mean) * (1 - math.exp(-width)), math.exp(mean) * math.expm1(width)) if logarithmic
-                         else (width, width))
-    return x, y, list(zip(*error))
+from data import SIZES, SOLIDS, Data
+from drawing import COLOURS, GRID, MARKERS, SETTINGS, matplotlib, mean_path, pyplot, save
 
 
 def drawn(data, solid):
@@ -55,7 +24,7 @@ def drawn(data, solid):
 def series(axes, data, column, sizes, label=True):
     for solid in SOLIDS:
         for particles in sizes:
-            x, y, error = mean_path(data, solid, particles, column)
+            x, y, error = mean_path(data, solid, particles, column, column.startswith("omega"))
             if x:
                 axes.errorbar(x, y, error, color=COLOURS[solid], marker=MARKERS[solid], markersize=4, linewidth=0.8,
                               fillstyle="full" if particles == 400 else "none",
@@ -126,13 +95,6 @@ def contacts(data, out):
         axes.set(xscale="log", xlabel="Δφ", title=title)
     three[2].legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     save(figure, out / "contacts.png", 80)
-
-
-def save(figure, path, dpi=100):
-    figure.tight_layout()
-    # Without the version of the program that drew it: the same data give the same file.
-    figure.savefig(path, dpi=dpi, metadata={"Software": None}, pil_kwargs={"optimize": True})
-    pyplot.close(figure)
 
 
 def main():

@@ -7,18 +7,19 @@ nine digits, E/N to six, all others to four. Studies that are not there, or not 
 what they have.
 """
 
-import csv
 import json
 import math
 import subprocess
 import sys
 from pathlib import Path
 
+# network.py finds what pages have in common.
 import network
+from records import contacts_of, found, records_of, replicate_of, write
 
 STUDIES = ("paper-100", "paper-100-tetrahedra", "paper-400", "paper-400-tetrahedra", "paper-cubes", "paper-rule",
            "paper-rule-base")
-SEARCHES = ("paper-search-protocol", "paper-search-energy")
+SEARCHES = ("paper-search-protocol", "paper-search-400")
 # Column of a state: where it is in the record.
 COLUMNS = {
     "phi": "phi", "delta_phi": "delta_phi", "E": "energy_per_particle", "residual": "residual", "descents": "descents",
@@ -38,21 +39,6 @@ COLUMNS = {
     "unstable_exact": "difference_modes/exact/share", "unstable_h4": "difference_modes/h4/share",
     "unstable_h6": "difference_modes/h6/share", "unstable_h8": "difference_modes/h8/share"}
 POINTS = 60  # of a curve of angles
-
-
-def records_of(directory):
-    """(name, record), in order of name; none if the directory is not there."""
-    for path in sorted((directory / "records").glob("*.json")):
-        with open(path, encoding="utf-8") as file:
-            yield path.stem, json.load(file)
-
-
-def found(value, place):
-    for key in place.split("/"):
-        if not isinstance(value, dict) or key not in value:
-            return None
-        value = value[key]
-    return value
 
 
 def columns_of(states):
@@ -90,21 +76,6 @@ def drawn_of(records):
     return made
 
 
-def contacts_of(isojam, directory, name):
-    """Of every state of a replicate its contacts, as network.py takes them."""
-    command = [isojam, "export", directory, name, "--format", "contacts", "--path"]
-    states = {}
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        for row in csv.DictReader(process.stdout):
-            state = states.setdefault(int(row["state"]), {key: [] for key in ("a", "b", "theta_ef", "theta_ff")})
-            for key, kind in (("a", int), ("b", int), ("theta_ef", float), ("theta_ff", float)):
-                state[key].append(kind(row[key]))
-        error = process.stderr.read()
-    if process.returncode:
-        sys.exit(f"{name}: {error}")
-    return [states[i] for i in sorted(states)]
-
-
 def gap_of(state, which):
     return found(state, f"{which}_gap/cutoff") if found(state, f"{which}_gap/verdict") == "separated" else None
 
@@ -128,17 +99,12 @@ def network_of(contacts, record):
     return made
 
 
-def replicate_of(record):
+def with_states(record):
     """What the page needs of a record, but for its contacts."""
-    spec = record["spec"]
-    made = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"],
-            "status": record["status"], "flags": record.get("flags") or [],
-            "cpu": record["timing"]["cpu_seconds"], "stages": record["timing"].get("stages", {})}
+    made = replicate_of(record)
     if record["status"] != "done":
         return made
-    return {**made, "phi_j": {key: record["phi_j"].get(key) for key in (
-                "phi_j", "ci95_half_width", "exponent", "residual")},
-            "evaluations": [record["path"][state["step"]]["evaluations"] for state in record["states"]],
+    return {**made, "evaluations": [record["path"][state["step"]]["evaluations"] for state in record["states"]],
             "states": columns_of(record["states"])}
 
 
@@ -146,7 +112,7 @@ def study_of(isojam, directory, critical):
     replicates, records = [], []
     for name, record in records_of(directory):
         records.append(record)
-        made = replicate_of(record)
+        made = with_states(record)
         angle = found(record, "nearest/angles/edge_face_random/angle")
         if angle and (directory / "paths" / f"{name}.json").exists():
             record["critical"] = critical[record["spec"]["solid"]]
@@ -157,31 +123,25 @@ def study_of(isojam, directory, critical):
             "replicates": replicates}
 
 
+CRYSTALLINE = 0.32  # Q6 above it: the program's own limit, which it flags by its measure of contacts; here order alone
+
+
 def search_of(directory):
     """Of each replicate its settings, flags, φ_J and the states that windows are laid over."""
     made = []
     for _, record in records_of(directory):
         spec, protocol = record["spec"], record["spec"]["protocol"]
-        one = {"solid": spec["solid"], "replicate": spec["replicate"], "flags": record.get("flags") or [],
+        one = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"], "flags": record.get("flags") or [],
                "setting": {"before": protocol["target_before_relaxation"], "step": protocol["consolidation_step"],
                            "budget": protocol["consolidation_evaluations"], "target": protocol["target_energy"]},
                "cpu": record["timing"]["cpu_seconds"], "status": record["status"]}
         if record["status"] == "done":
+            if (found(record, "nearest/order/Q6") or 0) > CRYSTALLINE:
+                one["flags"] = sorted({*one["flags"], "crystalline"})
             one |= {"phi_j": record["phi_j"]["phi_j"], "phi": [s["phi"] for s in record["states"]],
                     "E": [s["energy_per_particle"] for s in record["states"]]}
         made.append(one)
     return made
-
-
-def rounded(value, digits=4):
-    if isinstance(value, float):
-        return float(f"{value:.{digits}g}")
-    if isinstance(value, list):
-        return [rounded(item, digits) for item in value]
-    if isinstance(value, dict):
-        return {key: rounded(item, 9 if key in ("phi", "phi_j", "angles") else 6 if key == "E" else digits)
-                for key, item in value.items()}
-    return value
 
 
 def critical_angles(isojam, directories):
@@ -192,19 +152,6 @@ def critical_angles(isojam, directories):
         rows = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["rows"]
         made |= {row["solid"]: row["critical_angles"] for row in rows if row.get("critical_angles")}
     return made
-
-
-def write(path, value):
-    """A line for each replicate: changes show."""
-    parts = []
-    for name, entry in rounded(value).items():
-        rows = entry["replicates"] if isinstance(entry, dict) else entry
-        head = "".join(f'"{key}": {json.dumps(item)}, ' for key, item in entry.items() if key != "replicates") \
-            if isinstance(entry, dict) else ""
-        lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in rows)
-        parts.append(f'"{name}": ' + (f'{{{head}"replicates": [\n{lines}\n]}}' if isinstance(entry, dict)
-                                      else f"[\n{lines}\n]"))
-    path.write_text("{\n" + ",\n".join(parts) + "\n}\n", encoding="utf-8")
 
 
 def main():

@@ -2,11 +2,11 @@
 
 from contacts import cutoff_range, limit_of
 from data import SIZES, SOLIDS
-from densities import all_inside, is_base, levers_of, ranked, searched_solids
+from densities import all_inside, both_sizes, is_base, levers_of, ranked, searched_solids
 from estimates import estimate_of
 from network import FACTORS, hindrance
 from text import counted, interval, number, significant, signed
-from vibrations import EDGES, apparent_exponent
+from vibrations import DISTANCES, EDGES, apparent_exponent, unstable_share
 
 
 PLURALS = {"tetrahedron": "tetrahedra", "octahedron": "octahedra", "icosahedron": "icosahedra",
@@ -54,6 +54,8 @@ def search_value(data, what):
             "base_chi": number(base[0], 2) if base else "–", "base_rms": number(base[1], 4) if base else "–",
             "base_rank": str(entries.index(base) + 1) if base else "–",
             "least_rms": number(min(e[1] for e in entries), 4),
+            "count_400": str(len(both_sizes(data))),
+            "inside_400": str(sum(all_inside([a]) and all_inside([b]) for _, a, b in both_sizes(data))),
             "all_inside": str(all_inside(entries)), "solids": ", ".join(PLURALS[s] for s in searched_solids(data))}[what]
 
 
@@ -68,6 +70,10 @@ def value_of(data, name):
     if what == "slope":
         column, solid, particles, lower = rest
         return slope(data, column, solid, int(particles), lower)
+    if what == "unstable":
+        study, solid, column, lower = rest
+        where = next(d for d in DISTANCES if d[0] == float(lower))
+        return counted(unstable_share(data, study, solid, column, where)) if study in data.studies else "–"
     if what == "apparent":
         column, solid, particles = rest
         return counted(apparent_exponent(data, solid, int(particles), column))

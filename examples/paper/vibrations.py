@@ -121,26 +121,30 @@ def zeros(data):
     return table(["with a near-rattler, unresolved, of all", *(bin_name(*d) for d in DISTANCES)], rows)
 
 
+def unstable_share(data, study, solid, column, where):
+    """Negative modes of 6N, %, in states of a bin of Δφ; a replicate counts once."""
+    means = []
+    for r in data.studies[study]["replicates"]:
+        if r["solid"] != solid or r["status"] != "done":
+            continue
+        here = [v for x, v in zip(r["states"]["delta_phi"], r["states"].get(column) or [])
+                if where[0] <= x < where[1] and v is not None]
+        if here:
+            means.append(100 * sum(here) / len(here))
+    return estimate_of(means)
+
+
 def unstable(data):
     """Shares of negative modes by central differences, beside the exact count."""
     columns = ("unstable_exact", "unstable_h4", "unstable_h6", "unstable_h8")
     rows = []
-    for name, study in data.studies.items():
+    for name in data.studies:
         for solid in SOLIDS:
-            some = [r for r in study["replicates"] if r["solid"] == solid and r["status"] == "done"
-                    and r["states"].get("unstable_exact")]
-            for lower, upper in DISTANCES:
-                cells = []
-                for column in columns:
-                    means = []
-                    for r in some:
-                        here = [v for x, v in zip(r["states"]["delta_phi"], r["states"].get(column) or [])
-                                if lower <= x < upper and v is not None]
-                        if here:
-                            means.append(100 * sum(here) / len(here))
-                    cells.append(interval(estimate_of(means)))
-                if cells != ["–"] * len(columns):
-                    rows.append([name, solid, bin_name(lower, upper), str(len(some)), *cells])
+            for where in DISTANCES:
+                found = [unstable_share(data, name, solid, column, where) for column in columns]
+                if any(found):
+                    rows.append([name.removeprefix("paper-"), solid, bin_name(*where), str(max(e["n"] for e in found if e)),
+                                 *(interval(e) for e in found)])
     if not rows:
         return MISSING
     return table(["study", "", "Δφ", "n", "exact, %", "h = 10⁻⁴", "h = 10⁻⁶", "h = 10⁻⁸"], rows)
@@ -153,13 +157,13 @@ def backbone(data):
             if not any(data.column(solid, particles, "backbone_removed")):
                 continue
             columns = ("backbone_removed", "backbone_Z", "Z", "backbone_zero", "backbone_negative", "backbone_missing")
-            nearest = [interval(data.nearest(solid, particles, column)) for column in columns]
-            slopes = [data.slopes(solid, particles, c, (0.0005, 0.005))[0] for c in ("backbone_omega_l", "backbone_K")]
-            rows.append([f"{solid} {particles}", *nearest, *(counted(s) for s in slopes)])
+            cells = [counted(data.at(solid, particles, column, 0.005)) for column in columns]
+            slopes = [data.slopes(solid, particles, c, (0.005, 0.02))[0] for c in ("backbone_omega_l", "backbone_K")]
+            rows.append([f"{solid} {particles}", *cells, *(counted(s) for s in slopes)])
     if not rows:
         return MISSING
-    return table(["nearest jamming", "removed", "Z of the rest", "Z of all", "zero modes", "negative",
-                  "short of full rank", "slope of ⟨ω_l⟩, Δφ = .0005 – .005", "of K"], rows)
+    return table(["Δφ = .005", "removed", "Z of the rest", "Z of all", "zero modes", "negative",
+                  "short of full rank", "slope of ⟨ω_l⟩, Δφ = .005 – .02", "of K"], rows)
 
 
 def localisation(data):

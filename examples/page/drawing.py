@@ -1,0 +1,42 @@
+"""What figures of pages have in common: colours and signs by solid, means against Δφ, files that come out the same."""
+
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+from estimates import estimate_of  # noqa: E402
+from scaling import at  # noqa: E402
+
+SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "dodecahedron")
+COLOURS = dict(zip(SOLIDS, ("#b2182b", "#2166ac", "#1b7837", "#e08214")))
+MARKERS = dict(zip(SOLIDS, ("^", "D", "o", "p")))
+GRID = [0.16 * 2 ** (-i / 2) for i in range(19)]
+SETTINGS = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
+            "legend.frameon": False, "axes.titlesize": 9}
+
+
+def mean_path(data, solid, particles, column, logarithmic=False):
+    """Means over replicates, with half widths, at distances where at least half of them have a value; geometric ones,
+    with factors of the 95 % interval, of what spreads over decades. Of two replicates no interval is drawn."""
+    paths = [(x, [math.log(v) if v and v > 0 else None for v in y] if logarithmic else y)
+             for x, y in data.paths(solid, particles, column)]
+    x, y, error = [], [], []
+    for distance in GRID:
+        estimate = estimate_of([at(a, b, distance) for a, b in paths])
+        if estimate and estimate["n"] >= max(2, len(data.counted(solid, particles)) / 2):
+            mean, width = estimate["mean"], estimate["half_width"] if estimate["n"] > 2 else 0
+            x.append(distance)
+            y.append(math.exp(mean) if logarithmic else mean)
+            error.append((math.exp(mean) * (1 - math.exp(-width)), math.exp(mean) * math.expm1(width)) if logarithmic
+                         else (width, width))
+    return x, y, list(zip(*error))
+
+
+def save(figure, path, dpi=100):
+    figure.tight_layout()
+    # Without the version of the program that drew it: the same data give the same file.
+    figure.savefig(path, dpi=dpi, metadata={"Software": None}, pil_kwargs={"optimize": True})
+    pyplot.close(figure)

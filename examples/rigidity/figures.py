@@ -1,0 +1,128 @@
+"""Draws the figures of the page: python3 figures.py DATA OUT
+
+soft.png and held.png (stiffness and prestress), angles.png (counting), missing.png (rank), quartic.png (floppy
+motions), forces.png (cones, forces and gaps), from DATA/records.json as gather.py writes it.
+"""
+
+import sys
+from pathlib import Path
+
+# data.py finds what pages have in common.
+from data import SOLIDS, Data
+from drawing import COLOURS, MARKERS, SETTINGS, matplotlib, mean_path, pyplot, save
+from forces import STEPS_OF_FORCE, STEPS_OF_GAP, cumulative
+from gather import CURVE, DRAWN, FORCES, GAPS
+
+FILLS = {50: "none", 64: "none", 100: "none", 200: "right", 400: "full", 800: "left"}
+SIZE_COLOURS = {50: "#c6dbef", 100: "#6baed6", 200: "#3182bd", 400: "#08519c", 800: "#000000"}
+
+
+def series(axes, data, column, sizes, logarithmic=False, scale=None, label=True):
+    for solid in SOLIDS:
+        for particles in sizes:
+            x, y, error = mean_path(data, solid, particles, column, logarithmic)
+            if not x:
+                continue
+            unit = scale(y) if scale else 1
+            axes.errorbar(x, [v / unit for v in y], [[e / unit for e in side] for side in error], color=COLOURS[solid],
+                          marker=MARKERS[solid], markersize=4, linewidth=0.8, fillstyle=FILLS[particles],
+                          label=f"{solid} {particles}" if label else None)
+
+
+def soft(data, out):
+    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2), sharey=True)
+    for axes, column, title in zip(two, ("omega_over_root_G", "omega_over_root_K"), ("⟨ω_l⟩/√G", "⟨ω_l⟩/√K")):
+        series(axes, data, column, (400,), True, scale=lambda y: y[0], label=axes is two[0])
+        axes.set(xscale="log", yscale="log", xlabel="Δφ", title=f"{title}, over its value at Δφ = .16 or next")
+    two[0].legend(fontsize=7)
+    save(figure, out / "soft.png", 80)
+
+
+def held(data, out):
+    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
+    for axes, column, title in zip(two, ("second_each", "prestress_each"), ("by the second term", "by prestress")):
+        series(axes, data, column, (100,), label=axes is two[1])
+        axes.set(xscale="log", xlabel="Δφ", title=f"Modes per particle held {title}", ylim=(0, None))
+    two[1].legend(fontsize=7)
+    save(figure, out / "held.png", 80)
+
+
+def angles(data, out):
+    figure, four = pyplot.subplots(1, 4, figsize=(11, 3), sharey=True)
+    for axes, solid in zip(four, SOLIDS):
+        for i, distance in enumerate(DRAWN):
+            curves = [c for s in data.studies.values() if (c := s.get("collapsed", {}).get(f"{solid} {distance}"))]
+            if curves:
+                axes.plot(curves[0], CURVE, color=pyplot.get_cmap("viridis")(i / len(DRAWN)), linewidth=0.9,
+                          label=f"Δφ = {distance:g}")
+        axes.set(xscale="log", xlabel="θ$_{ef}$/Δφ$^{5/3}$", title=solid, xlim=(1e-3, 1e6), ylim=(0, 1))
+    four[0].set_ylabel("c(θ$_{ef}$)")
+    four[1].legend(fontsize=6, loc="upper left")
+    save(figure, out / "angles.png", 80)
+
+
+def missing(data, out):
+    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2), sharey=True)
+    for axes, solid in zip(two, ("icosahedron", "dodecahedron")):
+        for particles, colour in SIZE_COLOURS.items():
+            x, y, error = mean_path(data, solid, particles, "missing")
+            if x:
+                axes.errorbar(x, y, error, color=colour, marker=MARKERS[solid], markersize=3, linewidth=0.8,
+                              label=f"N = {particles}")
+        axes.set(xscale="log", yscale="log", xlabel="Δφ", title=f"{solid}: missing rank per particle", ylim=(0.03, 2))
+    two[0].legend(fontsize=7)
+    save(figure, out / "missing.png", 80)
+
+
+def quartic(data, out):
+    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
+    for axes, column, title in zip(two, ("quartic_share", "rung_2"),
+                                   ("Share of floppy motions that are quartic", "Median exponent, a = Δφ/16 – Δφ/4")):
+        series(axes, data, column, (100,), label=axes is two[0])
+        axes.set(xscale="log", xlabel="Δφ", title=title)
+    two[0].legend(fontsize=7)
+    save(figure, out / "quartic.png", 80)
+
+
+def cones_panel(axes, data):
+    for solid in SOLIDS:
+        pairs = {(a, b) for n in data.sizes(solid) for r in data.counted(solid, n)
+                 for a, b in zip(r["states"].get("self_stress") or [], r["states"].get("dimension") or [])
+                 if None not in (a, b)}
+        if pairs:
+            axes.plot(*zip(*sorted(pairs)), MARKERS[solid], color=COLOURS[solid], markersize=3, linestyle="none",
+                      label=solid)
+    axes.set(xscale="log", yscale="log", xlabel="states of self-stress by class", title="Dimension of the cone")
+    axes.legend(fontsize=7)
+
+
+def below(axes, data, names, steps, title):
+    for solid in SOLIDS:
+        rows = [(cumulative(r["bins"], names, steps), sum(sum(r["bins"][n][1]) for n in names))
+                for r in data.counted(solid, 400) if r.get("bins")]
+        if rows:
+            every = sum(total for _, total in rows)
+            points = [(10 ** s, n / every) for s, n in zip(steps, map(sum, zip(*(row for row, _ in rows)))) if n]
+            axes.plot(*zip(*points), MARKERS[solid] + "-", color=COLOURS[solid], markersize=4, linewidth=0.8,
+                      label=f"{solid} 400")
+    axes.set(xscale="log", yscale="log", title=title)
+
+
+def forces(data, out):
+    figure, three = pyplot.subplots(1, 3, figsize=(10.5, 3.2))
+    cones_panel(three[0], data)
+    below(three[1], data, FORCES, STEPS_OF_FORCE, "Share of forces below f/⟨f⟩")
+    below(three[2], data, GAPS, STEPS_OF_GAP, "Share of the gaps < .1 that are below h")
+    three[1].legend(fontsize=7)
+    save(figure, out / "forces.png", 80)
+
+
+def main():
+    data, out = Data(Path(sys.argv[1])), Path(sys.argv[2])
+    with matplotlib.rc_context(SETTINGS):
+        for draw in (soft, held, angles, missing, quartic, forces):
+            draw(data, out)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,211 @@
+"""Facts proved here: python3 rigidity_test.py examples/rigidity ISOJAM
+
+- the committed page is what the committed data say, to every block and every number in a sentence; a page with one
+  of them changed is refused; its figures are small and on it;
+- derived columns are quotients of what the records have, and None where one of these is;
+- contacts made in three bands are counted in them, and a boundary that passes a band shows in the systematic error;
+- of forces drawn from a power law the exponents are those of the law, in every step, and one exponent fits; of forces
+  from a law with a bend it does not;
+- what small packings miss beyond large ones is found, and limits that fall as 1/N are extrapolated to what they tend to;
+- gathering a small run gives what the records have.
+"""
+
+import json
+import math
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+RIGIDITY, ISOJAM = Path(sys.argv[1]).resolve(), sys.argv[2]
+sys.path.insert(0, str(RIGIDITY))
+
+import counting  # noqa: E402
+import data  # noqa: E402
+import forces  # noqa: E402
+import gather  # noqa: E402
+import held  # noqa: E402
+import rank  # noqa: E402
+
+
+def replicate(number, states, solid="octahedron", particles=100, **more):
+    return {"solid": solid, "particles": particles, "replicate": number, "status": "done", "flags": [], "cpu": 1,
+            "stages": {}, "phi_j": {"phi_j": 0.7}, "states": states, **more}
+
+
+class Made(data.Data):
+    """Data of replicates at hand."""
+
+    def __init__(self, replicates):
+        super(data.Data, self).__init__({"made": {"replicates": replicates}}, ("made",))
+        for r in replicates:
+            r["states"] |= data.derived(r["states"], r["particles"])
+
+
+def expansion(**columns):
+    """Twelve states of an exact law E ∝ Δφ⁶, with columns that are functions of Δφ."""
+    distances = [0.16 * 0.6 ** i for i in range(13)]
+    return {"phi": [0.7 + x for x in distances], "E": [x ** 6 for x in distances],
+            **{name: [function(x) for x in distances] for name, function in columns.items()}}
+
+
+class Page(unittest.TestCase):
+    def check(self, page):
+        return subprocess.run(["/usr/bin/python3", "-B", RIGIDITY / "page.py", page, "--check"],
+                              capture_output=True, text=True, check=False)
+
+    def test_is_what_the_data_say(self):
+        result = self.check(RIGIDITY / "README.md")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_is_refused_if_a_figure_was_changed(self):
+        text = (RIGIDITY / "README.md").read_text(encoding="utf-8")
+        for mark in ("| octahedron 100 | .", "<!-- = infinite icosahedron -->."):
+            at = text.index(mark) + len(mark)
+            with tempfile.TemporaryDirectory() as here:
+                changed = Path(here) / "README.md"
+                changed.write_text(text[:at] + str((int(text[at]) + 1) % 10) + text[at + 1:], encoding="utf-8")
+                result = self.check(changed)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("a block is not what", result.stderr)
+
+    def test_figures_are_small_and_there(self):
+        text = (RIGIDITY / "README.md").read_text(encoding="utf-8")
+        for image in RIGIDITY.glob("*.png"):
+            self.assertLess(image.stat().st_size, 60_000)
+            self.assertIn(f"]({image.name})", text)
+
+
+class Derived(unittest.TestCase):
+    def test_quotients(self):
+        states = {"phi": [0.8, 0.75], "floppy_classes": [53, None], "G": [1e-4, 4e-6], "K": [1e-2, 1e-3],
+                  "omega_l": [0.02, 0.004], "normal_share": [0.5, None], "tilt_share": [0.2, 0.1]}
+        made = data.derived(states, 100)
+        self.assertEqual(made["missing"], [0.5, None])
+        self.assertAlmostEqual(made["G_over_K"][0], 1e-2)
+        self.assertAlmostEqual(made["omega_over_root_G"][1], 2)
+        self.assertAlmostEqual(made["prestress_share"][0], 0.3)
+        self.assertNotIn("second_each", made)
+        self.assertEqual(data.derived({"G": [-1.0], "K": [0.0]}, 1)["root_G"], [None])
+
+    def test_exponents(self):
+        made = Made([replicate(i, expansion(omega_l=lambda x: (1 + i) * x ** 2.2, G=lambda x: x ** 4.4,
+                                            K=lambda x: x ** 4)) for i in range(5)])
+        for column, exponent in (("omega_over_root_G", 0), ("omega_over_root_K", 0.2), ("G_over_K", 0.4)):
+            for estimate in made.slopes("octahedron", 100, column, held.BINS):
+                self.assertAlmostEqual(estimate["mean"], exponent, places=6)
+        bins, shear, bulk = held.nearer_zero(made)
+        self.assertEqual((bins, bulk), (len(held.BINS) - 1, 0))
+
+
+class Bands(unittest.TestCase):
+    def test_are_told_apart(self):
+        distance, particles = 0.001, 100
+        s = [distance ** -1] * 300 + [distance ** (-5 / 3)] * 120 + [distance ** -5.0] * 30
+        state = {"delta_phi": distance, "Z": 9.0, "Z_ef": 2.4, "Z_ff": 0.6,
+                 "prestress": {"s_normal": sorted(s), "s_tilt": [1.0]}}
+        bands = gather.bands_of({"states": [state]})
+        made = Made([replicate(i, expansion(), bands=bands) for i in range(3)])
+        by_factor, fits = counting.banded(made, "octahedron", particles, None)[0]
+        for factor in by_factor:
+            self.assertEqual([round(z, 9) for z in factor], [6.0, 2.4, 0.6])
+        self.assertEqual([round(z, 9) for z in fits], [6.0, 2.4, 0.6])
+        self.assertEqual(counting.banded(made, "octahedron", particles, 0.02), [])
+        state["prestress"]["s_normal"] = sorted(s[:300] + [1.5 * distance ** -1.5] * 120 + s[420:])
+        by_factor = gather.bands_of({"states": [state]})[0][4]
+        self.assertEqual(by_factor, [150, 150, 30])
+
+
+class Distributions(unittest.TestCase):
+    STEPS = tuple(round(-2.4 + 0.4 * i, 1) for i in range(7))
+
+    def bins(self, values):
+        edges = [round(-4 + 0.2 * i, 1) for i in range(26)]
+        counts = [sum(a <= math.log10(v) < b for v in values) for a, b in zip(edges, edges[1:])]
+        return {name: [edges[0], counts if name == "lower_order" else []] for name in gather.FORCES}
+
+    def rows(self, draw, seed):
+        stream = random.Random(seed)
+        return [forces.cumulative(self.bins([draw(stream) for _ in range(1500)]), gather.FORCES, self.STEPS)
+                for _ in range(8)]
+
+    def test_power_law(self):
+        hits = of = 0
+        for seed in range(12):
+            for estimate in forces.exponents_of(self.rows(lambda s: s.random() ** (1 / 0.8), seed), self.STEPS):
+                if estimate:
+                    of += 1
+                    hits += abs(estimate["mean"] - 0.8) <= estimate["half_width"]
+        self.assertGreater(hits / of, 0.88, (hits, of))
+
+    def test_bend(self):
+        found = [e for e in forces.exponents_of(self.rows(lambda s: -math.log(1 - s.random()), 1), self.STEPS) if e]
+        self.assertAlmostEqual(found[0]["mean"], 1, delta=2 * found[0]["half_width"])
+        self.assertLess(found[-1]["mean"] + found[-1]["half_width"], 0.9)
+
+    def test_cumulative_counts_what_is_below(self):
+        bins = {"faces": [-2.0, [1, 2, 4]], "edges": [None, []]}
+        self.assertEqual(forces.cumulative(bins, gather.GAPS, (-2.0, -1.8, -1.6, -1.4)), [0, 1, 3, 7])
+
+
+class Sizes(unittest.TestCase):
+    def data(self):
+        stream, made = random.Random(3), []
+        for particles in (50, 100, 200, 400):
+            for i in range(8):
+                off = stream.gauss(0, 0.01)
+                made.append(replicate(i, expansion(floppy_classes=lambda x: 3 + particles * (
+                    0.1 + 20 * x + off) + 4), "icosahedron", particles))
+        return Made(made)
+
+    def test_what_does_not_scale(self):
+        found = rank.excess(self.data(), "icosahedron", 50, 400, 0.01)
+        self.assertAlmostEqual(found["mean"], 4 * (1 - 50 / 400), delta=2 * found["half_width"])
+        self.assertLess(found["half_width"], 1.5)
+
+    def test_infinite(self):
+        found = rank.infinite(self.data(), "icosahedron")
+        self.assertAlmostEqual(found["mean"], 0.1, delta=found["half_width"])
+        self.assertAlmostEqual(found["slope"], 4, delta=found["slope_half_width"])
+
+
+class Gathered(unittest.TestCase):
+    MANIFEST = {"name": "rigidity-50", "seed": 3, "sweep": {"solid": ["dodecahedron"], "particles": [24]},
+                "replicates": 2, "protocol": {"initial_density": 0.2, "consolidation_step": 0.04, "step_fraction": 0.4,
+                             "final_distance": 0.02, "fit_window": 0.1}, "keep_path": True,
+                "measure": ["contacts", "order", "clusters", "modes", "moduli", "rigidity", "backbone", "prestress",
+                            "quartic", "one_sided", "gaps"]}
+
+    def test_small_run(self):
+        with tempfile.TemporaryDirectory() as here:
+            results = Path(here)
+            (results / "m.json").write_text(json.dumps(self.MANIFEST))
+            subprocess.run([ISOJAM, "run", results / "m.json", "-o", results / "rigidity-50", "--quiet"], check=True,
+                           capture_output=True)
+            subprocess.run(["/usr/bin/python3", "-B", RIGIDITY / "gather.py", ISOJAM, results, results / "out"],
+                           check=True, capture_output=True)
+            records = [json.loads(path.read_text()) for path in sorted((results / "rigidity-50/records").iterdir())]
+            made = data.Data(results / "out")
+        self.assertEqual(len(records), 2)
+        every = made.all_of("dodecahedron", 24)
+        for record, r in zip(records, every):
+            for i, state in enumerate(record["states"]):
+                second = state["prestress"]["modes"]["held_by_second"]
+                self.assertAlmostEqual(r["states"]["second_each"][i], second / 24, places=9)
+                self.assertAlmostEqual(r["states"]["C_s_10"][i], state["prestress"]["C_s"], delta=1e-2)
+                rank_here = state["rigidity"]["classes"]["rank"]
+                missing = r["states"]["missing"][i]
+                if rank_here is None:
+                    self.assertIsNone(missing)
+                else:
+                    self.assertAlmostEqual(missing, (6 * 24 - 3 - rank_here) / 24, places=9)
+            last = record["states"][-1]["gaps"]
+            if r["bins"]:
+                self.assertEqual(sum(sum(r["bins"][name][1]) for name in gather.FORCES),
+                                 sum(sum(last[name]["counts"]) for name in gather.FORCES))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
