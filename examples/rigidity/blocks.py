@@ -46,10 +46,12 @@ def counts_of(data, what):
     """Numbers over all solids and sizes."""
     if what in ("bins", "zero_G", "zero_K"):
         return str(held.nearer_zero(data)[("bins", "zero_G", "zero_K").index(what)])
+    if what in ("median_G", "median_K"):
+        return number(held.median_size(data, f"omega_over_root_{what[-1]}"), 2)
     if what in ("told", "equal"):
         return str(forces.cone_total(data)[("told", "equal").index(what)])
     if what in ("curves_f", "straight_f"):
-        found = forces.straight(data, (FORCES, ("lower_order",)), forces.STEPS_OF_FORCE)
+        found = forces.straight(data, (FORCES, ("lower_order",)), forces.WEAK)
         return str(found[what == "straight_f"])
     if what in ("curves_h", "straight_h"):
         found = forces.straight(data, (GAPS[:1], GAPS[1:]), forces.STEPS_OF_GAP)
@@ -59,18 +61,24 @@ def counts_of(data, what):
 
 def value_of(data, name):
     """`at COLUMN SOLID N Δφ`, `nearest COLUMN SOLID N`, `slope COLUMN SOLID N LOWER`, `law COLUMN SOLID N LOWER UPPER`
-    (one exponent over a range), `limit SOLID N`, `missing SOLID N`, `infinite SOLID`, `excess SOLID N`, `count WHAT`."""
+    (one exponent over a range), `limit SOLID N`, `missing SOLID N`, `infinite SOLID`, `excess SOLID N [Δφ]`, `force SOLID`, `gap SOLID`, `count WHAT`."""
     what, *rest = name.split()
     if what == "count":
         return counts_of(data, *rest)
     if what == "infinite":
         return interval(rank.infinite(data, *rest))
+    if what == "force":
+        return counted(forces.common(data, rest[0], FORCES, forces.WEAK))
+    if what == "gap":
+        return counted(forces.common(data, rest[0], GAPS[1:], forces.STEPS_OF_GAP))
     if what in ("limit", "missing", "threshold"):
         solid, particles = rest[0], int(rest[1])
         if what == "missing":
             return counted(rank.missing_limit(data, solid, particles))
         chosen, thresholds = counting.stiff_limit(data, solid, particles)
         return interval(chosen) if what == "limit" else number(thresholds, 2)
+    if what == "excess" and len(rest) == 3:
+        return counted(rank.excess(data, rest[0], int(rest[1]), 400, float(rest[2])))
     if what == "excess":
         return forces.excess_exponent(data, rest[0], int(rest[1]))
     column, solid, particles, *where = rest

@@ -50,6 +50,7 @@ def derived(states, particles):
         "second_each": each(states, ["second"], lambda n: n / particles),
         "prestress_each": each(states, ["prestress"], lambda n: n / particles),
         "floppy_each": each(states, ["floppy"], lambda n: n / particles),
+        "quartic_each": each(states, ["quartic"], lambda n: n / particles),
         "quartic_share": each(states, ["quartic", "floppy"], lambda n, of: n / of if of else None),
         "redundant_each": each(states, ["self_stress"], lambda n: n / particles),
         "prestress_share": each(states, ["normal_share", "tilt_share"], lambda n, t: 1 - n - t)}

@@ -12,6 +12,7 @@ from limits import limit
 from text import counted, interval, number, significant, table
 
 STEPS_OF_FORCE = tuple(round(-2.4 + 0.4 * i, 1) for i in range(7))  # log10 of f over its mean
+WEAK = STEPS_OF_FORCE[:5]  # below .16 of the mean: further up any distribution bends
 STEPS_OF_GAP = tuple(round(-4.4 + 0.4 * i, 1) for i in range(8))  # of gaps over V_p^(1/3)
 WINDOWS = ((0, 0.005), (0, 0.02), (0, 0.08))
 
@@ -109,23 +110,25 @@ def small_gaps(data):
     return distribution(data, {"along faces": GAPS[:1], "along edges": GAPS[1:]}, STEPS_OF_GAP)
 
 
+def common(data, solid, names, steps):
+    """One exponent for all steps, with N = 400, weighted by their intervals; whether χ² allows it at 5 %. None of fewer
+    than three steps."""
+    found = [e for e in exponents(data, solid, 400, names, steps) if e and e["half_width"] > 0]
+    if len(found) < 3:
+        return None
+    weights = [(1.96 / e["half_width"]) ** 2 for e in found]
+    mean = sum(w * e["mean"] for w, e in zip(weights, found)) / sum(weights)
+    chi = sum(w * (e["mean"] - mean) ** 2 for w, e in zip(weights, found))
+    # 95 % point of χ², by Wilson and Hilferty.
+    part = 2 / (9 * (len(found) - 1))
+    allowed = chi <= (len(found) - 1) * (1 - part + 1.645 * math.sqrt(part)) ** 3
+    return {"mean": mean, "half_width": 1.96 / math.sqrt(sum(weights)), "n": found[0]["n"], "one": allowed}
+
+
 def straight(data, groups, steps):
-    """(curves, those of them with three steps or more whose exponents agree with one value within 95 %)."""
-    curves = one = 0
-    for solid in SOLIDS:
-        for names in groups:
-            found = [e for e in exponents(data, solid, 400, names, steps) if e and e["half_width"] > 0]
-            if len(found) < 3:
-                continue
-            curves += 1
-            weights = [(1.96 / e["half_width"]) ** 2 for e in found]
-            mean = sum(w * e["mean"] for w, e in zip(weights, found)) / sum(weights)
-            chi = sum(w * (e["mean"] - mean) ** 2 for w, e in zip(weights, found))
-            # 95 % point of χ², by Wilson and Hilferty.
-            freedom = len(found) - 1
-            limit_of = freedom * (1 - 2 / (9 * freedom) + 1.645 * math.sqrt(2 / (9 * freedom))) ** 3
-            one += chi <= limit_of
-    return curves, one
+    """(curves, those of them of which one exponent fits all steps)."""
+    found = [e for solid in SOLIDS for names in groups if (e := common(data, solid, names, steps))]
+    return len(found), sum(e["one"] for e in found)
 
 
 def exponent_of(found):

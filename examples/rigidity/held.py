@@ -1,6 +1,8 @@
 """Blocks about stiffness and prestress: what the softest modes follow, and which term of H = ½ ggᵀ + ½ V ∇²V holds
 modes."""
 
+import statistics
+
 from data import SOLIDS
 from text import counted, number, significant, table
 
@@ -67,6 +69,13 @@ def nearer_zero(data):
                 for column, estimate in zip(count, pair):
                     count[column] += abs(estimate["mean"]) <= estimate["half_width"] + estimate["systematic"]
     return bins, count["omega_over_root_G"], count["omega_over_root_K"]
+
+
+def median_size(data, column):
+    """Median of the exponents, without sign, over the bins that nearer_zero counts."""
+    found = [e for solid in SOLIDS for n in (100, 200, 400) for e in data.slopes(solid, n, column, BINS)
+             if e and e["n"] > 3]
+    return statistics.median(abs(e["mean"]) for e in found)
 
 
 def held(data):

@@ -10,7 +10,8 @@ FEW = (0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005)
 
 
 def quartic(data):
-    columns = {"floppy_each": "floppy, each", "missing": "missing by class, each", "quartic_share": "quartic share"}
+    columns = {"floppy_each": "floppy, each", "quartic_each": "quartic, each", "missing": "missing by class, each",
+               "quartic_share": "quartic share"}
     return by_grid(data, columns, SIZES, FEW)
 
 

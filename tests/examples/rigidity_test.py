@@ -123,7 +123,11 @@ class Distributions(unittest.TestCase):
 
     def bins(self, values):
         edges = [round(-4 + 0.2 * i, 1) for i in range(26)]
-        counts = [sum(a <= math.log10(v) < b for v in values) for a, b in zip(edges, edges[1:])]
+        counts = [0] * (len(edges) - 1)
+        for value in values:
+            i = math.floor((math.log10(value) - edges[0]) / 0.2)
+            if 0 <= i < len(counts):
+                counts[i] += 1
         return {name: [edges[0], counts if name == "lower_order" else []] for name in gather.FORCES}
 
     def rows(self, draw, seed):
@@ -144,6 +148,17 @@ class Distributions(unittest.TestCase):
         found = [e for e in forces.exponents_of(self.rows(lambda s: -math.log(1 - s.random()), 1), self.STEPS) if e]
         self.assertAlmostEqual(found[0]["mean"], 1, delta=2 * found[0]["half_width"])
         self.assertLess(found[-1]["mean"] + found[-1]["half_width"], 0.9)
+
+    def test_one_exponent_for_all(self):
+        for draw, one in ((lambda s: s.random() ** (1 / 0.8), True), (lambda s: -math.log(1 - s.random()), False)):
+            stream = random.Random(5)
+            made = Made([replicate(i, expansion(), "octahedron", 400, bins=self.bins(
+                [draw(stream) for _ in range(1500)])) for i in range(8)])
+            found = forces.common(made, "octahedron", gather.FORCES, self.STEPS)
+            self.assertEqual(found["one"], one, found)
+            self.assertEqual(forces.straight(made, (gather.FORCES,), self.STEPS), (1, int(one)))
+            if one:
+                self.assertAlmostEqual(found["mean"], 0.8, delta=2 * found["half_width"])
 
     def test_cumulative_counts_what_is_below(self):
         bins = {"faces": [-2.0, [1, 2, 4]], "edges": [None, []]}
