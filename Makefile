@@ -74,7 +74,9 @@ run: isojam
 # The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
 # interrupted goes on. A replicate that failed (exit 1) is counted on the page.
 PAPER = n100 n100-tetrahedra n400 n400-tetrahedra search-protocol search-400 cubes rule-base rule
+# Measures first that an interrupted call left: `run` would make the whole replicate anew.
 studies = @for study in $(1); do \
+	  [ ! -d results/$(2)-$${study\#n}/records ] || $(BUILD)/isojam measure results/$(2)-$${study\#n} >/dev/null || [ $$? = 1 ] || exit 1; \
 	  $(BUILD)/isojam run examples/$(2)/$$study.json $(3) >/dev/null || [ $$? = 1 ] || exit 1; \
 	done
 # Measures that are added to the records of the directories, and not again.

@@ -173,6 +173,17 @@ def both_sizes(data):
     return sorted(((a[0] + b[0], a, b) for a, b in found), key=lambda entry: entry[0])
 
 
+def failed_of(data, particles):
+    """In words, which ways up led replicates past the greatest density."""
+    counts = {}
+    for r in searched_of(data, particles):
+        key = (r["solid"], "before" if r["setting"]["before"] else "after")
+        failed, every = counts.get(key, (0, 0))
+        counts[key] = (failed + (r["status"] != "done"), every + 1)
+    told = [f"{solid}, {reading}: {failed} of {every}" for (solid, reading), (failed, every) in counts.items() if failed]
+    return f"Consolidation did not end in {'; '.join(told)}. " if told else ""
+
+
 def search_400(data, best=4):
     entries = both_sizes(data)
     if not entries:
@@ -183,7 +194,7 @@ def search_400(data, best=4):
                for s in searched)] for _, a, b in entries[:best]]
     return table(["target read", "step", "budget", "window", "χ², N = 100", "χ², N = 400",
                   *(f"{s}, N = 400, ours (paper − ours)" for s in searched)], rows) + (
-        f"\n{len(entries)} settings and windows of {len(searched)} solids with N = 400; in "
+        f"\n{failed_of(data, 400)}{len(entries)} settings and windows of {len(searched)} solids with N = 400; in "
         f"{sum(all_inside([a]) and all_inside([b]) for _, a, b in entries)} of them all values of both sizes lie within "
         f"the intervals of our means.\n")
 

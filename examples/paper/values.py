@@ -65,6 +65,10 @@ def value_of(data, name):
         return total(data, *rest)
     if what == "search":
         return search_value(data, *rest)
+    if what == "best_400":  # paper − ours of a solid in the setting that is best for both sizes
+        entries = both_sizes(data)
+        return f"{signed(entries[0][2][5][rest[0]], 4)} ± {number(entries[0][2][4][rest[0]]['half_width'], 4)}" \
+            if entries else "–"
     if what == "lever":
         return levers_of(data, *rest)
     if what == "slope":
