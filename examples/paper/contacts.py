@@ -4,7 +4,7 @@ import functools
 
 from data import SIZES, SOLIDS
 from densities import STABLE_FROM, said
-from estimates import correlation, correlation_interval, estimate_of
+from estimates import correlation, correlation_interval, estimate_of, single_half_width
 from limits import FORMS, limit_of_choices
 from network import FACTORS, hindrance
 from scaling import at, binned
@@ -230,17 +230,42 @@ def order_parameter(data):
                 continue
             row = [f"{solid} {particles}", str(len(without))]
             for key in ("phi_j", "Q6", "S_order"):
-                pairs = [(value_near(r, "Z_ff"), r["phi_j"]["phi_j"] if key == "phi_j" else value_near(r, key))
-                         for r in without]
-                pairs = [p for p in pairs if None not in p]
-                r = correlation(*zip(*pairs)) if len(pairs) > 3 else None
-                within = correlation_interval(r, len(pairs))
+                r, within = order_correlation(without, key)
                 row.append(f"{signed(r, 2)} ({signed(within[0], 2)} … {signed(within[1], 2)})" if within else "–")
             row += [interval(z := estimate_of([value_near(r, "Z_ff") for r in without])), spread(z), str(len(crystals)),
                     ", ".join(number(v, 2) for r in crystals if (v := value_near(r, "Z_ff")) is not None) or "–"]
             rows.append(row)
     return table(["", "n", "r(Z_ff, φ_J)", "r(Z_ff, Q6)", "r(Z_ff, S)", "Z_ff", "one packing", "crystals",
                   "their Z_ff"], rows)
+
+
+def order_counts(data):
+    """(intervals of correlations, those that leave 0 out, crystals, those whose Z_ff is not that of one disordered
+    packing), over all solids and sizes."""
+    intervals, excluded, crystals, told = 0, 0, 0, 0
+    for solid in SOLIDS:
+        for particles in SIZES:
+            every = [r for r in data.all_of(solid, particles) if r["status"] == "done" and r["states"].get("Z_ff")]
+            without = [r for r in every if not {"crystalline", "goal_not_reached"} & set(r["flags"])]
+            if len(without) < 4:
+                continue
+            for key in ("phi_j", "Q6", "S_order"):
+                within = order_correlation(without, key)[1]
+                intervals += within is not None
+                excluded += within is not None and within[0] * within[1] > 0
+            z = estimate_of([value_near(r, "Z_ff") for r in without])
+            values = [v for r in every if "crystalline" in r["flags"] and (v := value_near(r, "Z_ff")) is not None]
+            crystals += len(values)
+            told += sum(abs(v - z["mean"]) > single_half_width(z) for v in values)
+    return intervals, excluded, crystals, told
+
+
+def order_correlation(replicates, key):
+    """r of Z_ff and what key says, over replicates, and its interval."""
+    pairs = [(value_near(r, "Z_ff"), r["phi_j"]["phi_j"] if key == "phi_j" else value_near(r, key)) for r in replicates]
+    pairs = [p for p in pairs if None not in p]
+    r = correlation(*zip(*pairs)) if len(pairs) > 3 else None
+    return r, correlation_interval(r, len(pairs))
 
 
 def value_near(replicate, column):

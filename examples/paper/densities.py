@@ -181,7 +181,7 @@ def failed_of(data, particles):
         failed, every = counts.get(key, (0, 0))
         counts[key] = (failed + (r["status"] != "done"), every + 1)
     told = [f"{solid}, {reading}: {failed} of {every}" for (solid, reading), (failed, every) in counts.items() if failed]
-    return f"Consolidation did not end in {'; '.join(told)}. " if told else ""
+    return f"Consolidation did not end in {'; '.join(told)} replicates. " if told else ""
 
 
 def search_400(data, best=4):

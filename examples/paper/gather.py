@@ -113,7 +113,7 @@ def study_of(isojam, directory, critical):
     for name, record in records_of(directory):
         records.append(record)
         made = with_states(record)
-        angle = found(record, "nearest/angles/edge_face_random/angle")
+        angle = found(record, "nearest/angles/edge_face_random_contact/angle")
         if angle and (directory / "paths" / f"{name}.json").exists():
             record["critical"] = critical[record["spec"]["solid"]]
             record["random_angle"] = angle

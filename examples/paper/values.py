@@ -1,6 +1,6 @@
 """Numbers within sentences, by names such as `phi_j octahedron 100`: what is asked for, of which solid and size."""
 
-from contacts import cutoff_range, limit_of
+from contacts import cutoff_range, limit_of, order_counts
 from data import SIZES, SOLIDS
 from densities import all_inside, both_sizes, is_base, levers_of, ranked, searched_solids
 from estimates import estimate_of
@@ -65,6 +65,8 @@ def value_of(data, name):
         return total(data, *rest)
     if what == "search":
         return search_value(data, *rest)
+    if what == "order":
+        return str(order_counts(data)[("all", "excluded", "crystals", "told").index(rest[0])])
     if what == "best_400":  # paper − ours of a solid in the setting that is best for both sizes
         entries = both_sizes(data)
         return f"{signed(entries[0][2][5][rest[0]], 4)} ± {number(entries[0][2][4][rest[0]]['half_width'], 4)}" \
