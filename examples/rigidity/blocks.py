@@ -48,6 +48,8 @@ def counts_of(data, what):
         return str(held.nearer_zero(data)[("bins", "zero_G", "zero_K").index(what)])
     if what in ("median_G", "median_K"):
         return number(held.median_size(data, f"omega_over_root_{what[-1]}"), 2)
+    if what in ("excesses", "not_zero"):
+        return str(rank.excess_counts(data)[what == "not_zero"])
     if what in ("told", "equal"):
         return str(forces.cone_total(data)[("told", "equal").index(what)])
     if what in ("curves_f", "straight_f"):

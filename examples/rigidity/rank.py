@@ -45,6 +45,12 @@ def excess(data, solid, small, large, distance):
         few["half_width"], many["half_width"]), "n": few["n"]}
 
 
+def excess_counts(data):
+    """(entries of finite_size, those whose interval leaves 0 out)."""
+    found = [e for solid in HYPOSTATIC for n in (50, 100, 200) for d in AT if (e := excess(data, solid, n, 400, d))]
+    return len(found), sum(abs(e["mean"]) > e["half_width"] for e in found)
+
+
 def finite_size(data):
     """N(m_N − m_400) against Δφ: what does not scale with the number of particles."""
     rows = []
