@@ -25,6 +25,8 @@ constexpr std::array quantities{C_s, missing_s, missing_n, self_stress_s, held_b
 /// s from which a tilt counts as a constraint, and others to see what that choice does to their number.
 constexpr double threshold = 10;
 constexpr std::array thresholds{1.0, 3.0, 10.0, 30.0, 100.0};
+/// Shares of normals below which modes are counted: half, and nearly none.
+constexpr std::array normal_shares{.5, .1, .01};
 /// Packings up to this size have all their modes looked at, others as many as asked for at the soft end.
 constexpr int all_modes_up_to = 150;
 /// States nearest to these, and to jamming, keep the stiffness of every contact.
@@ -96,25 +98,32 @@ Modes modes_of(const Packing& packing, PackingEnergy& energy, int wanted) {
 
 /// What opposes the modes of a state that doubles resolve.
 struct Held {
-  int resolved = 0, by_second = 0, by_prestress = 0;
-  double sum_of_logs = 0;  ///< of λ of those held by prestress
+  int resolved = 0;
+  std::array<int, normal_shares.size()> by_second{};  ///< by share of normals
+  std::array<int, thresholds.size()> by_prestress{};  ///< by threshold of stiff tilts
+  double sum_of_logs = 0;  ///< of λ of those held by prestress, of the threshold that is called so
   double worst_sum = 0;    ///< of the shares, off λ, relative
   Json lambda = Json::array(), normal = Json::array(), tilt = Json::array();
 };
 constexpr int listed_modes = 50;
+
+constexpr auto chosen = std::find(thresholds.begin(), thresholds.end(), threshold) - thresholds.begin();
 
 Held held_by(const StateStiffness& stiffness, const Modes& modes) {
   Held held;
   for (Eigen::Index k = 0; k < modes.set.size(); ++k) {
     const double value = modes.set.eigenvalues[k];
     if (value <= modes.tolerance) continue;
-    const auto shares = stiffness_shares(stiffness.contacts, stiffness.pairs, threshold, modes.set.vectors.col(k));
-    held.worst_sum = std::max(held.worst_sum, std::abs(shares.total() - value) / value);
-    held.by_second += shares.normal < value / 2;
-    if (shares.normal + shares.tilt < value / 2) {
-      ++held.by_prestress;
-      held.sum_of_logs += nearest::log(value);
+    StiffnessShares shares;
+    for (std::size_t t = 0; t < thresholds.size(); ++t) {
+      const auto here = stiffness_shares(stiffness.contacts, stiffness.pairs, thresholds[t], modes.set.vectors.col(k));
+      held.by_prestress[t] += here.normal + here.tilt < value / 2;
+      if (t == chosen) shares = here;
     }
+    for (std::size_t t = 0; t < normal_shares.size(); ++t)
+      held.by_second[t] += shares.normal < normal_shares[t] * value;
+    held.worst_sum = std::max(held.worst_sum, std::abs(shares.total() - value) / value);
+    if (shares.normal + shares.tilt < value / 2) held.sum_of_logs += nearest::log(value);
     if (held.resolved++ >= listed_modes) continue;
     held.lambda.push_back(to_digits(value, 5));
     held.normal.push_back(to_digits(shares.normal / value, 4));
@@ -123,20 +132,42 @@ Held held_by(const StateStiffness& stiffness, const Modes& modes) {
   return held;
 }
 
+constexpr std::string_view more = "all modes that were looked at are, and others may be";
+
+/// The number of modes, or none if there may be more than were looked at.
+std::optional<double> known(const Modes& modes, const Held& held, int count) {
+  return modes.all || count < held.resolved ? std::optional<double>(count) : std::nullopt;
+}
+
+/// What the choices of a share and of a threshold do to these numbers.
+void put_choices(Json& json, const Modes& modes, const Held& held) {
+  Json shares = Json::array(), stiff = Json::array();
+  for (std::size_t t = 0; t < normal_shares.size(); ++t) {
+    Json entry{{"normals_below", normal_shares[t]}};
+    put_optional(entry, "modes", known(modes, held, held.by_second[t]), more);
+    shares.push_back(std::move(entry));
+  }
+  for (std::size_t t = 0; t < thresholds.size(); ++t) {
+    Json entry{{"threshold", thresholds[t]}};
+    put_optional(entry, "modes", known(modes, held, held.by_prestress[t]), more);
+    stiff.push_back(std::move(entry));
+  }
+  json["second_by_share"] = std::move(shares);
+  json["prestress_by_threshold"] = std::move(stiff);
+}
+
 void put_modes(Json& state, const StateStiffness& stiffness, const Modes& modes) {
   Held held = held_by(stiffness, modes);
-  const auto known = [&](int count) {
-    return modes.all || count < held.resolved ? std::optional<double>(count) : std::nullopt;
-  };
-  constexpr std::string_view more = "all modes that were looked at are, and others may be";
-  put(state, held_by_second, known(held.by_second), more);
-  put(state, held_by_prestress, known(held.by_prestress), more);
+  put(state, held_by_second, known(modes, held, held.by_second.front()), more);
+  put(state, held_by_prestress, known(modes, held, held.by_prestress[chosen]), more);
   Json& json = state["prestress"]["modes"];
+  put_choices(json, modes, held);
   json["looked_at"] = modes.set.size();
   json["unresolved"] = modes.set.size() - held.resolved;
   put_number(json, "worst_sum", held.worst_sum);
+  const int by_prestress = held.by_prestress[chosen];
   put_optional(json, "prestress_lambda",
-               held.by_prestress > 0 ? std::optional(nearest::exp(held.sum_of_logs / held.by_prestress)) : std::nullopt,
+               by_prestress > 0 ? std::optional(nearest::exp(held.sum_of_logs / by_prestress)) : std::nullopt,
                "no such modes");
   json["lambda"] = std::move(held.lambda);
   json["normal"] = std::move(held.normal);
