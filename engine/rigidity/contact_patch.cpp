@@ -175,6 +175,7 @@ OneSidedStresses one_sided_stresses(const Packing& packing, std::span<const Cont
   std::vector<double> margins;
   for (const ContactPatch& patch : contact_patches(packing, contacts, forces, alignments, classes)) {
     if (patch.corners.size() > 1) margins.push_back(patch.margin);
+    result.outside_faces += patch.corners.size() > 2 && !(patch.margin > 0);
   }
   if (margins.empty()) return result;
   result.outside = static_cast<int>(std::count_if(margins.begin(), margins.end(), [](double m) { return !(m > 0); }));

@@ -41,6 +41,7 @@ struct OneSidedStresses {
   int dimension = 0;
   int constraints = 0;       ///< C·N/2
   int outside = 0;           ///< contacts without a positive margin; the dimension holds only if there are none
+  int outside_faces = 0;     ///< of these, face-face ones
   double least_margin = 1;   ///< of all contacts that are not points
   double median_margin = 1;  ///< of the same
 };

@@ -22,6 +22,7 @@ Json one_sided_record(const Packing& packing, PackingEnergy& energy) {
     for (const auto& quantity : quantities) put(state, quantity, std::nullopt, *why);
     put_absent(state["one_sided"], "constraints", *why);
     put_absent(state["one_sided"], "outside", *why);
+    put_absent(state["one_sided"], "outside_faces", *why);
     return state;
   }
   const auto forces = contact_forces(packing, classified.contacts);
@@ -32,6 +33,7 @@ Json one_sided_record(const Packing& packing, PackingEnergy& energy) {
   put(state, median_margin, stresses.median_margin);
   state["one_sided"]["constraints"] = stresses.constraints;
   state["one_sided"]["outside"] = stresses.outside;
+  state["one_sided"]["outside_faces"] = stresses.outside_faces;
   return state;
 }
 

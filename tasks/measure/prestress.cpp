@@ -46,10 +46,25 @@ void put_rank(Json& json, const Rigidity& rigidity, int particles) {
   put_number(json, "largest_dropped", rigidity.largest_dropped);
 }
 
-struct StateStiffness {
-  std::vector<Contact> contacts;
+struct StateStiffness : ClassifiedContacts {
   std::vector<PairStiffness> pairs;
 };
+
+/// Which contacts, by their angles, have the stiff tilts; none where classes are not told.
+Json tilts_by_class(const StateStiffness& stiffness) {
+  Json list = Json::array();
+  if (undecided(stiffness.analysis)) return list;
+  for (const auto& [value, name] : enum_names<ContactClass>) {
+    int contacts = 0, tilts = 0;
+    for (std::size_t c = 0; c < stiffness.pairs.size(); ++c) {
+      if (stiffness.analysis.classes[c] != value) continue;
+      ++contacts;
+      tilts += stiffness.pairs[c].stiff_tilts(threshold);
+    }
+    list.push_back({{"class", name}, {"contacts", contacts}, {"stiff_tilts", tilts}});
+  }
+  return list;
+}
 
 void put_counts(Json& state, const Packing& packing, const StateStiffness& stiffness) {
   const int n = packing.size();
@@ -69,6 +84,7 @@ void put_counts(Json& state, const Packing& packing, const StateStiffness& stiff
     list.push_back(std::move(json));
   }
   state["prestress"]["thresholds"] = std::move(list);
+  state["prestress"]["by_class"] = tilts_by_class(stiffness);
   const auto normals = analyse_rigidity(normal_constraints(packing, stiffness.contacts));
   put_rank(state["prestress"]["normals"], normals, n);
   put(state, missing_n, missing(normals, n));
@@ -210,8 +226,7 @@ Measurement measure_prestress(const JamResult& jam, const MeasureOptions& option
   const auto kept = kept_states(jam);
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
     const Packing& packing = jam.states[k];
-    StateStiffness stiffness;
-    stiffness.contacts = energy.contacts(packing);
+    StateStiffness stiffness{classified_contacts(packing, energy), {}};
     stiffness.pairs = pair_stiffnesses(packing, stiffness.contacts);
     Json state;
     put_counts(state, packing, stiffness);

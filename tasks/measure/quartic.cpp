@@ -23,6 +23,8 @@ constexpr std::array ladder{.00390625, .015625, .0625, .25, 1.0};
 constexpr std::size_t rung = 2;
 /// An exponent nearer to 4 than to 2 or 6.
 constexpr double least_quartic = 3, greatest_quartic = 5;
+/// One that has hardly begun to rise from 2.
+constexpr double greatest_quadratic = 2.5;
 /// Dense: O(N³).
 constexpr int up_to = 200;
 
@@ -86,7 +88,9 @@ Json quartic_record(const Packing& packing, PackingEnergy& energy, double distan
     Json json;
     json["from"] = ladder[k];
     json["motions"] = list.size();
+    json["quadratic"] = std::count_if(list.begin(), list.end(), [](double x) { return x < greatest_quadratic; });
     json["quartic"] = count_quartic(list);
+    json["steeper"] = std::count_if(list.begin(), list.end(), [](double x) { return x >= greatest_quartic; });
     for (const auto& [key, q] : {std::pair{"lower_quartile", .25}, {"median", .5}, {"upper_quartile", .75}})
       put_optional(json, key, list.empty() ? std::nullopt : std::optional(quantile(list, q)), none_rises);
     if (k == rung) {

@@ -40,6 +40,28 @@ void put_undecided(Json& state, const Count& count, std::string_view why) {
   put(state, count.floppy, std::nullopt, why);
 }
 
+/// Factors of both fitted cut-offs: what their choice does to the rank.
+constexpr std::array cutoff_factors{.5, 2.0};
+
+/// None of solids of several shapes, which have cut-offs by pair of shapes.
+Json scaled_cutoffs(const Packing& packing, const ClassifiedContacts& classified) {
+  Json list = Json::array();
+  const ContactAnalysis& analysis = classified.analysis;
+  if (!analysis.pairs.empty()) return list;
+  for (const double factor : cutoff_factors) {
+    const auto classes =
+        classify(classified.alignments, factor * analysis.face_face.cutoff, factor * analysis.edge_face.cutoff);
+    const auto rigidity =
+        analyse_rigidity(class_constraints(packing, classified.contacts, classified.alignments, classes));
+    list.push_back({{"factor", factor},
+                    {"constraints", rigidity.constraints},
+                    {"rank", rigidity.rank},
+                    {"self_stress", rigidity.self_stress},
+                    {"floppy", rigidity.floppy}});
+  }
+  return list;
+}
+
 Measurement measure_rigidity(const JamResult& jam, const MeasureOptions&) {
   Measurement measurement;
   PackingEnergy energy;
@@ -49,9 +71,11 @@ Measurement measure_rigidity(const JamResult& jam, const MeasureOptions&) {
     put_rigidity(state, normals, normal_constraints(packing, classified.contacts));
     if (const auto why = undecided(classified.analysis)) {
       put_undecided(state, by_class, *why);
+      state["rigidity"]["scaled_cutoffs"] = Json::array();
     } else {
       put_rigidity(state, by_class,
                    class_constraints(packing, classified.contacts, classified.alignments, classified.analysis.classes));
+      state["rigidity"]["scaled_cutoffs"] = scaled_cutoffs(packing, classified);
     }
     measurement.states.push_back(std::move(state));
   }
