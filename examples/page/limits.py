@@ -53,13 +53,14 @@ def limit(paths, window, exponent, draws=100, seed=1):
             "exponent_half_width": t * statistics.stdev(fit[1] for fit in found)}
 
 
-def limit_of_choices(paths, windows, central=(0, None)):
+def limit_of_choices(paths, windows, central=(0, None), possible=None):
     """The limit by window and form, {(window number, form): estimate}, and that of the central choice, with half the
-    range over all that could be had as its systematic error."""
+    range over all that could be had as its systematic error; over those alone, if told, that are `possible`, a function
+    of an estimate."""
     every = {(i, form): limit(paths, window, form) for i, window in enumerate(windows) for form in FORMS}
     found = [estimate for estimate in every.values() if estimate]
     chosen = every[central]
     if not chosen:
         return every, None
-    means = [estimate["mean"] for estimate in found]
+    means = [estimate["mean"] for estimate in found if estimate is chosen or not possible or possible(estimate)]
     return every, {**chosen, "systematic": 0.5 * (max(means) - min(means))}

@@ -9,7 +9,7 @@ import motions
 import rank
 from data import SOLIDS
 from gather import FORCES, GAPS
-from text import counted, interval, number, table
+from text import counted, interval, number, significant, table
 
 
 def cost(data):
@@ -44,45 +44,50 @@ class UnknownValue(Exception):
 
 def counts_of(data, what):
     """Numbers over all solids and sizes."""
-    if what in ("bins", "zero_G", "zero_K"):
-        return str(held.nearer_zero(data)[("bins", "zero_G", "zero_K").index(what)])
-    if what in ("median_G", "median_K"):
-        return number(held.median_size(data, f"omega_over_root_{what[-1]}"), 2)
-    if what in ("excesses", "not_zero"):
-        return str(rank.excess_counts(data)[what == "not_zero"])
-    if what in ("told", "equal"):
-        return str(forces.cone_total(data)[("told", "equal").index(what)])
-    if what in ("curves_f", "straight_f"):
-        found = forces.straight(data, (FORCES, ("lower_order",)), forces.WEAK)
-        return str(found[what == "straight_f"])
-    if what in ("curves_h", "straight_h"):
-        found = forces.straight(data, (GAPS[:1], GAPS[1:]), forces.STEPS_OF_GAP)
-        return str(found[what == "straight_h"])
+    inside, outside = forces.by_programme(data)
+
+    def laws_of_forces():
+        return forces.straight(data, (FORCES, ("lower_order",)), lambda _: forces.WEAK)
+
+    def laws_of_gaps():
+        return forces.straight(data, (GAPS[:1], GAPS[1:]), lambda solid: forces.open_gaps(data, solid))
+
+    known = {
+        "sure": lambda: held.about_sure(data, "omega_over_root_G")[0],
+        "above_G": lambda: held.about_sure(data, "omega_over_root_G")[1],
+        "above_K": lambda: held.about_sure(data, "omega_over_root_K")[1],
+        "excesses": lambda: rank.excess_counts(data)[0], "not_zero": lambda: rank.excess_counts(data)[1],
+        "programmes_inside": lambda: len(inside), "as_many_inside": lambda: forces.as_many(inside),
+        "programmes_outside": lambda: len(outside), "as_many_outside": lambda: forces.as_many(outside),
+        "none_outside": lambda: sum(r["dimension"] == 0 for r in outside),
+        "curves_f": lambda: laws_of_forces()[0], "straight_f": lambda: laws_of_forces()[1],
+        "curves_h": lambda: laws_of_gaps()[0], "straight_h": lambda: laws_of_gaps()[1]}
+    if what in known:
+        return str(known[what]())
+    end = what.removeprefix("least_").removeprefix("greatest_")
+    if what != end and end in ("G", "K"):
+        return number(held.about_sure(data, f"omega_over_root_{end}")[2 if what.startswith("least") else 3], 3)
+    if what == "most_of_size":
+        return number(rank.excess_counts(data)[2], 2)
     raise UnknownValue(what)
 
 
 def value_of(data, name):
-    """`at COLUMN SOLID N Δφ`, `nearest COLUMN SOLID N`, `slope COLUMN SOLID N LOWER`, `law COLUMN SOLID N LOWER UPPER`
-    (one exponent over a range), `limit SOLID N`, `missing SOLID N`, `infinite SOLID`, `excess SOLID N [Δφ]`, `force SOLID`, `gap SOLID`, `count WHAT`."""
+    """`at COLUMN SOLID N Δφ`, `nearest COLUMN SOLID N`, `distance SOLID N`, `slope COLUMN SOLID N LOWER`,
+    `limit SOLID N`, `missing SOLID N`, `form SOLID N ½|1`, `infinite SOLID`, `size SOLID N Δφ`, `law SOLID N`,
+    `force SOLID`, `gap SOLID`, `band SOLID N Δφ|nearest WHICH`, `ratio SOLID`, `inside SOLID`, `count WHAT`."""
     what, *rest = name.split()
-    if what == "count":
-        return counts_of(data, *rest)
-    if what == "infinite":
-        return interval(rank.infinite(data, *rest))
-    if what == "force":
-        return counted(forces.common(data, rest[0], FORCES, forces.WEAK))
-    if what == "gap":
-        return counted(forces.common(data, rest[0], GAPS[1:], forces.STEPS_OF_GAP))
-    if what in ("limit", "missing", "threshold"):
-        solid, particles = rest[0], int(rest[1])
-        if what == "missing":
-            return counted(rank.missing_limit(data, solid, particles))
-        chosen, thresholds = counting.stiff_limit(data, solid, particles)
-        return interval(chosen) if what == "limit" else number(thresholds, 2)
-    if what == "excess" and len(rest) == 3:
-        return counted(rank.excess(data, rest[0], int(rest[1]), 400, float(rest[2])))
-    if what == "excess":
-        return forces.excess_exponent(data, rest[0], int(rest[1]))
+    simple = {
+        "count": lambda: counts_of(data, *rest), "infinite": lambda: interval(rank.infinite(data, *rest)),
+        "force": lambda: counted(forces.common(data, rest[0], FORCES, forces.WEAK)),
+        "gap": lambda: counted(forces.common(data, rest[0], GAPS[1:], forces.open_gaps(data, rest[0]))),
+        "inside": lambda: "{} of {}".format(*forces.inside(data, rest[0])),
+        "ratio": lambda: counted(forces.ratio(forces.by_programme(data, rest[0])[1]))}
+    if what in simple:
+        return simple[what]()
+    if what in ("limit", "missing", "form", "size", "law", "distance", "band"):
+        solid, particles, *where = rest
+        return of_size(data, what, solid, int(particles), *where)
     column, solid, particles, *where = rest
     particles = int(particles)
     if what == "at":
@@ -92,6 +97,25 @@ def value_of(data, name):
     if what == "slope":
         found = data.slopes(solid, particles, column, held.BINS)
         return counted(found[held.BINS.index(float(where[0]))])
-    if what == "law":
-        return counted(rank.exponent_in_range(data, solid, particles, column, *map(float, where)))
     raise UnknownValue(name)
+
+
+BANDS = ("Z_l", "Z_ef", "Z_ff", "C")
+
+
+def of_size(data, what, solid, particles, *where):
+    """Values of a solid and size that are not of a column."""
+    if what == "limit":
+        return interval(counting.stiff_limit(data, solid, particles)[0])
+    if what == "missing":
+        return rank.with_cutoffs(rank.missing_limit(data, solid, particles)[1])
+    if what == "form":
+        return interval(rank.missing_limit(data, solid, particles)[0][{"½": 0.5, "1": 1.0}[where[0]]])
+    if what == "size":
+        return counted(rank.excess(data, solid, particles, rank.LARGE, float(where[0])))
+    if what == "law":
+        return counted(forces.excess_law(data, solid, particles)[1])
+    if what == "distance":
+        return significant(data.nearest_distance(solid, particles)["mean"], 2)
+    place = None if where[0] == "nearest" else float(where[0])
+    return interval(counting.band(data, solid, particles, place, BANDS.index(where[1])))

@@ -6,7 +6,7 @@ import statistics
 from data import SOLIDS
 from estimates import estimate_of
 from gather import QUANTILES, THRESHOLDS
-from held import BINS, bins_falling, by_grid
+from held import BINS, bins_falling, by_grid, exponents
 from limits import limit_of_choices
 from text import counted, interval, number, significant, signed, table
 
@@ -15,20 +15,31 @@ AT = (0.02, 0.005)  # besides the nearest: where records have the stiffness of e
 
 
 def banded(data, solid, particles, place):
-    """By replicate ([Z_l, Z_ef, Z_ff] by bands, for boundaries × ½, 1 and 2, and by the record's fits), at Δφ = place or
-    nearest jamming."""
+    """By replicate ([Z_l, Z_ef, Z_ff, C] by bands, for boundaries × ½, 1 and 2, and by the record's fits), at Δφ =
+    place or nearest jamming. Z_l, Z_ef, Z_ff are told by normals; C is Z and two for each tilt of the upper band."""
     made = []
     for replicate in data.counted(solid, particles):
         some = replicate.get("bands") or []
         entries = [b for b in some if place and abs(b[0] / place - 1) < 0.2] if place else some[-1:]
         if not entries:
             continue
-        _, Z, Z_ef, Z_ff, edges, faces = entries[0]
-        by_factor = [[Z - 2 * e / particles, 2 * (e - f) / particles, 2 * f / particles]
-                     for e, f in zip(edges, faces)]
-        fits = [None if None in (Z_ef, Z_ff) else Z - Z_ef - Z_ff, Z_ef, Z_ff]
+        if len(entries[0]) < 8:
+            continue
+        _, Z, Z_ef, Z_ff, C, edges, faces, tilts = entries[0]
+        by_factor = [[Z - 2 * e / particles, 2 * (e - f) / particles, 2 * f / particles, Z + 2 * t / particles]
+                     for e, f, t in zip(edges, faces, tilts)]
+        fits = [None if None in (Z_ef, Z_ff) else Z - Z_ef - Z_ff, Z_ef, Z_ff, C]
         made.append((by_factor, fits))
     return made
+
+
+def band(data, solid, particles, place, number_of):
+    """Estimate of Z_l, Z_ef, Z_ff or C (0 … 3) by bands, with half the range over boundaries; None if there is none."""
+    found = banded(data, solid, particles, place)
+    if not found:
+        return None
+    others = [statistics.fmean(f[0][i][number_of] for f in found) for i in (0, 2)]
+    return {**estimate_of([f[0][1][number_of] for f in found]), "systematic": abs(others[1] - others[0]) / 2}
 
 
 def bands(data):
@@ -40,14 +51,13 @@ def bands(data):
                 if not found:
                     continue
                 cells = []
-                for band in range(3):
-                    central = estimate_of([f[0][1][band] for f in found])
-                    others = [statistics.fmean(f[0][i][band] for f in found) for i in (0, 2)]
-                    cells += [interval({**central, "systematic": abs(others[1] - others[0]) / 2}),
-                              interval(estimate_of([f[1][band] for f in found]))]
+                for i in range(4):
+                    cells += [interval(band(data, solid, particles, place, i)),
+                              interval(estimate_of([f[1][i] for f in found]))]
                 where = significant(place, 1) if place else "nearest"
                 rows.append([f"{solid} {particles}", where, str(len(found)), *cells])
-    return table(["", "Δφ", "n", "Z_l by band", "by fits", "Z_ef by band", "by fits", "Z_ff by band", "by fits"], rows)
+    return table(["", "Δφ", "n", "Z_l by band", "by fits", "Z_ef by band", "by fits", "Z_ff by band", "by fits",
+                  "C by band of tilts", "by fits"], rows)
 
 
 def stiff_numbers(data):
@@ -89,7 +99,7 @@ def stiff_limits(data):
 
 def redundancy(data):
     return by_grid(data, {"self_stress_s": "states of self-stress", "missing_s": "short of full rank, each"},
-                   (50, 64, 100))
+                   (100,))
 
 
 def collapse(data):
@@ -99,7 +109,7 @@ def collapse(data):
         for share in QUANTILES:
             found = data.slopes(solid, 100, f"theta_{share}", BINS)
             if any(found):
-                rows.append([f"{solid} 100", significant(share, 2).rstrip("0"), *(counted(e) for e in reversed(found))])
+                rows.append([f"{solid} 100", significant(share, 2).rstrip("0"), *exponents(found)])
     return table(["exponent of the angle below which", "share", *bins_falling()],
                  rows)
 

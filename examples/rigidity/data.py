@@ -1,6 +1,7 @@
 """What the blocks are made from: replicates of our studies by solid and size."""
 
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -15,12 +16,15 @@ SIZES = (50, 64, 100, 200, 400, 800)  # tetrahedra of 64 beside the others of 50
 
 
 class Data(Expansions):
-    """Records of a directory. Derived columns are made as they are read."""
+    """Records of a directory, and what linear programmes found in their states. Derived columns are made as they are
+    read."""
 
     def __init__(self, directory):
         with open(directory / "records.json", encoding="utf-8") as file:
             studies = json.load(file)
         super().__init__(studies, tuple(studies))
+        cones = directory / "cones.json"
+        self.cones = json.loads(cones.read_text(encoding="utf-8"))["rows"] if cones.exists() else []
         for study in studies.values():
             for replicate in study["replicates"]:
                 if replicate["status"] == "done":
@@ -38,20 +42,41 @@ def each(states, names, function):
     return [None if None in values else function(*values) for values in zip(*columns)]
 
 
+def longest_wave(shear, phi, particles):
+    """ω of the longest shear wave that the cell holds in an elastic medium: 2π/L · √(G/φ), N = φL³, m = V_p = 1."""
+    return 2 * math.pi * (phi / particles) ** (1 / 3) * math.sqrt(shear / phi)
+
+
 def derived(states, particles):
     """Columns that are made from others."""
+    soft = ["omega_l", "G", "K"]
+
+    def where_all_are(function):
+        """Of states that have them all, so that exponents of quotients are differences of exponents."""
+        return each(states, soft, lambda w, g, k: function(w, g, k) if min(w, g, k) > 0 else None)
+
+    def per_particle(name):
+        return each(states, [name], lambda n: n / particles)
+
     made = {
-        "missing": each(states, ["floppy_classes"], lambda floppy: (floppy - 3) / particles),
+        **{f"missing{of}": each(states, [name], lambda floppy: (floppy - 3) / particles)
+           for of, name in (("", "floppy_classes"), ("_half", "floppy_half"), ("_double", "floppy_double"))},
+        **{f"{name}_each": per_particle(name) for name in (
+            "second", "second_0.1", "second_0.01", "prestress", *(f"prestress_{t}" for t in (1, 3, 10, 30, 100)),
+            "floppy", "quartic", "self_stress", "self_stress_half", "self_stress_double")},
+        **{f"tilts_each_{name}": each(states, [f"contacts_{name}", f"tilts_{name}"], lambda n, t: t / n if n else None)
+           for name in ("ff", "ef", "l")},
+        **{f"{name}_share": each(states, [f"{name}_motions", "floppy"], lambda n, of: n / of if of else None)
+           for name in ("quadratic", "steeper")},
+        "gap": each(states, ["least_kept", "largest_dropped"], lambda kept, off: kept / off if off else None),
+        "soft": where_all_are(lambda w, g, k: w),
+        "root_G": where_all_are(lambda w, g, k: g ** 0.5),
+        "root_K": where_all_are(lambda w, g, k: k ** 0.5),
+        "omega_over_root_G": where_all_are(lambda w, g, k: w / g ** 0.5),
+        "omega_over_root_K": where_all_are(lambda w, g, k: w / k ** 0.5),
+        "wave": each(states, ["omega_l", "G", "phi"], lambda w, g, phi: w / longest_wave(g, phi, particles)
+                     if min(w, g) > 0 else None),
         "G_over_K": each(states, ["G", "K"], lambda shear, bulk: shear / bulk if bulk > 0 else None),
-        "root_G": each(states, ["G"], lambda shear: shear ** 0.5 if shear > 0 else None),
-        "root_K": each(states, ["K"], lambda bulk: bulk ** 0.5 if bulk > 0 else None),
-        "omega_over_root_G": each(states, ["omega_l", "G"], lambda w, g: w / g ** 0.5 if g > 0 and w > 0 else None),
-        "omega_over_root_K": each(states, ["omega_l", "K"], lambda w, k: w / k ** 0.5 if k > 0 and w > 0 else None),
-        "second_each": each(states, ["second"], lambda n: n / particles),
-        "prestress_each": each(states, ["prestress"], lambda n: n / particles),
-        "floppy_each": each(states, ["floppy"], lambda n: n / particles),
-        "quartic_each": each(states, ["quartic"], lambda n: n / particles),
         "quartic_share": each(states, ["quartic", "floppy"], lambda n, of: n / of if of else None),
-        "redundant_each": each(states, ["self_stress"], lambda n: n / particles),
         "prestress_share": each(states, ["normal_share", "tilt_share"], lambda n, t: 1 - n - t)}
     return {name: values for name, values in made.items() if values is not None}

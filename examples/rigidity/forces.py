@@ -7,51 +7,84 @@ import statistics
 from data import SOLIDS
 from estimates import estimate_of, resamples, student
 from gather import FORCES, GAPS
-from held import BINS, bins_falling, by_grid
+from held import by_grid
+from limits import GRID as EXPONENTS
 from limits import limit
 from text import counted, interval, number, significant, table
 
 STEPS_OF_FORCE = tuple(round(-2.4 + 0.4 * i, 1) for i in range(7))  # log10 of f over its mean
 WEAK = STEPS_OF_FORCE[:5]  # below .16 of the mean: further up any distribution bends
 STEPS_OF_GAP = tuple(round(-4.4 + 0.4 * i, 1) for i in range(8))  # of gaps over V_p^(1/3)
+STEPS_OF_ANGLE = tuple(round(-5.6 + 0.8 * i, 1) for i in range(8))  # log10 of radians
 WINDOWS = ((0, 0.005), (0, 0.02), (0, 0.08))
 
 
 def cones(data):
-    """Of states nearest jamming; and, of all states of which it is known, in how many the cone has the dimension of
-    all self-stress by class."""
+    """Of states nearest jamming; and, of all states with classes, of how many a force leaves its patch."""
     rows = []
     for solid in SOLIDS:
         for particles in data.sizes(solid):
-            told, equal, outside, ends = 0, 0, 0, []
+            known, outside, ends = 0, 0, []
             for r in data.counted(solid, particles):
                 s = r["states"]
-                none = [None] * len(s["phi"])
-                pairs = list(zip(s.get("dimension") or none, s.get("self_stress") or none))
-                told += sum(None not in p for p in pairs)
-                equal += sum(None not in p and p[0] == p[1] for p in pairs)
-                outside += sum((n or 0) > 0 for n in s.get("outside") or none)
-                ends.append(pairs[-1] if None not in pairs[-1] else None)
-            ends = [e for e in ends if e]
-            if not told:
+                pairs = list(zip(s.get("dimension") or [], s.get("self_stress") or []))
+                known += sum(n is not None for n in s.get("outside") or [])
+                outside += sum((n or 0) > 0 for n in s.get("outside") or [])
+                ends += [pairs[-1]] if pairs and None not in pairs[-1] else []
+            if not known:
                 continue
-            rows.append([f"{solid} {particles}", interval(data.nearest(solid, particles, "rows")), str(len(ends)),
-                         *(interval(estimate_of([e[i] for e in ends])) for i in (0, 1)), f"{equal} of {told}",
-                         str(outside), counted(data.nearest(solid, particles, "median_margin"))])
-    return table(["nearest jamming", "constraints", "n", "dimension of the cone", "states of self-stress by class",
-                  "equal, of all states told", "states with a force outside", "median margin"], rows)
+            rows.append([f"{solid} {particles}", counted(data.nearest_distance(solid, particles)),
+                         interval(data.nearest(solid, particles, "rows")), str(len(ends)),
+                         interval(estimate_of([e[0] for e in ends])), f"{known - outside} of {known}",
+                         counted(data.nearest(solid, particles, "median_margin"))])
+    return table(["nearest jamming", "Δφ", "constraints", "n", "dimension of the cone",
+                  "states with every force inside", "median margin"], rows)
 
 
-def cone_total(data):
-    told = equal = 0
+def by_programme(data, solid=None):
+    """Rows of linear programmes that had an answer, of crystals none: those with every force inside, those with one
+    outside its patch."""
+    crystals = {(r["solid"], r["particles"], r["replicate"]) for s in data.studies.values() for r in s["replicates"]
+                if "crystalline" in r["flags"]}
+    rows = [r for r in data.cones if r["dimension"] is not None and solid in (None, r["solid"])
+            and (r["solid"], r["particles"], r["replicate"]) not in crystals]
+    return [r for r in rows if not r["outside"]], [r for r in rows if r["outside"]]
+
+
+def as_many(rows):
+    """Rows whose cone has the dimension of all self-stress."""
+    return sum(r["dimension"] == r["self_stress"] for r in rows)
+
+
+def ratio(rows):
+    """Dimension over states of self-stress: a replicate counts once, by the mean of its states."""
+    by_replicate = {}
+    for r in rows:
+        by_replicate.setdefault((r["particles"], r["replicate"]), []).append(r["dimension"] / r["self_stress"])
+    return estimate_of([statistics.fmean(some) for some in by_replicate.values()])
+
+
+def programmes(data):
+    """What linear programmes find in states of both kinds."""
+    rows = []
     for solid in SOLIDS:
-        for particles in data.sizes(solid):
-            for r in data.counted(solid, particles):
-                pairs = [p for p in zip(r["states"].get("dimension") or [], r["states"].get("self_stress") or [])
-                         if None not in p]
-                told += len(pairs)
-                equal += sum(a == b for a, b in pairs)
-    return told, equal
+        inside, outside = by_programme(data, solid)
+        if not inside and not outside:
+            continue
+        particles = (inside + outside)[0]["particles"]
+        rows.append([f"{solid} {particles}", f"{as_many(inside)} of {len(inside)}",
+                     f"{as_many(outside)} of {len(outside)}",
+                     str(sum(r["dimension"] == 0 for r in outside)), counted(ratio(outside)),
+                     str(sum(r["outside_faces"] > 0 for r in outside))])
+    return table(["", "every force inside: as many as self-stress", "a force outside: as many", "none",
+                  "dimension over states of self-stress", "with a face-face contact outside"], rows)
+
+
+def inside(data, solid):
+    """(states in which every force acts inside its patch, states with classes), of all sizes."""
+    every = [n for particles in data.sizes(solid) for r in data.counted(solid, particles)
+             for n in r["states"].get("outside") or [] if n is not None]
+    return sum(n == 0 for n in every), len(every)
 
 
 def cumulative(bins, names, steps):
@@ -87,7 +120,8 @@ def exponents_of(rows, steps, draws=100, seed=1):
 
 @functools.cache
 def exponents(data, solid, particles, names, steps):
-    rows = [cumulative(r["bins"], names, steps) for r in data.counted(solid, particles) if r.get("bins")]
+    rows = [cumulative(r["bins"], names, steps) for r in data.counted(solid, particles)
+            if set(names) <= set(r.get("bins") or {})]
     return exponents_of(rows, steps) if len(rows) > 3 else []
 
 
@@ -110,65 +144,87 @@ def small_gaps(data):
     return distribution(data, {"along faces": GAPS[:1], "along edges": GAPS[1:]}, STEPS_OF_GAP)
 
 
-def common(data, solid, names, steps):
-    """One exponent for all steps, with N = 400, weighted by their intervals; whether χ² allows it at 5 %. None of fewer
-    than three steps."""
-    found = [e for e in exponents(data, solid, 400, names, steps) if e and e["half_width"] > 0]
+def common(data, solid, names, steps, particles=400):
+    """One exponent for all steps, weighted by their intervals; χ² of the steps about it, and whether that is below its
+    95 % point. None of fewer than three steps."""
+    found = [e for e in exponents(data, solid, particles, names, steps) if e and e["half_width"] > 0]
     if len(found) < 3:
         return None
     weights = [(1.96 / e["half_width"]) ** 2 for e in found]
     mean = sum(w * e["mean"] for w, e in zip(weights, found)) / sum(weights)
     chi = sum(w * (e["mean"] - mean) ** 2 for w, e in zip(weights, found))
     # 95 % point of χ², by Wilson and Hilferty.
-    part = 2 / (9 * (len(found) - 1))
-    allowed = chi <= (len(found) - 1) * (1 - part + 1.645 * math.sqrt(part)) ** 3
-    return {"mean": mean, "half_width": 1.96 / math.sqrt(sum(weights)), "n": found[0]["n"], "one": allowed}
+    freedom = len(found) - 1
+    part = 2 / (9 * freedom)
+    allowed = chi <= freedom * (1 - part + 1.645 * math.sqrt(part)) ** 3
+    return {"mean": mean, "half_width": 1.96 / math.sqrt(sum(weights)), "n": found[0]["n"], "one": allowed,
+            "chi": chi / freedom}
 
 
-def straight(data, groups, steps):
+def open_gaps(data, solid, particles=400):
+    """Steps of gaps wider than Δφ, in V_p^(1/3): a nearer pair is one that the overlaps of its neighbours have moved as
+    far."""
+    nearest = data.nearest_distance(solid, particles)
+    return tuple(s for s in STEPS_OF_GAP if nearest and 10 ** s > nearest["mean"])
+
+
+def straight(data, groups, steps_of):
     """(curves, those of them of which one exponent fits all steps)."""
-    found = [e for solid in SOLIDS for names in groups if (e := common(data, solid, names, steps))]
+    found = [e for solid in SOLIDS for names in groups if (e := common(data, solid, names, steps_of(solid)))]
     return len(found), sum(e["one"] for e in found)
 
 
-def exponent_of(found):
-    return interval({"mean": found["exponent"], "half_width": found["exponent_half_width"], "n": found["n"]}) \
-        if found else "–"
+def power_laws(data):
+    """One exponent for forces below .16 ⟨f⟩ and for gaps wider than Δφ, and how well one does."""
+    rows = []
+    groups = {"forces, all": (FORCES, lambda _: WEAK), "forces, neither ff nor ef": (("lower_order",), lambda _: WEAK),
+              "gaps along faces": (GAPS[:1], lambda solid: open_gaps(data, solid)),
+              "gaps along edges": (GAPS[1:], lambda solid: open_gaps(data, solid))}
+    for solid in SOLIDS:
+        for title, (names, steps_of) in groups.items():
+            found = common(data, solid, names, steps_of(solid))
+            if found:
+                rows.append([f"{solid} 400", title, counted(found), number(found["chi"], 2),
+                             "yes" if found["one"] else "**no**"])
+    return table(["nearest jamming", "", "one exponent", "χ²/freedom", "one will do"], rows)
+
+
+def at_an_end(found):
+    """Whether the free exponent lies at an end of the range that is tried."""
+    return found["exponent"] in (EXPONENTS[0], EXPONENTS[-1])
+
+
+def excess_law(data, solid, particles):
+    """(fits by window, x over the widest window with half the range over those windows that bound it)."""
+    paths = [list(zip(x, y)) for x, y in data.paths(solid, particles, "Z")]
+    found = [limit(paths, window, None) for window in WINDOWS]
+    told = [e["exponent"] for e in found if e and not at_an_end(e) and e["exponent_half_width"] < 0.5]
+    widest = found[-1]
+    if not widest or at_an_end(widest):
+        return found, None
+    return found, {"mean": widest["exponent"], "half_width": widest["exponent_half_width"], "n": widest["n"],
+                   "systematic": (max(told) - min(told)) / 2 if told else 0}
 
 
 def contact_excess(data):
-    """Z_J and x of Z = Z_J + b Δφ^x by window."""
+    """Z_J of Z = Z_J + b Δφ^x by window, and x."""
     rows = []
     for solid in SOLIDS:
         for particles in (100, 400):
-            paths = [list(zip(x, y)) for x, y in data.paths(solid, particles, "Z")]
-            found = [limit(paths, window, None) for window in WINDOWS]
-            if not any(found):
-                continue
-            cells = []
-            for e in found:
-                cells += [counted(e), exponent_of(e)]
-            rows.append([f"{solid} {particles}", *cells])
-    return table(["", *(cell for w in WINDOWS for cell in (f"Z_J, Δφ < {significant(w[1], 1)}", "x"))], rows)
-
-
-def excess_exponent(data, solid, particles):
-    """x over the widest window."""
-    return exponent_of(limit([list(zip(x, y)) for x, y in data.paths(solid, particles, "Z")], WINDOWS[-1], None))
+            found, law = excess_law(data, solid, particles)
+            if any(found):
+                rows.append([f"{solid} {particles}", *(counted(e) if e and not at_an_end(e) else "–" for e in found),
+                             counted(law) if law else "–"])
+    return table(["", *(f"Z_J, Δφ < {significant(w[1], 1)}" for w in WINDOWS), "x, Δφ < .08"], rows)
 
 
 def near_pairs(data):
     return by_grid(data, {"gaps": "pairs with a gap < Δφ", "weak": "forces < ⟨f⟩/10"}, (100, 400))
 
 
-def near_pair_slopes(data):
-    rows = []
-    for solid in SOLIDS:
-        for particles in (100, 400):
-            found = data.slopes(solid, particles, "gaps", BINS)
-            if any(found):
-                rows.append([f"{solid} {particles}", *(counted(e) for e in reversed(found))])
-    return table(["exponent of pairs with a gap < Δφ", *bins_falling()], rows)
+def small_angles(data):
+    return distribution(data, {"θ_ef": ("theta_ef",), "θ_ff": ("theta_ff",)}, STEPS_OF_ANGLE)
 
 
-BLOCKS = {f.__name__: f for f in (cones, weak_forces, small_gaps, contact_excess, near_pairs, near_pair_slopes)}
+BLOCKS = {f.__name__: f for f in (cones, programmes, weak_forces, small_gaps, power_laws, small_angles, contact_excess,
+                                  near_pairs)}

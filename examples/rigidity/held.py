@@ -8,8 +8,9 @@ from text import counted, number, significant, table
 
 BINS = (0.0005, 0.002, 0.008, 0.032, 0.128)
 GRID = (0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005)
-SOFT = {"omega_l": "⟨ω_l⟩", "root_G": "√G", "root_K": "√K", "omega_over_root_G": "⟨ω_l⟩/√G",
+SOFT = {"soft": "⟨ω_l⟩", "root_G": "√G", "root_K": "√K", "omega_over_root_G": "⟨ω_l⟩/√G",
         "omega_over_root_K": "⟨ω_l⟩/√K", "G_over_K": "G/K"}
+SURE = (400, 0.008)  # size and least Δφ of which what the softest follow is told
 
 
 def bin_name(lower, upper):
@@ -25,8 +26,20 @@ def grid_name(distance):
     return f"Δφ = {significant(distance, 2).rstrip('0')}"
 
 
+def told(estimate):
+    """Whether an exponent is known at all: of three replicates or more, to better than 1."""
+    return bool(estimate) and estimate["n"] > 2 and estimate["half_width"] <= 1
+
+
+def exponents(found):
+    """Cells of exponents by bin, largest Δφ first; a dash where one is not told."""
+    return [counted(e) if told(e) else "–" for e in reversed(found)]
+
+
 def over_grid(data, solid, particles, column, grid=GRID):
-    return [counted(data.at(solid, particles, column, distance)) for distance in grid]
+    """Values at distances from jamming; of fewer than three replicates none."""
+    found = [data.at(solid, particles, column, distance) for distance in grid]
+    return [counted(e) if e and e["n"] > 2 else "–" for e in found]
 
 
 def by_grid(data, columns, sizes=None, grid=GRID):
@@ -43,54 +56,65 @@ def by_grid(data, columns, sizes=None, grid=GRID):
     return table(["", *([""] if len(columns) > 1 else []), *(grid_name(d) for d in grid)], rows)
 
 
+def slope_table(data, title, column, solids=SOLIDS, sizes=None):
+    """Exponents of one column by bin, of solids and sizes of which some are told."""
+    rows = []
+    for solid in solids:
+        for particles in sizes or data.sizes(solid):
+            found = exponents(data.slopes(solid, particles, column, BINS))
+            if any(cell != "–" for cell in found):
+                rows.append([f"{solid} {particles}", *found])
+    return table([title, *bins_falling()], rows)
+
+
 def softest(data):
     rows = []
     for solid in SOLIDS:
-        for particles in (100, 200, 400):
-            slopes = {column: data.slopes(solid, particles, column, BINS) for column in SOFT}
-            for i in reversed(range(len(BINS) - 1)):
-                cells = [counted(slopes[column][i]) for column in SOFT]
-                if cells[0] != "–" and slopes["omega_l"][i]["n"] > 2:
-                    rows.append([f"{solid} {particles}", bin_name(BINS[i], BINS[i + 1]), *cells])
+        for particles in (100, 400):
+            slopes = {column: exponents(data.slopes(solid, particles, column, BINS)) for column in SOFT}
+            for i, name in enumerate(bins_falling()):
+                cells = [slopes[column][i] for column in SOFT]
+                if cells[0] != "–":
+                    rows.append([f"{solid} {particles}", name, *cells])
     return table(["exponents", "Δφ", *SOFT.values()], rows)
 
 
-def nearer_zero(data):
-    """Of bins with both, in how many the exponent of ⟨ω_l⟩/√G, and of ⟨ω_l⟩/√K, is 0 within its errors."""
-    count = {"omega_over_root_G": 0, "omega_over_root_K": 0}
-    bins = 0
-    for solid in SOLIDS:
-        for particles in (100, 200, 400):
-            found = {column: data.slopes(solid, particles, column, BINS) for column in count}
-            for pair in zip(*found.values()):
-                if any(e is None or e["n"] < 4 for e in pair):
-                    continue
-                bins += 1
-                for column, estimate in zip(count, pair):
-                    count[column] += abs(estimate["mean"]) <= estimate["half_width"] + estimate["systematic"]
-    return bins, count["omega_over_root_G"], count["omega_over_root_K"]
+def sure_exponents(data, column):
+    """Those of SURE, every solid and bin."""
+    particles, least = SURE
+    return [e for solid in SOLIDS for lower, e in zip(BINS, data.slopes(solid, particles, column, BINS))
+            if lower >= least and told(e)]
 
 
-def median_size(data, column):
-    """Median of the exponents, without sign, over the bins that nearer_zero counts."""
-    found = [e for solid in SOLIDS for n in (100, 200, 400) for e in data.slopes(solid, n, column, BINS)
-             if e and e["n"] > 3]
-    return statistics.median(abs(e["mean"]) for e in found)
+def about_sure(data, column):
+    """(number, those above 0 beyond their errors, least, greatest) of the exponents of SURE."""
+    found = sure_exponents(data, column)
+    means = [e["mean"] for e in found]
+    return len(found), sum(e["mean"] > e["half_width"] + e["systematic"] for e in found), min(means), max(means)
+
+
+def waves(data):
+    return by_grid(data, {"wave": ""}, (100, 400))
 
 
 def held(data):
-    return by_grid(data, {"second_each": "second term", "prestress_each": "prestress"}, (50, 64, 100))
+    return by_grid(data, {"second_each": "normals < ½", "second_0.1_each": "normals < .1",
+                          "prestress_each": "normals and tilts s > 10 < ½"}, (100,))
+
+
+def by_threshold(data):
+    """Modes that prestress holds, by what stiffness of a tilt is counted as its own."""
+    return by_grid(data, {f"prestress_{t}_each": f"s > {t}" for t in (1, 3, 10, 30, 100)}, (100,))
+
+
+def tilts_of_classes(data):
+    names = {"ff": "face-face", "ef": "edge-face", "l": "lower order"}
+    return by_grid(data, {f"tilts_each_{key}": name for key, name in names.items()}, (100,))
 
 
 def held_lambda(data):
     """Exponents of λ of the modes that prestress holds."""
-    rows = []
-    for solid in SOLIDS:
-        for particles in data.sizes(solid):
-            found = data.slopes(solid, particles, "prestress_lambda", BINS)
-            if any(e and e["n"] > 3 for e in found):
-                rows.append([f"{solid} {particles}", *(counted(e) for e in reversed(found))])
-    return table(["exponent of λ", *bins_falling()], rows)
+    return slope_table(data, "exponent of λ", "prestress_lambda")
 
 
 def shares(data):
@@ -109,11 +133,12 @@ def resolved(data):
                 if None not in columns:
                     states += [state for state in zip(*columns) if state[0] is not None]
             if states:
-                middle = sorted(s[0] for s in states)[len(states) // 2]
+                middle = statistics.median_low(s[0] for s in states)
                 rows.append([f"{solid} {particles}", str(len(states)), significant(middle, 1),
                              significant(max(s[0] for s in states), 1),
                              number(100 * sum(s[1] for s in states) / max(1, sum(s[2] for s in states)), 2)])
-    return table(["", "states", "median of the worst relative sum", "worst", "modes left out, %"], rows)
+    return table(["", "states", "shares less λ, over λ: median of the worst mode", "worst of all",
+                  "of the modes looked at, left out, %"], rows)
 
 
-BLOCKS = {f.__name__: f for f in (softest, held, held_lambda, shares, resolved)}
+BLOCKS = {f.__name__: f for f in (softest, waves, held, by_threshold, tilts_of_classes, held_lambda, shares, resolved)}

@@ -4,68 +4,104 @@ import functools
 import math
 
 from data import SOLIDS
-from estimates import estimate_of
-from held import BINS, bins_falling, by_grid
-from limits import limit_of_choices
-from scaling import line
-from text import counted, interval, number, signed, table
+from held import by_grid, slope_table
+from limits import FORMS, limit_of_choices
+from text import counted, interval, number, places_of, table
 
 WINDOWS = ((0, 0.01), (0, 0.02), (0, 0.005))
 AT = (0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005)
 HYPOSTATIC = ("octahedron", "icosahedron", "dodecahedron")
+LARGE = 400  # the size that others are compared with
+OTHERS = (50, 100, 200, 800)
 
 
 def missing(data):
     return by_grid(data, {"missing": ""})
 
 
+def missing_cutoffs(data):
+    return by_grid(data, {"missing_half": "cut-offs × ½", "missing": "× 1", "missing_double": "× 2"}, (100, 400), AT)
+
+
 def missing_slopes(data):
+    return slope_table(data, "exponent of m", "missing", HYPOSTATIC)
+
+
+def redundant(data):
+    return by_grid(data, {"self_stress_each": ""}, grid=(0.08, *AT))
+
+
+def gaps_of_ranks(data):
+    """Over all states, the least and the median of what is kept over what is dropped, singular values."""
     rows = []
-    for solid in HYPOSTATIC:
+    for solid in SOLIDS:
         for particles in data.sizes(solid):
-            found = data.slopes(solid, particles, "missing", BINS)
-            if any(e and e["n"] > 3 for e in found):
-                rows.append([f"{solid} {particles}", *(counted(e) for e in reversed(found))])
-    return table(["exponent", *bins_falling()], rows)
+            found = sorted(gap for gaps in data.column(solid, particles, "gap") for gap in gaps or [] if gap)
+            kept = [k for values in data.column(solid, particles, "least_kept") for k in values or [] if k]
+            if found:
+                rows.append([f"{solid} {particles}", str(len(found)), power_of_ten(min(kept)),
+                             power_of_ten(found[len(found) // 2]), power_of_ten(found[0])])
+    return table(["", "states", "least singular value that counts", "over the greatest that does not: median",
+                  "least"], rows)
+
+
+def power_of_ten(x):
+    return f"10^{number(math.log10(x), 1)}"
+
+
+def not_below_nothing(estimate):
+    """A rank is never short by less than nothing: what says so beyond its interval is not what m tends to."""
+    return estimate["mean"] + estimate["half_width"] >= 0
 
 
 @functools.cache
 def missing_limit(data, solid, particles):
-    """Of m = (6N − 3 − rank)/N as Δφ → 0."""
+    """Of m = (6N − 3 − rank)/N as Δφ → 0: by form over the nearest window, and the central choice with what forms and
+    windows leave open and, as `cutoffs`, half its range from half to twice the cut-offs nearest jamming."""
     paths = [list(zip(x, y)) for x, y in data.paths(solid, particles, "missing")]
-    return limit_of_choices(paths, WINDOWS)[1] if paths else None
+    if not paths:
+        return {}, None
+    every, chosen = limit_of_choices(paths, WINDOWS, possible=not_below_nothing)
+    half, double = (data.nearest(solid, particles, f"missing_{of}") for of in ("half", "double"))
+    if chosen and half and double:
+        chosen = {**chosen, "cutoffs": abs(double["mean"] - half["mean"]) / 2}
+    return {form: every[0, form] for form in FORMS}, chosen
 
 
 def excess(data, solid, small, large, distance):
-    """N(m_N − m_large) at a distance, with its 95 % interval: motions per packing that small ones miss beyond large."""
+    """N(m_N − m_large) at a distance, with its 95 % interval: motions per packing that one size misses beyond the
+    other."""
     few, many = (data.at(solid, n, "missing", distance) for n in (small, large))
-    if not few or not many or None in (few["half_width"], many["half_width"]):
+    if not few or not many or None in (few["half_width"], many["half_width"]) or few["n"] < 3:
         return None
     return {"mean": small * (few["mean"] - many["mean"]), "half_width": small * math.hypot(
         few["half_width"], many["half_width"]), "n": few["n"]}
 
 
 def excess_counts(data):
-    """(entries of finite_size, those whose interval leaves 0 out)."""
-    found = [e for solid in HYPOSTATIC for n in (50, 100, 200) for d in AT if (e := excess(data, solid, n, 400, d))]
-    return len(found), sum(abs(e["mean"]) > e["half_width"] for e in found)
+    """(entries of finite_size, those whose interval leaves 0 out, the most that m of N = 100 may differ by)."""
+    found = {(s, n, d): e for s in HYPOSTATIC for n in OTHERS for d in AT if (e := excess(data, s, n, LARGE, d))}
+    most = max((abs(e["mean"]) + e["half_width"]) / n for (_, n, _), e in found.items() if n == 100)
+    return len(found), sum(abs(e["mean"]) > e["half_width"] for e in found.values()), most
 
 
 def finite_size(data):
     """N(m_N − m_400) against Δφ: what does not scale with the number of particles."""
     rows = []
     for solid in HYPOSTATIC:
-        for particles in (50, 100, 200):
-            cells = [counted(excess(data, solid, particles, 400, d)) for d in AT]
+        for particles in OTHERS:
+            cells = [counted(excess(data, solid, particles, LARGE, d)) for d in AT]
             if any(cell != "–" for cell in cells):
                 rows.append([f"{solid} {particles}", *cells])
-    return table(["N(m_N − m_400)", "Δφ = .02", ".01", ".005", ".0025", ".001", ".0005"], rows)
+    return table([f"N(m_N − m_{LARGE})", "Δφ = .02", ".01", ".005", ".0025", ".001", ".0005"], rows)
 
 
 @functools.cache
 def infinite(data, solid):
-    """m(Δφ → 0, N → ∞): intercept of the limits against 1/N, weighted by their errors, with its interval."""
-    points = [(1 / n, e) for n in data.sizes(solid) if (e := missing_limit(data, solid, n)) and e["half_width"]]
+    """m(Δφ → 0, N → ∞): intercept of the limits against 1/N, weighted by the errors of fit and form, with its interval,
+    and the mean error of cut-offs beside it, which sizes have in common."""
+    limits = {n: missing_limit(data, solid, n)[1] for n in data.sizes(solid)}
+    points = [(1 / n, e) for n, e in limits.items() if e and e["half_width"]]
     if len(points) < 3:
         return None
     repeat = [((x, e["mean"]), (e["half_width"] + e["systematic"]) ** -2) for x, e in points]
@@ -74,35 +110,40 @@ def infinite(data, solid):
     mean_y = sum(w * y for (_, y), w in repeat) / total
     xx = sum(w * (x - mean_x) ** 2 for (x, _), w in repeat)
     slope = sum(w * (x - mean_x) * (y - mean_y) for (x, y), w in repeat) / xx
+    cutoffs = [e["cutoffs"] for _, e in points if "cutoffs" in e]
     return {"mean": mean_y - slope * mean_x, "half_width": math.sqrt(1 / total + mean_x ** 2 / xx), "n": len(points),
-            "slope": slope, "slope_half_width": math.sqrt(1 / xx)}
+            "slope": slope, "slope_half_width": math.sqrt(1 / xx),
+            **({"systematic": sum(cutoffs) / len(cutoffs)} if cutoffs else {})}
+
+
+def with_cutoffs(found):
+    """± fit ± form ± cut-offs."""
+    if not found:
+        return "–"
+    more = f" ± {number(found['cutoffs'], places_of(max(found['half_width'], found['systematic'])))}" \
+        if "cutoffs" in found else ""
+    return f"{interval(found)}{more} ({found['n']})"
 
 
 def missing_limits(data):
     rows = []
     for solid in SOLIDS:
         for particles in data.sizes(solid):
-            found, stress = missing_limit(data, solid, particles), data.nearest(solid, particles, "self_stress")
+            forms, found = missing_limit(data, solid, particles)
             if not found:
                 continue
-            target = 12 - 6 / particles - 2 * found["mean"] + 2 * stress["mean"] / particles
-            rows.append([f"{solid} {particles}", counted(found), number(found["exponent"], 2), interval(stress),
-                         number(target, 2), number(12 - 4 / particles, 2), signed(target - 12 + 4 / particles, 2)])
+            nearest = data.nearest(solid, particles, "C")
+            rows.append([f"{solid} {particles}", " / ".join(interval(forms[form]) for form in FORMS),
+                         with_cutoffs(found), counted(data.nearest_distance(solid, particles)),
+                         interval(data.nearest(solid, particles, "self_stress_each")), interval(nearest),
+                         number(12 - 4 / particles, 2)])
         at_infinity = infinite(data, solid)
         if at_infinity:
-            sizes = f"({at_infinity['n']} sizes)"
-            rows.append([f"{solid}, N → ∞", f"{interval(at_infinity)} {sizes}", *["–"] * 5])
-    return table(["Δφ → 0", "m ± fit ± form", "free x", "states of self-stress", "C = 12 − 6/N − 2m + 2S/N", "12 − 4/N",
-                  "difference"], rows)
+            rows.append([f"{solid}, N → ∞", "–", f"{interval(at_infinity)} ({at_infinity['n']} sizes)", *["–"] * 3,
+                         "12"])
+    return table(["", "m as Δφ → 0, by x = ½ / 1 / free", "± fit ± form ± cut-offs", "nearest Δφ", "S/N there",
+                  "C there", "12 − 4/N"], rows)
 
 
-def exponent_in_range(data, solid, particles, column, lower, upper):
-    """One exponent over states in a range of Δφ, replicate by replicate."""
-    made = []
-    for x, y in data.paths(solid, particles, column):
-        points = [(math.log(a), math.log(b)) for a, b in zip(x, y) if lower <= a < upper and b]
-        made.append(line(*zip(*points))[1] if len(points) > 2 else None)
-    return estimate_of(made)
-
-
-BLOCKS = {f.__name__: f for f in (missing, missing_slopes, finite_size, missing_limits)}
+BLOCKS = {f.__name__: f for f in (missing, missing_cutoffs, missing_slopes, redundant, gaps_of_ranks, finite_size,
+                                  missing_limits)}
