@@ -3,12 +3,14 @@
 - states are counted as minima, near-rattlers, unresolved and negative as by hand, crystals in none; a rank of the rest
   that its rows do not allow is none; φ_J of the paper's rule is compared with the same replicates;
 - the exponent of ⟨ω_l⟩/√K is that of ⟨ω_l⟩ less half that of K; the least excess of contacts that a test sees is that
-  of sums of binomial terms, and what emerges first and stays is told;
+  of sums of binomial terms, what emerges first and stays is told, and shares of random contacts are those of
+  directions drawn at random;
 - C carries the range of cut-offs as its error, Z_ff half of what fits and gaps differ by; deviates of offsets know the
   paper's interval as well as ours; solids stand in order of what they have.
 """
 
 import math
+import random
 import sys
 import unittest
 
@@ -139,6 +141,26 @@ class Tests(unittest.TestCase):
             least = round(alignment.least_seen(n, p) * n * p)
             self.assertLess(beyond(least, n, p), network.LEVEL)
             self.assertGreaterEqual(beyond(least - 1, n, p), network.LEVEL)
+
+    def test_random_contacts(self):
+        stream = random.Random(2)
+        critical = {"ef_one": 40.0, "ef_two": 30.0, "ff_one": 50.0, "ff_edge_face": 20.0}
+
+        def direction():
+            v = [stream.gauss(0, 1) for _ in range(3)]
+            return [c / math.hypot(*v) for c in v]
+
+        # The angle of a line with a plane, and of two normals, of directions at random.
+        cosines = [sum(a * b for a, b in zip(direction(), direction())) for _ in range(40000)]
+        for kind, greatest, some in (("ef", 40.0, [math.degrees(math.asin(abs(c))) for c in cosines]),
+                                     ("ff", 50.0, [math.degrees(math.acos(c)) for c in cosines])):
+            some = [x for x in some if x < greatest]
+            angles, free, constrained = network.random_curves(kind, critical)
+            self.assertEqual((angles[0], angles[-1], free[-1], constrained[-1]), (0, greatest, 1, 1))
+            for angle, share in zip(angles[1:-1:12], free[1:-1:12]):
+                error = (share * (1 - share) / len(some)) ** 0.5
+                self.assertAlmostEqual(sum(x < angle for x in some) / len(some), share, delta=4 * error)
+        self.assertAlmostEqual(constrained[angles.index(10.0)], 0.5)
 
     def test_order_of_emergence(self):
         x = [0.1, 0.05, 0.02, 0.01]
