@@ -37,7 +37,7 @@ def descents(data):
             left = by_distance(data, solid, particles, lambda s, i: (s["negative"][i] or 0) > 0)
             rows.append([f"{solid} {particles}", *(
                 f"{d[1]} of {d[0]}" + (f", {n[1]} left" if n[1] else "") if d[0] else "–" for d, n in zip(down, left))])
-    return table(["", *(bin_name(*d) for d in DISTANCES)], rows)
+    return table(["states followed down of all, negative left", *(bin_name(*d) for d in DISTANCES)], rows)
 
 
 def zeros(data):
@@ -76,14 +76,14 @@ def unstable_share(data, study, solid, column, where):
 
 
 def unstable(data):
-    """Shares of negative modes by central differences, beside the exact count."""
+    """Shares of negative modes by central differences, beside the exact count, where any of these is above 0."""
     columns = ("unstable_exact", *(f"unstable_{step}" for step in STEPS))
     rows = []
     for name in data.studies:
         for solid in SOLIDS:
             for where in DISTANCES:
                 found = [unstable_share(data, name, solid, column, where) for column in columns]
-                if any(found):
+                if any(e and e["mean"] > 0 for e in found):
                     rows.append([name.removeprefix("paper-"), solid, bin_name(*where),
                                  str(max(e["n"] for e in found if e)), *(interval(e) for e in found)])
     if not rows:
