@@ -122,8 +122,8 @@ def both_sizes(data):
 
 
 def search_400(data, best=4):
-    """Every way up that was tried with N = 400, with its best windows: by χ², or where a solid is not there with N = 400,
-    by that of N = 100."""
+    """Every way up that was tried with N = 400, with its best windows: by χ², or where a solid is not there with
+    N = 400, by that of N = 100."""
     entries, searched = entries_of(data, 400), searched_solids(data, 400)
     if not entries:
         return "Not in these records.\n"
