@@ -83,8 +83,8 @@ def hindrance(found):
 
 
 def random_curves(kind, critical):
-    """Of θ_ef ("ef") or θ_ff ("ff") angles, degrees, and the cumulative shares of contacts at random: free, p ∝ cos θ_ef
-    and p ∝ sin θ_ff up to the greatest critical angle, and of an edge in a face, θ_ef = 0 and p(θ_ff) uniform up to its
+    """Of θ_ef ("ef") or θ_ff ("ff") angles in degrees and cumulative shares of contacts at random: free, p ∝ cos θ_ef
+    and p ∝ sin θ_ff up to the greatest critical angle; of an edge in a face, θ_ef = 0 and p(θ_ff) uniform up to its
     own."""
     greatest = max(angle for name, angle in critical.items() if name.startswith(kind))
     angles = [greatest * i / 60 for i in range(61)]
