@@ -47,6 +47,33 @@ def student(freedom, probability=0.975):
     return 0.5 * (low + high)
 
 
+def normal_deviate(t, freedom):
+    """The normal deviate that is exceeded, either way, as often as t of Student's distribution: how far off t is,
+    however few values its standard deviation is from. At most 8."""
+    beyond = incomplete_beta(0.5 * freedom, 0.5, freedom / (freedom + t * t)) if t else 1.0
+    low, high = 0.0, 8.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if math.erfc(middle / math.sqrt(2)) > beyond else (low, middle)
+    return math.copysign(0.5 * (low + high), t)
+
+
+def added(variances):
+    """(standard deviation, degrees of freedom) of a sum, from (variance, degrees of freedom; None of one that is known)
+    of its parts, after Welch and Satterthwaite."""
+    total = sum(variance for variance, _ in variances)
+    spent = sum(variance ** 2 / freedom for variance, freedom in variances if freedom)
+    return math.sqrt(total), min(1e6, total ** 2 / spent) if spent > 0 else 1e6
+
+
+def difference_of(first, second):
+    """Mean of `second` less that of `first`, two lists of independent values, with the 95 % interval of Welch's t."""
+    parts = [(statistics.variance(values) / len(values), len(values) - 1) for values in (first, second)]
+    deviation, freedom = added(parts)
+    return {"mean": statistics.fmean(second) - statistics.fmean(first),
+            "half_width": student(freedom) * deviation if deviation else 0.0, "n": min(len(first), len(second))}
+
+
 def binomial_at_least(k, n, p):
     """Probability of k successes or more of n."""
     if k <= 0:
@@ -93,6 +120,17 @@ def correlation_interval(r, n):
         return None
     z, width = math.atanh(r), 1.959964 / math.sqrt(n - 3)
     return math.tanh(z - width), math.tanh(z + width)
+
+
+def pooled_correlation(found):
+    """(r, 95 % interval) of one correlation that several samples share, from (r, pairs) of each, by the weighted mean
+    of Fisher's z; None where no sample has four pairs."""
+    some = [(math.atanh(r), n - 3) for r, n in found if r is not None and n > 3 and abs(r) < 1]
+    weight = sum(w for _, w in some)
+    if not weight:
+        return None, None
+    z, width = sum(z * w for z, w in some) / weight, 1.959964 / math.sqrt(weight)
+    return math.tanh(z), (math.tanh(z - width), math.tanh(z + width))
 
 
 def resamples(count, draws, seed):

@@ -1,6 +1,7 @@
 """Numbers and tables as the pages have them: pure functions from values to Markdown."""
 
 import math
+import re
 
 from estimates import single_half_width
 
@@ -37,6 +38,11 @@ def interval(estimate):
     places = places_of(max(errors))
     shown = [estimate["half_width"]] + ([] if systematic is None else [systematic])
     return " ± ".join(number(x, places) for x in (estimate["mean"], *shown))
+
+
+def bounded(estimate):
+    """The interval, a last error that rounds to nothing as less than a unit of the last digit."""
+    return re.sub(r"± \.(0+)$", lambda match: f"± < .{match.group(1)[:-1]}1", interval(estimate))
 
 
 def counted(estimate):

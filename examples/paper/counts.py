@@ -2,21 +2,31 @@
 
 import statistics
 
+from constraints import with_cutoffs
 from data import SIZES, SOLIDS
-from densities import said
+from densities import said, table_i
 from estimates import estimate_of
-from text import counted, interval, number, significant, table
+from text import bounded, counted, interval, number, significant, table
 
 
 def summary(data):
     rows = []
-    for solid in SOLIDS:
-        theirs = {f["particles"]: said(f) for f in data.figures if f["place"] == "Table I" and f["solid"] == solid}
-        rows.append([solid, *(cell for n in SIZES for cell in (counted(data.phi_j(solid, n)), theirs[n])),
-                     *(interval(data.nearest(solid, 100, column)) for column in ("Z", "Z_ff", "C")),
-                     interval(data.nearest(solid, 400, "C"))])
-    return table(["", "φ_J, N = 100", "paper", "φ_J, N = 400", "paper", "Z, 100", "Z_ff, 100", "C, 100",
-                  "C, 400"], rows)
+    for figure in table_i(data):
+        solid, n = figure["solid"], figure["particles"]
+        if not data.counted(solid, n):
+            rows.append([f"{solid} {n}", "0", "–", said(figure), *["–"] * 4, number(12 - 4 / n, 2)])
+            continue
+        rows.append([f"{solid} {n}", str(data.phi_j(solid, n)["n"]), bounded(data.phi_j(solid, n)), said(figure),
+                     significant(data.nearest_distance(solid, n)["mean"], 2), interval(data.nearest(solid, n, "Z")),
+                     *(bounded(with_cutoffs(data, solid, n, column)) for column in ("Z_ff", "C")),
+                     number(12 - 4 / n, 2)])
+    return table(["", "n", "φ_J", "paper", "nearest Δφ", "Z", "Z_ff", "C", "12 − 4/N"], rows)
+
+
+def short_of_rank(data, solid, particles):
+    """6N − 3 less the rank of the constraints nearest jamming."""
+    return estimate_of([6 * particles - 3 - y[-1] for y in data.column(solid, particles, "rank")
+                        if y and y[-1] is not None])
 
 
 def rigidity(data):
@@ -28,8 +38,7 @@ def rigidity(data):
             if not rank:
                 continue
             full = 6 * particles - 3
-            short = estimate_of([full - y[-1] for y in data.column(solid, particles, "rank")
-                                 if y and y[-1] is not None])
+            short = short_of_rank(data, solid, particles)
             rows.append([f"{solid} {particles}", str(rank["n"]),
                          significant(data.nearest_distance(solid, particles)["mean"], 2), interval(constraints),
                          interval(rank), str(full), interval(stress), interval(short), interval(normals)])
@@ -45,8 +54,8 @@ def cubes(data):
     failed = sum(r["status"] != "done" for r in every)
     row = [str(len(every)), str(failed), str(len(data.counted("cube", 100))), interval(data.phi_j("cube", 100)),
            *(interval(data.nearest("cube", 100, column)) for column in columns)]
-    return table(["replicates", "failed", "n", "φ_J", "Z", "Z_ff", "C", "S", "percolate", "zero modes",
-                  "negative modes", "states of self-stress"], [row])
+    return table(["replicates", "failed", "n", "φ_J", "Z", "Z_ff", "C", "mean cluster size S", "percolate",
+                  "zero modes", "negative modes", "states of self-stress"], [row])
 
 
 def cost(data):
@@ -72,4 +81,24 @@ def cost(data):
         f"\nBy stage: {share}. Made by commits {', '.join(commits)}.\n"
 
 
+def distance_value(data, solid, particles):
+    found = data.nearest_distance(solid, int(particles))
+    return significant(found["mean"], 2) if found else "–"
+
+
+def column_value(column):
+    """Nearest jamming, or at a distance from it."""
+    def value(data, solid, particles, distance=None):
+        return counted(with_cutoffs(data, solid, int(particles), column, distance and float(distance)))
+
+    return value
+
+
 BLOCKS = {f.__name__: f for f in (summary, rigidity, cubes, cost)}
+VALUES = {"n": lambda data, solid, n: str(len(data.counted(solid, int(n)))), "distance": distance_value,
+          "phi_j": lambda data, solid, n: counted(data.phi_j(solid, int(n))),
+          "short": lambda data, solid, n: counted(short_of_rank(data, solid, int(n))),
+          "failed": lambda data, solid, n: "{} of {}".format(
+              sum(r["status"] != "done" for r in data.all_of(solid, int(n))), len(data.all_of(solid, int(n)))),
+          **{column: column_value(column) for column in (
+              "Z", "Z_ff", "C", "C_fixed", "self_stress", "rows", "amplitude", "members", "percolates")}}

@@ -1,6 +1,7 @@
 """What the blocks are made from: replicates of our studies, and what the paper says."""
 
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -20,6 +21,17 @@ def read(path):
         return json.load(file)
 
 
+RATIO = "omega_l/sqrt(K)"
+
+
+def ratio_of(states):
+    """⟨ω_l⟩/√K of every state, None where one of them is not there; None if the states have neither column."""
+    if "omega_l" not in states or "K" not in states:
+        return None
+    return [w / math.sqrt(k) if w is not None and k is not None and k > 0 else None
+            for w, k in zip(states["omega_l"], states["K"])]
+
+
 class Data(Expansions):
     """Records of a directory, the search beside them, and what the paper says."""
 
@@ -29,6 +41,12 @@ class Data(Expansions):
         super().__init__(records, MAIN)
         self.search = read(directory / "search.json")
         self.figures = read(COMMITTED / "paper.json")["figures"]
+
+    def column(self, solid, particles, name):
+        """Those of the records, and ⟨ω_l⟩/√K."""
+        if name == RATIO:
+            return [ratio_of(r["states"]) for r in self.counted(solid, particles)]
+        return super().column(solid, particles, name)
 
     def network(self, solid, particles, name):
         """Of every replicate that has them: (Δφ, what network.py made of every state)."""

@@ -1,14 +1,14 @@
-"""Blocks about φ_J: Table I, what the paper's offsets look like, and the search for a setting that gives its values."""
+"""Blocks about φ_J: Table I, what the paper's offsets look like, what windows of fits move."""
 
-import itertools
 import math
-import statistics
 
 from data import SIZES, SOLIDS
-from estimates import estimate_of, single_half_width, student
+from estimates import added, difference_of, estimate_of, normal_deviate, single_half_width, student
 from scaling import jamming_density
-from text import counted, interval, number, signed, significant, spread, table
-from verdicts import verdict
+from text import bounded, counted, number, signed, significant, spread, table
+from verdicts import uncertainty, verdict
+
+NORMAL = 1.959964  # standard deviations in the half width of a 95 % interval
 
 # Rounded dice in a box, the third column of the paper's Table I.
 EXPERIMENT = {"tetrahedron": (0.64, 0.01), "octahedron": (0.64, 0.01), "icosahedron": (0.59, 0.01),
@@ -18,8 +18,6 @@ STABLE_FROM = {"tetrahedron": 0.04, "octahedron": 0.02, "icosahedron": 0.01, "do
 FITS = {"< .02": (0, 0.02), "< .04": (0, 0.04), ".01 – .06": (0.01, 0.06), ".02 – .06": (0.02, 0.06),
         ".02 – .12": (0.02, 0.12), ".04 – .16": (0.04, 0.16), "stable – .12": (None, 0.12),
         "stable – .16": (None, 0.16)}
-TARGET = 3.2e-5
-BASE = ({"before": False, "step": 0.02, "budget": 2000}, "< .02")
 
 
 def said(figure):
@@ -30,12 +28,21 @@ def said(figure):
     return text + (f" ± {number(figure['error'], figure['digits'])}" if "error" in figure else "")
 
 
+def deviation_of(estimate):
+    """Standard deviation of one more packing about our mean, sd·√(1 + 1/n), from t·sd/√n."""
+    return single_half_width(estimate) / student(estimate["n"] - 1)
+
+
+def table_i(data):
+    return [figure for figure in data.figures if figure["place"] == "Table I"]
+
+
 def table_1(data):
     rows = []
-    for figure in (f for f in data.figures if f["place"] == "Table I"):
+    for figure in table_i(data):
         estimate = data.of(figure)
         value, error = EXPERIMENT[figure["solid"]]
-        rows.append([f"{figure['solid']} {figure['particles']}", interval(estimate),
+        rows.append([f"{figure['solid']} {figure['particles']}", bounded(estimate) if estimate else "–",
                      str(estimate["n"]) if estimate else "0", spread(estimate), said(figure),
                      signed(figure["value"] - estimate["mean"], 4) if estimate else "–", verdict(estimate, figure),
                      f"{number(value, 2)} ± {number(error, 2)}"])
@@ -43,15 +50,25 @@ def table_1(data):
                   "dice (experiment)"], rows)
 
 
+def parts_of(estimate, figure):
+    """Variances, as `added` takes them, of paper − ours if the paper's value were one packing like ours, known to its
+    own interval."""
+    return [(deviation_of(estimate) ** 2, estimate["n"] - 1), ((uncertainty(figure) / NORMAL) ** 2, None)]
+
+
+def deviate_of(off, parts):
+    deviation, freedom = added(parts)
+    return normal_deviate(off / deviation, freedom)
+
+
 def offsets_of(data):
-    """By solid, {size: (paper − ours, standard deviation that one packing of ours has about our mean)}."""
+    """By solid, {size: (paper − ours, its normal deviate, its variances)}."""
     made = {}
-    for figure in (f for f in data.figures if f["place"] == "Table I"):
-        values = [f[0] for f in data.densities(figure["solid"], figure["particles"])]
-        if len(values) > 2:
-            deviation = statistics.stdev(values) * math.sqrt(1 + 1 / len(values))
-            made.setdefault(figure["solid"], {})[figure["particles"]] = (
-                figure["value"] - statistics.fmean(values), deviation)
+    for figure in table_i(data):
+        estimate = estimate_of([f[0] for f in data.densities(figure["solid"], figure["particles"])])
+        if estimate and estimate["n"] > 2:
+            off, parts = figure["value"] - estimate["mean"], parts_of(estimate, figure)
+            made.setdefault(figure["solid"], {})[figure["particles"]] = off, deviate_of(off, parts), parts
     return made
 
 
@@ -61,187 +78,81 @@ def chi_square_below(x, freedom):
     return 1 - math.exp(-half) * sum(half ** i / math.factorial(i) for i in range(freedom // 2))
 
 
+def apart_of(sizes):
+    """Of a solid's offsets with N = 100 and 400: (difference, standard deviation, its normal deviate)."""
+    apart, parts = sizes[400][0] - sizes[100][0], sizes[100][2] + sizes[400][2]
+    return apart, added(parts)[0], deviate_of(apart, parts)
+
+
+def offset_tests(data):
+    """(χ² of differences between sizes, how often less in %, χ² of all offsets, how often more in %); None where a size
+    is not there."""
+    both = [sizes for sizes in offsets_of(data).values() if len(sizes) == len(SIZES)]
+    if len(both) < len(SOLIDS):
+        return None
+    apart = sum(apart_of(sizes)[2] ** 2 for sizes in both)
+    every = sum(deviate ** 2 for sizes in both for _, deviate, _ in sizes.values())
+    return (apart, 100 * chi_square_below(apart, len(both)), every, 100 - 100 * chi_square_below(every, 2 * len(both)))
+
+
 def offsets(data):
-    found = offsets_of(data)
-    both = {solid: sizes for solid, sizes in found.items() if len(sizes) == len(SIZES)}
     rows = []
-    for solid, sizes in found.items():
-        cells = [f"{signed(sizes[n][0], 4)} ({number(sizes[n][0] / sizes[n][1], 1)} sd)" if n in sizes else "–"
-                 for n in SIZES]
-        if solid in both:
-            apart = math.hypot(sizes[100][1], sizes[400][1])
-            cells += [signed(sizes[400][0] - sizes[100][0], 4), f"± {number(apart, 4)}"]
+    for solid, sizes in offsets_of(data).items():
+        cells = [f"{signed(sizes[n][0], 4)} ({signed(sizes[n][1], 1)})" if n in sizes else "–" for n in SIZES]
+        if len(sizes) == len(SIZES):
+            apart, deviation, deviate = apart_of(sizes)
+            cells += [signed(apart, 4), f"± {number(deviation, 4)} ({signed(deviate, 1)})"]
         else:
             cells += ["–", "–"]
         rows.append([solid, *cells])
-    text = table(["paper − ours", "N = 100", "N = 400", "400 less 100", "sd of that, single packings"], rows)
-    if len(both) == len(SOLIDS):
-        chi = sum(((s[400][0] - s[100][0]) / math.hypot(s[100][1], s[400][1])) ** 2 for s in both.values())
-        text += (f"\nOf the last two columns χ² = {number(chi, 2)} for four solids; of single packings it would be as "
-                 f"small or smaller in {significant(100 * chi_square_below(chi, 4), 2)} of 100 cases.\n")
-        every = sum((off / sd) ** 2 for sizes in both.values() for off, sd in sizes.values())
-        text += (f"Of all eight offsets, in sd, it is {number(every, 1)}; of single packings it would be as large or larger "
-                 f"in {significant(100 - 100 * chi_square_below(every, 8), 1)} of 100.\n")
-    return text
+    return table(["paper − ours (deviate)", "N = 100", "N = 400", "400 less 100", "sd of that (deviate)"], rows)
 
 
-def searched_of(data, particles):
-    return [r for r in itertools.chain(*data.search.values()) if r.get("particles", 100) == particles]
+def offset_value(data, *words):
+    """paper − ours, or what is asked of all eight."""
+    if words[0] in SOLIDS:
+        figure = next(f for f in table_i(data) if (f["solid"], f["particles"]) == (words[0], int(words[1])))
+        ours = data.of(figure)
+        return signed(figure["value"] - ours["mean"], 4) if ours else "–"
+    if words[0] in ("wider", "below", "all"):  # than the paper's own interval; than ours
+        off = [(f["value"] - e["mean"], uncertainty(f)) for f in table_i(data) if (e := data.of(f))]
+        return str(sum({"wider": abs(x) > own, "below": x < 0, "all": True}[words[0]] for x, own in off))
+    if words[0] == "keep":
+        return str(sum(s[100][0] * s[400][0] > 0 for s in offsets_of(data).values() if len(s) == len(SIZES)))
+    found = offset_tests(data)
+    which = ("apart", "apart_less", "every", "every_more").index(words[0])
+    return (significant(found[which], 2) if which % 2 else number(found[which], 1)) if found else "–"
 
 
-def settings_of(data, particles=100):
-    """{setting: {solid: replicates that count}} of the search."""
-    made = {}
-    for replicate in searched_of(data, particles):
-        if replicate["status"] == "done" and not {"crystalline"} & set(replicate["flags"]):
-            key = tuple(sorted(replicate["setting"].items()))
-            made.setdefault(key, {}).setdefault(replicate["solid"], []).append(replicate)
-    return made
+def size_value(data, solid):
+    """φ_J with N = 400 less that with N = 100."""
+    small, large = ([f[0] for f in data.densities(solid, n)] for n in SIZES)
+    if min(len(small), len(large)) < 2:
+        return "–"
+    found = difference_of(small, large)
+    return f"{signed(found['mean'], 4)} ± {number(found['half_width'], 4)}"
 
 
-def refitted(replicates, fit, solid):
-    window = (STABLE_FROM[solid] if fit[0] is None else fit[0], fit[1])
-    return estimate_of([jamming_density(r["phi"], r["E"], r["phi_j"], window) for r in replicates])
+def papers_size(data, solid):
+    theirs = {f["particles"]: f["value"] for f in table_i(data) if f["solid"] == solid}
+    return signed(theirs[400] - theirs[100], 4)
 
 
-def ranked(data, particles=100):
-    """Settings that have all solids that were searched, best first: (χ², root mean square of paper − ours, setting,
-    window, estimates, paper − ours)."""
-    theirs = {f["solid"]: f["value"] for f in data.figures if f["place"] == "Table I" and f["particles"] == particles}
-    made, searched = [], searched_solids(data, particles)
-    for setting, solids in settings_of(data, particles).items():
-        for name, fit in FITS.items():
-            found = {s: refitted(solids.get(s, []), fit, s) for s in searched}
-            if any(not e or e["n"] < 3 for e in found.values()):
-                continue
-            off = {s: theirs[s] - found[s]["mean"] for s in searched}
-            # One packing's standard deviation about our mean: half_width is t·sd/√n.
-            chi = sum((off[s] / deviation_of(found[s])) ** 2 for s in searched)
-            root_mean_square = math.sqrt(statistics.fmean(x * x for x in off.values()))
-            made.append((chi, root_mean_square, dict(setting), name, found, off))
-    return sorted(made, key=lambda entry: entry[0])
-
-
-def searched_solids(data, particles=100):
-    """Those of which some setting has three replicates: of a search under way, not all."""
-    return [s for s in SOLIDS if any(len(solids.get(s, [])) >= 3 for solids in settings_of(data, particles).values())]
-
-
-def all_inside(entries):
-    """In how many settings every value of the paper lies within the interval of our mean."""
-    return sum(all(abs(off) <= found[s]["half_width"] for s, off in offs.items())
-               for _, _, _, _, found, offs in entries)
-
-
-def deviation_of(estimate):
-    """sd·√(1 + 1/n), from t·sd/√n."""
-    return single_half_width(estimate) / student(estimate["n"] - 1)
-
-
-def is_base(entry):
-    return entry[3] == BASE[1] and is_base_setting(entry[2])
-
-
-def name_of(setting, window):
-    reading = "before" if setting["before"] else "after"
-    if setting["target"] != TARGET:
-        reading += f", {significant(setting['target'], 1)}"
-    return [reading, number(setting["step"], 3), str(setting["budget"]), window]
-
-
-def search(data, best=6):
-    entries, searched = ranked(data), searched_solids(data)
-    if not entries:
-        return "Not in these records.\n"
-    shown = entries[:best] + [entry for entry in entries[best:] if is_base(entry)]
-    by_size = min(entries, key=lambda entry: entry[1])
-    if by_size not in shown:
-        shown.append(by_size)
-    rows = [[str(entries.index(e) + 1), *name_of(e[2], e[3]), number(e[0], 2), number(e[1], 4),
-             *(f"{number(e[4][s]['mean'], 4)} ± {number(e[4][s]['half_width'], 4)} ({signed(e[5][s], 4)})"
-               for s in searched)] for e in shown]
-    return table(["rank", "target read", "step", "budget", "window", "χ²", "rms offset",
-                  *(f"{s}, ours (paper − ours)" for s in searched)], rows) + (
-        f"\n{len(entries)} settings and windows of {len(searched)} solids; in {all_inside(entries)} of them all of the "
-        f"paper's values lie within the intervals of our means.\n")
-
-
-def both_sizes(data):
-    """Settings and windows of which both sizes are known: (χ² of all values, the entry of N = 100, that of 400)."""
-    small = {(tuple(sorted(e[2].items())), e[3]): e for e in ranked(data)}
-    found = [(small[key], e) for e in ranked(data, 400) if (key := (tuple(sorted(e[2].items())), e[3])) in small]
-    return sorted(((a[0] + b[0], a, b) for a, b in found), key=lambda entry: entry[0])
-
-
-def failed_of(data, particles):
-    """In words, which ways up led replicates past the greatest density."""
-    counts = {}
-    for r in searched_of(data, particles):
-        key = (r["solid"], "before" if r["setting"]["before"] else "after")
-        failed, every = counts.get(key, (0, 0))
-        counts[key] = (failed + (r["status"] != "done"), every + 1)
-    told = [f"{solid}, {reading}: {failed} of {every}" for (solid, reading), (failed, every) in counts.items() if failed]
-    return f"Consolidation did not end in {'; '.join(told)} replicates. " if told else ""
-
-
-def search_400(data, best=4):
-    entries = both_sizes(data)
-    if not entries:
-        return "Not in these records.\n"
-    searched = searched_solids(data, 400)
-    rows = [[*name_of(b[2], b[3]), number(a[0], 2), number(b[0], 2),
-             *(f"{number(b[4][s]['mean'], 4)} ± {number(b[4][s]['half_width'], 4)} ({signed(b[5][s], 4)})"
-               for s in searched)] for _, a, b in entries[:best]]
-    return table(["target read", "step", "budget", "window", "χ², N = 100", "χ², N = 400",
-                  *(f"{s}, N = 400, ours (paper − ours)" for s in searched)], rows) + (
-        f"\n{failed_of(data, 400)}{len(entries)} settings and windows of {len(searched)} solids with N = 400; in "
-        f"{sum(all_inside([a]) and all_inside([b]) for _, a, b in entries)} of them all values of both sizes lie within "
-        f"the intervals of our means.\n")
-
-
-def moved_by(data, setting, solid):
-    """Shift of φ_J, 10⁻⁴, against the base setting, in pairs of replicates that began alike."""
-    every = [r for r in searched_of(data, 100)
-             if r["solid"] == solid and r["status"] == "done" and "crystalline" not in r["flags"]]
-    base = {r["replicate"]: r["phi_j"] for r in every if is_base_setting(r["setting"])}
-    return estimate_of([1e4 * (r["phi_j"] - base[r["replicate"]]) for r in every
-                        if r["setting"] == setting and r["replicate"] in base])
-
-
-def is_base_setting(setting):
-    return setting["target"] == TARGET and all(setting[key] == value for key, value in BASE[0].items())
-
-
-def levers(data):
-    """What each choice of the way up moves."""
-    rows = []
-    for setting in map(dict, settings_of(data)):
-        if not is_base_setting(setting):
-            rows.append(([setting["target"] != TARGET, setting["before"], setting["step"], setting["budget"]],
-                         [*name_of(setting, "")[:3], *(counted(moved_by(data, setting, s)) for s in SOLIDS)]))
-    return table(["target read", "step", "budget", *SOLIDS], [row for _, row in sorted(rows)]) if rows else \
-        "Not in these records.\n"
-
-
-def levers_of(data, solid, reading, step, budget):
-    setting = {"before": reading == "before", "step": float(step), "budget": int(budget), "target": TARGET}
-    return counted(moved_by(data, setting, solid))
+def window_moves(data, solid, fit):
+    """What a window over the same states moves, N = 100, against the nearest, 10⁻⁴."""
+    moved = []
+    for r, near in zip(data.counted(solid, 100), data.densities(solid, 100)):
+        window = (STABLE_FROM[solid] if fit[0] is None else fit[0], fit[1])
+        there = jamming_density(r["states"]["phi"], r["states"]["E"], r["phi_j"]["phi_j"], window)
+        moved.append(None if there is None else 1e4 * (there - near[0]))
+    return estimate_of(moved)
 
 
 def windows(data):
-    """What windows over the same states move, N = 100, against the nearest."""
-    rows = []
-    for name, fit in FITS.items():
-        cells = []
-        for solid in SOLIDS:
-            moved = []
-            for r, near in zip(data.counted(solid, 100), data.densities(solid, 100)):
-                window = (STABLE_FROM[solid] if fit[0] is None else fit[0], fit[1])
-                there = jamming_density(r["states"]["phi"], r["states"]["E"], r["phi_j"]["phi_j"], window)
-                moved.append(None if there is None else 1e4 * (there - near[0]))
-            cells.append(counted(estimate_of(moved)))
-        rows.append([name, *cells])
-    return table(["fit over Δφ", *SOLIDS], rows)
+    return table(["fit over Δφ", *SOLIDS], [[name, *(counted(window_moves(data, s, fit)) for s in SOLIDS)]
+                                            for name, fit in FITS.items()])
 
 
-BLOCKS = {f.__name__: f for f in (table_1, offsets, search, search_400, levers, windows)}
+BLOCKS = {f.__name__: f for f in (table_1, offsets, windows)}
+VALUES = {"offset": offset_value, "size": size_value, "papers_size": papers_size,
+          "window": lambda data, solid, *name: counted(window_moves(data, solid, FITS[" ".join(name)]))}

@@ -10,6 +10,12 @@ from pathlib import Path
 # data.py finds what pages have in common.
 from data import SIZES, SOLIDS, Data
 from drawing import COLOURS, GRID, MARKERS, SETTINGS, matplotlib, mean_path, pyplot, save
+from network import random_curves
+
+
+FREQUENCY = "V$_p^{-1/3}$ (Y/ρ)$^{1/2}$"
+PREFIX = {"edge_face": "ef", "face_face": "ff"}
+TOPOLOGIES = {"vertex_face": "v", "edge_edge": "s", "edge_face": "o"}
 
 
 def drawn(data, solid):
@@ -32,20 +38,18 @@ def series(axes, data, column, sizes, label=True):
 
 
 def spectra(data, out):
-    figure, axes = pyplot.subplots(figsize=(5.6, 3.4))
+    """Softest and stiffest modes apart, by number: the spectrum between them is not in the data."""
+    figure, both = pyplot.subplots(1, 2, figsize=(7.6, 3.2))
     for solid in SOLIDS:
         particles, curves = drawn(data, solid)
         if "spectrum" not in curves:
             continue
-        low, high = curves["spectrum"]
-        low = sorted(low)[-50:]
-        total = 6 * particles - 3
-        for start, part in ((0, low), (total - len(high), sorted(high))):
-            label = None if start else f"{solid} {particles}, Δφ {curves['delta_phi']:.2g}"
-            axes.plot([(start + i + 1) / total for i in range(len(part))], part, MARKERS[solid], markersize=3,
-                      color=COLOURS[solid], label=label)
-    axes.set(yscale="log", xlabel="rank / (6N − 3)", ylabel="ω  (V$_p^{-1/3}$ (Y/ρ)$^{1/2}$)")
-    axes.legend(fontsize=8)
+        for axes, modes in zip(both, curves["spectrum"]):
+            axes.plot(range(1, len(modes) + 1), sorted(modes), MARKERS[solid], markersize=3, color=COLOURS[solid],
+                      label=f"{solid} {particles}, Δφ = {curves['delta_phi']:.2g}")
+    both[0].set(yscale="log", xlabel="mode, softest first", ylabel=f"ω  ({FREQUENCY})", title="fifty softest")
+    both[1].set(ylim=(0, None), xlabel="mode, stiffest last", ylabel=f"ω  ({FREQUENCY})", title="fifty stiffest")
+    both[0].legend(fontsize=8, loc="center right", bbox_to_anchor=(1.0, 0.55))
     save(figure, out / "spectra.png")
 
 
@@ -54,10 +58,8 @@ def vibrations(data, out):
     sizes = largest(data)
     series(axes, data, "omega_h", sizes, False)
     series(axes, data, "omega_l", sizes)
-    for power, scale in ((2, 3.0), (2.5, 12.0)):
-        axes.plot(GRID[4:], [scale * x ** power for x in GRID[4:]], "k:" if power == 2 else "k--", linewidth=0.8,
-                  label=f"Δφ$^{{{power}}}$")
-    axes.set(xscale="log", yscale="log", xlabel="Δφ", ylabel="⟨ω$_l$⟩ (lower), ⟨ω$_h$⟩ (upper)")
+    axes.plot(GRID[4:], [3.0 * x ** 2 for x in GRID[4:]], "k:", linewidth=0.8, label="∝ Δφ$^2$")
+    axes.set(xscale="log", yscale="log", xlabel="Δφ", ylabel=f"⟨ω$_l$⟩ (lower), ⟨ω$_h$⟩ (upper)  ({FREQUENCY})")
     axes.legend(fontsize=8)
     save(figure, out / "vibrations.png")
 
@@ -67,32 +69,40 @@ def largest(data):
 
 
 def angles(data, out):
-    figure, both = pyplot.subplots(1, 2, figsize=(7.6, 3.4), sharey=True)
-    for axes, kind, title in zip(both, ("edge_face", "face_face"), ("(a) c(θ$_{ef}$)", "(b) c(θ$_{ff}$)")):
-        for solid in SOLIDS:
+    figure, rows = pyplot.subplots(2, len(SOLIDS), figsize=(9.6, 4.6), sharey=True)
+    for panels, kind, name in zip(rows, ("edge_face", "face_face"), ("θ$_{ef}$", "θ$_{ff}$")):
+        for axes, solid in zip(panels, SOLIDS):
             particles, curves = drawn(data, solid)
-            if kind in curves:
-                share = [(i + 0.5) / len(curves[kind]) for i in range(len(curves[kind]))]
-                axes.plot(curves[kind], share, color=COLOURS[solid], linewidth=1.2, label=f"{solid} {particles}")
-                prefix = "ef_" if kind == "edge_face" else "ff_"
-                for name, angle in data.critical[solid].items():
-                    below = [s for x, s in zip(curves[kind], share) if x <= angle]
-                    if name.startswith(prefix) and below:
-                        axes.plot([angle], [below[-1]], MARKERS[solid], color=COLOURS[solid], markersize=4)
-        axes.set(xlabel="degrees", title=title, xlim=(0, None), ylim=(0, 1))
-    both[1].axvspan(0, 1, color="0.85", linewidth=0)
-    both[0].legend(fontsize=8)
-    save(figure, out / "angles.png")
+            if kind not in curves:
+                continue
+            x, free, constrained = random_curves(PREFIX[kind], data.critical[solid])
+            axes.plot(x, free, "k--", linewidth=0.8, label="random")
+            axes.plot(x, constrained, "k:", linewidth=0.8, label="edge in a face")
+            share = [(i + 0.5) / len(curves[kind]) for i in range(len(curves[kind]))]
+            axes.plot(curves[kind], share, color=COLOURS[solid], linewidth=1.2, label="packings")
+            for topology, marker in TOPOLOGIES.items():
+                angle = data.critical[solid].get(f"{PREFIX[kind]}_{topology}")
+                if angle:
+                    axes.plot([angle], [sum(a <= angle for a in curves[kind]) / len(curves[kind])], marker, zorder=3,
+                              markersize=5, markerfacecolor="white", color=COLOURS[solid], linestyle="none",
+                              label=topology.replace("_", "-"), clip_on=False)
+            if kind == "face_face":
+                axes.axvspan(0, 1, color="0.85", linewidth=0)
+            axes.set(xlabel=f"{name} (degrees)", title=f"{solid} {particles}", xlim=(0, None), ylim=(0, 1.02))
+        panels[0].set_ylabel(f"c({name})")
+    handles = {label: handle for axes in rows.flat for handle, label in zip(*axes.get_legend_handles_labels())}
+    rows[0][0].legend(handles.values(), handles, fontsize=7, loc="lower right")
+    save(figure, out / "angles.png", 75)
 
 
 def contacts(data, out):
     figure, three = pyplot.subplots(1, 3, figsize=(10, 3.3))
-    for axes, column, title, limit in zip(three, ("Z", "C", "Z_ff"), ("(a) Z", "(b) C", "(c) Z$_{ff}$"),
+    for axes, column, title, limit in zip(three, ("Z", "C", "Z_ff"), ("Z", "C", "Z$_{ff}$"),
                                           (12, 12, None)):
         series(axes, data, column, SIZES, axes is three[2])
         if limit:
             axes.axhline(limit, color="0.5", linewidth=0.8, linestyle=":")
-        axes.set(xscale="log", xlabel="Δφ", title=title)
+        axes.set(xscale="log", xlabel="Δφ", ylabel=f"{title} (per particle)")
     three[2].legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     save(figure, out / "contacts.png", 80)
 

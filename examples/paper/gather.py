@@ -131,7 +131,8 @@ def search_of(directory):
     made = []
     for _, record in records_of(directory):
         spec, protocol = record["spec"], record["spec"]["protocol"]
-        one = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"], "flags": record.get("flags") or [],
+        one = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"],
+               "flags": record.get("flags") or [],
                "setting": {"before": protocol["target_before_relaxation"], "step": protocol["consolidation_step"],
                            "budget": protocol["consolidation_evaluations"], "target": protocol["target_energy"]},
                "cpu": record["timing"]["cpu_seconds"], "status": record["status"]}

@@ -80,3 +80,16 @@ def hindrance(found):
     return {"q": pairs / others, "p": (total / 2 - 1) / (contacts - 1), "dispersion": variance / mean,
             "two_or_more": sum(counts[2:]) / particles,
             "poisson": 1 - math.exp(-mean) * (1 + mean)}
+
+
+def random_curves(kind, critical):
+    """Of θ_ef ("ef") or θ_ff ("ff") angles in degrees and cumulative shares of contacts at random: free, p ∝ cos θ_ef
+    and p ∝ sin θ_ff up to the greatest critical angle; of an edge in a face, θ_ef = 0 and p(θ_ff) uniform up to its
+    own."""
+    greatest = max(angle for name, angle in critical.items() if name.startswith(kind))
+    angles = [greatest * i / 60 for i in range(61)]
+    if kind == "ef":
+        free = [math.sin(math.radians(x)) / math.sin(math.radians(greatest)) for x in angles]
+        return angles, free, [1.0] * len(angles)
+    free = [(1 - math.cos(math.radians(x))) / (1 - math.cos(math.radians(greatest))) for x in angles]
+    return angles, free, [min(1.0, x / critical["ff_edge_face"]) for x in angles]

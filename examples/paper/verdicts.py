@@ -19,8 +19,8 @@ def uncertainty(figure):
 
 def verdict(estimate, figure):
     """Whether the figure, give or take its own uncertainty, lies within the interval of our mean (both errors added),
-    or within what one more packing of ours would give, or outside of both. Where packings spread by half of the figure and
-    more, or there are fewer than three, that says nothing."""
+    or within what one more packing of ours would give, or outside of both. Where packings spread by half of the figure
+    and more, or there are fewer than three, that says nothing."""
     if not estimate or estimate["n"] < 3 or estimate["half_width"] is None:
         return UNDECIDED
     value = figure["value"]

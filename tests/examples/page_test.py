@@ -2,6 +2,9 @@
 
 - Student's t is that of tables; an interval of normal samples covers their mean in 95 of 100 cases; the binomial tail
   is the sum of its terms; of choices, the systematic error is half their range;
+- a normal deviate is exceeded as often as the t it stands for, and sums of squares of such, of few values each, are χ²;
+  parts of a variance add as Welch and Satterthwaite have it, and the interval of a difference covers it; a correlation
+  that two samples share is that of Fisher's z;
 - numbers show two digits of their error, without a leading zero, and a minus is a minus;
 - φ_J of an exact power law is found whatever the window, and states outside of it do not matter; with a free exponent
   both are found; of too few states there is none;
@@ -67,6 +70,56 @@ class Estimates(unittest.TestCase):
         self.assertEqual(estimates.resamples(5, 4, 9), estimates.resamples(5, 4, 9))
 
 
+    def test_normal_deviate(self):
+        # Quantiles of tables: t of 97.5 % and of 99.5 %.
+        for freedom, t, z in ((1, 12.7062, 1.95996), (3, 3.18245, 1.95996), (15, 2.13145, 1.95996),
+                              (9, 3.24984, 2.57583)):
+            self.assertAlmostEqual(estimates.normal_deviate(t, freedom), z, places=4)
+            self.assertAlmostEqual(estimates.normal_deviate(-t, freedom), -z, places=4)
+        self.assertAlmostEqual(estimates.normal_deviate(1.3, 1e6), 1.3, places=4)
+        self.assertAlmostEqual(estimates.normal_deviate(0.0, 5), 0.0)
+
+    def test_deviates_of_few_values_make_chi_square(self):
+        stream, over, trials = random.Random(11), 0, 2000
+        for _ in range(trials):
+            total = 0.0
+            for _ in range(4):
+                values = [stream.gauss(0, 1) for _ in range(4)]
+                deviation = estimates.single_half_width(estimates.estimate_of(values)) / estimates.student(3)
+                off = stream.gauss(0, 1) - sum(values) / 4
+                total += estimates.normal_deviate(off / deviation, 3) ** 2
+            over += total > 9.4877
+        self.assertAlmostEqual(over / trials, 0.05, delta=4 * (0.05 * 0.95 / trials) ** 0.5)
+
+    def test_added(self):
+        self.assertEqual(estimates.added([(3.0, 7), (1.0, None)])[0], 2.0)
+        self.assertAlmostEqual(estimates.added([(3.0, 7)])[1], 7)
+        self.assertAlmostEqual(estimates.added([(3.0, 7), (3.0, 7)])[1], 14)  # equal parts: twice as many
+        self.assertAlmostEqual(estimates.added([(3.0, 7), (1.0, None)])[1], 16 / (9 / 7))
+        self.assertGreater(estimates.added([(1.0, None)])[1], 1e5)
+
+    def test_difference(self):
+        stream, hits, trials = random.Random(8), 0, 1000
+        for _ in range(trials):
+            found = estimates.difference_of([stream.gauss(1, 1) for _ in range(5)],
+                                            [stream.gauss(3, 3) for _ in range(9)])
+            hits += abs(found["mean"] - 2) <= found["half_width"]
+        self.assertAlmostEqual(hits / trials, 0.95, delta=4 * (0.95 * 0.05 / trials) ** 0.5)
+
+    def test_pooled_correlation(self):
+        r, within = estimates.pooled_correlation([(0.6, 16)])
+        self.assertAlmostEqual(r, 0.6)
+        self.assertEqual(within, estimates.correlation_interval(0.6, 16))
+        r, within = estimates.pooled_correlation([(0.5, 10), (0.5, 29), (None, 8), (0.9, 3)])
+        self.assertAlmostEqual(r, 0.5)
+        self.assertAlmostEqual(within[0], estimates.correlation_interval(0.5, 7 + 26 + 3)[0], places=12)
+        r, _ = estimates.pooled_correlation([(0.8, 13), (-0.8, 13)])
+        self.assertAlmostEqual(r, 0.0)
+        r, _ = estimates.pooled_correlation([(math.tanh(1.0), 4), (math.tanh(0.4), 5)])  # weights 1 and 2
+        self.assertAlmostEqual(math.atanh(r), 0.6)
+        self.assertEqual(estimates.pooled_correlation([(None, 9)]), (None, None))
+
+
 class Text(unittest.TestCase):
     def test_numbers(self):
         def of(mean, half_width, **more):
@@ -77,6 +130,9 @@ class Text(unittest.TestCase):
                                (of(39.4, 11.2), "39 ± 11"), (of(11.62, 0.091, systematic=0.24), "11.62 ± .09 ± .24"),
                                (of(0.9996, 0.012), "1.000 ± .012"), (None, "–")):
             self.assertEqual(text.interval(estimate), said)
+        self.assertEqual(text.bounded(of(0.6895, 0.001, systematic=1e-5)), ".6895 ± .0010 ± < .0001")
+        self.assertEqual(text.bounded(of(0.6895, 0.001, systematic=6e-5)), ".6895 ± .0010 ± .0001")
+        self.assertEqual(text.bounded(of(0.874, 0.088)), ".874 ± .088")
         self.assertEqual(text.number(-0.0001, 2), ".00")
         self.assertEqual(text.number(-12.345, 1), "−12.3")
         self.assertEqual(text.number(0.5, 0), "0")

@@ -7,7 +7,7 @@
 - contacts are classed by cut-offs as the program classes them; regions, what has emerged, and how face-face contacts
   are spread are as counted by hand, and contacts drawn at random neither hinder nor favour each other;
 - shifts of φ_J are differences of the same replicates, crystals left out; settings are ranked by χ², and one that gives
-  the paper's values is the first;
+  the paper's values is the first; which means' intervals hold them is as by hand;
 - gathering the results of a small run gives means, and φ_J, of the tables that the program makes of them.
 """
 
@@ -24,6 +24,7 @@ sys.path.insert(0, str(PAPER))
 
 import densities  # noqa: E402
 import network  # noqa: E402
+import search  # noqa: E402
 from data import SOLIDS, Data  # noqa: E402
 from estimates import estimate_of, single_half_width  # noqa: E402
 from verdicts import MEAN, ONE, OUTSIDE, UNDECIDED, overlap, verdict  # noqa: E402
@@ -185,20 +186,35 @@ class Search(unittest.TestCase):
         return type("Data", (), {"search": {"one": made}, "figures": figures})
 
     def test_ranked(self):
-        entries = densities.ranked(self.data())
-        self.assertEqual(entries[0][2]["budget"], 50)
-        self.assertLess(entries[0][0], 1e-12)
-        base = next(entry for entry in entries if densities.is_base(entry))
-        self.assertGreater(base[0], 0)
+        entries = search.ranked(self.data())
+        self.assertEqual(entries[0].setting["budget"], 50)
+        self.assertLess(entries[0].chi, 1e-12)
+        base = next(entry for entry in entries if search.is_base(entry))
+        self.assertGreater(base.chi, 0)
         self.assertAlmostEqual(estimate_of([0, 1, 5])["half_width"] ** 2 * 4 / 4.302653 ** 2,
                                densities.deviation_of(estimate_of([0, 1, 5])) ** 2, places=5)
+        self.assertEqual({e.setting["budget"] for e in search.all_inside(entries)}, {50})
+        # By 2000 octahedra are .6876, .6896, .6916 and .65, .6797 ± .0316; tetrahedra .637 … .65, .6418 ± .0091.
+        self.assertEqual((base.inside["octahedron"], base.inside["tetrahedron"]), (True, False))
+
+    def test_inside_is_give_or_take_the_papers_interval(self):
+        data = self.data()
+        made = [self.replicate("octahedron", i, 50, 0.6 + off) for i, off in enumerate((-0.002, 0.0, 0.002))]
+        for error, inside in ((0.0, False), (0.001, True)):
+            figures = [{"place": "Table I", "solid": "octahedron", "particles": 100, "value": 0.6055, "error": error}]
+            entries = search.ranked(type("Data", (), {"search": {"one": made}, "figures": figures}))
+            # The mean's interval is ± 4.303 · .002/√3 = .00497.
+            self.assertEqual({e.inside["octahedron"] for e in entries}, {inside})
+        self.assertEqual(search.ended(data, "octahedron", 100, "after", ".020", "50"), "4 of 4")
 
     def test_shifts_are_of_pairs(self):
         setting = {"before": False, "step": 0.02, "budget": 50, "target": 3.2e-5}
-        moved = densities.moved_by(self.data(), setting, "octahedron")
+        moved = search.moved_by(self.data(), setting, "octahedron")
         self.assertEqual(moved["n"], 3)
         self.assertAlmostEqual(moved["mean"], -100)
         self.assertAlmostEqual(moved["half_width"], 0, places=9)
+        (setting, found), = search.moves_of(self.data())
+        self.assertEqual((setting["budget"], set(found)), (50, set(SOLIDS)))
 
     def test_chi_square(self):
         self.assertAlmostEqual(densities.chi_square_below(9.4877, 4), 0.95, places=4)

@@ -1,0 +1,235 @@
+"""Blocks about the search for a setting that gives the paper's Table I: ways up × windows of the fit for φ_J."""
+
+import collections
+import functools
+import itertools
+import math
+import statistics
+
+from data import SOLIDS
+from densities import FITS, STABLE_FROM, deviate_of, parts_of, table_i
+from estimates import estimate_of
+from scaling import jamming_density
+from text import counted, number, signed, significant, table
+from verdicts import MEAN, verdict
+
+TARGET = 3.2e-5
+BASE = ({"before": False, "step": 0.02, "budget": 2000}, "< .02")
+# A way up and a window: Σ of squared normal deviates, root mean square of paper − ours, and by solid our estimate,
+# paper − ours and whether the paper's lies in our mean's interval.
+Entry = collections.namedtuple("Entry", "chi rms setting window found off inside")
+
+
+def searched_of(data, particles):
+    return [r for r in itertools.chain(*data.search.values()) if r.get("particles", 100) == particles]
+
+
+def settings_of(data, particles=100):
+    """{setting: {solid: replicates that count}} of the search."""
+    made = {}
+    for replicate in searched_of(data, particles):
+        solids = made.setdefault(tuple(sorted(replicate["setting"].items())), {})
+        if replicate["status"] == "done" and not {"crystalline"} & set(replicate["flags"]):
+            solids.setdefault(replicate["solid"], []).append(replicate)
+    return made
+
+
+def refitted(replicates, fit, solid):
+    window = (STABLE_FROM[solid] if fit[0] is None else fit[0], fit[1])
+    return estimate_of([jamming_density(r["phi"], r["E"], r["phi_j"], window) for r in replicates])
+
+
+@functools.cache
+def entries_of(data, particles=100):
+    """Every way up with every window; of those that have not all searched solids three times, chi and rms are None."""
+    theirs = {f["solid"]: f for f in table_i(data) if f["particles"] == particles}
+    made, searched = [], searched_solids(data, particles)
+    for setting, solids in settings_of(data, particles).items():
+        for name, fit in FITS.items():
+            found = {s: refitted(solids.get(s, []), fit, s) for s in searched}
+            found = {s: e for s, e in found.items() if e and e["n"] >= 3}
+            off = {s: theirs[s]["value"] - e["mean"] for s, e in found.items()}
+            inside = {s: verdict(e, theirs[s]) == MEAN for s, e in found.items()}
+            chi = rms = None
+            if len(found) == len(searched):
+                chi = sum(deviate_of(off[s], parts_of(found[s], theirs[s])) ** 2 for s in searched)
+                rms = math.sqrt(statistics.fmean(x * x for x in off.values()))
+            made.append(Entry(chi, rms, dict(setting), name, found, off, inside))
+    return made
+
+
+def ranked(data, particles=100):
+    """Those that have all solids that were searched, best first."""
+    return sorted((e for e in entries_of(data, particles) if e.chi is not None), key=lambda entry: entry.chi)
+
+
+def searched_solids(data, particles=100):
+    """Those of which some setting has three replicates: of a search under way, not all."""
+    return [s for s in SOLIDS if any(len(solids.get(s, [])) >= 3 for solids in settings_of(data, particles).values())]
+
+
+def all_inside(entries):
+    """Settings of which every value of the paper lies in the interval of our mean."""
+    return [entry for entry in entries if all(entry.inside.values())]
+
+
+def is_base(entry):
+    return entry.window == BASE[1] and is_base_setting(entry.setting)
+
+
+def is_base_setting(setting):
+    return setting["target"] == TARGET and all(setting[key] == value for key, value in BASE[0].items())
+
+
+def name_of(setting, *window):
+    reading = "before" if setting["before"] else "after"
+    if setting["target"] != TARGET:
+        reading += f", {significant(setting['target'], 1)}"
+    return [reading, number(setting["step"], 3), str(setting["budget"]), *window]
+
+
+def told(entry, solid):
+    """Our φ_J by a setting, of how many, paper − ours, and a mark if the paper's lies in our mean's interval."""
+    if solid not in entry.found:
+        return "–"
+    estimate = entry.found[solid]
+    return (f"{number(estimate['mean'], 4)} ± {number(estimate['half_width'], 4)} ({estimate['n']}), "
+            f"{signed(entry.off[solid], 4)}{' *' if entry.inside[solid] else ''}")
+
+
+def search(data, best=6):
+    entries, searched = ranked(data), searched_solids(data)
+    if not entries:
+        return "Not in these records.\n"
+    shown = entries[:best] + [entry for entry in entries[best:] if is_base(entry)]
+    by_size = min(entries, key=lambda entry: entry.rms)
+    if by_size not in shown:
+        shown.append(by_size)
+    rows = [[str(entries.index(e) + 1), *name_of(e.setting, e.window), number(e.chi, 2), number(e.rms, 4),
+             *(told(e, s) for s in searched)] for e in shown]
+    return table(["rank", "target read", "step", "budget", "window", "χ²", "rms offset",
+                  *(f"{s}, ours (n), paper − ours" for s in searched)], rows)
+
+
+@functools.cache
+def both_sizes(data):
+    """Settings and windows of which both sizes are known: (entry of N = 100, that of N = 400), the least sum of χ²
+    first."""
+    small = {(tuple(sorted(e.setting.items())), e.window): e for e in ranked(data)}
+    found = [(small[key], e) for e in ranked(data, 400)
+             if (key := (tuple(sorted(e.setting.items())), e.window)) in small]
+    return sorted(found, key=lambda pair: pair[0].chi + pair[1].chi)
+
+
+def search_400(data, best=4):
+    """Every way up that was tried with N = 400, with its best windows: by χ², or where a solid is not there with
+    N = 400, by that of N = 100."""
+    entries, searched = entries_of(data, 400), searched_solids(data, 400)
+    if not entries:
+        return "Not in these records.\n"
+    small = {(tuple(sorted(e.setting.items())), e.window): e.chi for e in entries_of(data)}
+    ways = {}
+    for e in entries:
+        way = tuple(sorted(e.setting.items()))
+        ways.setdefault(way, []).append((e, small.get((way, e.window))))
+
+    def chi_of(pair):
+        return next((chi for chi in (pair[0].chi, pair[1]) if chi is not None), math.inf)
+
+    shown = [pair for way in sorted(ways) for pair in sorted(ways[way], key=chi_of)[:best]]
+    rows = [[*name_of(e.setting, e.window), *(number(chi, 2) if chi is not None else "–" for chi in (other, e.chi)),
+             *(told(e, s) for s in searched)] for e, other in shown]
+    return table(["target read", "step", "budget", "window", "χ², N = 100", "χ², N = 400",
+                  *(f"{s}, N = 400, ours (n), paper − ours" for s in searched)], rows)
+
+
+def moved_by(data, setting, solid):
+    """Shift of φ_J, 10⁻⁴, against the base setting, in pairs of replicates that began alike."""
+    every = [r for r in searched_of(data, 100)
+             if r["solid"] == solid and r["status"] == "done" and "crystalline" not in r["flags"]]
+    base = {r["replicate"]: r["phi_j"] for r in every if is_base_setting(r["setting"])}
+    return estimate_of([1e4 * (r["phi_j"] - base[r["replicate"]]) for r in every
+                        if r["setting"] == setting and r["replicate"] in base])
+
+
+def moves_of(data):
+    """(setting, {solid: its shift, of three pairs or more}) of every way up but the base."""
+    made = []
+    for setting in map(dict, settings_of(data)):
+        if not is_base_setting(setting):
+            found = {s: moved_by(data, setting, s) for s in SOLIDS}
+            made.append((setting, {s: e for s, e in found.items() if e and e["n"] > 2}))
+    return sorted(made, key=lambda m: [m[0]["target"] != TARGET, m[0]["before"], m[0]["step"], m[0]["budget"]])
+
+
+def levers(data):
+    """What each choice of the way up moves."""
+    rows = [[*name_of(setting), *(counted(found.get(s)) for s in SOLIDS)] for setting, found in moves_of(data)]
+    return table(["target read", "step", "budget", *SOLIDS], rows) if rows else "Not in these records.\n"
+
+
+def ended(data, solid, particles, reading, step, budget):
+    """How many of a way up ended, of how many."""
+    some = [r for r in searched_of(data, int(particles)) if r["solid"] == solid and name_of(r["setting"]) == [
+        reading, step, budget]]
+    return f"{sum(r['status'] == 'done' for r in some)} of {len(some)}"
+
+
+def lever_value(data, which):
+    """The least and the greatest shift of all, of φ; how many of all shifts exclude 0, and of those down."""
+    found = [e for _, solids in moves_of(data) for e in solids.values()]
+    if not found:
+        return "–"
+    clear = [e for e in found if abs(e["mean"]) > e["half_width"]]
+    return {"least": signed(1e-4 * min(e["mean"] for e in found), 4), "all": str(len(found)), "clear": str(len(clear)),
+            "greatest": signed(1e-4 * max(e["mean"] for e in found), 4),
+            "down": str(sum(e["mean"] < 0 for e in clear)),
+            "before": str(sum(abs(e["mean"]) > e["half_width"] for setting, solids in moves_of(data)
+                              for e in solids.values() if setting["before"]))}[which]
+
+
+def settings_named(entries):
+    """The ways up of entries, in words."""
+    names = sorted({tuple(name_of(e.setting)) for e in entries})
+    return "; ".join(f"{reading}, {step}, {budget}" for reading, step, budget in names) or "none"
+
+
+def search_value(data, what, *rest):
+    entries = ranked(data)
+    if not entries:
+        return "–"
+    base = next((e for e in entries if is_base(e)), None)
+    pairs = both_sizes(data)
+    known = {"count": len(entries), "every": len(entries_of(data)), "windows": len(FITS),
+             "ways": len(settings_of(data)), "complete": len({tuple(sorted(e.setting.items())) for e in entries}),
+             "inside": len(all_inside(entries)), "base_rank": entries.index(base) + 1 if base else 0,
+             "count_400": len(pairs), "inside_400": len([a for a, b in pairs if all_inside([a]) and all_inside([b])]),
+             "untried": len(entries) - len(pairs), "ways_400": len(settings_of(data, 400)),
+             "untried_ways": len(settings_of(data)) - len(settings_of(data, 400))}
+    if what in known:
+        return str(known[what])
+    if what == "inside_ways":
+        return settings_named(all_inside(entries))
+    if what == "width":  # of a solid's mean, in the best setting and in the base
+        return " and ".join(f"± {number(e.found[rest[0]]['half_width'], 4)}" for e in (entries[0], base) if e)
+    if what in ("pair", "pair_100", "pair_400"):  # the best for both sizes
+        if not pairs:
+            return "–"
+        if what == "pair":
+            return ", ".join(name_of(pairs[0][0].setting, pairs[0][0].window))
+        return number(pairs[0][what == "pair_400"].chi, 2)
+    return {"best_chi": number(entries[0].chi, 2), "best_rms": number(entries[0].rms, 4),
+            "base_chi": number(base.chi, 2) if base else "–", "base_rms": number(base.rms, 4) if base else "–",
+            "least_rms": number(min(e.rms for e in entries), 4)}[what]
+
+
+def best_400(data, solid):
+    """paper − ours of a solid in the setting that is best for both sizes, with its n."""
+    if not both_sizes(data):
+        return "–"
+    entry = both_sizes(data)[0][1]
+    return f"{signed(entry.off[solid], 4)} ± {number(entry.found[solid]['half_width'], 4)} ({entry.found[solid]['n']})"
+
+
+BLOCKS = {f.__name__: f for f in (search, search_400, levers)}
+VALUES = {"search": search_value, "best_400": best_400, "ended": ended, "lever": lever_value}

@@ -1,0 +1,185 @@
+"""Facts proved here: python3 paper_blocks_test.py examples/paper
+
+- states are counted as minima, near-rattlers, unresolved and negative as by hand, crystals in none; a rank of the rest
+  that its rows do not allow is none; φ_J of the paper's rule is compared with the same replicates;
+- the exponent of ⟨ω_l⟩/√K is that of ⟨ω_l⟩ less half that of K; the least excess of contacts that a test sees is that
+  of sums of binomial terms, what emerges first and stays is told, and shares of random contacts are those of
+  directions drawn at random;
+- C carries the range of cut-offs as its error, Z_ff half of what fits and gaps differ by; deviates of offsets know the
+  paper's interval as well as ours; solids stand in order of what they have.
+"""
+
+import math
+import random
+import sys
+import unittest
+
+sys.path.insert(0, sys.argv[1])
+
+import alignment  # noqa: E402
+import constraints  # noqa: E402
+import contacts  # noqa: E402
+import densities  # noqa: E402
+import minima  # noqa: E402
+import network  # noqa: E402
+import vibrations  # noqa: E402
+from data import RATIO, Data  # noqa: E402
+from estimates import normal_deviate  # noqa: E402
+from expansions import Expansions  # noqa: E402
+
+
+def of(mean, half_width, n=16, **more):
+    return {"mean": mean, "half_width": half_width, "n": n, **more}
+
+
+class Made(Data):
+    """Data of replicates at hand, without files."""
+
+    def __init__(self, studies, figures=()):
+        Expansions.__init__(self, {name: {"replicates": some} for name, some in studies.items()}, tuple(studies))
+        self.figures = figures
+
+
+def replicate(number, states, solid="octahedron", particles=100, flags=(), **more):
+    """At Δφ = .1 · .5^i of φ_J = .7, with E ∝ Δφ⁶."""
+    count = len(next(iter(states.values())))
+    x = [0.1 * 0.5 ** i for i in range(count)]
+    return {"solid": solid, "particles": particles, "replicate": number, "status": "done", "flags": list(flags),
+            "phi_j": {"phi_j": 0.7},
+            "states": {"phi": [0.7 + d for d in x], "delta_phi": x, "E": [d ** 6 for d in x], **states}, **more}
+
+
+class States(unittest.TestCase):
+    COUNTS = {"zero": [3, 3, 5, 6, 3], "negative": [0, 1, 0, 0, None], "near_rattlers": [0, 1, 2, 0, 1],
+              "descents": [0, 1, 0, 0, 0]}
+
+    def test_counts(self):
+        data = Made({"paper-100": [replicate(0, self.COUNTS), replicate(1, self.COUNTS, flags=["crystalline"])]})
+        self.assertEqual(minima.state_counts(data), {"states": 5, "descents": 1, "negative": 1, "loose": 3,
+                                                     "unresolved": 1, "three": 2, "loose_three": 1})
+        near = minima.state_counts(data, nearest=0.02)  # Δφ = .1, .05, .025
+        self.assertEqual((near["states"], near["loose"], near["unresolved"]), (3, 2, 0))
+        self.assertEqual(minima.every_count(data, "states"), "10")
+
+    def test_share_of_unstable_modes(self):
+        states = {"unstable_exact": [0.0, 0.02, 0.0]}
+        ordered = replicate(2, {"unstable_exact": [0.5] * 3}, flags=["crystalline"])
+        short = replicate(3, {"unstable_exact": [0.5] * 3}, flags=["goal_not_reached"])
+        data = Made({"paper-100": [replicate(0, states), replicate(1, states), ordered, short],
+                     "paper-rule": [replicate(0, states), short, ordered]})
+        ours, rule = (minima.unstable_share(data, study, "octahedron", "unstable_exact", (0.04, 0.08))
+                      for study in ("paper-100", "paper-rule"))
+        self.assertEqual((ours["mean"], ours["n"]), (2.0, 2))
+        self.assertEqual(rule["n"], 2)  # what ended short counts
+        self.assertEqual(minima.rule_value(data, "paper-rule", "negative"), "4")
+        self.assertEqual(minima.rule_value(data, "paper-rule", "short"), "1 of 2")
+
+    def test_the_rule_is_compared_by_replicate(self):
+        def of(number, phi_j):
+            return {**replicate(number, {"unstable_exact": [0.0]}), "phi_j": {"phi_j": phi_j}}
+
+        data = Made({"paper-rule": [of(0, 0.698), of(1, 0.702), of(2, 0.5)],
+                     "paper-rule-base": [of(1, 0.703), of(0, 0.7)]})
+        moved = minima.rule_moves(data, "octahedron")
+        self.assertEqual(moved["n"], 2)
+        self.assertAlmostEqual(moved["mean"], -15)
+
+    def test_rank_of_the_rest(self):
+        # 10 particles of Z = 8 are 40 contacts; one that goes with its four leaves 36: 72/9 = 8. The motions of 9 are
+        # 51 without translations; rank 50 of all rows, so at least 50 − 3 · 4 of the rest, or 3 less by rounding: 16
+        # may be missing.
+        def missing(count, removed=1, rank=50):
+            return minima.rest_missing({"backbone_missing": [count], "rank": [rank], "backbone_removed": [removed],
+                                        "Z": [8.0], "backbone_Z": [8.0]}, 0, 10)
+
+        self.assertEqual(missing(16), 16)
+        self.assertIsNone(missing(17))
+        self.assertIsNone(missing(51))
+        self.assertEqual(missing(7, 0), 7)
+        self.assertIsNone(missing(None))
+        self.assertIsNone(missing(7, 0, None))
+
+    def test_exponent_of_the_ratio(self):
+        x = [0.1 * 0.5 ** i for i in range(6)]
+        data = Made({"paper-400": [replicate(i, {"omega_l": [d ** 2.3 for d in x],
+                                                 "K": [5 * d ** (3.8 + 0.2 * i) for d in x]}, particles=400)
+                                   for i in range(2)]})
+        for found in data.slopes("octahedron", 400, RATIO, vibrations.EDGES):
+            if found:
+                self.assertAlmostEqual(found["mean"], 2.3 - (1.9 + 2.0) / 2, places=9)
+                self.assertEqual(found["n"], 2)
+        self.assertEqual(data.column("octahedron", 400, RATIO)[0][0], 0.1 ** 2.3 / (5 * 0.1 ** 3.8) ** 0.5)
+        self.assertIsNone(Made({"paper-400": [replicate(0, {"K": [1.0]}, particles=400)]}).column(
+            "octahedron", 400, RATIO)[0])
+
+    def test_errors_of_cutoffs(self):
+        def of(number, c, gap):
+            return replicate(number, {"Z_ff": [0.8], "C": [c[2]]}, network={"by_cutoffs": [[c, gap]]})
+
+        data = Made({"paper-100": [of(0, [9, 10.0, 11.0, 12.0, 20], 1.0), of(1, [9, 10.0, 10.5, 13.0, 20], 0.8),
+                                   of(2, [9, 10.0, 11.0, 12.0, 20], 0.9)]})
+        self.assertAlmostEqual(constraints.with_cutoffs(data, "octahedron", 100, "C")["systematic"], (1 + 1.5 + 1) / 3)
+        self.assertAlmostEqual(constraints.with_cutoffs(data, "octahedron", 100, "Z_ff")["systematic"], 0.05)
+        self.assertEqual(constraints.half_value(data, "octahedron", 100, "rows"), "58")
+
+    def test_solids_in_order(self):
+        figures = [{"place": "Table IV", "solid": solid, "particles": 400, "column": "S", "value": value, "digits": 1}
+                   for solid, value in (("octahedron", 3.0), ("icosahedron", 1.0))]
+        data = Made({"paper-400": [replicate(i, {"S": [s]}, solid, 400) for i in range(3)
+                                   for solid, s in (("octahedron", 2.0), ("icosahedron", 4.0))]}, figures=figures)
+        self.assertEqual(contacts.ordered(data, "IV", "S"), "octahedra 2.000 in all, icosahedra 4.000 in all")
+        self.assertEqual(contacts.ordered(data, "IV", "S", "paper"), "icosahedra 1.0, octahedra 3.0")
+        self.assertEqual(contacts.lies(data, "IV", "above"), "1 of 2")
+
+
+class Tests(unittest.TestCase):
+    def test_least_seen(self):
+        def beyond(k, n, p):
+            return sum(math.comb(n, j) * p ** j * (1 - p) ** (n - j) for j in range(k, n + 1))
+
+        for n, p in ((40, 0.1), (200, 0.05)):
+            least = round(alignment.least_seen(n, p) * n * p)
+            self.assertLess(beyond(least, n, p), network.LEVEL)
+            self.assertGreaterEqual(beyond(least - 1, n, p), network.LEVEL)
+
+    def test_random_contacts(self):
+        stream = random.Random(2)
+        critical = {"ef_one": 40.0, "ef_two": 30.0, "ff_one": 50.0, "ff_edge_face": 20.0}
+
+        def direction():
+            v = [stream.gauss(0, 1) for _ in range(3)]
+            return [c / math.hypot(*v) for c in v]
+
+        # The angle of a line with a plane, and of two normals, of directions at random.
+        cosines = [sum(a * b for a, b in zip(direction(), direction())) for _ in range(40000)]
+        for kind, greatest, some in (("ef", 40.0, [math.degrees(math.asin(abs(c))) for c in cosines]),
+                                     ("ff", 50.0, [math.degrees(math.acos(c)) for c in cosines])):
+            some = [x for x in some if x < greatest]
+            angles, free, constrained = network.random_curves(kind, critical)
+            self.assertEqual((angles[0], angles[-1], free[-1], constrained[-1]), (0, greatest, 1, 1))
+            for angle, share in zip(angles[1:-1:12], free[1:-1:12]):
+                error = (share * (1 - share) / len(some)) ** 0.5
+                self.assertAlmostEqual(sum(x < angle for x in some) / len(some), share, delta=4 * error)
+        self.assertAlmostEqual(constrained[angles.index(10.0)], 0.5)
+
+    def test_order_of_emergence(self):
+        x = [0.1, 0.05, 0.02, 0.01]
+        self.assertEqual(alignment.order_of(x, [0, 0, 1, 1], [0, 1, 1, 1]), "after")
+        self.assertEqual(alignment.order_of(x, [1, 0, 1, 1], [0, 0, 1, 1]), "together")
+        self.assertEqual(alignment.order_of(x, [0, 1, 1, 1], [1, 1, 0, 1]), "before")
+
+    def test_offsets_know_both_intervals(self):
+        # Of 16 replicates that spread by 1: t = 2.1314 of 15 degrees of freedom is 1.96 of a normal.
+        ours = of(0.0, 2.13145 / 4)
+        deviation = (1 + 1 / 16) ** 0.5
+        self.assertAlmostEqual(densities.deviation_of(ours), deviation, places=5)
+        self.assertAlmostEqual(densities.deviate_of(2.13145 * deviation, densities.parts_of(ours, {"error": 0.0})),
+                               1.95996, places=4)
+        # A paper's interval as wide as one packing's spread: variances add, and 15 degrees of freedom become 2² · 15.
+        both = densities.parts_of(ours, {"error": 1.959964 * deviation})
+        self.assertAlmostEqual(densities.deviate_of(2.13145 * deviation, both),
+                               normal_deviate(2.13145 / 2 ** 0.5, 60), places=4)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
