@@ -2,6 +2,9 @@
 // records, in states of jammed octahedra:
 // - numbers of constraints fall as their threshold rises, and the one called C_s is that of 10; missing ranks are those
 //   of the rigidity of the same rows; shares of modes add up, and lie in [0, 1] but for prestress that is negative;
+//   more modes are left to prestress by a higher threshold, and fewer to the second term by a lower share of normals;
+//   contacts and stiff tilts by class are all contacts, and all constraints that C_s counts beside them;
+// - wider cut-offs give more constraints, and no less rank;
 // - floppy motions are 6N − 3 less the rank of the normals; exponents begin at 2, where the force alone opposes;
 // - one-sided forces have as many dimensions as classes have states of self-stress;
 // - bins hold every contact and every gap; nearer to jamming fewer pairs are nearer than Δφ;
@@ -9,12 +12,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <numeric>
 
 #include "engine/analysis/gaps.hpp"
 #include "engine/rigidity/pair_stiffness.hpp"
 #include "engine/rigidity/rigidity.hpp"
 #include "engine/solve/jam.hpp"
+#include "engine/vibration/dynamical_matrix.hpp"
+#include "engine/vibration/spectrum.hpp"
 #include "tasks/measure/measure.hpp"
 
 namespace isojam {
@@ -37,6 +44,24 @@ std::vector<Json> states_of(Measure what, const std::string& key) {
   for (const Json& state : measure(what, octahedra()).states) list.push_back(state.at(key));
   EXPECT_EQ(list.size(), octahedra().states.size());
   return list;
+}
+
+/// What choices of thresholds and shares may do, of the prestress of a state.
+void expect_choices(const Json& state, const Packing& packing) {
+  const Json& modes = state.at("modes");
+  const Json &by_share = modes.at("second_by_share"), &by_threshold = modes.at("prestress_by_threshold");
+  EXPECT_EQ(by_share[0].at("modes"), modes.at("held_by_second"));
+  EXPECT_EQ(by_threshold[2].at("modes"), modes.at("held_by_prestress"));
+  for (std::size_t k = 0; k + 1 < by_share.size(); ++k)
+    EXPECT_GE(by_share[k].at("modes").get<int>(), by_share[k + 1].at("modes").get<int>());
+  for (std::size_t k = 0; k + 1 < by_threshold.size(); ++k)
+    EXPECT_LE(by_threshold[k].at("modes").get<int>(), by_threshold[k + 1].at("modes").get<int>());
+  int contacts = 0, tilts = 0;
+  for (const Json& entry : state.at("by_class"))
+    contacts += entry.at("contacts").get<int>(), tilts += entry.at("stiff_tilts").get<int>();
+  if (state.at("by_class").empty()) return;
+  EXPECT_EQ(contacts, static_cast<int>(PackingEnergy().contacts(packing).size()));
+  EXPECT_NEAR(state.at("C_s").get<double>() * packing.size() / 2, contacts + tilts, 1e-9 * contacts);
 }
 
 TEST(PrestressMeasure, CountsConstraintsAndModes) {
@@ -68,6 +93,7 @@ TEST(PrestressMeasure, CountsConstraintsAndModes) {
     // Every motion that no normal opposes needs a mode of its own that normals hold by less than half, or nearly so.
     EXPECT_GE(modes.at("held_by_second").get<int>(), (normals.floppy - 3) / 2);
     EXPECT_LE(modes.at("held_by_prestress").get<int>(), modes.at("held_by_second").get<int>());
+    expect_choices(state, packing);
     for (std::size_t m = 0; m < modes.at("lambda").size(); ++m) {
       const double normal = modes.at("normal")[m], tilt = modes.at("tilt")[m];
       EXPECT_GE(normal, 0);
@@ -78,6 +104,43 @@ TEST(PrestressMeasure, CountsConstraintsAndModes) {
   EXPECT_EQ(states.back().at("s_normal").size(), PackingEnergy().contacts(octahedra().states.back()).size());
 }
 
+TEST(PrestressMeasure, CountsModesByWhatContactsHold) {
+  const Packing& packing = octahedra().states[1];
+  PackingEnergy energy;
+  const auto contacts = energy.contacts(packing);
+  const auto pairs = pair_stiffnesses(packing, contacts);
+  const auto modes = dense_modes(dynamical_matrix(packing, energy.hessian(packing, Precision::double_double)));
+  const Json counted = states_of(Measure::prestress, "prestress")[1].at("modes");
+  ASSERT_EQ(counted.at("unresolved").get<int>(), 0);
+  std::map<double, int> by_share, by_threshold;
+  for (Eigen::Index m = 0; m < modes.size(); ++m) {
+    double normal = 0;
+    std::map<double, double> tilts;
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+      Vector12d u;
+      u << modes.vectors.col(m).segment<6>(6 * contacts[c].pair.a),
+          modes.vectors.col(m).segment<6>(6 * contacts[c].pair.b);
+      normal += pairs[c].normal_stiffness * std::pow(pairs[c].normal.dot(u), 2);
+      for (int k = 0; k < 5; ++k) {
+        for (const Json& entry : counted.at("prestress_by_threshold")) {
+          const double threshold = entry.at("threshold");
+          if (pairs[c].tilt_stiffness[k] * pairs[c].length > threshold * pairs[c].force)
+            tilts[threshold] += pairs[c].tilt_stiffness[k] * std::pow(pairs[c].tilts.col(k).dot(u), 2);
+        }
+      }
+    }
+    for (const Json& entry : counted.at("second_by_share"))
+      by_share[entry.at("normals_below")] += normal < entry.at("normals_below").get<double>() * modes.eigenvalues[m];
+    for (const Json& entry : counted.at("prestress_by_threshold"))
+      by_threshold[entry.at("threshold")] += normal + tilts[entry.at("threshold")] < modes.eigenvalues[m] / 2;
+  }
+  for (const Json& entry : counted.at("second_by_share"))
+    EXPECT_EQ(entry.at("modes").get<int>(), by_share[entry.at("normals_below")]) << entry;
+  for (const Json& entry : counted.at("prestress_by_threshold"))
+    EXPECT_EQ(entry.at("modes").get<int>(), by_threshold[entry.at("threshold")]) << entry;
+  EXPECT_NE(by_threshold.begin()->second, by_threshold.rbegin()->second);
+}
+
 TEST(QuarticMeasure, CountsFloppyMotions) {
   const auto states = states_of(Measure::quartic, "quartic");
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -86,7 +149,14 @@ TEST(QuarticMeasure, CountsFloppyMotions) {
     EXPECT_EQ(states[k].at("floppy").get<int>(), normals.floppy - 3);
     const Json& first = states[k].at("rungs").front();
     EXPECT_NEAR(first.at("median").get<double>(), 2, 0.5);
+    EXPECT_GT(first.at("quadratic").get<int>(), first.at("motions").get<int>() / 2);
     for (const Json& rung : states[k].at("rungs")) {
+      const int told = rung.at("quadratic").get<int>() + rung.at("quartic").get<int>() + rung.at("steeper").get<int>();
+      EXPECT_LE(told, rung.at("motions").get<int>());
+      // The median says on which side half of them are.
+      if (rung.at("median").get<double>() < 2.5) {
+        EXPECT_GE(2 * rung.at("quadratic").get<int>(), rung.at("motions").get<int>() - 1);
+      }
       EXPECT_LE(rung.at("quartic").get<int>(), rung.at("motions").get<int>());
       EXPECT_LE(rung.at("lower_quartile").get<double>(), rung.at("upper_quartile").get<double>());
     }
@@ -102,9 +172,29 @@ TEST(OneSidedMeasure, IsTheSelfStressOfClasses) {
       continue;
     }
     ++told;
+    EXPECT_EQ(states[k].at("outside_faces").get<int>(), 0);
     EXPECT_EQ(states[k].at("dimension").get<int>(), ranks[k].at("classes").at("self_stress").get<int>());
     EXPECT_GT(states[k].at("least_margin").get<double>(), 0);
     EXPECT_EQ(states[k].at("constraints"), ranks[k].at("classes").at("constraints"));
+  }
+  EXPECT_GT(told, 0);
+}
+
+TEST(RigidityMeasure, TriesOtherCutoffs) {
+  const auto states = states_of(Measure::rigidity, "rigidity");
+  int told = 0;
+  for (const Json& state : states) {
+    const Json& scaled = state.at("scaled_cutoffs");
+    EXPECT_EQ(scaled.size(), state.at("classes").at("rank").is_null() ? 0U : 2U);
+    if (scaled.empty()) continue;
+    ++told;
+    const Json &half = scaled[0], &fitted = state.at("classes"), &twice = scaled[1];
+    for (const char* key : {"constraints", "rank"}) {
+      EXPECT_LE(half.at(key).get<int>(), fitted.at(key).get<int>()) << key;
+      EXPECT_LE(fitted.at(key).get<int>(), twice.at(key).get<int>()) << key;
+    }
+    EXPECT_LT(half.at("constraints").get<int>(), twice.at("constraints").get<int>());
+    EXPECT_EQ(half.at("constraints").get<int>() - half.at("rank").get<int>(), half.at("self_stress").get<int>());
   }
   EXPECT_GT(told, 0);
 }
