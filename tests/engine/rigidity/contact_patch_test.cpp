@@ -1,9 +1,9 @@
 // Facts proved here:
 //   corners of patches lie in both bodies to within the depth of the contact, in one plane or on one edge; where the
-//   margin is positive the contact's own force and torque are a sum of positive pushes at its corners;
+//   margin is positive the contact's own force and torque are a sum of positive pushes at its corners; rows push there;
 //   the states of self-stress that linear programmes find with pushes only, from many directions, span as many
 //   dimensions as one_sided_stresses() says, in jammed octahedra, tetrahedra and icosahedra; where that is one, forces
-//   are those of the equilibrium;
+//   are those of the equilibrium, also where that is off by far more than rounding;
 //   rows are of unit length and blind to translations; lists of different lengths are refused.
 
 #include "engine/rigidity/contact_patch.hpp"
@@ -13,7 +13,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
-#include "tests/engine/rigidity/linear_programme.hpp"
+#include "tests/engine/rigidity/push_dimension.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 #include "tests/engine/vibration/jammed_states.hpp"
 
@@ -34,19 +34,6 @@ struct Pushed {
     corners = corner_constraints(packing, contacts, forces, patches);
   }
   OneSidedStresses stresses() const { return one_sided_stresses(packing, contacts, forces, angles, classes); }
-
-  /// What pushes of unit rows add up to on particle A of every contact, six entries each, (F, T/R).
-  VectorXd wrenches(const VectorXd& pushes) const {
-    VectorXd sum = VectorXd::Zero(6 * static_cast<Eigen::Index>(contacts.size()));
-    Eigen::Index row = 0;
-    const MatrixXd rows = corners.rows;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      for (std::size_t k = 0; k < patches[c].corners.size(); ++k, ++row)
-        sum.segment<6>(6 * static_cast<Eigen::Index>(c)) +=
-            pushes[row] * rows.block<1, 6>(row, 6 * contacts[c].pair.a).transpose();
-    }
-    return sum;
-  }
 
   const Packing& packing;
   std::vector<Contact> contacts;
@@ -110,29 +97,6 @@ TEST(ContactPatchTest, AForceInsideItsPatchIsASumOfPushes) {
   EXPECT_GT(inside, 20);
 }
 
-/// Dimensions that the solutions of linear programmes with random objectives span, one programme after another until
-/// several in a row have brought nothing new.
-int dimensions_seen(const Pushed& pushed, RandomStream& random) {
-  const Eigen::SparseMatrix<double> columns = pushed.corners.rows.transpose();
-  MatrixXd seen(6 * static_cast<Eigen::Index>(pushed.contacts.size()), 0);
-  for (int in_vain = 0; in_vain < 6;) {
-    const auto f = greatest(columns, normal_vector(columns.cols(), random));
-    if (!f) return -1;
-    EXPECT_GE(f->minCoeff(), -1e-9);
-    EXPECT_LE((columns * *f).cwiseAbs().maxCoeff(), 1e-8);
-    VectorXd rest = pushed.wrenches(*f).normalized();
-    for (int twice = 0; twice < 2; ++twice) rest -= seen * (seen.transpose() * rest);
-    if (rest.norm() < 1e-5) {
-      ++in_vain;
-      continue;
-    }
-    seen.conservativeResize(Eigen::NoChange, seen.cols() + 1);
-    seen.rightCols(1) = rest.normalized();
-    in_vain = 0;
-  }
-  return static_cast<int>(seen.cols());
-}
-
 TEST(OneSidedStressesTest, LinearProgrammesSpanAsMany) {
   RandomStream random{43};
   for (const Packing* state : states_to_try()) {
@@ -142,8 +106,61 @@ TEST(OneSidedStressesTest, LinearProgrammesSpanAsMany) {
                 static_cast<int>(pushed.contacts.size()), stresses.constraints, stresses.dimension,
                 stresses.least_margin, stresses.median_margin, stresses.outside);
     ASSERT_EQ(stresses.outside, 0);
-    EXPECT_EQ(dimensions_seen(pushed, random), stresses.dimension);
+    const auto seen = pushed_states(pushed.contacts, pushed.patches, normal_constraints(*state, pushed.contacts),
+                                    pushed.corners, random);
+    EXPECT_EQ(seen.dimension, stresses.dimension);
+    EXPECT_GE(seen.least_new, 1e3 * seen.largest_old) << "the dimension is a matter of opinion";
+    EXPECT_LE(seen.most_below, 1e-9);
+    EXPECT_LE(seen.most_unbalanced, 1e-8);
   }
+}
+
+/// The only state of self-stress is that of the equilibrium: what is missing of it must be allowed for.
+TEST(OneSidedStressesTest, AnEquilibriumThatIsOffIsStillSeen) {
+  RandomStream random{44};
+  const Packing& state = nearest_state(jammed(SolidKind::icosahedron, 32, .01));
+  const Packing off = moved(state, 1e-10 * normal_vector(6 * Eigen::Index{state.size()}, random).normalized());
+  const Pushed pushed(off);
+  const RigidityMatrix normals = normal_constraints(off, pushed.contacts);
+  EXPECT_GT(normals.imbalance, 1e-8);
+  EXPECT_LT(normals.imbalance, 1e-6);
+  const auto stresses = pushed.stresses();
+  ASSERT_EQ(stresses.outside, 0);
+  EXPECT_EQ(stresses.dimension, 1);
+  EXPECT_EQ(pushed_states(pushed.contacts, pushed.patches, normals, pushed.corners, random).dimension, 1);
+}
+
+TEST(ContactPatchTest, PushesActAtTheCorners) {
+  int polygons = 0, edges = 0;
+  for (const Packing* state : states_to_try()) {
+    const Pushed pushed(*state);
+    const MatrixXd rows = pushed.corners.rows;
+    Eigen::Index row = 0;
+    for (std::size_t c = 0; c < pushed.contacts.size(); ++c) {
+      const auto& patch = pushed.patches[c];
+      const int a = pushed.contacts[c].pair.a;
+      const Eigen::Quaterniond& q = state->poses[static_cast<std::size_t>(a)].orientation;
+      for (const Vector3d& corner : patch.corners) {
+        const Vector3d force = q.conjugate() * Vector3d(rows.block<1, 3>(row, 6 * a).transpose());
+        const Vector3d torque =
+            state->solids.only().gyration_radius() * (q.conjugate() * Vector3d(rows.block<1, 3>(row, 6 * a + 3)));
+        ++row;
+        // A contact may twist besides, about its own force.
+        const Vector3d rest = torque - corner.cross(force), n = force.normalized();
+        if (patch.corners.size() > 2) {
+          EXPECT_LE(rest.cross(n).norm(), 1e-12 * force.norm());
+          ++polygons;
+        } else if (patch.corners.size() == 2) {
+          const Vector3d piece = patch.corners[1] - patch.corners[0];
+          EXPECT_LE(std::abs(rest.dot(n.cross(piece))), 1e-2 * force.norm() * piece.squaredNorm());
+          ++edges;
+        }
+      }
+    }
+  }
+  std::printf("corners of polygons %d, of edges %d\n", polygons, edges);
+  EXPECT_GT(polygons, 50);
+  EXPECT_GT(edges, 50);
 }
 
 TEST(ContactPatchTest, RowsAndRefusals) {

@@ -6,7 +6,8 @@
 
 namespace isojam {
 
-std::optional<Eigen::VectorXd> greatest(const Eigen::SparseMatrix<double>& columns, const Eigen::VectorXd& objective) {
+LinearProgramme::LinearProgramme(const Eigen::SparseMatrix<double>& columns, double tolerance)
+    : model_(std::make_unique<ClpSimplex>()) {
   const int rows = static_cast<int>(columns.rows()), unknowns = static_cast<int>(columns.cols());
   std::vector<int> row, column;
   std::vector<double> value;
@@ -24,14 +25,28 @@ std::optional<Eigen::VectorXd> greatest(const Eigen::SparseMatrix<double>& colum
   std::vector<double> zero(static_cast<std::size_t>(unknowns), 0), sums(static_cast<std::size_t>(rows) + 1, 0);
   std::vector<double> unbounded(static_cast<std::size_t>(unknowns), COIN_DBL_MAX);
   sums.back() = 1;
-  ClpSimplex model;
-  model.setLogLevel(0);
-  model.setPrimalTolerance(1e-9);
-  model.loadProblem(matrix, zero.data(), unbounded.data(), objective.data(), sums.data(), sums.data());
-  model.setOptimizationDirection(-1);
-  model.dual();
-  if (!model.isProvenOptimal()) return std::nullopt;
-  return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(model.getColSolution(), unknowns));
+  model_->setLogLevel(0);
+  model_->setPrimalTolerance(tolerance);
+  model_->loadProblem(matrix, zero.data(), unbounded.data(), zero.data(), sums.data(), sums.data());
+  model_->setOptimizationDirection(-1);
+  // Columns are of unit length as they are; scaled ones would be off by another tolerance.
+  model_->scaling(0);
+}
+
+LinearProgramme::~LinearProgramme() = default;
+
+Optimum LinearProgramme::greatest(const Eigen::VectorXd& objective) {
+  for (int k = 0; k < model_->numberColumns(); ++k) model_->setObjectiveCoefficient(k, objective[k]);
+  // Where the last one ended is feasible for another objective.
+  if (begun_) {
+    model_->primal();
+  } else {
+    model_->dual();
+  }
+  if (model_->isProvenPrimalInfeasible()) return {Optimum::End::infeasible, {}};
+  if (!model_->isProvenOptimal()) return {};
+  begun_ = true;
+  return {Optimum::End::found, Eigen::Map<const Eigen::VectorXd>(model_->getColSolution(), model_->numberColumns())};
 }
 
 }  // namespace isojam
