@@ -69,7 +69,8 @@ Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& o
   if (constraints == 0) return result;
   const SoftRows soft(matrix.rows);
   const double rounding = static_cast<double>(std::max(constraints, coordinates)) * epsilon * soft.stiffest();
-  result.tolerance = std::max(rounding, options.margin * matrix.imbalance);
+  result.tolerance =
+      matrix.imbalance > options.balanced ? rounding : std::max(rounding, options.margin * matrix.imbalance);
   SoftSpace space;
   Index dropped = 0;
   for (Index k = std::max<Index>(0, constraints - (coordinates - 3)) + spare;; k *= 2) {

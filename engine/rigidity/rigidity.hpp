@@ -29,12 +29,16 @@ struct RigidityOptions {
   /// Times what the forces of the state leave unbalanced: they are a state of self-stress in the state nearest by that
   /// is in balance, and have a singular value of as much as is missing here, or less.
   double margin = 100;
+  /// Forces that leave more than this unbalanced, as RigidityMatrix has it, are near no state of self-stress and say
+  /// nothing of what is zero; those of packings in equilibrium leave a tenth of it and less.
+  double balanced = 1e-6;
 };
 
 /// Finds the states of self-stress by inverse subspace iteration with SoftRows and the Rayleigh–Ritz method on its left
 /// singular vectors, from a random start (Halko, Martinsson & Tropp 2011) that is the same for every matrix of a size.
 /// Throws std::invalid_argument if the rows hold what is not a number. Singular values up to max(rows, 6N)·ε times a
-/// bound of the largest, or up to `margin` times the imbalance of the forces, are zero. N = 400 takes about a second.
+/// bound of the largest, or, of forces that balance, up to `margin` times their imbalance, are zero. N = 400 takes
+/// about a second.
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 
 /// All singular values of the rows, descending: the oracle. Dense and slower still; for N ≤ 100.

@@ -3,6 +3,7 @@
 import statistics
 
 import counting
+import evidence
 import forces
 import held
 import motions
@@ -35,7 +36,8 @@ def cost(data):
          f"Made by commits {', '.join(commits)}.\n")
 
 
-BLOCKS = {**held.BLOCKS, **counting.BLOCKS, **rank.BLOCKS, **motions.BLOCKS, **forces.BLOCKS, "cost": cost}
+BLOCKS = {**evidence.BLOCKS, **held.BLOCKS, **counting.BLOCKS, **rank.BLOCKS, **motions.BLOCKS, **forces.BLOCKS,
+          "cost": cost}
 
 
 class UnknownValue(Exception):
@@ -66,7 +68,8 @@ def counts_of(data, what):
         return str(known[what]())
     end = what.removeprefix("least_").removeprefix("greatest_")
     if what != end and end in ("G", "K"):
-        return number(held.about_sure(data, f"omega_over_root_{end}")[2 if what.startswith("least") else 3], 3)
+        found = held.about_sure(data, f"omega_over_root_{end}")[2 if what.startswith("least") else 3]
+        return "–" if found is None else number(found, 3)
     if what == "most_of_size":
         return number(rank.excess_counts(data)[2], 2)
     raise UnknownValue(what)
@@ -110,12 +113,13 @@ def of_size(data, what, solid, particles, *where):
     if what == "missing":
         return rank.with_cutoffs(rank.missing_limit(data, solid, particles)[1])
     if what == "form":
-        return interval(rank.missing_limit(data, solid, particles)[0][{"½": 0.5, "1": 1.0}[where[0]]])
+        return interval(rank.missing_limit(data, solid, particles)[0].get({"½": 0.5, "1": 1.0}[where[0]]))
     if what == "size":
         return counted(rank.excess(data, solid, particles, rank.LARGE, float(where[0])))
     if what == "law":
         return counted(forces.excess_law(data, solid, particles)[1])
     if what == "distance":
-        return significant(data.nearest_distance(solid, particles)["mean"], 2)
+        nearest = data.nearest_distance(solid, particles)
+        return significant(nearest["mean"] if nearest else None, 2)
     place = None if where[0] == "nearest" else float(where[0])
     return interval(counting.band(data, solid, particles, place, BANDS.index(where[1])))

@@ -90,7 +90,8 @@ def about_sure(data, column):
     """(number, those above 0 beyond their errors, least, greatest) of the exponents of SURE."""
     found = sure_exponents(data, column)
     means = [e["mean"] for e in found]
-    return len(found), sum(e["mean"] > e["half_width"] + e["systematic"] for e in found), min(means), max(means)
+    return (len(found), sum(e["mean"] > e["half_width"] + e["systematic"] for e in found),
+            min(means, default=None), max(means, default=None))
 
 
 def waves(data):

@@ -81,7 +81,7 @@ def excess(data, solid, small, large, distance):
 def excess_counts(data):
     """(entries of finite_size, those whose interval leaves 0 out, the most that m of N = 100 may differ by)."""
     found = {(s, n, d): e for s in HYPOSTATIC for n in OTHERS for d in AT if (e := excess(data, s, n, LARGE, d))}
-    most = max((abs(e["mean"]) + e["half_width"]) / n for (_, n, _), e in found.items() if n == 100)
+    most = max(((abs(e["mean"]) + e["half_width"]) / n for (_, n, _), e in found.items() if n == 100), default=0)
     return len(found), sum(abs(e["mean"]) > e["half_width"] for e in found.values()), most
 
 

@@ -8,7 +8,8 @@
   are spread are as counted by hand, and contacts drawn at random neither hinder nor favour each other;
 - shifts of φ_J are differences of the same replicates, crystals left out; settings are ranked by χ², and one that gives
   the paper's values is the first; which means' intervals hold them is as by hand;
-- gathering the results of a small run gives means, and φ_J, of the tables that the program makes of them.
+- gathering the results of a small run gives means, and φ_J, of the tables that the program makes of them;
+- two replicates of the studies, run anew, have the figures of the committed data: these are of this program.
 """
 
 import json
@@ -22,6 +23,7 @@ from pathlib import Path
 PAPER, ISOJAM = Path(sys.argv[1]).resolve(), sys.argv[2]
 sys.path.insert(0, str(PAPER))
 
+import anew  # noqa: E402
 import densities  # noqa: E402
 import network  # noqa: E402
 import search  # noqa: E402
@@ -261,6 +263,15 @@ class Gathered(unittest.TestCase):
         searched = data.search["paper-search-protocol"]
         self.assertEqual([r["replicate"] for r in searched], [0])
         self.assertEqual(searched[0]["phi_j"], data.all_of("dodecahedron", 24)[0]["phi_j"]["phi_j"])
+
+
+class Anew(unittest.TestCase):
+    def test_replicates_of_the_studies(self):
+        made = anew.gathered(ISOJAM, PAPER, [("cubes", "paper-cubes", "3/16", None),
+                                             ("search-protocol", "paper-search-protocol", "200/384", None)])
+        for name, studies in made.items():
+            committed = json.loads((PAPER / "data" / f"{name}.json").read_text(encoding="utf-8"))
+            self.assertEqual(anew.same_figures(self, committed, studies), 1, name)
 
 
 if __name__ == "__main__":

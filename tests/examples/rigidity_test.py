@@ -26,6 +26,7 @@ from pathlib import Path
 RIGIDITY, ISOJAM = Path(sys.argv[1]).resolve(), sys.argv[2]
 sys.path.insert(0, str(RIGIDITY))
 
+import anew  # noqa: E402
 import counting  # noqa: E402
 import data  # noqa: E402
 import forces  # noqa: E402
@@ -282,31 +283,12 @@ class Gathered(unittest.TestCase):
 
 
 class Anew(unittest.TestCase):
-    """The same bits whichever processor: what was committed comes out again."""
-
     def test_replicates_of_the_studies(self):
+        measures = "prestress,one_sided,gaps,quartic"
+        made = anew.gathered(ISOJAM, RIGIDITY, [("n50", "rigidity-50", "38/48", measures),
+                                                ("n50-tetrahedra", "rigidity-50-tetrahedra", "2/16", measures)])
         committed = json.loads((RIGIDITY / "data" / "records.json").read_text(encoding="utf-8"))
-        with tempfile.TemporaryDirectory() as here:
-            results = Path(here)
-            for study, name, shard in (("n50", "rigidity-50", "38/48"),
-                                       ("n50-tetrahedra", "rigidity-50-tetrahedra", "2/16")):
-                run = [ISOJAM, "run", RIGIDITY / f"{study}.json", "--shard", shard, "-o", results / name, "--quiet"]
-                add = [ISOJAM, "measure", results / name, "--add", "prestress,one_sided,gaps,quartic"]
-                for command in (run, add):
-                    subprocess.run(command, check=True, capture_output=True)
-            subprocess.run(["/usr/bin/python3", "-B", RIGIDITY / "gather.py", ISOJAM, results, results / "out"],
-                           check=True, capture_output=True)
-            anew = json.loads((results / "out" / "records.json").read_text(encoding="utf-8"))
-        for name, study in anew.items():
-            self.assertEqual(len(study["replicates"]), 1, name)
-            for r in study["replicates"]:
-                before = next(b for b in committed[name]["replicates"] if all(
-                    b[key] == r[key] for key in ("solid", "particles", "replicate")))
-                for time in ("cpu", "stages"):
-                    r.pop(time)
-                    before.pop(time)
-                self.maxDiff = 2000
-                self.assertEqual(r, before, name)
+        self.assertEqual(anew.same_figures(self, committed, made["records"]), 2)
 
 
 if __name__ == "__main__":

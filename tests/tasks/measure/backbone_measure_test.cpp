@@ -1,11 +1,14 @@
 // Facts proved here, of what the backbone's measure puts into records:
 // - of a jammed packing that has no near-rattlers it is what contacts, modes, moduli and rigidity say of the whole;
-// - where those that go bore force the rest is said not to balance, and has no bulk modulus;
+// - where those that go bore force the rest is said not to balance, and has no bulk modulus; its rank is that of all
+//   singular values of its rows, though its forces are no state of self-stress;
 // - small solids that float in its voids are counted and named, and change nothing else, where modes and moduli of the
 //   whole have no number; contacts of a mixture keep the classes that they have there.
 
 #include <gtest/gtest.h>
 
+#include "engine/rigidity/rigidity.hpp"
+#include "engine/vibration/backbone.hpp"
 #include "tasks/measure/measure.hpp"
 
 namespace isojam {
@@ -120,6 +123,9 @@ TEST(BackboneMeasure, ARestThatDoesNotBalanceHasNoBulkModulus) {
     EXPECT_GT(found.at("residual").get<double>(), 1e-3);
     EXPECT_TRUE(found.at("K").is_null());
     EXPECT_EQ(found.at("K_reason"), "particles that were removed bore force: the rest does not balance");
+    const Packing rest = backbone_of(thinned).packing;
+    const auto sigma = singular_values(normal_constraints(rest, PackingEnergy().contacts(rest)));
+    EXPECT_EQ(found.at("normals").at("rank").get<long>(), (sigma.array() > 1e-12 * sigma[0]).count());
   }
   EXPECT_GT(seen, 0);
 }

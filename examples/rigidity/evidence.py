@@ -1,0 +1,62 @@
+"""Blocks of what carries the page's three sentences: a column for each solid."""
+
+import forces
+import rank
+from data import SOLIDS
+from text import counted, interval, table
+
+PLURAL = {"tetrahedron": "tetrahedra", "octahedron": "octahedra", "icosahedron": "icosahedra",
+          "dodecahedron": "dodecahedra"}
+NEAR = 0.001  # Δφ of the first sentence, N = 100: the nearest that tetrahedra reach
+LAST = {"tetrahedron": 0.005}  # Δφ of the second, N = 400; others:
+OTHERS = 0.0005
+SAME = 0.005  # Δφ of the third, that all sizes have
+
+
+def by_solid(title, rows):
+    """{name of a row: function of a solid}."""
+    return table([title, *(PLURAL[solid] for solid in SOLIDS)],
+                 [[name, *(cell(solid) for solid in SOLIDS)] for name, cell in rows.items()])
+
+
+def evidence_of_tilts(data):
+    def at(column):
+        return lambda solid: counted(data.at(solid, 100, column, NEAR))
+
+    return by_solid("N = 100, Δφ = .001", {
+        "stiff tilts of a face-face contact": at("tilts_each_ff"), "of an edge-face contact": at("tilts_each_ef"),
+        "of others": at("tilts_each_l"),
+        "vibrations, of 6 per particle, of which normals hold less than half": at("second_each"),
+        "normals and stiff tilts (s > 10) less than half": at("prestress_each"),
+        "tilts with s > 3": at("prestress_3_each"), "tilts with s > 30": at("prestress_30_each")})
+
+
+def evidence_of_rank(data):
+    def last(column):
+        return lambda solid: counted(data.at(solid, 400, column, LAST.get(solid, OTHERS)))
+
+    return by_solid("N = 400, Δφ = .0005 (tetrahedra .005)", {
+        "missing, of 6 per particle, by classes": last("missing"),
+        "cut-offs × ½": last("missing_half"), "cut-offs × 2": last("missing_double"),
+        "Δφ → 0, N → ∞, ± fit and form ± cut-offs": lambda solid: interval(rank.infinite(data, solid)),
+        "states of self-stress per particle": last("self_stress_each"), "C by classes": last("C")})
+
+
+def evidence_of_cones(data):
+    def size(n):
+        return lambda solid: counted(data.at(solid, 64 if n == 50 and solid == "tetrahedron" else n,
+                                             "self_stress_each", SAME))
+
+    def nearest(column):
+        return lambda solid: counted(data.nearest(solid, 100, column))
+
+    return by_solid("states of self-stress per particle", {
+        "Δφ = .005, N = 50 (tetrahedra 64)": size(50), "N = 100": size(100), "N = 200": size(200), "N = 400": size(400),
+        "nearest jamming, N = 100": nearest("self_stress_each"), "cut-offs × ½": nearest("self_stress_half_each"),
+        "cut-offs × 2": nearest("self_stress_double_each"),
+        "states with every force inside its contact": lambda solid: "{} of {}".format(*forces.inside(data, solid)),
+        "in others, of all self-stress, by pushes alone": lambda solid: counted(
+            forces.ratio(forces.by_programme(data, solid)[1]))})
+
+
+BLOCKS = {f.__name__: f for f in (evidence_of_tilts, evidence_of_rank, evidence_of_cones)}
