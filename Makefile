@@ -111,7 +111,7 @@ rigidity: build
 	$(CONFIGURE) -DISOJAM_TESTS=ON
 	cmake --build $(BUILD) -j $(JOBS) --target isojam_cones
 	@/usr/bin/python3 -B examples/rigidity/gather.py $(BUILD)/isojam results results/rigidity
-	$(BUILD)/isojam_cones results/rigidity-50 results/rigidity-50-tetrahedra -o results/rigidity/cones.json
+	$(BUILD)/isojam_cones results/rigidity-50 results/rigidity-50-tetrahedra -o results/rigidity/cones.json --each 16
 	@/usr/bin/python3 -B examples/rigidity/figures.py results/rigidity results/rigidity
 	@/usr/bin/python3 -B examples/rigidity/page.py examples/rigidity/README.md --data results/rigidity -o results/rigidity/README.md
 

@@ -62,6 +62,7 @@ def counts_of(data, what):
         "programmes_inside": lambda: len(inside), "as_many_inside": lambda: forces.as_many(inside),
         "programmes_outside": lambda: len(outside), "as_many_outside": lambda: forces.as_many(outside),
         "none_outside": lambda: sum(r["dimension"] == 0 for r in outside),
+        "faces_outside": lambda: sum(r["outside_faces"] > 0 for r in outside),
         "curves_f": lambda: laws_of_forces()[0], "straight_f": lambda: laws_of_forces()[1],
         "curves_h": lambda: laws_of_gaps()[0], "straight_h": lambda: laws_of_gaps()[1]}
     if what in known:
@@ -78,14 +79,14 @@ def counts_of(data, what):
 def value_of(data, name):
     """`at COLUMN SOLID N Δφ`, `nearest COLUMN SOLID N`, `distance SOLID N`, `slope COLUMN SOLID N LOWER`,
     `limit SOLID N`, `missing SOLID N`, `form SOLID N ½|1`, `infinite SOLID`, `size SOLID N Δφ`, `law SOLID N`,
-    `force SOLID`, `gap SOLID`, `band SOLID N Δφ|nearest WHICH`, `ratio SOLID`, `inside SOLID`, `count WHAT`."""
+    `force SOLID`, `gap SOLID`, `band SOLID N Δφ|nearest WHICH`, `outcome SOLID`, `inside SOLID`, `count WHAT`."""
     what, *rest = name.split()
     simple = {
         "count": lambda: counts_of(data, *rest), "infinite": lambda: interval(rank.infinite(data, *rest)),
         "force": lambda: counted(forces.common(data, rest[0], FORCES, forces.WEAK)),
         "gap": lambda: counted(forces.common(data, rest[0], GAPS[1:], forces.open_gaps(data, rest[0]))),
         "inside": lambda: "{} of {}".format(*forces.inside(data, rest[0])),
-        "ratio": lambda: counted(forces.ratio(forces.by_programme(data, rest[0])[1]))}
+        "outcome": lambda: forces.outcome(forces.by_programme(data, rest[0])[1])}
     if what in simple:
         return simple[what]()
     if what in ("limit", "missing", "form", "size", "law", "distance", "band"):

@@ -55,8 +55,7 @@ def evidence_of_cones(data):
         "nearest jamming, N = 100": nearest("self_stress_each"), "cut-offs × ½": nearest("self_stress_half_each"),
         "cut-offs × 2": nearest("self_stress_double_each"),
         "states with every force inside its contact": lambda solid: "{} of {}".format(*forces.inside(data, solid)),
-        "in others, of all self-stress, by pushes alone": lambda solid: counted(
-            forces.ratio(forces.by_programme(data, solid)[1]))})
+        "in others (linear programmes) pushes bear": lambda solid: forces.outcome(forces.by_programme(data, solid)[1])})
 
 
 BLOCKS = {f.__name__: f for f in (evidence_of_tilts, evidence_of_rank, evidence_of_cones)}

@@ -56,12 +56,9 @@ def as_many(rows):
     return sum(r["dimension"] == r["self_stress"] for r in rows)
 
 
-def ratio(rows):
-    """Dimension over states of self-stress: a replicate counts once, by the mean of its states."""
-    by_replicate = {}
-    for r in rows:
-        by_replicate.setdefault((r["particles"], r["replicate"]), []).append(r["dimension"] / r["self_stress"])
-    return estimate_of([statistics.fmean(some) for some in by_replicate.values()])
+def outcome(rows):
+    """How many cones are all of self-stress, and how many none of it."""
+    return f"all in {as_many(rows)}, none in {sum(r['dimension'] == 0 for r in rows)} of {len(rows)}" if rows else "–"
 
 
 def programmes(data):
@@ -71,13 +68,9 @@ def programmes(data):
         inside, outside = by_programme(data, solid)
         if not inside and not outside:
             continue
-        particles = (inside + outside)[0]["particles"]
-        rows.append([f"{solid} {particles}", f"{as_many(inside)} of {len(inside)}",
-                     f"{as_many(outside)} of {len(outside)}",
-                     str(sum(r["dimension"] == 0 for r in outside)), counted(ratio(outside)),
+        rows.append([f"{solid} {(inside + outside)[0]['particles']}", outcome(inside), outcome(outside),
                      str(sum(r["outside_faces"] > 0 for r in outside))])
-    return table(["", "every force inside: as many as self-stress", "a force outside: as many", "none",
-                  "dimension over states of self-stress", "with a face-face contact outside"], rows)
+    return table(["", "every force inside", "a force outside its patch", "of these, a face-face contact's"], rows)
 
 
 def inside(data, solid):
