@@ -8,7 +8,7 @@ from text import counted, interval, table
 PLURAL = {"tetrahedron": "tetrahedra", "octahedron": "octahedra", "icosahedron": "icosahedra",
           "dodecahedron": "dodecahedra"}
 NEAR = 0.001  # Δφ of the first sentence, N = 100: the nearest that tetrahedra reach
-LAST = {"tetrahedron": 0.005}  # Δφ of the second, N = 400; others:
+LAST = {("tetrahedron", 400): 0.005, ("tetrahedron", 100): 0.001}  # Δφ of the second; others:
 OTHERS = 0.0005
 SAME = 0.005  # Δφ of the third, that all sizes have
 
@@ -32,14 +32,14 @@ def evidence_of_tilts(data):
 
 
 def evidence_of_rank(data):
-    def last(column):
-        return lambda solid: counted(data.at(solid, 400, column, LAST.get(solid, OTHERS)))
+    def last(column, particles=400):
+        return lambda solid: counted(data.at(solid, particles, column, LAST.get((solid, particles), OTHERS)))
 
-    return by_solid("N = 400, Δφ = .0005 (tetrahedra .005)", {
-        "missing, of 6 per particle, by classes": last("missing"),
-        "cut-offs × ½": last("missing_half"), "cut-offs × 2": last("missing_double"),
+    return by_solid("missing, of 6 per particle, Δφ = .0005", {
+        "N = 400 (tetrahedra: Δφ = .005)": last("missing"), "N = 100 (tetrahedra: Δφ = .001)": last("missing", 100),
+        "the same, cut-offs × ½": last("missing_half", 100), "cut-offs × 2": last("missing_double", 100),
         "Δφ → 0, N → ∞, ± fit and form ± cut-offs": lambda solid: interval(rank.infinite(data, solid)),
-        "states of self-stress per particle": last("self_stress_each"), "C by classes": last("C")})
+        "states of self-stress per particle, N = 400": last("self_stress_each"), "C by classes, N = 400": last("C")})
 
 
 def evidence_of_cones(data):
