@@ -57,7 +57,7 @@ def held(data, out):
 def bands(data, out):
     figure, axes = pyplot.subplots(2, 4, figsize=(11, 4.4), sharex=True)
     centres = [(a + b) / 2 for a, b in zip(POWERS, POWERS[1:])]
-    for row, kind, expected in zip(axes, ("s_normal", "s_tilt"), ((1, 5 / 3, 5), (0, 5 / 3))):
+    for row, kind, expected in zip(axes, ("s_normal", "s_tilt"), ((1, 5 / 3, 5), (0, 5 / 3, 5))):
         for panel, solid in zip(row, SOLIDS):
             for i, place in enumerate(("0.02", "0.005", "nearest")):
                 found = [c for s in data.studies.values() if (c := s.get("powers", {}).get(f"{solid} {place} {kind}"))]
