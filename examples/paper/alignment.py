@@ -48,8 +48,9 @@ def emergence(data):
             order = [order_of(x, a, b) for (x, a), (_, b) in zip(first, second)]
             rows.append([f"{solid} {particles}", str(len(pairs)), *(str(pairs.count(p)) for p in (
                 (1, 1), (0, 1), (1, 0), (0, 0))), *(str(order.count(w)) for w in ("after", "together", "before"))])
-    return table(["solid, N", "states", "both", "hyper-random alone", "region 1 alone", "neither", "packings: region 1 after",
-                  "in the same state", "before"], rows) if rows else "Not in these records.\n"
+    return table(["solid, N", "states", "both", "hyper-random alone", "region 1 alone", "neither",
+                  "packings: region 1 after", "in the same state", "before"], rows) if rows else \
+        "Not in these records.\n"
 
 
 def order_of(distances, emerged, hyper):

@@ -70,8 +70,9 @@ def cutoffs(data):
                              f"± {number(half['mean'], 2)}" if half else "–", counted(fitted), counted(gap)])
     if not rows:
         return "Not in these records.\n"
-    return table(["solid, N", "Δφ", "n of C", *(f"C, cut-offs × {significant(f, 1) if f != 10 else '10'}" for f in FACTORS),
-                  "half the range, ×½ to ×2", "Z_ff by fits", "Z_ff by gaps"], rows)
+    return table(["solid, N", "Δφ", "n of C",
+                  *(f"C, cut-offs × {significant(f, 1) if f != 10 else '10'}" for f in FACTORS), "half the range, ×½ to ×2",
+                  "Z_ff by fits", "Z_ff by gaps"], rows)
 
 
 @functools.cache
@@ -121,8 +122,9 @@ def isostatic(data):
                          number(chosen["exponent"], 2), interval(chosen), f"± {number(half, 2)}" if half else "–",
                          number(target, 2), signed(away, 2), f"± {number(sum(errors), 2)}",
                          f"± {number(math.hypot(*errors), 2)}", lies])
-    return table(["solid, N", "n", "C nearest jamming", "limit by x = ½ / 1 / free, Δφ < .01", "free x", "limit ± fit ± choice",
-                  "cut-offs", "target", "limit − target", "errors, summed", "in quadrature", "by the sum"], rows)
+    return table(["solid, N", "n", "C nearest jamming", "limit by x = ½ / 1 / free, Δφ < .01", "free x",
+                  "limit ± fit ± choice", "cut-offs", "target", "limit − target", "errors, summed",
+                  "in quadrature", "by the sum"], rows)
 
 
 def half_value(data, solid, particles, of="C"):
@@ -167,5 +169,6 @@ def beyond(data, solid, particles):
 
 
 BLOCKS = {f.__name__: f for f in (cutoffs, isostatic)}
-VALUES = {"beyond": beyond, "gap": gap_value, "cut_missing": cut_missing, "limits": limit_range, "half": half_value, "cut": cut_value,
+VALUES = {"beyond": beyond, "gap": gap_value, "cut_missing": cut_missing, "limits": limit_range, "half": half_value,
+          "cut": cut_value,
           "limit": lambda data, solid, n: interval(limit_of(data, solid, int(n))[1])}

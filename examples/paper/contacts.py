@@ -78,7 +78,8 @@ def figure_3(data):
                 cells = [counted(data.at(solid, particles, column, d)) for d in GRID]
                 if any(cell != "–" for cell in cells):
                     rows.append([f"{solid} {particles}", column, *cells])
-    return table(["solid, N", "mean of", *(f"Δφ = {significant(d, 1 if d != .16 and d != .0025 else 2)}" for d in GRID)], rows)
+    return table(["solid, N", "mean of",
+                  *(f"Δφ = {significant(d, 1 if d != .16 and d != .0025 else 2)}" for d in GRID)], rows)
 
 
 def figures_of(data, table_of):

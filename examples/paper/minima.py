@@ -185,9 +185,9 @@ def stability(data):
                          str(sum(z == 3 and n == 0 for z, n, *_ in states)),
                          str(sum((n or 0) > 0 for _, n, *_ in states)), str(sum(r > 0 for _, _, r, *_ in states)),
                          str(sum(d > 0 for *_, d, _ in states)), power(max(r for *_, r in states))])
-    return table(["study", "solid", "replicates", "failed", "short of goal", "crystalline", "percolate", "span", "states",
-                  "minima with three zero modes", "with negative modes", "with near-rattlers", "followed down",
-                  "worst residual"], rows)
+    return table(["study", "solid", "replicates", "failed", "short of goal", "crystalline", "percolate", "span",
+                  "states", "minima with three zero modes", "with negative modes", "with near-rattlers",
+                  "followed down", "worst residual"], rows)
 
 
 def state_counts(data, solids=SOLIDS, nearest=0.0):
@@ -288,6 +288,7 @@ BLOCKS = {f.__name__: f for f in (descents, zeros, unstable, differences, backbo
 VALUES = {
     "total": lambda data, what, nearest="0": str(state_counts(data, nearest=float(nearest))[what]),
     "near": lambda data, solid, nearest: "{loose} of {states}".format(**state_counts(data, (solid,), float(nearest))),
-    "every": every_count, "rest": rest_value, "rest_between": rest_between, "percolation": percolation, "rule": rule_value,
+    "every": every_count, "rest": rest_value, "rest_between": rest_between,
+    "percolation": percolation, "rule": rule_value,
     "rule_moves": lambda data, solid: counted(rule_moves(data, solid)),
     "rest_missing": lambda data, solid, n, x: counted(rest_at(data, solid, int(n), float(x)))}

@@ -121,25 +121,27 @@ def both_sizes(data):
     return sorted(found, key=lambda pair: pair[0].chi + pair[1].chi)
 
 
+def least_first(pairs, best):
+    """(entry of N = 400, χ² with N = 100, True) of the best with N = 100, of pairs of the first two; then, with False,
+    that which is best with N = 400, if it is another. A χ² that is not known is the greatest."""
+    def least(chi):
+        return math.inf if chi is None else chi
+
+    chosen = sorted(pairs, key=lambda pair: least(pair[1]))
+    large = min(chosen, key=lambda pair: least(pair[0].chi))
+    other = [] if large[0].chi is None or large in chosen[:best] else [large]
+    return [(*pair, True) for pair in chosen[:best]] + [(*pair, False) for pair in other]
+
+
 def windows_400(data, best=4):
-    """(entry of N = 400, χ² with N = 100, whether its window is among the best of its way with N = 100)."""
+    """Those of every way up that was tried with N = 400."""
     small = {(tuple(sorted(e.setting.items())), e.window): e.chi for e in entries_of(data)}
     ways = {}
     for e in entries_of(data, 400):
         way = tuple(sorted(e.setting.items()))
         ways.setdefault(way, []).append((e, small.get((way, e.window))))
 
-    def least(chi):
-        return math.inf if chi is None else chi
-
-    shown = []
-    for way in sorted(ways):
-        chosen = sorted(ways[way], key=lambda pair: least(pair[1]))
-        shown += [(*pair, True) for pair in chosen[:best]]
-        large = min(chosen, key=lambda pair: least(pair[0].chi))
-        if large[0].chi is not None and large not in chosen[:best]:
-            shown.append((*large, False))
-    return shown
+    return [shown for way in sorted(ways) for shown in least_first(ways[way], best)]
 
 
 def chosen_small(data, what):

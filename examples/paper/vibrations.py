@@ -118,7 +118,7 @@ def apparent(data):
 
 def apparent_above(data, column, exponent):
     """Of how many solids with N = 400 that exponent lies above another by its interval, of all."""
-    found = [e for solid in SOLIDS if (e := apparent_exponent(data, solid, 400, column)) and e["half_width"] is not None]
+    found = [e for solid in SOLIDS if (e := apparent_exponent(data, solid, 400, column)) and e["n"] > 1]
     return f"{sum(e['mean'] - e['half_width'] > float(exponent) for e in found)} of {len(found)}"
 
 
@@ -136,6 +136,7 @@ def localisation(data):
 
 
 BLOCKS = {f.__name__: f for f in (local_slopes, exponents, exponent_of_energy, apparent, localisation)}
-VALUES = {"apparent_above": apparent_above, "slope": lambda data, *words: counted(slope(data, *words)), "off_laws": off_laws,
+VALUES = {"slope": lambda data, *words: counted(slope(data, *words)), "off_laws": off_laws,
+          "apparent_above": apparent_above,
           "free": lambda data, solid, n, upper: counted(free_energy(data, solid, int(n), (0, float(upper)))[0]),
           "apparent": lambda data, column, solid, n: counted(apparent_exponent(data, solid, int(n), column))}
