@@ -71,8 +71,8 @@ def cutoffs(data):
     if not rows:
         return "Not in these records.\n"
     return table(["solid, N", "Δφ", "n of C",
-                  *(f"C, cut-offs × {significant(f, 1) if f != 10 else '10'}" for f in FACTORS), "half the range, ×½ to ×2",
-                  "Z_ff by fits", "Z_ff by gaps"], rows)
+                  *(f"C, cut-offs × {significant(f, 1) if f != 10 else '10'}" for f in FACTORS),
+                  "half the range, ×½ to ×2", "Z_ff by fits", "Z_ff by gaps"], rows)
 
 
 @functools.cache

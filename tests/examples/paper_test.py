@@ -7,7 +7,8 @@
 - contacts are classed by cut-offs as the program classes them; regions, what has emerged, and how face-face contacts
   are spread are as counted by hand, and contacts drawn at random neither hinder nor favour each other;
 - shifts of φ_J are differences of the same replicates, crystals left out; settings are ranked by χ², and one that gives
-  the paper's values is the first; which means' intervals hold them is as by hand;
+  the paper's values is the first; which means' intervals hold them is as by hand; windows are chosen with the smaller
+  size, one with the larger is marked; the base of the search is the way up of the studies;
 - gathering the results of a small run gives means, and φ_J, of the tables that the program makes of them;
 - two replicates of the studies, run anew, have the figures of the committed data: these are of this program.
 """
