@@ -48,8 +48,9 @@ def emergence(data):
             order = [order_of(x, a, b) for (x, a), (_, b) in zip(first, second)]
             rows.append([f"{solid} {particles}", str(len(pairs)), *(str(pairs.count(p)) for p in (
                 (1, 1), (0, 1), (1, 0), (0, 0))), *(str(order.count(w)) for w in ("after", "together", "before"))])
-    return table(["", "states", "both", "hyper-random alone", "region 1 alone", "neither", "packings: region 1 after",
-                  "in the same state", "before"], rows) if rows else "Not in these records.\n"
+    return table(["solid, N", "states", "both", "hyper-random alone", "region 1 alone", "neither",
+                  "packings: region 1 after", "in the same state", "before"], rows) if rows else \
+        "Not in these records.\n"
 
 
 def order_of(distances, emerged, hyper):
@@ -155,7 +156,7 @@ def order_parameter(data):
         pairs = sum(len(order_replicates(data, solid, n)[0]) for n in SIZES)
         rows.append([f"{solid}, both sizes", str(pairs),
                      *(correlation_told(*pooled(data, solid, key)) for key in ORDERS), *["–"] * 4])
-    return table(["", "n", "r(Z_ff, φ_J)", "r(Z_ff, Q6)", "r(Z_ff, S_l)", "Z_ff", "one packing", "crystals",
+    return table(["solid, N", "n", "r(Z_ff, φ_J)", "r(Z_ff, Q6)", "r(Z_ff, S_l)", "Z_ff", "one packing", "crystals",
                   "their Z_ff"], rows)
 
 
@@ -181,6 +182,10 @@ def pooled_value(data, *words):
         return correlation_told(*pooled(data, *words))
     found = [within for s in SOLIDS for key in ORDERS if (within := pooled(data, s, key)[1])]
     return f"{sum(low * high > 0 for low, high in found)} of {len(found)}"
+
+
+def correlation_value(data, solid, particles, key):
+    return correlation_told(*order_correlation(order_replicates(data, solid, int(particles))[0], key)[:2])
 
 
 def resolved(data, which):
@@ -228,5 +233,6 @@ BLOCKS = {f.__name__: f for f in (regions, emergence, hindrances, order_paramete
 VALUES = {
     "rarer": rarer,
     "emergence": emergence_total, "power": power, "region": region_least, "pooled": pooled_value, "resolved": resolved,
+    "correlation": correlation_value,
     "hindrance": lambda data, solid, n: counted(ratio_of(hindrances_of(data, solid, int(n)))),
     "order": lambda data, what: str(order_counts(data)[("all", "excluded", "crystals", "told").index(what)])}

@@ -16,10 +16,22 @@ HALF_TO_TWICE = slice(1, 4)  # of network.FACTORS
 UNKNOWN = 1.0  # errors of C that say nothing about 12
 
 
+def around(distances, values, distance):
+    """The two states that have values and that scaling.at takes for a distance from jamming; None outside of them."""
+    known = [i for i, (x, v) in enumerate(zip(distances, values)) if v is not None and x > 0]
+    return next(((i, j) for i, j in zip(known, known[1:]) if distances[j] <= distance <= distances[i]), None)
+
+
+def same_states(distances, values, others, distance):
+    """Whether both are taken from the same two states, at a distance from jamming; nearest it they are."""
+    return distance is None or around(distances, values, distance) == around(distances, others, distance)
+
+
 @functools.cache
 def cutoff_range(data, solid, particles, distance=None):
     """(C by factor, Z_ff by fits and by gaps where both are, half the range of C from half to twice the cut-offs):
-    estimates at a distance from jamming, or nearest it."""
+    estimates at a distance from jamming, or nearest it. C by factors is known of fewer states than C is: of replicates
+    where it would be taken from other states than C it is not counted, nor are gaps beside Z_ff."""
     by_factor, fitted, gaps, half = [], [], [], []
     for r, x in zip(data.counted(solid, particles), data.distances(solid, particles)):
         entries = r.get("network", {}).get("by_cutoffs")
@@ -29,10 +41,13 @@ def cutoff_range(data, solid, particles, distance=None):
         def value(values, distances=x):
             return values[-1] if distance is None else at(distances, values, distance)
 
-        found = [value([c[i] for c, _ in entries]) for i in range(len(FACTORS))]
+        fits = [c[FACTORS.index(1)] for c, _ in entries]
+        found = [value([c[i] for c, _ in entries]) if same_states(x, fits, r["states"]["C"], distance) else None
+                 for i in range(len(FACTORS))]
         by_factor.append(found)
-        both = value([gap for _, gap in entries]), value(r["states"]["Z_ff"])
-        if None not in both:
+        all_gaps = [gap for _, gap in entries]
+        both = value(all_gaps), value(r["states"]["Z_ff"])
+        if None not in both and same_states(x, all_gaps, r["states"]["Z_ff"], distance):
             gaps.append(both[0])
             fitted.append(both[1])
         near = [c for c in found[HALF_TO_TWICE] if c is not None]
@@ -47,14 +62,16 @@ def cutoffs(data):
         for particles in SIZES:
             for distance in (0.01, None):
                 by_factor, fitted, gap, half = cutoff_range(data, solid, particles, distance)
-                if not by_factor[2]:
+                if not by_factor[FACTORS.index(1)] and not fitted:
                     continue
                 where = "nearest" if distance is None else number(distance, 2)
-                rows.append([f"{solid} {particles}", where, *(interval(c) for c in by_factor),
+                n = by_factor[FACTORS.index(1)]["n"] if by_factor[FACTORS.index(1)] else 0
+                rows.append([f"{solid} {particles}", where, str(n), *(interval(c) for c in by_factor),
                              f"± {number(half['mean'], 2)}" if half else "–", counted(fitted), counted(gap)])
     if not rows:
         return "Not in these records.\n"
-    return table(["", "Δφ", *(f"C, cut-offs × {significant(f, 1) if f != 10 else '10'}" for f in FACTORS),
+    return table(["solid, N", "Δφ", "n of C",
+                  *(f"C, cut-offs × {significant(f, 1) if f != 10 else '10'}" for f in FACTORS),
                   "half the range, ×½ to ×2", "Z_ff by fits", "Z_ff by gaps"], rows)
 
 
@@ -73,9 +90,11 @@ def with_cutoffs(data, solid, particles, column, distance=None):
     estimate = data.nearest(solid, particles, column) if distance is None else \
         data.at(solid, particles, column, distance)
     _, fitted, gaps, half = cutoff_range(data, solid, particles, distance)
-    if not estimate or column not in ("Z_ff", "C") or not half or not gaps:
-        return estimate
-    return {**estimate, "systematic": half["mean"] if column == "C" else 0.5 * abs(fitted["mean"] - gaps["mean"])}
+    if estimate and column == "C" and half:
+        return {**estimate, "systematic": half["mean"]}
+    if estimate and column == "Z_ff" and gaps:
+        return {**estimate, "systematic": 0.5 * abs(fitted["mean"] - gaps["mean"])}
+    return estimate
 
 
 def measured(data, figure):
@@ -103,8 +122,9 @@ def isostatic(data):
                          number(chosen["exponent"], 2), interval(chosen), f"± {number(half, 2)}" if half else "–",
                          number(target, 2), signed(away, 2), f"± {number(sum(errors), 2)}",
                          f"± {number(math.hypot(*errors), 2)}", lies])
-    return table(["", "n", "C nearest jamming", "limit by x = ½ / 1 / free, Δφ < .01", "free x", "limit ± fit ± choice",
-                  "cut-offs", "target", "limit − target", "errors, summed", "in quadrature", "by the sum"], rows)
+    return table(["solid, N", "n", "C nearest jamming", "limit by x = ½ / 1 / free, Δφ < .01", "free x",
+                  "limit ± fit ± choice", "cut-offs", "target", "limit − target", "errors, summed",
+                  "in quadrature", "by the sum"], rows)
 
 
 def half_value(data, solid, particles, of="C"):
@@ -120,6 +140,25 @@ def cut_value(data, solid, particles, where, factor):
     return counted(by_factor[FACTORS.index(float(factor))])
 
 
+def gap_value(data, solid, particles, where):
+    """Z_ff by gaps."""
+    return counted(cutoff_range(data, solid, int(particles), None if where == "nearest" else float(where))[2])
+
+
+def cut_missing(data, solid, particles, where):
+    """Of how many replicates C by other cut-offs is not known of the states that C is taken from, of all with C."""
+    known = cutoff_range(data, solid, int(particles), float(where))[0][FACTORS.index(1)]
+    every = data.at(solid, int(particles), "C", float(where))
+    return f"{every['n'] - (known['n'] if known else 0)} of {every['n']}" if every else "–"
+
+
+def limit_range(data, *solids):
+    """The least and the greatest limit of C of some solids, of both sizes."""
+    found = [chosen["mean"] for solid in solids for n in SIZES
+             if data.counted(solid, n) and (chosen := limit_of(data, solid, n)[1])]
+    return f"{number(min(found), 2)} … {number(max(found), 2)}" if found else "–"
+
+
 def beyond(data, solid, particles):
     """By how much more than its errors' sum a limit of C is off its target."""
     _, chosen, half = limit_of(data, solid, int(particles))
@@ -130,5 +169,6 @@ def beyond(data, solid, particles):
 
 
 BLOCKS = {f.__name__: f for f in (cutoffs, isostatic)}
-VALUES = {"beyond": beyond, "half": half_value, "cut": cut_value,
+VALUES = {"beyond": beyond, "gap": gap_value, "cut_missing": cut_missing, "limits": limit_range, "half": half_value,
+          "cut": cut_value,
           "limit": lambda data, solid, n: interval(limit_of(data, solid, int(n))[1])}

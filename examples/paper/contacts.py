@@ -4,7 +4,7 @@ from constraints import measured
 from data import SIZES, SOLIDS
 from densities import STABLE_FROM, said
 from text import counted, interval, number, significant, spread, table
-from verdicts import MEAN, ONE, uncertainty, verdict
+from verdicts import MEAN, ONE, UNDECIDED, overlap, uncertainty, verdict
 
 GRID = (0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001)
 # Of tetrahedral dice, by tomography: the third column of the paper's Table III.
@@ -22,7 +22,7 @@ def compared(data, figures, name, extra=None):
     return rows
 
 
-HEAD = ["", "ours", "n", "one packing", "paper", "the paper's lies"]
+HEAD = ["solid, column", "ours", "n", "one packing", "paper", "the paper's lies"]
 
 
 def table_2(data):
@@ -49,7 +49,7 @@ def table_3(data):
     def name(figure):
         return figure["column"].removesuffix("_fixed")
 
-    head = [*HEAD, "dice (experiment)"]
+    head = ["", *HEAD[1:], "dice (experiment)"]
     return ("Classes by fitted cut-offs:\n\n" + table(head, compared(data, first, name, dice)) +
             "\nMeans over fixed cut-offs of 5°, 15° … 55°:\n\n" + table(head, compared(data, second, name, dice)))
 
@@ -78,7 +78,8 @@ def figure_3(data):
                 cells = [counted(data.at(solid, particles, column, d)) for d in GRID]
                 if any(cell != "–" for cell in cells):
                     rows.append([f"{solid} {particles}", column, *cells])
-    return table(["", "", *(f"Δφ = {significant(d, 1 if d != .16 and d != .0025 else 2)}" for d in GRID)], rows)
+    return table(["solid, N", "mean of",
+                  *(f"Δφ = {significant(d, 1 if d != .16 and d != .0025 else 2)}" for d in GRID)], rows)
 
 
 def figures_of(data, table_of):
@@ -92,21 +93,36 @@ def figures_of(data, table_of):
 
 def lies(data, table_of, where="packing", *columns):
     """Of how many figures of a table the paper's lies in our mean's interval, or there or as one packing; or above our
-    mean; of all."""
+    mean; of all; or of how many it is undecided."""
     some = [f for f in figures_of(data, table_of) if not columns or f["column"] in columns]
     found = [(f, measured(data, f)) for f in some]
     if where == "above":
         return f"{sum(bool(e) and f['value'] > e['mean'] for f, e in found)} of {len(found)}"
-    words = {"mean": (MEAN,), "packing": (MEAN, ONE)}[where]
+    words = {"mean": (MEAN,), "packing": (MEAN, ONE), "undecided": (UNDECIDED,)}[where]
+    if where == "undecided":
+        return str(sum(verdict(e, f) in words for f, e in found))
     return f"{sum(verdict(e, f) in words for f, e in found)} of {len(found)}"
 
 
 def ordered(data, table_of, column, whose="ours"):
     """Solids by what a column of Table IV has of them, rising."""
     found = [(e["mean"] if whose == "ours" else f["value"], f, e) for f in figures_of(data, table_of)
-             if f["column"] == column and (e := data.of(f))]
+             if f["column"] == column and (e := measured(data, f))]
     return ", ".join(f"{PLURALS[f['solid']]} {interval(e) if whose == 'ours' else said(f)}"
                      for _, f, e in sorted(found, key=lambda entry: entry[0]))
+
+
+def told_apart(data, table_of, column, first, second):
+    """Whether the intervals of two solids' means, with their systematic errors, have no point in common."""
+    found = {f["solid"]: measured(data, f) for f in figures_of(data, table_of) if f["column"] == column}
+    wide = [e and e["half_width"] is not None and {**e, "half_width": e["half_width"] + e.get("systematic", 0.0)}
+            for e in (found[first], found[second])]
+    together = overlap(*wide)
+    return "–" if together is None else "not told apart" if together else "told apart"
+
+
+def dice_value(data, column):
+    return number(DICE[column], 1)
 
 
 def hyperstatic(data):
@@ -124,4 +140,5 @@ def angles_agree(data):
 
 
 BLOCKS = {f.__name__: f for f in (table_2, table_3, table_4, figure_3)}
-VALUES = {"lies": lies, "ordered": ordered, "hyperstatic": hyperstatic, "angles": angles_agree}
+VALUES = {"lies": lies, "ordered": ordered, "hyperstatic": hyperstatic, "angles": angles_agree,
+          "told": told_apart, "dice": dice_value}

@@ -20,7 +20,7 @@ def summary(data):
                      significant(data.nearest_distance(solid, n)["mean"], 2), interval(data.nearest(solid, n, "Z")),
                      *(bounded(with_cutoffs(data, solid, n, column)) for column in ("Z_ff", "C")),
                      number(12 - 4 / n, 2)])
-    return table(["", "n", "φ_J", "paper", "nearest Δφ", "Z", "Z_ff", "C", "12 − 4/N"], rows)
+    return table(["solid, N", "n", "φ_J", "paper", "nearest Δφ", "Z", "Z_ff", "C", "12 − 4/N"], rows)
 
 
 def short_of_rank(data, solid, particles):
@@ -77,7 +77,7 @@ def cost(data):
     share = ", ".join(f"{stage} {number(100 * seconds / sum(stages.values()), 1)} %"
                       for stage, seconds in sorted(stages.items(), key=lambda item: -item[1]))
     commits = sorted({commit for study in data.studies.values() for commit in study["git"]})
-    return table(["study", "", "n", "median CPU s", "least … greatest", "CPU minutes in all"], rows) + \
+    return table(["study", "solid", "n", "median CPU s", "least … greatest", "CPU minutes in all"], rows) + \
         f"\nBy stage: {share}. Made by commits {', '.join(commits)}.\n"
 
 
@@ -101,4 +101,5 @@ VALUES = {"n": lambda data, solid, n: str(len(data.counted(solid, int(n)))), "di
           "failed": lambda data, solid, n: "{} of {}".format(
               sum(r["status"] != "done" for r in data.all_of(solid, int(n))), len(data.all_of(solid, int(n)))),
           **{column: column_value(column) for column in (
-              "Z", "Z_ff", "C", "C_fixed", "self_stress", "rows", "amplitude", "members", "percolates")}}
+              "Z", "Z_ff", "C", "C_fixed", "self_stress", "rows", "amplitude", "members", "percolates",
+              "backbone_removed", "backbone_zero")}}

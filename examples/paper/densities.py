@@ -46,7 +46,7 @@ def table_1(data):
                      str(estimate["n"]) if estimate else "0", spread(estimate), said(figure),
                      signed(figure["value"] - estimate["mean"], 4) if estimate else "–", verdict(estimate, figure),
                      f"{number(value, 2)} ± {number(error, 2)}"])
-    return table(["", "ours", "n", "one packing", "paper", "paper − ours", "the paper's lies",
+    return table(["solid, N", "ours", "n", "one packing", "paper", "paper − ours", "the paper's lies",
                   "dice (experiment)"], rows)
 
 

@@ -2,6 +2,7 @@
 
 import statistics
 
+from constraints import around
 from data import MAIN, SIZES, SOLIDS
 from estimates import estimate_of
 from expansions import LEFT_OUT
@@ -88,7 +89,7 @@ def unstable(data):
                                  str(max(e["n"] for e in found if e)), *(interval(e) for e in found)])
     if not rows:
         return MISSING
-    return table(["study", "", "Δφ", "n", "exact, %", *(f"h = {name}" for name in STEPS.values())], rows)
+    return table(["study", "solid", "Δφ", "n", "exact, %", *(f"h = {name}" for name in STEPS.values())], rows)
 
 
 def share_at(data, solid, column, distance):
@@ -184,14 +185,15 @@ def stability(data):
                          str(sum(z == 3 and n == 0 for z, n, *_ in states)),
                          str(sum((n or 0) > 0 for _, n, *_ in states)), str(sum(r > 0 for _, _, r, *_ in states)),
                          str(sum(d > 0 for *_, d, _ in states)), power(max(r for *_, r in states))])
-    return table(["study", "", "replicates", "failed", "short of goal", "crystalline", "percolate", "span", "states",
-                  "minima with three zero modes", "with negative modes", "with near-rattlers", "followed down",
-                  "worst residual"], rows)
+    return table(["study", "solid", "replicates", "failed", "short of goal", "crystalline", "percolate", "span",
+                  "states", "minima with three zero modes", "with negative modes", "with near-rattlers",
+                  "followed down", "worst residual"], rows)
 
 
 def state_counts(data, solids=SOLIDS, nearest=0.0):
     """Over all states of disordered packings, or of those at Δφ ≥ nearest, how many are what."""
-    made = dict.fromkeys(("states", "descents", "negative", "loose", "unresolved", "three", "loose_three"), 0)
+    made = dict.fromkeys(("states", "descents", "negative", "loose", "unresolved", "three", "loose_three",
+                          "loose_negative"), 0)
     for solid in solids:
         for n in SIZES:
             for r, distances in zip(data.counted(solid, n), data.distances(solid, n)):
@@ -204,7 +206,7 @@ def state_counts(data, solids=SOLIDS, nearest=0.0):
                     three = zero == 3 and not negative
                     for key, true in (("states", True), ("descents", s["descents"][i] > 0), ("negative", negative),
                                       ("loose", loose), ("unresolved", zero > 3 and not loose), ("three", three),
-                                      ("loose_three", three and loose)):
+                                      ("loose_three", three and loose), ("loose_negative", negative and loose)):
                         made[key] += true
     return made
 
@@ -230,6 +232,20 @@ def rest_value(data, what, lower, upper):
                           for i, x in enumerate(distances) if float(lower) <= max(x, 0) < float(upper)
                           and "backbone_zero" in s]
     return f"{sum(f[what == 'rank'] for f in found)} of {len(found)}"
+
+
+def rest_between(data, what, distance):
+    """Packings whose rest has more than three zero modes at a distance from jamming, interpolated: how many, in how
+    many of them the farther of the two states has three, and the most of one of a solid and size."""
+    where, found = float(distance), []
+    for solid in SOLIDS:
+        for n in SIZES:
+            for r, x in zip(data.counted(solid, n), data.distances(solid, n)):
+                zero = r["states"].get("backbone_zero")
+                if zero and (value := at(x, zero, where)) and value > 3:
+                    found.append((value, zero[around(x, zero, where)[0]] == 3))
+    return {"all": str(len(found)), "farther": str(sum(three for _, three in found)),
+            "most": number(max((value for value, _ in found), default=0), 1)}[what]
 
 
 def percolation(data, what, particles, where):
@@ -264,7 +280,7 @@ def minimisations(data):
                 rows.append([solid, f"{number(lower, 3)} … {number(upper, 3)}", *cells])
     if not rows:
         return "Not in these records.\n"
-    return table(["", "Δφ", "states, rule", "evaluations", "worst residual", "states, ours", "evaluations",
+    return table(["solid", "Δφ", "states, rule", "evaluations", "worst residual", "states, ours", "evaluations",
                   "worst residual"], rows)
 
 
@@ -272,6 +288,7 @@ BLOCKS = {f.__name__: f for f in (descents, zeros, unstable, differences, backbo
 VALUES = {
     "total": lambda data, what, nearest="0": str(state_counts(data, nearest=float(nearest))[what]),
     "near": lambda data, solid, nearest: "{loose} of {states}".format(**state_counts(data, (solid,), float(nearest))),
-    "every": every_count, "rest": rest_value, "percolation": percolation, "rule": rule_value,
+    "every": every_count, "rest": rest_value, "rest_between": rest_between,
+    "percolation": percolation, "rule": rule_value,
     "rule_moves": lambda data, solid: counted(rule_moves(data, solid)),
     "rest_missing": lambda data, solid, n, x: counted(rest_at(data, solid, int(n), float(x)))}

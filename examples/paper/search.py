@@ -6,8 +6,8 @@ import itertools
 import math
 import statistics
 
-from data import SOLIDS
-from densities import FITS, STABLE_FROM, deviate_of, parts_of, table_i
+from data import HERE, SOLIDS, read
+from densities import FITS, STABLE_FROM, chi_square_below, deviate_of, parts_of, table_i
 from estimates import estimate_of
 from scaling import jamming_density
 from text import counted, number, signed, significant, table
@@ -121,24 +121,66 @@ def both_sizes(data):
     return sorted(found, key=lambda pair: pair[0].chi + pair[1].chi)
 
 
-def search_400(data, best=4):
-    """Every way up that was tried with N = 400, with its best windows: by χ², or where a solid is not there with
-    N = 400, by that of N = 100."""
-    entries, searched = entries_of(data, 400), searched_solids(data, 400)
-    if not entries:
-        return "Not in these records.\n"
+def least_first(pairs, best):
+    """(entry of N = 400, χ² with N = 100, True) of the best with N = 100, of pairs of the first two; then, with False,
+    that which is best with N = 400, if it is another. A χ² that is not known is the greatest."""
+    def least(chi):
+        return math.inf if chi is None else chi
+
+    chosen = sorted(pairs, key=lambda pair: least(pair[1]))
+    large = min(chosen, key=lambda pair: least(pair[0].chi))
+    other = [] if large[0].chi is None or large in chosen[:best] else [large]
+    return [(*pair, True) for pair in chosen[:best]] + [(*pair, False) for pair in other]
+
+
+def windows_400(data, best=4):
+    """Those of every way up that was tried with N = 400."""
     small = {(tuple(sorted(e.setting.items())), e.window): e.chi for e in entries_of(data)}
     ways = {}
-    for e in entries:
+    for e in entries_of(data, 400):
         way = tuple(sorted(e.setting.items()))
         ways.setdefault(way, []).append((e, small.get((way, e.window))))
 
-    def chi_of(pair):
-        return next((chi for chi in (pair[0].chi, pair[1]) if chi is not None), math.inf)
+    return [shown for way in sorted(ways) for shown in least_first(ways[way], best)]
 
-    shown = [pair for way in sorted(ways) for pair in sorted(ways[way], key=chi_of)[:best]]
-    rows = [[*name_of(e.setting, e.window), *(number(chi, 2) if chi is not None else "–" for chi in (other, e.chi)),
-             *(told(e, s) for s in searched)] for e, other in shown]
+
+def chosen_small(data, what):
+    """Of settings of the table of N = 400 that were chosen with N = 100 and have a χ² with N = 400, how many are not
+    rejected by it; the first of them, and its χ²."""
+    found = [e for e, _, by_small in windows_400(data) if by_small and e.chi is not None]
+    if not found:
+        return "–"
+    if what == "first":
+        return ", ".join(name_of(found[0].setting, found[0].window))
+    return number(found[0].chi, 2) if what == "chi" else \
+        f"{sum(chi_square_below(e.chi, len(SOLIDS)) < .95 for e in found)} of {len(found)}"
+
+
+@functools.cache
+def way_of(manifest):
+    """What a study of this folder says of its way up, or the schema says for it."""
+    said = read(HERE / manifest)["protocol"]
+    known = read(HERE.parent.parent / "schemas" / "manifest.schema.json")["definitions"]
+    return {key: said.get(key, known[key]["default"]) for key in (
+        "target_before_relaxation", "consolidation_step", "consolidation_evaluations", "target_energy", "max_density")}
+
+
+def way_value(data, study):
+    """The way up of a study, as settings are named."""
+    way = way_of(f"{study}.json")
+    return ", ".join(name_of({"before": way["target_before_relaxation"], "step": way["consolidation_step"],
+                              "budget": way["consolidation_evaluations"], "target": way["target_energy"]}))
+
+
+def search_400(data, best=4):
+    """Every way up that was tried with N = 400, with the windows that are best with N = 100, and that which is best
+    with N = 400, marked, if it is another."""
+    entries, searched = entries_of(data, 400), searched_solids(data, 400)
+    if not entries:
+        return "Not in these records.\n"
+    rows = [[*name_of(e.setting, e.window + ("" if by_small else " †")),
+             *(number(chi, 2) if chi is not None else "–" for chi in (other, e.chi)),
+             *(told(e, s) for s in searched)] for e, other, by_small in windows_400(data, best)]
     return table(["target read", "step", "budget", "window", "χ², N = 100", "χ², N = 400",
                   *(f"{s}, N = 400, ours (n), paper − ours" for s in searched)], rows)
 
@@ -232,4 +274,6 @@ def best_400(data, solid):
 
 
 BLOCKS = {f.__name__: f for f in (search, search_400, levers)}
-VALUES = {"search": search_value, "best_400": best_400, "ended": ended, "lever": lever_value}
+VALUES = {"search": search_value, "best_400": best_400, "ended": ended, "lever": lever_value,
+          "chosen_small": chosen_small, "way": way_value,
+          "greatest": lambda data, study: number(way_of(f"{study}.json")["max_density"], 2)}

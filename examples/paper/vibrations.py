@@ -41,7 +41,7 @@ def local_slopes(data):
                 if any(found):
                     rows.append([f"{solid} {particles}", *(counted(found[i]) for i in reversed(bins))])
         text.append(f"{NAMES[column]}, {said}:\n\n" + table(
-            ["", *(bin_name(EDGES[i], EDGES[i + 1]) for i in reversed(bins))], rows))
+            ["solid, N", *(bin_name(EDGES[i], EDGES[i + 1]) for i in reversed(bins))], rows))
     return "\n".join(text)
 
 
@@ -90,7 +90,7 @@ def exponent_of_energy(data):
                 cells += [counted(x), interval(moved)]
             if cells != ["–"] * 4:
                 rows.append([f"{solid} {particles}", *cells])
-    return table(["", "x_E, Δφ < .02", "its φ_J − ours, 10⁻⁴", "x_E, Δφ < .005", "its φ_J − ours, 10⁻⁴"], rows)
+    return table(["solid, N", "x_E, Δφ < .02", "its φ_J − ours, 10⁻⁴", "x_E, Δφ < .005", "its φ_J − ours, 10⁻⁴"], rows)
 
 
 FAR = (0.02, 0.12)
@@ -116,6 +116,12 @@ def apparent(data):
     return table(["fits over Δφ = .02 … .12", *(NAMES[column] for column in LAWS)], rows)
 
 
+def apparent_above(data, column, exponent):
+    """Of how many solids with N = 400 that exponent lies above another by its interval, of all."""
+    found = [e for solid in SOLIDS if (e := apparent_exponent(data, solid, 400, column)) and e["n"] > 1]
+    return f"{sum(e['mean'] - e['half_width'] > float(exponent) for e in found)} of {len(found)}"
+
+
 def localisation(data):
     """Share of Σ|u|² of the fifty stiffest modes on particles with face-face contacts, beside the share of these."""
     rows = []
@@ -131,5 +137,6 @@ def localisation(data):
 
 BLOCKS = {f.__name__: f for f in (local_slopes, exponents, exponent_of_energy, apparent, localisation)}
 VALUES = {"slope": lambda data, *words: counted(slope(data, *words)), "off_laws": off_laws,
+          "apparent_above": apparent_above,
           "free": lambda data, solid, n, upper: counted(free_energy(data, solid, int(n), (0, float(upper)))[0]),
           "apparent": lambda data, column, solid, n: counted(apparent_exponent(data, solid, int(n), column))}

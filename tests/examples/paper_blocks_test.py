@@ -5,8 +5,9 @@
 - the exponent of ⟨ω_l⟩/√K is that of ⟨ω_l⟩ less half that of K; the least excess of contacts that a test sees is that
   of sums of binomial terms, what emerges first and stays is told, and shares of random contacts are those of
   directions drawn at random;
-- C carries the range of cut-offs as its error, Z_ff half of what fits and gaps differ by; deviates of offsets know the
-  paper's interval as well as ours; solids stand in order of what they have.
+- C carries the range of cut-offs as its error, where it is known of the states that C is taken from, Z_ff half of what
+  fits and gaps differ by; solids are told apart by both errors; where rests have more than three zero modes is told;
+  deviates of offsets know the paper's interval as well as ours; solids stand in order of what they have.
 """
 
 import math
@@ -56,7 +57,8 @@ class States(unittest.TestCase):
     def test_counts(self):
         data = Made({"paper-100": [replicate(0, self.COUNTS), replicate(1, self.COUNTS, flags=["crystalline"])]})
         self.assertEqual(minima.state_counts(data), {"states": 5, "descents": 1, "negative": 1, "loose": 3,
-                                                     "unresolved": 1, "three": 2, "loose_three": 1})
+                                                     "unresolved": 1, "three": 2, "loose_three": 1,
+                                                     "loose_negative": 1})
         near = minima.state_counts(data, nearest=0.02)  # Δφ = .1, .05, .025
         self.assertEqual((near["states"], near["loose"], near["unresolved"]), (3, 2, 0))
         self.assertEqual(minima.every_count(data, "states"), "10")
@@ -121,6 +123,47 @@ class States(unittest.TestCase):
         self.assertAlmostEqual(constraints.with_cutoffs(data, "octahedron", 100, "C")["systematic"], (1 + 1.5 + 1) / 3)
         self.assertAlmostEqual(constraints.with_cutoffs(data, "octahedron", 100, "Z_ff")["systematic"], 0.05)
         self.assertEqual(constraints.half_value(data, "octahedron", 100, "rows"), "58")
+
+    def test_cutoffs_of_the_same_states(self):
+        # Δφ = .1, .05, .025; at .04 C is between the last two, and by other cut-offs known of the first and last alone.
+        def of(number, middle):
+            known = [[9, 10.0, 11.0, 12.0, 20], 0.7]
+            entries = [known, [[11.0 if middle else None] * 5, 0.7 if middle else None], known]
+            return replicate(number, {"Z_ff": [0.5, 0.6, 0.7], "C": [10.0, 11.0, 11.0]},
+                             network={"by_cutoffs": entries})
+
+        x = [0.1, 0.05, 0.025]
+        self.assertEqual(constraints.around(x, [1, 1, 1], 0.04), (1, 2))
+        self.assertEqual(constraints.around(x, [1, None, 1], 0.04), (0, 2))
+        self.assertIsNone(constraints.around(x, [None, 1, 1], 0.06))
+        data = Made({"paper-100": [of(0, True), of(1, False), of(2, True)]})
+        by_factor, fitted, gaps, _ = constraints.cutoff_range(data, "octahedron", 100, 0.04)
+        self.assertEqual((by_factor[2]["n"], fitted["n"], gaps["n"]), (2, 2, 2))
+        self.assertEqual(constraints.cutoff_range(data, "octahedron", 100)[0][2]["n"], 3)
+        self.assertEqual(constraints.cut_missing(data, "octahedron", "100", ".04"), "1 of 3")
+        # Without C by other cut-offs Z_ff keeps its error.
+        data = Made({"paper-100": [replicate(i, {"Z_ff": [0.8], "C": [11.0]}, network={"by_cutoffs": [[[None] * 5, 1]]})
+                                   for i in range(3)]})
+        self.assertAlmostEqual(constraints.with_cutoffs(data, "octahedron", 100, "Z_ff")["systematic"], 0.1)
+        self.assertNotIn("systematic", constraints.with_cutoffs(data, "octahedron", 100, "C"))
+
+    def test_rests_between_states(self):
+        # At Δφ = .04, by ln Δφ .32 of the way from .05 to .025.
+        data = Made({"paper-100": [replicate(i, {"backbone_zero": zero})
+                                   for i, zero in enumerate(([3, 3, 4], [3, 3, 3], [3, 5, 3]))]})
+        self.assertEqual([minima.rest_between(data, what, ".04") for what in ("all", "farther", "most")],
+                         ["2", "1", "4.4"])
+
+    def test_solids_told_apart(self):
+        figures = [{"place": "Table IV", "solid": solid, "particles": 400, "column": "S", "value": 2.0, "digits": 1}
+                   for solid in ("octahedron", "icosahedron")]
+        for values, said, undecided in (((2.0, 2.1, 2.2), "not told apart", "0"), ((4.0, 4.1, 4.2), "told apart", "0"),
+                                        ((2.0, 4.0, 6.0), "not told apart", "1")):
+            data = Made({"paper-400": [replicate(i, {"S": [s]}, solid, 400)
+                                       for solid, some in (("octahedron", (2.0, 2.1, 2.2)), ("icosahedron", values))
+                                       for i, s in enumerate(some)]}, figures=figures)
+            self.assertEqual(contacts.told_apart(data, "IV", "S", "octahedron", "icosahedron"), said)
+            self.assertEqual(contacts.lies(data, "IV", "undecided"), undecided)
 
     def test_solids_in_order(self):
         figures = [{"place": "Table IV", "solid": solid, "particles": 400, "column": "S", "value": value, "digits": 1}

@@ -7,7 +7,8 @@
 - contacts are classed by cut-offs as the program classes them; regions, what has emerged, and how face-face contacts
   are spread are as counted by hand, and contacts drawn at random neither hinder nor favour each other;
 - shifts of φ_J are differences of the same replicates, crystals left out; settings are ranked by χ², and one that gives
-  the paper's values is the first; which means' intervals hold them is as by hand;
+  the paper's values is the first; which means' intervals hold them is as by hand; windows are chosen with the smaller
+  size, one with the larger is marked; the base of the search is the way up of the studies;
 - gathering the results of a small run gives means, and φ_J, of the tables that the program makes of them;
 - two replicates of the studies, run anew, have the figures of the committed data: these are of this program.
 """
@@ -217,6 +218,23 @@ class Search(unittest.TestCase):
         self.assertAlmostEqual(moved["half_width"], 0, places=9)
         (setting, found), = search.moves_of(self.data())
         self.assertEqual((setting["budget"], set(found)), (50, set(SOLIDS)))
+
+    def test_windows_are_chosen_with_the_smaller_size(self):
+        def entry(name, chi):
+            return search.Entry(chi, None, {}, name, {}, {}, {})
+
+        pairs = [(entry("a", 5.0), 3.0), (entry("b", 9.0), 1.0), (entry("c", 2.0), 4.0), (entry("d", 8.0), 2.0)]
+        for best, names in ((2, "bdc"), (3, "bdac"), (4, "bdac")):
+            found = search.least_first(pairs, best)
+            self.assertEqual("".join(e.window for e, _, _ in found), names)
+            self.assertEqual([small for *_, small in found], [i < best for i in range(len(names))])
+        unknown = search.least_first([(entry("a", None), 1.0), (entry("b", None), None)], 1)
+        self.assertEqual([e.window for e, *_ in unknown], ["a"])
+
+    def test_the_base_is_the_way_up_of_the_studies(self):
+        base = ", ".join(search.name_of({**search.BASE[0], "target": search.TARGET}))
+        for study in ("n100", "n100-tetrahedra", "n400", "n400-tetrahedra"):
+            self.assertEqual(search.way_value(None, study), base)
 
     def test_chi_square(self):
         self.assertAlmostEqual(densities.chi_square_below(9.4877, 4), 0.95, places=4)
