@@ -3,8 +3,8 @@
 Writes OUT/records.json: of each replicate of the studies below RESULTS its flags, cost, φ_J and, of every state, what
 the page needs, column by column; quantiles of θ_ef from the contacts of every state; contacts by bands of stiffness,
 and bins of forces and gaps. Numbers are rounded as ../page/records.py does. Studies that are not there, or not
-complete, are left out or count with what they have. With --keep, replicates that RESULTS does not hold are those of
-DATA/records.json, which was gathered before.
+complete, are left out or count with what they have. With --keep, replicates that RESULTS does not hold, and columns that
+it does not have of the same states, are those of DATA/records.json, which was gathered before.
 """
 
 import argparse
@@ -15,7 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
 
-from records import contacts_of, found, records_of, replicate_of, write  # noqa: E402
+from records import contacts_of, found, records_of, replicate_of, rounded, write  # noqa: E402
 
 STUDIES = ("rigidity-50", "rigidity-50-tetrahedra", "paper-100", "paper-100-tetrahedra", "rigidity-200",
            "rigidity-200-tetrahedra", "paper-400", "paper-400-tetrahedra", "rigidity-800")
@@ -188,19 +188,32 @@ def add_powers(powers, solid, states):
             powers[f"{solid} {place} {kind}"] = [a + b for a, b in zip(so_far, counts)]
 
 
+def place_of(replicate):
+    return replicate["solid"], replicate["particles"], replicate["replicate"]
+
+
+def with_columns(replicate, before):
+    """A replicate with the columns that it lacks and the same states had before."""
+    if not before or {replicate["status"], before["status"]} != {"done"} or \
+            replicate["states"]["phi"] != before["states"]["phi"]:
+        return replicate
+    return {**replicate, "states": before["states"] | replicate["states"],
+            "bins": replicate.get("bins") or before.get("bins"), "bands": replicate.get("bands") or before.get("bands"),
+            "stages": before["stages"] | replicate["stages"]}
+
+
 def completed(studies, kept):
-    """Studies with those replicates of `kept` that they do not hold, in order."""
+    """Studies with what `kept` has and they have not, replicates in order."""
     made = {}
     for name in STUDIES:
         here, before = studies.get(name), kept.get(name)
         if not here or not before:
             made[name] = here or before
             continue
-        places = {(r["solid"], r["particles"], r["replicate"]) for r in here["replicates"]}
-        more = [r for r in before["replicates"] if (r["solid"], r["particles"], r["replicate"]) not in places]
-        made[name] = {**here, "git": sorted({*here["git"], *(before["git"] if more else ())}),
-                      "replicates": sorted(here["replicates"] + more, key=lambda r: (
-                          r["solid"], r["particles"], r["replicate"]))}
+        known = {place_of(r): r for r in before["replicates"]}
+        ours = {place_of(r): with_columns(rounded(r), known.get(place_of(r))) for r in here["replicates"]}
+        made[name] = {**here, "git": sorted({*here["git"], *before["git"]}),
+                      "replicates": [r for _, r in sorted((known | ours).items())]}
     return {name: study for name, study in made.items() if study and study["replicates"]}
 
 

@@ -270,13 +270,17 @@ class Gathered(unittest.TestCase):
                 self.assertEqual(sum(sum(r["bins"][name][1]) for name in gather.FORCES),
                                  sum(sum(last[name]["counts"]) for name in gather.FORCES))
 
-    def test_replicates_of_before_are_kept(self):
-        here = {"rigidity-50": {"git": ["b"], "replicates": [replicate(1, {"phi": [1]}), replicate(3, {"phi": [3]})]}}
-        before = {"rigidity-50": {"git": ["a"], "replicates": [replicate(i, {"phi": [0]}) for i in range(3)]},
+    def test_what_was_gathered_before_is_kept(self):
+        here = {"rigidity-50": {"git": ["b"], "replicates": [replicate(1, {"phi": [1], "Z": [8]}),
+                                                            replicate(3, {"phi": [3]})]}}
+        before = {"rigidity-50": {"git": ["a"], "replicates": [replicate(0, {"phi": [0]}),
+                                                              replicate(1, {"phi": [1], "Z": [7], "G": [5]}, bins=4),
+                                                              replicate(3, {"phi": [2], "G": [6]})]},
                   "paper-400": {"git": ["a"], "replicates": [replicate(0, {"phi": [0]})]}}
         made = gather.completed(here, before)
-        self.assertEqual([(r["replicate"], r["states"]["phi"]) for r in made["rigidity-50"]["replicates"]],
-                         [(0, [0]), (1, [1]), (2, [0]), (3, [3])])
+        self.assertEqual([(r["replicate"], r["states"]) for r in made["rigidity-50"]["replicates"]],
+                         [(0, {"phi": [0]}), (1, {"phi": [1], "Z": [8], "G": [5]}), (3, {"phi": [3]})])
+        self.assertEqual(made["rigidity-50"]["replicates"][1]["bins"], 4)
         self.assertEqual(made["rigidity-50"]["git"], ["a", "b"])
         self.assertEqual(list(made), ["rigidity-50", "paper-400"])
         self.assertEqual(gather.completed(here, {})["rigidity-50"], here["rigidity-50"])
