@@ -36,6 +36,7 @@ def evidence_of_rank(data):
         return lambda solid: counted(data.at(solid, particles, column, LAST.get((solid, particles), OTHERS)))
 
     return by_solid("missing, of 6 per particle, Δφ = .0005", {
+        "N = 400, Δφ = .02": lambda solid: counted(data.at(solid, 400, "missing", 0.02)),
         "N = 400 (tetrahedra: Δφ = .005)": last("missing"), "N = 100 (tetrahedra: Δφ = .001)": last("missing", 100),
         "the same, cut-offs × ½": last("missing_half", 100), "cut-offs × 2": last("missing_double", 100),
         "Δφ → 0, N → ∞, ± fit and form ± cut-offs": lambda solid: interval(rank.infinite(data, solid)),
