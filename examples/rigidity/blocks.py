@@ -85,18 +85,16 @@ def counts_of(data, what):
 
 def value_of(data, name):
     """`at COLUMN SOLID N Δφ`, `nearest COLUMN SOLID N`, `distance SOLID N`, `slope COLUMN SOLID N LOWER`,
-    `limit SOLID N`, `missing SOLID N`, `form SOLID N ½|1`, `infinite SOLID`, `size SOLID N Δφ`, `law SOLID N`,
-    `force SOLID`, `gap SOLID`, `band SOLID N Δφ|nearest WHICH`, `outcome SOLID`, `inside SOLID`, `count WHAT`."""
+    `missing SOLID N`, `form SOLID N ½|1`, `infinite SOLID`, `law SOLID N`, `force SOLID`, `gap SOLID`,
+    `band SOLID N Δφ|nearest WHICH`, `count WHAT`."""
     what, *rest = name.split()
     simple = {
         "count": lambda: counts_of(data, *rest), "infinite": lambda: interval(rank.infinite(data, *rest)),
         "force": lambda: counted(forces.common(data, rest[0], FORCES, forces.WEAK)),
-        "gap": lambda: counted(forces.common(data, rest[0], GAPS[1:], forces.open_gaps(data, rest[0]))),
-        "inside": lambda: "{} of {}".format(*forces.inside(data, rest[0])),
-        "outcome": lambda: forces.outcome(forces.by_programme(data, rest[0])[1])}
+        "gap": lambda: counted(forces.common(data, rest[0], GAPS[1:], forces.open_gaps(data, rest[0])))}
     if what in simple:
         return simple[what]()
-    if what in ("limit", "missing", "form", "size", "law", "distance", "band"):
+    if what in ("missing", "form", "law", "distance", "band"):
         solid, particles, *where = rest
         return of_size(data, what, solid, int(particles), *where)
     column, solid, particles, *where = rest
@@ -116,14 +114,10 @@ BANDS = ("Z_l", "Z_ef", "Z_ff", "C")
 
 def of_size(data, what, solid, particles, *where):
     """Values of a solid and size that are not of a column."""
-    if what == "limit":
-        return interval(counting.stiff_limit(data, solid, particles)[0])
     if what == "missing":
         return rank.with_cutoffs(rank.missing_limit(data, solid, particles)[1])
     if what == "form":
         return interval(rank.missing_limit(data, solid, particles)[0].get({"½": 0.5, "1": 1.0}[where[0]]))
-    if what == "size":
-        return counted(rank.excess(data, solid, particles, rank.LARGE, float(where[0])))
     if what == "law":
         return counted(forces.excess_law(data, solid, particles)[1])
     if what == "distance":
