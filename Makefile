@@ -1,14 +1,19 @@
-# Verbs: run test build bench bench-against equilibria paper rigidity reproducibility docs test-asan fuzz test-slurm lint
-# format packages clean. On Debian 12 each first installs the packages it needs and lacks.
+# Verbs: run test build bench bench-against equilibria paper rigidity reproducibility docs test-asan fuzz test-slurm
+# test-debian12 test-debian13 lint format packages clean. On Debian 12 and 13 each verb first installs the packages that it
+# needs and that are missing.
 #   make lint LINT='engine/solve/jam.cpp'
+#   make run BUILD=/tmp/isojam/build OUTPUT=/tmp/isojam/results     # from a source folder that cannot be written
 BUILD ?= build
+OUTPUT ?= results
 JOBS ?= $(shell nproc)
 OPTIONS ?=
+# The system's Python, since the packages of the tests belong to it; without it, the first on PATH.
+PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 # Seconds for a test that names no limit of its own.
 TIMEOUT ?= 300
 EXAMPLE ?= examples/01-four-solids
-# Where `isojam run` puts the results of the example: named as its manifest says.
-RESULTS  = $(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.json)
+# The folder of the example's results has the name that its manifest states.
+RESULTS  = $(OUTPUT)/$(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.json)
 
 # ---- Packages, one list per need ----------------------------------------------------------------------------
 PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev libmetis-dev \
@@ -20,15 +25,17 @@ TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijso
                     python3-matplotlib python3-yaml groff-base zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
-CLANG_PACKAGES   := clang-14
-FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) $(CLANG_PACKAGES) libclang-rt-14-dev llvm-14
+# Debian 12 has clang 14, Debian 13 has clang 19.
+CLANG            ?= $(shell . /etc/os-release 2>/dev/null; [ "$$VERSION_ID" = 12 ] && echo 14 || echo 19)
+CLANG_PACKAGES   := clang-$(CLANG)
+FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) $(CLANG_PACKAGES) libclang-rt-$(CLANG)-dev llvm-$(CLANG)
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev libsuitesparse-dev libopenblas-serial-dev
 SLURM_PACKAGES   := slurm-wlm munge python3
 DOCS_PACKAGES    := mkdocs doxygen python3
 
 # $(call install,packages): the network is touched only if one of them is missing.
 define install
-	@command -v dpkg-query >/dev/null || { echo 'no dpkg here: taking it that these are installed: $(1)' >&2; exit 0; }; \
+	@command -v dpkg-query >/dev/null || { echo 'This is not Debian: nothing is installed. docs/install.md has the names of the packages.' >&2; exit 0; }; \
 	missing=; \
 	for package in $(1); do \
 	  dpkg-query -W -f '$${db:Status-Status}\n' $$package 2>/dev/null | grep -qx installed || missing="$$missing $$package"; \
@@ -37,13 +44,16 @@ define install
 	if [ "$$(id -u)" = 0 ]; then as_root=; \
 	elif command -v sudo >/dev/null; then as_root=sudo; \
 	else \
-	  echo 'These packages are missing, and without root or sudo make cannot install them. As root, run:' >&2; \
+	  echo 'Packages are missing, and make needs root or sudo to install them. As root, run:' >&2; \
 	  echo "  apt-get update && apt-get install --no-install-recommends$$missing" >&2; \
 	  exit 1; \
 	fi; \
 	echo "installing:$$missing" >&2; \
-	$$as_root apt-get -q update && \
-	$$as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends $$missing </dev/null
+	{ $$as_root apt-get -q update && \
+	  $$as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends $$missing </dev/null; } || { \
+	  echo 'The packages could not be installed. Check the network and /etc/apt/sources.list; the reason stands above.' >&2; \
+	  exit 1; \
+	}
 endef
 
 # ---- Building ------------------------------------------------------------------------------------------------
@@ -55,9 +65,17 @@ CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISO
 .PHONY: build run test test-asan fuzz test-slurm bench equilibria paper rigidity docs lint format clean
 .DEFAULT_GOAL := build
 
+# Names other folders where the source folder cannot be written.
+define check_writable
+	@mkdir -p $(BUILD) $(OUTPUT) 2>/dev/null && [ -w $(BUILD) ] && [ -w $(OUTPUT) ] || { \
+	  echo 'The folders $(BUILD) and $(OUTPUT) cannot be written. Choose others:' >&2; \
+	  echo '  make $@ BUILD=/tmp/isojam/build OUTPUT=/tmp/isojam/results' >&2; exit 1; }
+endef
+
 # Without what `isojam chart` alone needs.
 .PHONY: isojam
 isojam:
+	$(check_writable)
 	$(call install,$(PROGRAM_PACKAGES))
 	$(CONFIGURE_PROGRAM)
 	cmake --build $(BUILD) -j $(JOBS) --target isojam
@@ -67,8 +85,8 @@ build: isojam
 
 # The table first, then the rest of the program.
 run: isojam
-	$(BUILD)/isojam run $(EXAMPLE)/manifest.json
-	@$(BUILD)/isojam report results/$(RESULTS)
+	$(BUILD)/isojam run $(EXAMPLE)/manifest.json -o $(RESULTS)
+	@$(BUILD)/isojam report $(RESULTS)
 	cmake --build $(BUILD) -j $(JOBS) --target isojam-chart
 
 # The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
@@ -92,9 +110,9 @@ paper: build
 	$(call measure,paper-400 paper-400-tetrahedra,backbone)
 	$(call measure,paper-rule paper-rule-base,difference_modes)
 	@for study in paper-100 paper-100-tetrahedra; do $(BUILD)/isojam report results/$$study; done
-	@/usr/bin/python3 -B examples/paper/gather.py $(BUILD)/isojam results results/paper
-	@/usr/bin/python3 -B examples/paper/figures.py results/paper results/paper
-	@/usr/bin/python3 -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
+	@$(PYTHON) -B examples/paper/gather.py $(BUILD)/isojam results results/paper
+	@$(PYTHON) -B examples/paper/figures.py results/paper results/paper
+	@$(PYTHON) -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
 
 # The studies of examples/rigidity, and of the paper's the small ones and a quarter of the large ones, which `paper`
 # goes on with; then linear programmes, whose solver the tests have, and the page.
@@ -110,10 +128,10 @@ rigidity: build
 	$(call measure,paper-400 paper-400-tetrahedra,$(HOLDING))
 	$(CONFIGURE) -DISOJAM_TESTS=ON
 	cmake --build $(BUILD) -j $(JOBS) --target isojam_cones
-	@/usr/bin/python3 -B examples/rigidity/gather.py $(BUILD)/isojam results results/rigidity
+	@$(PYTHON) -B examples/rigidity/gather.py $(BUILD)/isojam results results/rigidity
 	$(BUILD)/isojam_cones results/rigidity-50 results/rigidity-50-tetrahedra -o results/rigidity/cones.json --each 16
-	@/usr/bin/python3 -B examples/rigidity/figures.py results/rigidity results/rigidity
-	@/usr/bin/python3 -B examples/rigidity/page.py examples/rigidity/README.md --data results/rigidity -o results/rigidity/README.md
+	@$(PYTHON) -B examples/rigidity/figures.py results/rigidity results/rigidity
+	@$(PYTHON) -B examples/rigidity/page.py examples/rigidity/README.md --data results/rigidity -o results/rigidity/README.md
 
 # All that `run` and `test` install, and nothing else: for the layer of an image.
 .PHONY: packages
@@ -125,6 +143,7 @@ browser:
 	$(call install,$(BROWSER_PACKAGES))
 
 test:
+	$(check_writable)
 	$(call install,$(TEST_PACKAGES))
 	@$(MAKE) --no-print-directory browser || echo 'NO BROWSER COULD BE INSTALLED: the report is not tested in one' >&2
 	$(CONFIGURE) -DISOJAM_TESTS=ON
@@ -136,7 +155,7 @@ test:
 docs:
 	$(call install,$(DOCS_PACKAGES))
 	@rm -rf $(BUILD)/docs && mkdir -p $(BUILD)/docs/source
-	/usr/bin/python3 -B docs/site/gather.py . $(BUILD)/docs
+	$(PYTHON) -B docs/site/gather.py . $(BUILD)/docs
 	DOCS_BUILD=$(BUILD)/docs doxygen docs/site/Doxyfile
 	mkdocs build --quiet --strict -f $(BUILD)/docs/mkdocs.yml
 	@echo '$(BUILD)/docs/site/index.html'
@@ -146,16 +165,29 @@ REPRODUCIBLE = tests/reproducibility
 .PHONY: reproducibility
 reproducibility: isojam
 	$(call install,$(PROGRAM_PACKAGES) $(CLANG_PACKAGES) python3)
-	cmake -S . -B $(BUILD)-clang -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DISOJAM_NATIVE=ON -DISOJAM_TESTS=OFF
+	cmake -S . -B $(BUILD)-clang -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=ON -DISOJAM_TESTS=OFF
 	cmake --build $(BUILD)-clang -j $(JOBS) --target isojam
-	cmake -S . -B $(BUILD)-clang-portable -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=OFF
+	cmake -S . -B $(BUILD)-clang-portable -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=OFF
 	cmake --build $(BUILD)-clang-portable -j $(JOBS) --target isojam
 	cmake -S . -B $(BUILD)-portable -G Ninja -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=OFF
 	cmake --build $(BUILD)-portable -j $(JOBS) --target isojam
-	/usr/bin/python3 -B $(REPRODUCIBLE)/same_bytes.py $(REPRODUCIBLE)/manifest.json g++=$(BUILD)/isojam \
+	$(PYTHON) -B $(REPRODUCIBLE)/same_bytes.py $(REPRODUCIBLE)/manifest.json g++=$(BUILD)/isojam \
 	  g++-without-fma-in-libm=GLIBC_TUNABLES:glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,$(BUILD)/isojam \
 	  clang=$(BUILD)-clang/isojam g++-without-avx2=$(BUILD)-portable/isojam \
 	  clang-without-avx2=$(BUILD)-clang-portable/isojam
+
+# Both commands of the README in a clean root of a Debian release: as root, with a fresh clone of this commit. The root is
+# removed at the end.
+.PHONY: test-debian12 test-debian13
+test-debian12: SUITE = bookworm
+test-debian13: SUITE = trixie
+test-debian12 test-debian13:
+	$(call install,debootstrap)
+	tests/debian/root.sh make $(BUILD)-$(SUITE) $(SUITE)
+	tests/debian/root.sh clone $(BUILD)-$(SUITE) .
+	tests/debian/root.sh run $(BUILD)-$(SUITE) make run
+	tests/debian/root.sh run $(BUILD)-$(SUITE) make test
+	tests/debian/root.sh remove $(BUILD)-$(SUITE)
 
 # As root. Not a part of `test`: it starts daemons.
 test-slurm: build
@@ -180,7 +212,7 @@ bench-against:
 	git archive $(BEFORE) | tar -x -C $(BUILD)-before/tree
 	cmake -S $(BUILD)-before/tree -B $(BUILD)-before -G Ninja -DISOJAM_NATIVE=ON -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
 	cmake --build $(BUILD)-before -j $(JOBS) --target isojam_bench
-	/usr/bin/python3 -B tests/bench/against.py $(BUILD)-before/isojam_bench $(BUILD)/isojam_bench --filter '$(FILTER)'
+	$(PYTHON) -B tests/bench/against.py $(BUILD)-before/isojam_bench $(BUILD)/isojam_bench --filter '$(FILTER)'
 
 # What following equilibria towards jamming costs: the tables of docs/equilibria.md.
 equilibria:
@@ -199,7 +231,7 @@ test-asan:
 FUZZ_SECONDS ?= 300
 fuzz:
 	$(call install,$(FUZZ_PACKAGES))
-	cmake -S . -B $(BUILD)-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DISOJAM_TESTS=OFF -DISOJAM_FUZZ=ON \
+	cmake -S . -B $(BUILD)-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_TESTS=OFF -DISOJAM_FUZZ=ON \
 	  -DISOJAM_NATIVE=ON -DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON $(OPTIONS)
 	cmake --build $(BUILD)-fuzz -j $(JOBS) --target fuzzers
 	bash tests/fuzz/run.sh $(BUILD)-fuzz $(FUZZ_SECONDS)
@@ -212,6 +244,7 @@ clean:
 FILES   := $(shell find $(wildcard engine tasks tests) -path tests/house/bad -prune -o \( -name '*.cpp' -o -name '*.hpp' \) -print | sort)
 # Not ?=, for make has a LINT of its own; the command line wins over := as well.
 LINT    := $(filter %.cpp,$(FILES))
+EIGEN   ?= /usr/include/eigen3
 STAMPS   = $(LINT:%=$(BUILD)-lint/stamps/%)
 CONFIGURE_LINT = $(subst -B $(BUILD),-B $(BUILD)-lint,$(CONFIGURE)) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON \
                  -DISOJAM_FUZZ=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
@@ -232,7 +265,7 @@ $(STAMPS): $(BUILD)-lint/stamps/%: % .clang-tidy tests/.clang-tidy
 	@mkdir -p $(@D)
 	@echo 'clang-tidy $<'
 	@clang-tidy --quiet -p $(BUILD)-lint $< >$@.log 2>&1 || { grep -v ' warnings generated' $@.log; exit 1; }
-	@$(CXX) -std=c++20 -MM -MP -MT $@ -MF $@.d -I. -I$(BUILD)-lint/generated -isystem /usr/include/eigen3 $<
+	@$(CXX) -std=c++20 -MM -MP -MT $@ -MF $@.d -I. -I$(BUILD)-lint/generated -isystem $(EIGEN) $<
 	@touch $@
 
 -include $(wildcard $(STAMPS:=.d))

@@ -17,7 +17,7 @@ template <class TextAt>
 std::string difference(std::string_view schema, const Owner& owner, const TextAt& text_at) {
   const Json expected = companion(schema, owner);
   for (const auto& item : expected.items()) {
-    if (text_at(item.key()) != item.value()) return item.key();
+    if (text_at(item.key()) != item.value().get<std::string>()) return item.key();
   }
   return "";
 }

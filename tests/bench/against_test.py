@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 AGAINST = pathlib.Path(__file__).resolve().parent / "against.py"
-FAKE = """#!/usr/bin/python3 -B
+FAKE = f"#!{sys.executable} -B" + """
 import json, pathlib, sys
 here = pathlib.Path(__file__)
 with open(here.parent / "log", "a") as log:

@@ -5,6 +5,7 @@
   licence of LICENSE, and the paper by the address that crates give it;
 - CHANGELOG.md has the headings of its form;
 - every verb of make that a page shows is one of the Makefile's, and the page on developing has all that a person types;
+- docs/install.md has the packages, minimum versions and names that CMake prints;
 - a citation without a key, or of another version, is refused.
 """
 
@@ -45,7 +46,7 @@ def faults(citation):
 
 
 def verbs_of(makefile):
-    return set(re.findall(r"^([a-z][a-z-]*):(?!=)", makefile, re.M))
+    return set(re.findall(r"^([a-z][a-z0-9-]*):(?!=)", makefile, re.M))
 
 
 class Project(unittest.TestCase):
@@ -82,6 +83,17 @@ class Project(unittest.TestCase):
         self.assertLessEqual(set(re.findall(r"^### (.*)$", page, re.M)),
                              {"Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"})
 
+    def test_packages_have_the_names_that_cmake_prints(self):
+        names = re.search(r"set\(isojam_package_names\n(.*?)\)", text_of("engine/packages.cmake"), re.S)[1]
+        names = {line.split()[0]: line.split()[1:] for line in names.split("\n") if line.strip()}
+        minimum = dict(re.findall(r"isojam_(?:require|miss)\((\S+) ([\d.]+) ",
+                                  text_of("CMakeLists.txt") + text_of("engine/packages.cmake")))
+        rows = [row.strip("|").split("|") for row in re.findall(r"^\|.*\|$", text_of("docs/install.md"), re.M)]
+        rows = {row[0].strip(): [cell.strip() for cell in row[1:]] for row in rows}
+        self.assertEqual(len(minimum), 8)
+        for package, version in minimum.items():
+            self.assertEqual(rows[package], [version, *names[package]], package)
+
     def test_verbs(self):
         verbs = verbs_of(text_of("Makefile"))
         self.assertLessEqual({"run", "test", "docs"}, verbs)
@@ -89,7 +101,7 @@ class Project(unittest.TestCase):
         for page in pages(SOURCE):
             text = page.read_text(encoding="utf-8")
             for number, words in code_lines(text) + spans(text):
-                match = re.match(r"(?:\S+=\S+ )*make ([a-z][a-z-]*)", words)
+                match = re.match(r"(?:\S+=\S+ )*make ([a-z][a-z0-9-]*)", words)
                 if match:
                     self.assertIn(match[1], verbs, f"{page}:{number}")
                     shown.add(match[1])

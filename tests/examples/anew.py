@@ -2,6 +2,7 @@
 
 import json
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -17,7 +18,7 @@ def gathered(isojam, folder, runs):
                 commands.append(["measure", results / name, "--add", measures])
             for command in commands:
                 subprocess.run([isojam, *command], check=True, capture_output=True)
-        subprocess.run(["/usr/bin/python3", "-B", folder / "gather.py", isojam, results, results / "out"], check=True,
+        subprocess.run([sys.executable, "-B", folder / "gather.py", isojam, results, results / "out"], check=True,
                        capture_output=True)
         return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in (results / "out").glob("*.json")}
 

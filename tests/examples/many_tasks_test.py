@@ -22,7 +22,7 @@ EXECUTABLE, EXAMPLE, RESULTS = (pathlib.Path(argument).resolve() for argument in
 del sys.argv[1:4]
 TASKS = 6
 
-STAND_IN = '''#!/usr/bin/python3 -B
+STAND_IN = f"#!{sys.executable} -B" + '''
 import concurrent.futures, os, pathlib, signal, subprocess, sys, time
 
 words = sys.argv[1:]

@@ -39,7 +39,7 @@ def of(mean, half_width, n=16, **more):
 
 class Page(unittest.TestCase):
     def check(self, page, *options):
-        return subprocess.run(["/usr/bin/python3", "-B", PAPER / "page.py", page, "--check", *options],
+        return subprocess.run([sys.executable, "-B", PAPER / "page.py", page, "--check", *options],
                               capture_output=True, text=True, check=False)
 
     def test_is_what_the_data_say(self):
@@ -255,7 +255,7 @@ class Gathered(unittest.TestCase):
                 manifest.write_text(json.dumps({**self.MANIFEST, "name": name, "replicates": replicates}))
                 subprocess.run([ISOJAM, "run", manifest, "-o", results / name, "--quiet"], check=True,
                                capture_output=True)
-            subprocess.run(["/usr/bin/python3", "-B", PAPER / "gather.py", ISOJAM, results, results / "out"],
+            subprocess.run([sys.executable, "-B", PAPER / "gather.py", ISOJAM, results, results / "out"],
                            check=True, capture_output=True)
             made = subprocess.run([ISOJAM, "aggregate", results / "paper-100", "--exclude",
                                    "crystalline,goal_not_reached", "--format", "json", "--quiet"], check=True,

@@ -59,7 +59,7 @@ def expansion(**columns):
 
 class Page(unittest.TestCase):
     def check(self, page):
-        return subprocess.run(["/usr/bin/python3", "-B", RIGIDITY / "page.py", page, "--check"],
+        return subprocess.run([sys.executable, "-B", RIGIDITY / "page.py", page, "--check"],
                               capture_output=True, text=True, check=False)
 
     def test_is_what_the_data_say(self):
@@ -248,7 +248,7 @@ class Gathered(unittest.TestCase):
             (results / "m.json").write_text(json.dumps(self.MANIFEST))
             subprocess.run([ISOJAM, "run", results / "m.json", "-o", results / "rigidity-50", "--quiet"], check=True,
                            capture_output=True)
-            subprocess.run(["/usr/bin/python3", "-B", RIGIDITY / "gather.py", ISOJAM, results, results / "out"],
+            subprocess.run([sys.executable, "-B", RIGIDITY / "gather.py", ISOJAM, results, results / "out"],
                            check=True, capture_output=True)
             records = [json.loads(path.read_text()) for path in sorted((results / "rigidity-50/records").iterdir())]
             made = data.Data(results / "out")

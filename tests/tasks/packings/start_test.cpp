@@ -322,7 +322,7 @@ opened = gsd.hoomd.open('written.gsd', 'wb')
 opened.append(snapshot)
 opened.close()
 )");
-  const auto python = test::shell("/usr/bin/python3 -B write.py", directory.path());
+  const auto python = test::shell(ISOJAM_PYTHON " -B write.py", directory.path());
   ASSERT_EQ(python.exit_code, 0) << python.err;
   auto manifest = started({{"packing", "written.gsd"}}, 64);
   manifest["solids"] = {{"brick", {{"box", {1, 1.2, 1.4}}}}};
