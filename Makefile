@@ -160,7 +160,8 @@ docs:
 	mkdocs build --quiet --strict -f $(BUILD)/docs/mkdocs.yml
 	@echo '$(BUILD)/docs/site/index.html'
 
-# The same bytes from g++ and clang, with and without AVX2: three more builds, in directories of their own.
+# The same bytes from g++ and clang, with and without AVX2: three more builds, in folders of their own. As root also the
+# build of Debian 13, whose loader runs it here with the libraries of its own root.
 REPRODUCIBLE = tests/reproducibility
 .PHONY: reproducibility
 reproducibility: isojam
@@ -171,10 +172,21 @@ reproducibility: isojam
 	cmake --build $(BUILD)-clang-portable -j $(JOBS) --target isojam
 	cmake -S . -B $(BUILD)-portable -G Ninja -DISOJAM_NATIVE=OFF -DISOJAM_TESTS=OFF
 	cmake --build $(BUILD)-portable -j $(JOBS) --target isojam
+	@[ "$$(id -u)" = 0 ] || echo 'Without root rights the build of Debian 13 is left out.' >&2
+	@[ "$$(id -u)" != 0 ] || $(MAKE) --no-print-directory $(TRIXIE)/isojam/build/isojam
 	$(PYTHON) -B $(REPRODUCIBLE)/same_bytes.py $(REPRODUCIBLE)/manifest.json g++=$(BUILD)/isojam \
 	  g++-without-fma-in-libm=GLIBC_TUNABLES:glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,$(BUILD)/isojam \
 	  clang=$(BUILD)-clang/isojam g++-without-avx2=$(BUILD)-portable/isojam \
-	  clang-without-avx2=$(BUILD)-clang-portable/isojam
+	  clang-without-avx2=$(BUILD)-clang-portable/isojam \
+	  $(if $(filter 0,$(shell id -u)),'debian13=$(TRIXIE)/lib64/ld-linux-x86-64.so.2 --library-path \
+	  $(TRIXIE)/lib/x86_64-linux-gnu $(TRIXIE)/isojam/build/isojam')
+
+TRIXIE = $(abspath $(BUILD)-trixie)
+$(TRIXIE)/isojam/build/isojam:
+	$(call install,debootstrap)
+	tests/debian/root.sh make $(TRIXIE) trixie
+	tests/debian/root.sh clone $(TRIXIE) .
+	tests/debian/root.sh run $(TRIXIE) make isojam
 
 # Both commands of the README in a clean root of a Debian release: as root, with a fresh clone of this commit. The root is
 # removed at the end.
@@ -237,7 +249,8 @@ fuzz:
 	bash tests/fuzz/run.sh $(BUILD)-fuzz $(FUZZ_SECONDS)
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-clang $(BUILD)-clang-portable $(BUILD)-portable $(BUILD)-before $(BUILD)-fuzz $(BUILD)-lint
+	rm -rf --one-file-system $(BUILD) $(BUILD)-asan $(BUILD)-clang $(BUILD)-clang-portable $(BUILD)-portable $(BUILD)-before \
+	  $(BUILD)-fuzz $(BUILD)-lint $(BUILD)-trixie $(BUILD)-bookworm
 
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.

@@ -1,13 +1,14 @@
 """Whether variants of the program give the same bytes: same_bytes.py MANIFEST NAME=PROGRAM [NAME=PROGRAM ...]
 
-Every variant runs the manifest in a directory of its own; a word VARIABLE:VALUE in front of the program is set in its
-environment, as in  old=GLIBC_TUNABLES:glibc.cpu.hwcaps=-FMA,build/isojam . Of each replicate the digest of its results
-is compared (all of the record but times and provenance) and the bytes of its packings and its path, with those of the
-first variant. Exits 1 and names what differs.
+Every variant runs the manifest in a directory of its own. PROGRAM may have arguments of its own. VARIABLE:VALUE in front
+of it sets an environment variable, as in  old=GLIBC_TUNABLES:glibc.cpu.hwcaps=-FMA,build/isojam . The digest of each
+result (all of a record but times and provenance) and the bytes of packings and paths are compared with those of the first
+variant. Exits 1 and names the files that differ.
 """
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -16,14 +17,14 @@ from pathlib import Path
 
 
 def parsed(argument):
-    """NAME=[VARIABLE:VALUE,...]PROGRAM; the program is what follows the last comma."""
+    """Splits NAME=[VARIABLE:VALUE,...]PROGRAM; the program stands after the last comma."""
     name, _, rest = argument.partition("=")
     *settings, program = rest.rsplit(",", 1)
     environment = dict(os.environ)
     for setting in settings:
         variable, _, value = setting.partition(":")
         environment[variable] = value
-    return name, environment, program
+    return name, environment, shlex.split(program)
 
 
 def results_of(directory):
@@ -39,10 +40,10 @@ def results_of(directory):
 
 def run(manifest, environment, program, directory):
     began = time.monotonic()
-    ended = subprocess.run([program, "run", manifest, "-o", str(directory), "--quiet"], env=environment,
+    ended = subprocess.run([*program, "run", manifest, "-o", str(directory), "--quiet"], env=environment,
                            stdout=subprocess.DEVNULL, check=False)
     if ended.returncode != 0:
-        sys.exit(f"{program} ended with {ended.returncode}")
+        sys.exit(f"{shlex.join(program)} ended with {ended.returncode}")
     return time.monotonic() - began
 
 
