@@ -12,7 +12,7 @@ RESULTS  = $(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.
 
 # ---- Packages, one list per need ----------------------------------------------------------------------------
 PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev libmetis-dev \
-                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev nettle-dev libjs-vega libjs-three
+                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
