@@ -55,21 +55,14 @@ CONFIGURE_PROGRAM = $(CONFIGURE) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DISO
 .PHONY: build run test test-asan fuzz test-slurm bench equilibria paper rigidity docs lint format clean
 .DEFAULT_GOAL := build
 
-# Without what `isojam chart` alone needs.
-.PHONY: isojam
-isojam:
+build:
 	$(call install,$(PROGRAM_PACKAGES))
 	$(CONFIGURE_PROGRAM)
 	cmake --build $(BUILD) -j $(JOBS) --target isojam
 
-build: isojam
-	cmake --build $(BUILD) -j $(JOBS) --target isojam-chart
-
-# The table first, then the rest of the program.
-run: isojam
+run: build
 	$(BUILD)/isojam run $(EXAMPLE)/manifest.json
 	@$(BUILD)/isojam report results/$(RESULTS)
-	cmake --build $(BUILD) -j $(JOBS) --target isojam-chart
 
 # The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
 # interrupted goes on. A replicate that failed (exit 1) is counted on the page.
@@ -144,7 +137,7 @@ docs:
 # The same bytes from g++ and clang, with and without AVX2: three more builds, in directories of their own.
 REPRODUCIBLE = tests/reproducibility
 .PHONY: reproducibility
-reproducibility: isojam
+reproducibility: build
 	$(call install,$(PROGRAM_PACKAGES) $(CLANG_PACKAGES) python3)
 	cmake -S . -B $(BUILD)-clang -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DISOJAM_NATIVE=ON -DISOJAM_TESTS=OFF
 	cmake --build $(BUILD)-clang -j $(JOBS) --target isojam

@@ -22,7 +22,6 @@ namespace isojam {
 
 /// What a command line asks for: how to talk, and the work of the command that was given.
 struct Session {
-  char** words = nullptr;  ///< of the command line, the program's name first, ended by null
   ConsoleOptions console;
   std::function<ExitCode(Console&)> work;
   ProgramDescription program;  ///< the command line itself

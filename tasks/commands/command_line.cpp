@@ -174,7 +174,6 @@ Options add_command(CLI::App& app, Session& session, const std::string& name, co
 }
 
 std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& session) {
-  session.words = argv;
   CLI::App app("isojam: jammed packings of soft frictionless convex solids, in batches", "isojam");
   app.require_subcommand(1);
   app.fallthrough();
