@@ -16,15 +16,12 @@ SIZES = (50, 64, 100, 200, 400, 800)  # tetrahedra of 64 beside the others of 50
 
 
 class Data(Expansions):
-    """Records of a directory, and what linear programmes found in their states. Derived columns are made as they are
-    read."""
+    """Records of a directory. Derived columns are made as they are read."""
 
     def __init__(self, directory):
         with open(directory / "records.json", encoding="utf-8") as file:
             studies = json.load(file)
         super().__init__(studies, tuple(studies))
-        cones = directory / "cones.json"
-        self.cones = json.loads(cones.read_text(encoding="utf-8"))["rows"] if cones.exists() else []
         for study in studies.values():
             for replicate in study["replicates"]:
                 if replicate["status"] == "done":

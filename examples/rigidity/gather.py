@@ -30,10 +30,7 @@ COLUMNS = {
     "looked_at": "prestress/modes/looked_at", "unresolved": "prestress/modes/unresolved",
     "worst_sum": "prestress/modes/worst_sum", "prestress_lambda": "prestress/modes/prestress_lambda",
     "floppy": "quartic/floppy", "quartic": "quartic/quartic",
-    "c_floppy": "quartic/coefficient", "dimension": "one_sided/dimension", "least_margin": "one_sided/least_margin",
-    "median_margin": "one_sided/median_margin", "outside": "one_sided/outside",
-    "outside_faces": "one_sided/outside_faces",
-    "rows": "one_sided/constraints", "gaps": "gaps/within_distance", "weak": "gaps/weak_forces"}
+    "c_floppy": "quartic/coefficient", "gaps": "gaps/within_distance", "weak": "gaps/weak_forces"}
 # Lists of a state: where, then {column: (index, key)} of what the page needs of them.
 LISTS = {
     "rigidity/scaled_cutoffs": {"floppy_half": (0, "floppy"), "self_stress_half": (0, "self_stress"),

@@ -1,4 +1,4 @@
-// Facts proved here, of what the measures of prestress, of floppy motions, of one-sided forces and of gaps put into
+// Facts proved here, of what the measures of prestress, of floppy motions and of gaps put into
 // records, in states of jammed octahedra:
 // - numbers of constraints fall as their threshold rises, and the one called C_s is that of 10; missing ranks are those
 //   of the rigidity of the same rows; shares of modes add up, and lie in [0, 1] but for prestress that is negative;
@@ -6,7 +6,6 @@
 //   contacts and stiff tilts by class are all contacts, and all constraints that C_s counts beside them;
 // - wider cut-offs give more constraints, and no less rank;
 // - floppy motions are 6N − 3 less the rank of the normals; exponents begin at 2, where the force alone opposes;
-// - one-sided forces have as many dimensions as classes have states of self-stress;
 // - bins hold every contact and every gap; nearer to jamming fewer pairs are nearer than Δφ;
 // - packings too large for dense matrices, and states not above jamming, have the reason in place of numbers.
 
@@ -161,23 +160,6 @@ TEST(QuarticMeasure, CountsFloppyMotions) {
       EXPECT_LE(rung.at("lower_quartile").get<double>(), rung.at("upper_quartile").get<double>());
     }
   }
-}
-
-TEST(OneSidedMeasure, IsTheSelfStressOfClasses) {
-  const auto states = states_of(Measure::one_sided, "one_sided"), ranks = states_of(Measure::rigidity, "rigidity");
-  int told = 0;
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    if (states[k].at("dimension").is_null()) {
-      EXPECT_FALSE(states[k].at("dimension_reason").get<std::string>().empty());
-      continue;
-    }
-    ++told;
-    EXPECT_EQ(states[k].at("outside_faces").get<int>(), 0);
-    EXPECT_EQ(states[k].at("dimension").get<int>(), ranks[k].at("classes").at("self_stress").get<int>());
-    EXPECT_GT(states[k].at("least_margin").get<double>(), 0);
-    EXPECT_EQ(states[k].at("constraints"), ranks[k].at("classes").at("constraints"));
-  }
-  EXPECT_GT(told, 0);
 }
 
 TEST(RigidityMeasure, TriesOtherCutoffs) {
