@@ -6,7 +6,6 @@ import counting
 import evidence
 import forces
 import held
-import motions
 import rank
 from data import SOLIDS
 from gather import FORCES, GAPS
@@ -43,7 +42,7 @@ def cost(data):
          f"Made by commits {', '.join(commits)}.\n")
 
 
-BLOCKS = {**evidence.BLOCKS, **held.BLOCKS, **counting.BLOCKS, **rank.BLOCKS, **motions.BLOCKS, **forces.BLOCKS,
+BLOCKS = {**evidence.BLOCKS, **held.BLOCKS, **counting.BLOCKS, **rank.BLOCKS, **forces.BLOCKS,
           "cost": cost}
 
 

@@ -1,7 +1,7 @@
 """Draws the figures of the page: python3 figures.py DATA OUT
 
-soft.png and held.png (stiffness and prestress), bands.png and angles.png (counting), missing.png (rank), quartic.png
-(floppy motions), forces.png (forces and gaps), from DATA/records.json as gather.py writes it.
+soft.png and held.png (stiffness and prestress), bands.png and angles.png (counting), missing.png (rank), forces.png
+(forces and gaps), from DATA/records.json as gather.py writes it.
 """
 
 import sys
@@ -108,16 +108,6 @@ def missing(data, out):
     save(figure, out / "missing.png", 80)
 
 
-def quartic(data, out):
-    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
-    for axes, column, title in zip(two, ("quartic_share", "rung_2"),
-                                   ("Share of quartic floppy motions", "Median exponent, a = Δφ/16 – Δφ/4")):
-        series(axes, data, column, (100,), label=axes is two[0])
-        axes.set(xscale="log", xlabel="Δφ", title=f"{title}, N = 100")
-    two[0].legend(fontsize=7)
-    save(figure, out / "quartic.png", 80)
-
-
 def below(axes, data, names, steps, title, xlabel):
     for solid in SOLIDS:
         rows = [(cumulative(r["bins"], names, steps), sum(sum(r["bins"][n][1]) for n in names))
@@ -143,7 +133,7 @@ def forces(data, out):
 def main():
     data, out = Data(Path(sys.argv[1])), Path(sys.argv[2])
     with matplotlib.rc_context(SETTINGS):
-        for draw in (soft, held, bands, angles, missing, quartic, forces):
+        for draw in (soft, held, bands, angles, missing, forces):
             draw(data, out)
 
 
