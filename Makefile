@@ -17,11 +17,11 @@ RESULTS  = $(OUTPUT)/$(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)
 
 # ---- Packages, one list per need ----------------------------------------------------------------------------
 PROGRAM_PACKAGES := build-essential cmake ninja-build git libtbb-dev libeigen3-dev libspectra-dev libmetis-dev \
-                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev nettle-dev libjs-vega libjs-three
+                    nlohmann-json3-dev libfmt-dev libcli11-dev libboost-dev libjs-vega libjs-three
 LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
-                    libmpfr-dev voro++-dev coinor-libclp-dev python3 python3-gsd python3-vtk9 python3-numpy python3-pandas \
+                    libmpfr-dev voro++-dev python3 python3-gsd python3-vtk9 python3-numpy python3-pandas \
                     python3-matplotlib python3-yaml groff-base zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
@@ -72,22 +72,15 @@ define check_writable
 	  echo '  make $@ BUILD=/tmp/isojam/build OUTPUT=/tmp/isojam/results' >&2; exit 1; }
 endef
 
-# Without what `isojam chart` alone needs.
-.PHONY: isojam
-isojam:
+build:
 	$(check_writable)
 	$(call install,$(PROGRAM_PACKAGES))
 	$(CONFIGURE_PROGRAM)
 	cmake --build $(BUILD) -j $(JOBS) --target isojam
 
-build: isojam
-	cmake --build $(BUILD) -j $(JOBS) --target isojam-chart
-
-# The table first, then the rest of the program.
-run: isojam
+run: build
 	$(BUILD)/isojam run $(EXAMPLE)/manifest.json -o $(RESULTS)
 	@$(BUILD)/isojam report $(RESULTS)
-	cmake --build $(BUILD) -j $(JOBS) --target isojam-chart
 
 # The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
 # interrupted goes on. A replicate that failed (exit 1) is counted on the page.
@@ -115,21 +108,16 @@ paper: build
 	@$(PYTHON) -B examples/paper/page.py examples/paper/README.md --data results/paper -o results/paper/README.md
 
 # The studies of examples/rigidity, and of the paper's the small ones and a quarter of the large ones, which `paper`
-# goes on with; then linear programmes, whose solver the tests have, and the page.
+# goes on with; then the page.
 RIGIDITY = n50 n50-tetrahedra n200 n200-tetrahedra n800
-HOLDING = prestress one_sided gaps
 rigidity: build
-	$(call install,$(TEST_PACKAGES))
+	$(call install,python3 python3-matplotlib)
 	$(call studies,n100 n100-tetrahedra,paper)
 	$(call studies,$(RIGIDITY),rigidity)
 	$(call studies,n400 n400-tetrahedra,paper,--shard 1/4)
 	$(call measure,rigidity-50 rigidity-50-tetrahedra paper-100 paper-100-tetrahedra rigidity-200 \
-	  rigidity-200-tetrahedra,$(HOLDING) quartic)
-	$(call measure,paper-400 paper-400-tetrahedra,$(HOLDING))
-	$(CONFIGURE) -DISOJAM_TESTS=ON
-	cmake --build $(BUILD) -j $(JOBS) --target isojam_cones
+	  rigidity-200-tetrahedra paper-400 paper-400-tetrahedra,prestress gaps)
 	@$(PYTHON) -B examples/rigidity/gather.py $(BUILD)/isojam results results/rigidity
-	$(BUILD)/isojam_cones results/rigidity-50 results/rigidity-50-tetrahedra -o results/rigidity/cones.json --each 16
 	@$(PYTHON) -B examples/rigidity/figures.py results/rigidity results/rigidity
 	@$(PYTHON) -B examples/rigidity/page.py examples/rigidity/README.md --data results/rigidity -o results/rigidity/README.md
 
@@ -164,7 +152,7 @@ docs:
 # build of Debian 13, whose loader runs it here with the libraries of its own root.
 REPRODUCIBLE = tests/reproducibility
 .PHONY: reproducibility
-reproducibility: isojam
+reproducibility: build
 	$(call install,$(PROGRAM_PACKAGES) $(CLANG_PACKAGES) python3)
 	cmake -S . -B $(BUILD)-clang -G Ninja -DCMAKE_CXX_COMPILER=clang++-$(CLANG) -DISOJAM_NATIVE=ON -DISOJAM_TESTS=OFF
 	cmake --build $(BUILD)-clang -j $(JOBS) --target isojam
@@ -186,7 +174,7 @@ $(TRIXIE)/isojam/build/isojam:
 	$(call install,debootstrap)
 	tests/debian/root.sh make $(TRIXIE) trixie
 	tests/debian/root.sh clone $(TRIXIE) .
-	tests/debian/root.sh run $(TRIXIE) make isojam
+	tests/debian/root.sh run $(TRIXIE) make build
 
 # Both commands of the README in a clean root of a Debian release: as root, with a fresh clone of this commit. The root is
 # removed at the end.

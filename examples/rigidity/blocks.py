@@ -6,7 +6,6 @@ import counting
 import evidence
 import forces
 import held
-import motions
 import rank
 from data import SOLIDS
 from gather import FORCES, GAPS
@@ -43,7 +42,7 @@ def cost(data):
          f"Made by commits {', '.join(commits)}.\n")
 
 
-BLOCKS = {**evidence.BLOCKS, **held.BLOCKS, **counting.BLOCKS, **rank.BLOCKS, **motions.BLOCKS, **forces.BLOCKS,
+BLOCKS = {**evidence.BLOCKS, **held.BLOCKS, **counting.BLOCKS, **rank.BLOCKS, **forces.BLOCKS,
           "cost": cost}
 
 
@@ -53,7 +52,6 @@ class UnknownValue(Exception):
 
 def counts_of(data, what):
     """Numbers over all solids and sizes."""
-    inside, outside = forces.by_programme(data)
 
     def laws_of_forces():
         return forces.straight(data, (FORCES, ("lower_order",)), lambda _: forces.WEAK)
@@ -66,10 +64,6 @@ def counts_of(data, what):
         "above_G": lambda: held.about_sure(data, "omega_over_root_G")[1],
         "above_K": lambda: held.about_sure(data, "omega_over_root_K")[1],
         "excesses": lambda: rank.excess_counts(data)[0], "not_zero": lambda: rank.excess_counts(data)[1],
-        "programmes_inside": lambda: len(inside), "as_many_inside": lambda: forces.as_many(inside),
-        "programmes_outside": lambda: len(outside), "as_many_outside": lambda: forces.as_many(outside),
-        "none_outside": lambda: sum(r["dimension"] == 0 for r in outside),
-        "faces_outside": lambda: sum(r["outside_faces"] > 0 for r in outside),
         "curves_f": lambda: laws_of_forces()[0], "straight_f": lambda: laws_of_forces()[1],
         "curves_h": lambda: laws_of_gaps()[0], "straight_h": lambda: laws_of_gaps()[1]}
     if what in known:

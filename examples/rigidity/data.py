@@ -16,15 +16,12 @@ SIZES = (50, 64, 100, 200, 400, 800)  # tetrahedra of 64 beside the others of 50
 
 
 class Data(Expansions):
-    """Records of a directory, and what linear programmes found in their states. Derived columns are made as they are
-    read."""
+    """Records of a directory. Derived columns are made as they are read."""
 
     def __init__(self, directory):
         with open(directory / "records.json", encoding="utf-8") as file:
             studies = json.load(file)
         super().__init__(studies, tuple(studies))
-        cones = directory / "cones.json"
-        self.cones = json.loads(cones.read_text(encoding="utf-8"))["rows"] if cones.exists() else []
         for study in studies.values():
             for replicate in study["replicates"]:
                 if replicate["status"] == "done":
@@ -60,14 +57,13 @@ def derived(states, particles):
 
     made = {
         **{f"missing{of}": each(states, [name], lambda floppy: (floppy - 3) / particles)
-           for of, name in (("", "floppy_classes"), ("_half", "floppy_half"), ("_double", "floppy_double"))},
+           for of, name in (("", "floppy_classes"), ("_half", "floppy_half"), ("_double", "floppy_double"),
+                            ("_normals", "floppy_normals"))},
         **{f"{name}_each": per_particle(name) for name in (
             "second", "second_0.1", "second_0.01", "prestress", *(f"prestress_{t}" for t in (1, 3, 10, 30, 100)),
-            "floppy", "quartic", "self_stress", "self_stress_half", "self_stress_double")},
+            "self_stress", "self_stress_half", "self_stress_double")},
         **{f"tilts_each_{name}": each(states, [f"contacts_{name}", f"tilts_{name}"], lambda n, t: t / n if n else None)
            for name in ("ff", "ef", "l")},
-        **{f"{name}_share": each(states, [f"{name}_motions", "floppy"], lambda n, of: n / of if of else None)
-           for name in ("quadratic", "steeper")},
         "gap": each(states, ["least_kept", "largest_dropped"], lambda kept, off: kept / off if off else None),
         "soft": where_all_are(lambda w, g, k: w),
         "root_G": where_all_are(lambda w, g, k: g ** 0.5),
@@ -77,6 +73,5 @@ def derived(states, particles):
         "wave": each(states, ["omega_l", "G", "phi"], lambda w, g, phi: w / longest_wave(g, phi, particles)
                      if min(w, g) > 0 else None),
         "G_over_K": each(states, ["G", "K"], lambda shear, bulk: shear / bulk if bulk > 0 else None),
-        "quartic_share": each(states, ["quartic", "floppy"], lambda n, of: n / of if of else None),
         "prestress_share": each(states, ["normal_share", "tilt_share"], lambda n, t: 1 - n - t)}
     return {name: values for name, values in made.items() if values is not None}

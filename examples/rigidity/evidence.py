@@ -1,6 +1,5 @@
-"""Blocks of what carries the page's three sentences: a column for each solid."""
+"""Blocks of what carries the page's two sentences: a column for each solid."""
 
-import forces
 import rank
 from data import SOLIDS
 from text import counted, interval, table
@@ -10,7 +9,7 @@ PLURAL = {"tetrahedron": "tetrahedra", "octahedron": "octahedra", "icosahedron":
 NEAR = 0.001  # Δφ of the first sentence, N = 100: the nearest that tetrahedra reach
 LAST = {("tetrahedron", 400): 0.005, ("tetrahedron", 100): 0.001}  # Δφ of the second; others:
 OTHERS = 0.0005
-SAME = 0.005  # Δφ of the third, that all sizes have
+SAME = 0.005  # a Δφ that all sizes have
 
 
 def by_solid(title, rows):
@@ -43,7 +42,7 @@ def evidence_of_rank(data):
         "states of self-stress per particle, N = 400": last("self_stress_each"), "C by classes, N = 400": last("C")})
 
 
-def evidence_of_cones(data):
+def evidence_of_self_stress(data):
     def size(n):
         return lambda solid: counted(data.at(solid, 64 if n == 50 and solid == "tetrahedron" else n,
                                              "self_stress_each", SAME))
@@ -54,9 +53,7 @@ def evidence_of_cones(data):
     return by_solid("states of self-stress per particle", {
         "Δφ = .005, N = 50 (tetrahedra 64)": size(50), "N = 100": size(100), "N = 200": size(200), "N = 400": size(400),
         "nearest jamming, N = 100": nearest("self_stress_each"), "cut-offs × ½": nearest("self_stress_half_each"),
-        "cut-offs × 2": nearest("self_stress_double_each"),
-        "states with every force inside its contact": lambda solid: "{} of {}".format(*forces.inside(data, solid)),
-        "in others (linear programmes) pushes bear": lambda solid: forces.outcome(forces.by_programme(data, solid)[1])})
+        "cut-offs × 2": nearest("self_stress_double_each")})
 
 
-BLOCKS = {f.__name__: f for f in (evidence_of_tilts, evidence_of_rank, evidence_of_cones)}
+BLOCKS = {f.__name__: f for f in (evidence_of_tilts, evidence_of_rank, evidence_of_self_stress)}

@@ -1,7 +1,7 @@
 """Draws the figures of the page: python3 figures.py DATA OUT
 
-soft.png and held.png (stiffness and prestress), bands.png and angles.png (counting), missing.png (rank), quartic.png
-(floppy motions), forces.png (cones, forces and gaps), from DATA/records.json as gather.py writes it.
+soft.png and held.png (stiffness and prestress), bands.png and angles.png (counting), missing.png (rank), forces.png
+(forces and gaps), from DATA/records.json as gather.py writes it.
 """
 
 import sys
@@ -108,29 +108,6 @@ def missing(data, out):
     save(figure, out / "missing.png", 80)
 
 
-def quartic(data, out):
-    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
-    for axes, column, title in zip(two, ("quartic_share", "rung_2"),
-                                   ("Share of quartic floppy motions", "Median exponent, a = Δφ/16 – Δφ/4")):
-        series(axes, data, column, (100,), label=axes is two[0])
-        axes.set(xscale="log", xlabel="Δφ", title=f"{title}, N = 100")
-    two[0].legend(fontsize=7)
-    save(figure, out / "quartic.png", 80)
-
-
-def cones_panel(axes, data):
-    for solid in SOLIDS:
-        pairs = {(a, b) for n in data.sizes(solid) for r in data.counted(solid, n)
-                 for a, b in zip(r["states"].get("self_stress") or [], r["states"].get("dimension") or [])
-                 if None not in (a, b)}
-        if pairs:
-            axes.plot(*zip(*sorted(pairs)), MARKERS[solid], color=COLOURS[solid], markersize=3, linestyle="none",
-                      label=solid)
-    axes.set(xscale="log", yscale="log", xlabel="states of self-stress by class", ylabel="dimension of the cone",
-             title="Every force inside, all N and Δφ")
-    axes.legend(fontsize=7)
-
-
 def below(axes, data, names, steps, title, xlabel):
     for solid in SOLIDS:
         rows = [(cumulative(r["bins"], names, steps), sum(sum(r["bins"][n][1]) for n in names))
@@ -146,18 +123,17 @@ def below(axes, data, names, steps, title, xlabel):
 
 
 def forces(data, out):
-    figure, three = pyplot.subplots(1, 3, figsize=(10.5, 3.2))
-    cones_panel(three[0], data)
-    below(three[1], data, FORCES, STEPS_OF_FORCE, "Forces nearest jamming", "f/⟨f⟩")
-    below(three[2], data, GAPS, STEPS_OF_GAP, "Gaps < .1 of faces and edges", "h, V$_p^{1/3}$")
-    three[1].legend(fontsize=7)
+    figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
+    below(two[0], data, FORCES, STEPS_OF_FORCE, "Forces nearest jamming", "f/⟨f⟩")
+    below(two[1], data, GAPS, STEPS_OF_GAP, "Gaps < .1 of faces and edges", "h, V$_p^{1/3}$")
+    two[0].legend(fontsize=7)
     save(figure, out / "forces.png", 80)
 
 
 def main():
     data, out = Data(Path(sys.argv[1])), Path(sys.argv[2])
     with matplotlib.rc_context(SETTINGS):
-        for draw in (soft, held, bands, angles, missing, quartic, forces):
+        for draw in (soft, held, bands, angles, missing, forces):
             draw(data, out)
 
 

@@ -1,83 +1,22 @@
-"""Blocks about forces: the cone of one-sided ones, distributions of forces and gaps, contacts gained with Δφ."""
+"""Blocks about forces: distributions of forces and gaps, contacts gained with Δφ."""
 
 import functools
 import math
 import statistics
 
 from data import SOLIDS
-from estimates import estimate_of, resamples, student
+from estimates import resamples, student
 from gather import FORCES, GAPS
 from held import by_grid
 from limits import GRID as EXPONENTS
 from limits import limit
-from text import counted, interval, number, significant, table
+from text import counted, number, significant, table
 
 STEPS_OF_FORCE = tuple(round(-2.4 + 0.4 * i, 1) for i in range(7))  # log10 of f over its mean
 WEAK = STEPS_OF_FORCE[:5]  # below .16 of the mean: further up any distribution bends
 STEPS_OF_GAP = tuple(round(-4.4 + 0.4 * i, 1) for i in range(8))  # of gaps over V_p^(1/3)
 STEPS_OF_ANGLE = tuple(round(-5.6 + 0.8 * i, 1) for i in range(8))  # log10 of radians
 WINDOWS = ((0, 0.005), (0, 0.02), (0, 0.08))
-
-
-def cones(data):
-    """Of states nearest jamming; and, of all states with classes, of how many a force leaves its patch."""
-    rows = []
-    for solid in SOLIDS:
-        for particles in data.sizes(solid):
-            known, outside, ends = 0, 0, []
-            for r in data.counted(solid, particles):
-                s = r["states"]
-                pairs = list(zip(s.get("dimension") or [], s.get("self_stress") or []))
-                known += sum(n is not None for n in s.get("outside") or [])
-                outside += sum((n or 0) > 0 for n in s.get("outside") or [])
-                ends += [pairs[-1]] if pairs and None not in pairs[-1] else []
-            if not known:
-                continue
-            rows.append([f"{solid} {particles}", counted(data.nearest_distance(solid, particles)),
-                         interval(data.nearest(solid, particles, "rows")), str(len(ends)),
-                         interval(estimate_of([e[0] for e in ends])), f"{known - outside} of {known}",
-                         counted(data.nearest(solid, particles, "median_margin"))])
-    return table(["nearest jamming", "Δφ", "constraints", "n", "dimension of the cone",
-                  "states with every force inside", "median margin"], rows)
-
-
-def by_programme(data, solid=None):
-    """Rows of linear programmes that had an answer, of crystals none: those with every force inside, those with one
-    outside its patch."""
-    crystals = {(r["solid"], r["particles"], r["replicate"]) for s in data.studies.values() for r in s["replicates"]
-                if "crystalline" in r["flags"]}
-    rows = [r for r in data.cones if r["dimension"] is not None and solid in (None, r["solid"])
-            and (r["solid"], r["particles"], r["replicate"]) not in crystals]
-    return [r for r in rows if not r["outside"]], [r for r in rows if r["outside"]]
-
-
-def as_many(rows):
-    """Rows whose cone has the dimension of all self-stress."""
-    return sum(r["dimension"] == r["self_stress"] for r in rows)
-
-
-def outcome(rows):
-    """How many cones are all of self-stress, and how many none of it."""
-    return f"all in {as_many(rows)}, none in {sum(r['dimension'] == 0 for r in rows)} of {len(rows)}" if rows else "–"
-
-
-def programmes(data):
-    """What linear programmes find in states of both kinds."""
-    rows = []
-    for solid in SOLIDS:
-        inside, outside = by_programme(data, solid)
-        if not inside and not outside:
-            continue
-        rows.append([f"{solid} {(inside + outside)[0]['particles']}", outcome(inside), outcome(outside),
-                     str(sum(r["outside_faces"] > 0 for r in outside))])
-    return table(["", "every force inside", "a force outside its patch", "of these, a face-face contact's"], rows)
-
-
-def inside(data, solid):
-    """(states in which every force acts inside its patch, states with classes), of all sizes."""
-    every = [n for particles in data.sizes(solid) for r in data.counted(solid, particles)
-             for n in r["states"].get("outside") or [] if n is not None]
-    return sum(n == 0 for n in every), len(every)
 
 
 def cumulative(bins, names, steps):
@@ -219,5 +158,4 @@ def small_angles(data):
     return distribution(data, {"θ_ef": ("theta_ef",), "θ_ff": ("theta_ff",)}, STEPS_OF_ANGLE)
 
 
-BLOCKS = {f.__name__: f for f in (cones, programmes, weak_forces, small_gaps, power_laws, small_angles, contact_excess,
-                                  near_pairs)}
+BLOCKS = {f.__name__: f for f in (weak_forces, small_gaps, power_laws, small_angles, contact_excess, near_pairs)}

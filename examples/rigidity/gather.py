@@ -24,16 +24,13 @@ COLUMNS = {
     "phi": "phi", "E": "energy_per_particle", "Z": "Z", "Z_ff": "Z_ff", "Z_ef": "Z_ef", "C": "C",
     "omega_l": "modes/omega_l", "K": "moduli/K", "G": "moduli/G",
     "self_stress": "rigidity/classes/self_stress", "floppy_classes": "rigidity/classes/floppy",
+    "floppy_normals": "rigidity/normals/floppy",
     "least_kept": "rigidity/classes/least_kept", "largest_dropped": "rigidity/classes/largest_dropped",
     "missing_s": "prestress/missing", "self_stress_s": "prestress/self_stress",
     "second": "prestress/modes/held_by_second", "prestress": "prestress/modes/held_by_prestress",
     "looked_at": "prestress/modes/looked_at", "unresolved": "prestress/modes/unresolved",
     "worst_sum": "prestress/modes/worst_sum", "prestress_lambda": "prestress/modes/prestress_lambda",
-    "floppy": "quartic/floppy", "quartic": "quartic/quartic",
-    "c_floppy": "quartic/coefficient", "dimension": "one_sided/dimension", "least_margin": "one_sided/least_margin",
-    "median_margin": "one_sided/median_margin", "outside": "one_sided/outside",
-    "outside_faces": "one_sided/outside_faces",
-    "rows": "one_sided/constraints", "gaps": "gaps/within_distance", "weak": "gaps/weak_forces"}
+    "gaps": "gaps/within_distance", "weak": "gaps/weak_forces"}
 # Lists of a state: where, then {column: (index, key)} of what the page needs of them.
 LISTS = {
     "rigidity/scaled_cutoffs": {"floppy_half": (0, "floppy"), "self_stress_half": (0, "self_stress"),
@@ -42,9 +39,7 @@ LISTS = {
         f"prestress_{t}": (i, "modes") for i, t in enumerate((1, 3, 10, 30, 100))},
     "prestress/modes/second_by_share": {"second_0.1": (1, "modes"), "second_0.01": (2, "modes")},
     "prestress/by_class": {f"{key}_{name}": (i, full) for i, name in enumerate(("ff", "ef", "l"))
-                           for key, full in (("contacts", "contacts"), ("tilts", "stiff_tilts"))},
-    "quartic/rungs": {**{f"rung_{i}": (i, "median") for i in range(4)},
-                      **{f"{name}_motions": (2, name) for name in ("quadratic", "steeper")}}}
+                           for key, full in (("contacts", "contacts"), ("tilts", "stiff_tilts"))}}
 THRESHOLDS = (1, 3, 10, 30, 100)
 QUANTILES = (0.05, 0.1, 0.2, 0.3, 0.5)
 CURVE = tuple((i + 0.5) / 40 for i in range(40))  # of the cumulative distributions that are drawn

@@ -22,7 +22,6 @@ namespace isojam {
 
 /// What a command line asks for: how to talk, and the work of the command that was given.
 struct Session {
-  char** words = nullptr;  ///< of the command line, the program's name first, ended by null
   ConsoleOptions console;
   std::function<ExitCode(Console&)> work;
   ProgramDescription program;  ///< the command line itself
@@ -45,8 +44,7 @@ class Options {
   void positive(const std::string& name, double& value, const std::string& description, const std::string& type);
   /// `read` takes the text in, or says what is wrong with it. `absent` is called where the option is not given.
   void parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
-              std::function<void()> absent, const std::string& description, const std::string& type,
-              Need need = Need::optional);
+              std::function<void()> absent, const std::string& description, const std::string& type);
   /// The name of an enumerator.
   template <NamedEnum Enum>
   void choice(const std::string& name, Enum& value, const std::string& description, Need need = Need::optional) {
@@ -91,16 +89,15 @@ void add_status(CLI::App& app, Session& session);
 void add_rerun(CLI::App& app, Session& session);
 void add_measure(CLI::App& app, Session& session);
 void add_export(CLI::App& app, Session& session);
-void add_crate(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
 void add_chart(CLI::App& app, Session& session);
 void add_completions(CLI::App& app, Session& session);
 void add_manual(CLI::App& app, Session& session);
 
 /// Every command, in the order of the help.
-inline constexpr std::array<AddCommand, 12> all_commands{add_run,    add_validate, add_aggregate,   add_status,
-                                                         add_rerun,  add_measure,  add_export,      add_crate,
-                                                         add_report, add_chart,    add_completions, add_manual};
+inline constexpr std::array<AddCommand, 11> all_commands{add_run,   add_validate,    add_aggregate, add_status,
+                                                         add_rerun, add_measure,     add_export,    add_report,
+                                                         add_chart, add_completions, add_manual};
 
 /// Takes in the words that the program was called with: `session` gets its work. Where there is none, since help was
 /// asked for or a word is wrong, it is printed, and this is what to exit with.

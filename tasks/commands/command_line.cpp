@@ -132,11 +132,10 @@ void Options::positive(const std::string& name, double& value, const std::string
 }
 
 void Options::parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
-                     std::function<void()> absent, const std::string& description, const std::string& type, Need need) {
+                     std::function<void()> absent, const std::string& description, const std::string& type) {
   const auto* option = app_.add_option_function<std::string>(
                                name, [read](const std::string& text) { (void)read(text); }, description)
                            ->check([read](const std::string& text) { return read(text).value_or(""); })
-                           ->required(need == Need::required)
                            ->type_name(type);
   app_.parse_complete_callback([option, absent = std::move(absent)] {
     if (option->count() == 0) absent();
@@ -175,7 +174,6 @@ Options add_command(CLI::App& app, Session& session, const std::string& name, co
 }
 
 std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& session) {
-  session.words = argv;
   CLI::App app("isojam: jammed packings of soft frictionless convex solids, in batches", "isojam");
   app.require_subcommand(1);
   app.fallthrough();

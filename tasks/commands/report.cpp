@@ -1,22 +1,15 @@
 #include <filesystem>
 #include <map>
 
-#include "tasks/commands/command.hpp"
+#include "tasks/commands/pages.hpp"
 #include "tasks/report/gather.hpp"
 #include "tasks/report/page.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
-namespace {
 
-struct Arguments {
-  std::string directory;
-  std::string output;  ///< empty: report.html in the directory
-};
-
-/// Writes a results directory as one interactive HTML file; its path goes to stdout.
-ExitCode report(const Arguments& arguments, Console& console) {
+ExitCode report(const ReportArguments& arguments, Console& console) {
   const std::filesystem::path directory = arguments.directory;
   const auto output = arguments.output.empty() ? directory / "report.html" : std::filesystem::path(arguments.output);
   const auto results = read_results(directory, [&](const std::string& message) { console.warn(message); });
@@ -36,16 +29,6 @@ ExitCode report(const Arguments& arguments, Console& console) {
   write_output(output, report_page(data));
   print(output.string() + "\n");
   return ExitCode::done;
-}
-
-}  // namespace
-
-void add_report(CLI::App& app, Session& session) {
-  Arguments* arguments = nullptr;
-  auto options =
-      add_command(app, session, "report", "Write a results directory as one interactive HTML file", report, arguments);
-  options.results_directory(arguments->directory);
-  options.text("-o,--output", arguments->output, "File to write (default: DIR/report.html)", "FILE");
 }
 
 }  // namespace isojam

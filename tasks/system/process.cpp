@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <sstream>
 #include <system_error>
@@ -54,17 +53,6 @@ const ProcessId& this_process() {
 std::optional<bool> is_alive(const ProcessId& process) {
   if (process.machine != this_process().machine) return std::nullopt;
   return start_of(process.process) == process.started;
-}
-
-void become(const std::string& program, char** words) {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) throw FileError("/proc/self/exe: " + error.message());
-  std::string path = (self.parent_path() / program).string();
-  words[0] = path.data();
-  execv(path.c_str(), words);
-  if (errno == ENOENT) throw FileError(path + ": no such program; `make build` makes it", FileError::Reason::missing);
-  throw FileError::of_errno(path, "it cannot be run");
 }
 
 }  // namespace isojam

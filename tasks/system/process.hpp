@@ -16,10 +16,6 @@ struct ProcessId {
 /// This process.
 const ProcessId& this_process();
 
-/// Goes on as another program of the same directory as this one, with these words, of which the first is replaced by
-/// its path; ended by null. Throws FileError if it is not there or cannot be run.
-[[noreturn]] void become(const std::string& program, char** words);
-
 /// Whether it still runs; nullopt if it is one of another machine.
 std::optional<bool> is_alive(const ProcessId& process);
 

@@ -45,7 +45,6 @@ class Made(data.Data):
 
     def __init__(self, replicates):
         super(data.Data, self).__init__({"made": {"replicates": replicates}}, ("made",))
-        self.cones = []
         for r in replicates:
             r["states"] |= data.derived(r["states"], r["particles"])
 
@@ -240,7 +239,7 @@ class Gathered(unittest.TestCase):
                 "replicates": 2, "protocol": {"initial_density": 0.2, "consolidation_step": 0.04, "step_fraction": 0.4,
                              "final_distance": 0.02, "fit_window": 0.1}, "keep_path": True,
                 "measure": ["contacts", "order", "clusters", "modes", "moduli", "rigidity", "backbone", "prestress",
-                            "quartic", "one_sided", "gaps"]}
+                            "gaps"]}
 
     def test_small_run(self):
         with tempfile.TemporaryDirectory() as here:
@@ -288,7 +287,7 @@ class Gathered(unittest.TestCase):
 
 class Anew(unittest.TestCase):
     def test_replicates_of_the_studies(self):
-        measures = "prestress,one_sided,gaps,quartic"
+        measures = "prestress,gaps"
         made = anew.gathered(ISOJAM, RIGIDITY, [("n50", "rigidity-50", "38/48", measures),
                                                 ("n50-tetrahedra", "rigidity-50-tetrahedra", "2/16", measures)])
         committed = json.loads((RIGIDITY / "data" / "records.json").read_text(encoding="utf-8"))

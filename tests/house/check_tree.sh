@@ -17,7 +17,7 @@ cd "${1:?usage: check_tree.sh ROOT}"
 
 readonly max_lines=400
 readonly engine_rooms='names arithmetic random parallel geometry packing solve analysis vibration shear rigidity'
-readonly tasks_rooms='system json solids packings measure manifest replicate store tables run page report export crate chart commands python'
+readonly tasks_rooms='system json solids packings measure manifest replicate store tables run page report export chart commands python'
 readonly tbb_sources=' engine/parallel/parallel.cpp tasks/run/graph.cpp '
 readonly cli_sources=' tasks/commands/command_line.cpp '
 readonly metis_source='engine/solve/factor/ordering.cpp'

@@ -9,8 +9,7 @@
 // - medians are of finite values;
 // - a tiny chart of everything conforms to its schema, and is the same twice but for times;
 // - a chart whose time is over says so in every family;
-// - the command writes its three files and nothing else, and nothing for a bad configuration;
-// - where the program that does it is not beside isojam, that is said, and what makes it.
+// - the command writes its three files and nothing else, and nothing for a bad configuration.
 
 #include <gtest/gtest.h>
 
@@ -291,18 +290,6 @@ TEST(Chart, SaysThatItsTimeWasOver) {
   const std::string text = text_table(result);
   EXPECT_NE(text.find("equilibrium (CUT"), std::string::npos) << text;
   EXPECT_NE(text.find("atlas (CUT"), std::string::npos) << text;
-}
-
-TEST(Chart, IsNothingWithoutItsProgram) {
-  const test::TemporaryDirectory directory;
-  std::filesystem::copy_file(ISOJAM_EXECUTABLE, directory / "alone");
-  const auto without = test::shell("./alone chart -o out", directory.path());
-  EXPECT_EQ(without.exit_code, 2);
-  EXPECT_EQ(without.out, "");
-  EXPECT_NE(without.err.find((directory / "isojam-chart").string() + ": no such program"), std::string::npos)
-      << without.err;
-  EXPECT_EQ(test::shell("./alone chart --help", directory.path()).exit_code, 0);
-  EXPECT_EQ(test::files_below(directory.path()).size(), 1U);
 }
 
 TEST(Chart, CommandWritesItsFiles) {

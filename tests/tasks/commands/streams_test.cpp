@@ -30,7 +30,7 @@ TEST_F(Streams, WhatIsLostIsSaid) {
   for (const std::string command :
        {"run m.json -o r", "run m.json -o r --dry-run", "validate m.json", "status r", "aggregate r",
         "aggregate r --format json", "rerun r dodecahedron-N24-r0000", "report r",
-        "export r all --format xyz -o exported", "crate r --date 2026-01-31", "--help", "run --help", "--version"}) {
+        "export r all --format xyz -o exported", "--help", "run --help", "--version"}) {
     for (const std::string stream : {">/dev/full", ">&-"}) {
       const auto ended = shell("$ISOJAM " + command + ' ' + stream, here_.path());
       EXPECT_EQ(ended.exit_code, 1) << command << ' ' << stream << ": " << ended.err;

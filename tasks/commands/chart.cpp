@@ -3,7 +3,7 @@
 
 #include "tasks/chart/results/data.hpp"
 #include "tasks/chart/run_chart.hpp"
-#include "tasks/commands/chart/chart.hpp"
+#include "tasks/commands/pages.hpp"
 #include "tasks/page/page.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/file.hpp"
@@ -36,7 +36,7 @@ std::string written(const ChartConfig& config, const ChartResult& result, const 
 
 }  // namespace
 
-ExitCode chart(const ChartArguments& arguments, const Session&, Console& console) {
+ExitCode chart(const ChartArguments& arguments, Console& console) {
   const ChartConfig config = config_of(arguments);
   const std::filesystem::path directory = arguments.directory;
   make_directory(directory);
