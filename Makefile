@@ -144,7 +144,8 @@ docs:
 	$(call install,$(DOCS_PACKAGES))
 	@rm -rf $(BUILD)/docs && mkdir -p $(BUILD)/docs/source
 	$(PYTHON) -B docs/site/gather.py . $(BUILD)/docs
-	DOCS_BUILD=$(BUILD)/docs doxygen docs/site/Doxyfile
+	PUBLIC_HEADERS="$$(sed -n '/FILE_SET HEADERS BASE/,/)$$/s|^  \(.*\.hpp\).*|engine/\1|p' engine/CMakeLists.txt | tr '\n' ' ')" \
+	  PYTHON=$(PYTHON) DOCS_BUILD=$(BUILD)/docs doxygen docs/site/Doxyfile
 	mkdocs build --quiet --strict -f $(BUILD)/docs/mkdocs.yml
 	@echo '$(BUILD)/docs/site/index.html'
 

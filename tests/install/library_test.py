@@ -76,11 +76,14 @@ class Library(unittest.TestCase):
             for directory in (SOURCE, BUILD):
                 self.assertNotIn(directory, path.read_text(encoding="utf-8"), path)
 
-    def test_every_header_is_there_and_needs_no_other(self):
-        installed = {path.relative_to(self.prefix / "include/isojam") for path in
-                     (self.prefix / "include/isojam").rglob("*.hpp")}
-        ours = {path.relative_to(SOURCE) for path in (pathlib.Path(SOURCE) / "engine").rglob("*.hpp")}
-        self.assertEqual(installed, ours)
+    def test_installed_headers_include_only_installed_headers(self):
+        folder = self.prefix / "include/isojam"
+        installed = {str(path.relative_to(folder)) for path in folder.rglob("*.hpp")}
+        self.assertTrue({"engine/packing/packing.hpp", "engine/solve/jam.hpp", "engine/analysis/contacts.hpp",
+                         "engine/vibration/spectrum.hpp"} <= installed)
+        for name in installed:
+            included = set(re.findall(r'#include "(engine/[^"]+)"', (folder / name).read_text(encoding="utf-8")))
+            self.assertLessEqual(included, installed, name)
 
     def test_a_part_of_another_project(self):
         self.configure("part", f"-DISOJAM_SOURCE={SOURCE}", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS=-Wall",
