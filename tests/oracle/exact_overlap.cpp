@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "tasks/chart/pairs/clip_polytope.hpp"
@@ -83,7 +84,10 @@ void add_features(Candidates& candidates, const Body& inner, const Body& other, 
       if (side[edge.tail] * side[edge.head] != -1) continue;
       const Kernel::Segment_3 segment(inner.vertices[edge.tail], inner.vertices[edge.head]);
       const auto crossing = CGAL::intersection(segment, plane);
-      const Point point = boost::get<Point>(*crossing);
+      // CGAL 5 returns a boost::variant, CGAL 6 a std::variant.
+      using boost::get;
+      using std::get;
+      const Point point = get<Point>(*crossing);
       if (const auto incident = incident_planes(other, point)) {
         put(point, 1U << edge.left | 1U << edge.right, *incident);
       }
