@@ -16,11 +16,11 @@ from pages import lines_of, pages
 PLACES = {"README.md": "index.md", "docs/index.md": "pages.md"}
 REFERENCE = """# Headers of the engine
 
-[All declarations](api/namespaceisojam.html), [types](api/annotated.html) and [files](api/files.html), made of the
-comments in `engine/`. Begin with [the protocol](api/structisojam_1_1JamOptions.html),
-[packings](api/structisojam_1_1Packing.html), [energy and forces](api/classisojam_1_1PackingEnergy.html), [solids](api/classisojam_1_1ConvexSolid.html),
-[contacts](api/structisojam_1_1ContactAnalysis.html), [modes](api/structisojam_1_1SpectrumEnds.html) or
-[rank](api/structisojam_1_1Rigidity.html).
+[All declarations](api/namespaceisojam.html), [types](api/annotated.html) and [files](api/files.html) of the public
+headers. Begin with [the protocol](api/structisojam_1_1JamOptions.html),
+[packings](api/structisojam_1_1Packing.html), [energy and forces](api/classisojam_1_1PackingEnergy.html),
+[solids](api/classisojam_1_1ConvexSolid.html), [contacts](api/structisojam_1_1ContactAnalysis.html) or
+[modes](api/structisojam_1_1SpectrumEnds.html).
 """
 
 
