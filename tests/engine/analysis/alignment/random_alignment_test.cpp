@@ -1,14 +1,12 @@
 // Facts proved, for every Platonic solid:
 //   1. a million random orientations follow the closed form of θ_ff, and of θ_ef, and a million turns about an edge
-//   that
-//      of θ_ff under the constraint, by Kolmogorov and Smirnov's test; with a solid turned into another they would not;
+//      that of θ_ff under the constraint, by Kolmogorov and Smirnov's test; with a solid turned into another they would
+//      not;
 //   2. the closed forms rise from 0 to 1 without a step, and at small angles are the paper's: p(θ_ff) ∝ sin θ_ff over
-//   all
-//      of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint;
+//      all of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint;
 //   3. the angles sampled are those that alignment() finds where the solid is pressed on a face;
 //   4. contacts drawn at random count as random in all but the share of the level, those with more or fewer small
-//   angles
-//      as hyper-random or sub-random; probabilities are the binomial sums;
+//      angles as hyper-random or sub-random; probabilities are the binomial sums;
 //   5. an empirical CDF is a count, its distance the greatest of a dense search, its probability the tabulated one;
 //   6. a stratified sample is the closed form to six times n^(-3/4), and for other solids what is drawn at random;
 //   7. what is no number or no fraction is refused.
