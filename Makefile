@@ -22,7 +22,7 @@ LINT_PACKAGES    := clang-format clang-tidy
 # The tests lint two known-bad files, so they need the linters too.
 TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijson-dev libcgal-dev libgmp-dev \
                     libmpfr-dev voro++-dev python3 python3-gsd python3-vtk9 python3-numpy python3-pandas \
-                    python3-matplotlib python3-yaml groff-base zsh fish
+                    python3-matplotlib python3-scipy python3-yaml groff-base zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
 BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
 # Debian 12 has clang 14, Debian 13 has clang 19.
@@ -97,7 +97,7 @@ measure = @for results in $(1); do \
 comma = ,
 space = $(subst ,, )
 paper: build
-	$(call install,python3 python3-matplotlib)
+	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,$(PAPER),paper)
 	$(call measure,paper-100 paper-100-tetrahedra,backbone difference_modes)
 	$(call measure,paper-400 paper-400-tetrahedra,backbone)
@@ -111,7 +111,7 @@ paper: build
 # goes on with; then the page.
 RIGIDITY = n50 n50-tetrahedra n200 n200-tetrahedra n800
 rigidity: build
-	$(call install,python3 python3-matplotlib)
+	$(call install,python3 python3-matplotlib python3-scipy)
 	$(call studies,n100 n100-tetrahedra,paper)
 	$(call studies,$(RIGIDITY),rigidity)
 	$(call studies,n400 n400-tetrahedra,paper,--shard 1/4)

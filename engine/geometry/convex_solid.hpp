@@ -76,7 +76,7 @@ struct SolidArrays {
   /// Where the k-th vector begins, in doubles.
   static constexpr std::uint32_t at(std::uint32_t k) { return block * (k / 4) + k % 4; }
 
-  int vertices = 0, faces = 0, edges = 0;                                         ///< how many there are
+  int vertices = 0, faces = 0, edges = 0;                                         ///< numbers without padding
   alignas(32) double x[capacity], y[capacity], z[capacity];                       ///< vertices
   alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];  ///< face planes
   /// Low parts, what rounding left of each: value = entry + low entry to 1e-32.

@@ -19,8 +19,8 @@ class PlacedSolid {
   static constexpr int block = SolidArrays::block;  ///< doubles of a block of four vectors
 
   const ConvexSolid& solid() const { return *solid_; }        ///< in its body frame
-  int vertices() const { return solid_->arrays().vertices; }  ///< how many
-  int faces() const { return solid_->arrays().faces; }        ///< how many
+  int vertices() const { return solid_->arrays().vertices; }  ///< number without padding
+  int faces() const { return solid_->arrays().faces; }        ///< number without padding
   /// Body frame → lab frame.
   Eigen::Matrix3d rotation() const { return Eigen::Map<const Eigen::Matrix3d>(rotation_row()); }
 
@@ -71,7 +71,7 @@ class PlacedSolids {
   void resize(const ConvexSolid& solid, std::size_t count, bool low);
   /// The same for solids of several kinds.
   void resize(std::span<const ConvexSolid* const> solids, bool low);
-  std::size_t size() const { return count_; }  ///< how many there is room for
+  std::size_t size() const { return count_; }  ///< number of solids that have room
 
   /// `rotation`: body frame → lab frame.
   void place(std::size_t k, const Eigen::Matrix3d& rotation);

@@ -16,8 +16,6 @@ class Enthalpy {
 
   const CellControl& control() const { return control_; }  ///< what is done to the cell
 
-  /// p (V − V₀) − V₀ τ:(F − 1).
-  double work(const PeriodicCell& cell) const;
   /// The evaluation of a packing with p (V − V₀) in its energy, and with derivatives by the free strains behind those
   /// by particles. The residual becomes that of the stress if it is greater: the largest entry of σ + p·1 − τ, or of
   /// what the free strains feel of it, over p; where no pressure is given, over the packing's own.
@@ -29,6 +27,8 @@ class Enthalpy {
 
  private:
   double pressure() const { return frees_volume(control_.cell) ? control_.pressure : 0; }
+  /// p (V − V₀) − V₀ τ:(F − 1).
+  double work(const PeriodicCell& cell) const;
   Eigen::Matrix3d load(const PeriodicCell& cell) const;
   Eigen::VectorXd strain_gradient(const Eigen::Matrix3d& stress, const Packing& packing) const;
 

@@ -88,9 +88,4 @@ Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& o
   return result;
 }
 
-VectorXd singular_values(const RigidityMatrix& matrix) {
-  if (matrix.rows.rows() == 0) return {};
-  return singular_values_of(MatrixXd(matrix.rows));
-}
-
 }  // namespace isojam

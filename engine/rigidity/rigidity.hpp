@@ -41,7 +41,4 @@ struct RigidityOptions {
 /// about a second.
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 
-/// All singular values of the rows, descending: the oracle. Dense and slower still; for N ≤ 100.
-Eigen::VectorXd singular_values(const RigidityMatrix& matrix);
-
 }  // namespace isojam

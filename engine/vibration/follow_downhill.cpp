@@ -48,9 +48,7 @@ class Follower {
  private:
   DownhillEnd descend() {
     minimise_here();
-    const double first = enthalpy();
     while (true) {
-      result_.energy_drop = first - enthalpy();
       if (!is_equilibrium(result_.summary)) return DownhillEnd::lost_balance;
       const std::optional<Eigen::VectorXd> mode = assess_here();
       if (result_.stability.verdict == Verdict::undetermined) return DownhillEnd::undetermined;
@@ -71,8 +69,6 @@ class Follower {
     result_.stability = {};
     result_.summary = minimise(result_.packing, energy_, options_.minimise, stop_);
   }
-
-  double enthalpy() { return result_.summary.energy + enthalpy_.work(result_.packing.cell); }
 
   /// Sets the stability. The direction to go if that says so: the lowest mode of the particles, or where that is not
   /// unstable the softest strain.

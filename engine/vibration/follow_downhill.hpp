@@ -42,10 +42,6 @@ struct DownhillResult {
   MinimiseSummary summary{};                    ///< of the last minimisation
   Stability stability{};                        ///< of `packing`; not called where balance was lost
   int descents = 0;                             ///< saddles left behind
-  double energy_drop = 0;                       ///< of the enthalpy, from the first equilibrium to the last
-
-  /// Whether it was a saddle when it came, as far as is known.
-  bool was_unstable() const { return descents > 0 || stability.negative > 0; }
 };
 
 /// Follows an unstable equilibrium along its lowest mode, on the side where the energy falls more, to a minimum, and

@@ -5,9 +5,7 @@ import math
 import statistics
 
 from data import SIZES, SOLIDS
-from densities import NORMAL
-from estimates import (binomial_at_least, correlation, correlation_interval, estimate_of, pooled_correlation,
-                       single_half_width)
+from estimates import NORMAL, binomial_at_least, estimate_of, pooled_correlation, single_half_width
 from expansions import LEFT_OUT
 from network import LEVEL, hindrance
 from scaling import binned
@@ -220,8 +218,11 @@ def order_correlation(replicates, key):
     """r of Z_ff and what key says, over replicates, its interval and the number of pairs."""
     pairs = [(value_near(r, "Z_ff"), r["phi_j"]["phi_j"] if key == "phi_j" else value_near(r, key)) for r in replicates]
     pairs = [p for p in pairs if None not in p]
-    r = correlation(*zip(*pairs)) if len(pairs) > 3 else None
-    return r, correlation_interval(r, len(pairs)), len(pairs)
+    try:
+        r = statistics.correlation(*zip(*pairs)) if len(pairs) > 3 else None
+    except statistics.StatisticsError:  # one of the two is constant
+        r = None
+    return r, pooled_correlation([(r, len(pairs))])[1], len(pairs)
 
 
 def value_near(replicate, column):

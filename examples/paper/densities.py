@@ -2,13 +2,13 @@
 
 import math
 
+from scipy.special import chdtr
+
 from data import SIZES, SOLIDS
-from estimates import added, difference_of, estimate_of, normal_deviate, single_half_width, student
+from estimates import NORMAL, added, difference_of, estimate_of, normal_deviate, single_half_width, student
 from scaling import jamming_density
 from text import bounded, counted, number, signed, significant, spread, table
 from verdicts import uncertainty, verdict
-
-NORMAL = 1.959964  # standard deviations in the half width of a 95 % interval
 
 # Rounded dice in a box, the third column of the paper's Table I.
 EXPERIMENT = {"tetrahedron": (0.64, 0.01), "octahedron": (0.64, 0.01), "icosahedron": (0.59, 0.01),
@@ -72,12 +72,6 @@ def offsets_of(data):
     return made
 
 
-def chi_square_below(x, freedom):
-    """Probability of a lesser χ², of an even number of degrees of freedom."""
-    half = x / 2
-    return 1 - math.exp(-half) * sum(half ** i / math.factorial(i) for i in range(freedom // 2))
-
-
 def apart_of(sizes):
     """Of a solid's offsets with N = 100 and 400: (difference, standard deviation, its normal deviate)."""
     apart, parts = sizes[400][0] - sizes[100][0], sizes[100][2] + sizes[400][2]
@@ -92,7 +86,7 @@ def offset_tests(data):
         return None
     apart = sum(apart_of(sizes)[2] ** 2 for sizes in both)
     every = sum(deviate ** 2 for sizes in both for _, deviate, _ in sizes.values())
-    return (apart, 100 * chi_square_below(apart, len(both)), every, 100 - 100 * chi_square_below(every, 2 * len(both)))
+    return (apart, 100 * chdtr(len(both), apart), every, 100 - 100 * chdtr(2 * len(both), every))
 
 
 def offsets(data):

@@ -6,8 +6,10 @@ import itertools
 import math
 import statistics
 
+from scipy.special import chdtr
+
 from data import HERE, SOLIDS, read
-from densities import FITS, STABLE_FROM, chi_square_below, deviate_of, parts_of, table_i
+from densities import FITS, STABLE_FROM, deviate_of, parts_of, table_i
 from estimates import estimate_of
 from scaling import jamming_density
 from text import counted, number, signed, significant, table
@@ -153,7 +155,7 @@ def chosen_small(data, what):
     if what == "first":
         return ", ".join(name_of(found[0].setting, found[0].window))
     return number(found[0].chi, 2) if what == "chi" else \
-        f"{sum(chi_square_below(e.chi, len(SOLIDS)) < .95 for e in found)} of {len(found)}"
+        f"{sum(chdtr(len(SOLIDS), e.chi) < .95 for e in found)} of {len(found)}"
 
 
 @functools.cache

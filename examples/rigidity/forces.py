@@ -4,6 +4,8 @@ import functools
 import math
 import statistics
 
+from scipy.special import chdtri
+
 from data import SOLIDS
 from estimates import resamples, student
 from gather import FORCES, GAPS
@@ -85,12 +87,9 @@ def common(data, solid, names, steps, particles=400):
     weights = [(1.96 / e["half_width"]) ** 2 for e in found]
     mean = sum(w * e["mean"] for w, e in zip(weights, found)) / sum(weights)
     chi = sum(w * (e["mean"] - mean) ** 2 for w, e in zip(weights, found))
-    # 95 % point of χ², by Wilson and Hilferty.
     freedom = len(found) - 1
-    part = 2 / (9 * freedom)
-    allowed = chi <= freedom * (1 - part + 1.645 * math.sqrt(part)) ** 3
-    return {"mean": mean, "half_width": 1.96 / math.sqrt(sum(weights)), "n": found[0]["n"], "one": allowed,
-            "chi": chi / freedom}
+    return {"mean": mean, "half_width": 1.96 / math.sqrt(sum(weights)), "n": found[0]["n"],
+            "one": chi <= chdtri(freedom, 0.05), "chi": chi / freedom}
 
 
 def open_gaps(data, solid, particles=400):

@@ -236,10 +236,6 @@ class Search(unittest.TestCase):
         for study in ("n100", "n100-tetrahedra", "n400", "n400-tetrahedra"):
             self.assertEqual(search.way_value(None, study), base)
 
-    def test_chi_square(self):
-        self.assertAlmostEqual(densities.chi_square_below(9.4877, 4), 0.95, places=4)
-        self.assertAlmostEqual(densities.chi_square_below(0.7107, 4), 0.05, places=4)
-
 
 class Gathered(unittest.TestCase):
     MANIFEST = {"name": "paper-100", "seed": 3, "sweep": {"solid": ["dodecahedron"], "particles": [24]},

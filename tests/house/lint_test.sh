@@ -4,7 +4,8 @@
 #   - the formatter accepts a well laid out file and rejects bad/format.cpp;
 #   - the linter rejects bad/tidy.cpp on every line marked `// expect CHECK`, by that check;
 #   - every check that .clang-tidy asks for is one the installed clang-tidy knows and has switched on;
-#   - lines end at 120 columns, and functions (bad/tidy.cpp has one with a line too many inside) at 60 lines.
+#   - lines end at 120 columns, comments too, which the formatter leaves as they are; functions (bad/tidy.cpp has one with
+#     a line too many inside) end at 60 lines.
 set -euo pipefail
 root=$(cd "${1:?usage: lint_test.sh ROOT}" && pwd)
 bad=$root/tests/house/bad
@@ -19,6 +20,12 @@ said=$(format "$bad/format.cpp") && fail 'formatter accepted bad/format.cpp' "$s
 wide="const int xy = $(printf '1 + %.0s' {1..26})1;"  # 121 columns
 said=$(format <<<"$wide") && fail "formatter accepted ${#wide} columns" "$wide"
 said=$(format <<<"${wide/xy/x}") || fail 'formatter rejected 120 columns' "$said"
+
+wide_comments() { LC_ALL=C.UTF-8 grep -nE '^.{121,}' "$@" | grep -E '^[^"]*//' | grep -v NOLINT; }
+comment="// $(printf 'φ%.0s' {1..118})"  # 121 columns
+wide_comments <<<"$comment" >/dev/null || fail 'a comment of 121 columns was accepted'
+said=$(wide_comments <<<"${comment%φ}") && fail 'a comment of 120 columns was rejected' "$said"
+said=$(cd "$root" && wide_comments -r --include='*.[ch]pp' engine tasks tests) && fail 'comments end at 120 columns' "$said"
 
 said=$(tidy "$bad/tidy.cpp") && fail 'linter accepted bad/tidy.cpp' "$said"
 expected=0

@@ -7,7 +7,7 @@
 // - the masks of faces and edges of random contacts are the exact ones;
 // - pairs of different solids obey the same limits;
 // - the checks reject a volume wrong by 1e-9, a force or torque of the wrong sign, a torque about the wrong centre, and
-// NaN. A table of errors and of the path taken goes to standard output.
+//   NaN. A table of errors and of the path taken goes to standard output.
 
 #include <gtest/gtest.h>
 

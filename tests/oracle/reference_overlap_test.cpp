@@ -1,6 +1,6 @@
 // Fact proved here:
 // - volumes and area vectors in 50 digits are those of exact rational arithmetic, for pairs whose faces do not
-// coincide.
+//   coincide.
 
 #include "tasks/chart/pairs/reference_overlap.hpp"
 

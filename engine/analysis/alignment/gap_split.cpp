@@ -61,8 +61,6 @@ GapSplit split_at_gap(std::span<const double> angles, double upper, const GapOpt
     return result;
   }
   const auto cut_between = [&](double from, double to, std::size_t below) {
-    result.gap_from = nearest::exp(from);
-    result.gap_to = nearest::exp(to);
     result.cutoff = nearest::exp((from + to) / 2);
     result.below = static_cast<int>(below);
   };

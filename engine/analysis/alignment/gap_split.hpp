@@ -41,8 +41,7 @@ struct GapSplit {
   /// sqrt(.075/n), n angles below `upper` (first order in the influence of each, (4u − 3u² − 1)·3/4 with u uniform on
   /// [0, 1]).
   double critical = 0;
-  double gap_from = 0, gap_to = 0;  ///< neighbouring angles on both sides of the cut-off, or the last and `upper`
-  int below = 0;                    ///< angles under the cut-off
+  int below = 0;  ///< angles under the cut-off
 };
 
 /// Splits angles where they leave a gap: near jamming face-face contacts lie decades under the others, and no form of c

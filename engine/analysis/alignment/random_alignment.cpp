@@ -28,11 +28,6 @@ Vector3d direction_at(double z, double azimuth) {
   return {r * nearest::cos(azimuth), r * nearest::sin(azimuth), z};
 }
 
-Vector3d random_direction(RandomStream& random) {
-  const double z = 2 * random.uniform() - 1, azimuth = 2 * pi * random.uniform();
-  return direction_at(z, azimuth);
-}
-
 /// Share of ascending values below x, linear between them; from 0 at 0.
 double share_below(const std::vector<double>& values, double x) {
   const auto above = std::lower_bound(values.begin(), values.end(), x);
@@ -64,8 +59,6 @@ class Features {
     for (const Edge& edge : solid.edges())
       edges_.push_back((solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized());
   }
-
-  const Vector3d& edge(std::size_t e) const { return edges_[e]; }
 
   /// That part of the way from one face normal at the edge to the other, which is all that an edge in a face can turn.
   Vector3d turned_about(std::size_t e, double part) const {
@@ -144,10 +137,6 @@ void RandomAlignment::sample(const ConvexSolid& solid) {
   }
 }
 
-double RandomAlignment::sampling_error() const {
-  return is_sampled() ? nearest::pow(static_cast<double>(face_face_.size()), -0.75) : 0;
-}
-
 double RandomAlignment::face_face(double theta) const {
   if (theta <= 0) return 0;
   if (theta >= ff_max_) return 1;
@@ -194,30 +183,6 @@ double RandomAlignment::constrained_face_face(double theta) const {
   if (theta <= 0) return 0;
   if (is_sampled()) return share_below(constrained_, theta);
   return std::clamp(theta / constrained_ff_max_, 0.0, 1.0);
-}
-
-std::vector<AlignmentAngles> sample_unconstrained(const ConvexSolid& solid, int n, RandomStream& random) {
-  const Features features(solid);
-  std::vector<AlignmentAngles> sample;
-  sample.reserve(n);
-  for (int k = 0; k < n; ++k) {
-    const Vector3d direction = random_direction(random);
-    sample.push_back({features.nearest_normal(direction), features.least_elevation(direction)});
-  }
-  return sample;
-}
-
-std::vector<AlignmentAngles> sample_edge_constrained(const ConvexSolid& solid, int n, RandomStream& random) {
-  const Features features(solid);
-  std::vector<AlignmentAngles> sample;
-  sample.reserve(n);
-  for (int k = 0; k < n; ++k) {
-    const auto chosen = static_cast<std::size_t>(random.uniform() * static_cast<double>(solid.edges().size()));
-    const Vector3d direction = features.turned_about(chosen, random.uniform());
-    sample.push_back(
-        {features.nearest_normal(direction), std::abs(nearest::asin(features.edge(chosen).dot(direction)))});
-  }
-  return sample;
 }
 
 Randomness compare_with_random(std::span<const double> angles, const std::function<double(double)>& distribution,

@@ -42,11 +42,10 @@ class RandomAlignment {
   double ef_max() const { return ef_max_; }                          ///< where edge_face does
   double constrained_ff_max() const { return constrained_ff_max_; }  ///< where constrained_face_face does
 
-  /// Whether the solid is not regular, and its distributions are those of a sample.
+  /// Whether the solid is not regular, and its distributions are those of a sample: n = 65 536 directions, one in each
+  /// of n cells of a sphere. Then n^(-3/4) is the standard deviation of a distribution function but for a factor
+  /// near 1.
   bool is_sampled() const { return !face_face_.empty(); }
-  /// What sampling does to a distribution function: n^(-3/4) of n points, one in each of n cells of a sphere, is its
-  /// standard deviation but for a factor near 1. 0 in closed form.
-  double sampling_error() const;
 
  private:
   double cone_beyond(double theta) const;
@@ -58,17 +57,6 @@ class RandomAlignment {
   double caps_apart_ = 0;                                    ///< half the least angle between two face normals
   std::vector<double> face_face_, edge_face_, constrained_;  ///< ascending; empty in closed form
 };
-
-/// The angles of one contact.
-struct AlignmentAngles {
-  double face_face = 0, edge_face = 0;  ///< θ_ff and θ_ef
-};
-
-/// Samples n orientations at random, the oracle of the unconstrained distributions: angles from the features of the
-/// solid. Any convex solid.
-std::vector<AlignmentAngles> sample_unconstrained(const ConvexSolid& solid, int n, RandomStream& random);
-/// Samples n turns of a random edge that lies in the face.
-std::vector<AlignmentAngles> sample_edge_constrained(const ConvexSolid& solid, int n, RandomStream& random);
 
 /// How angles compare with random ones.
 enum class RandomnessVerdict {

@@ -119,12 +119,6 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
   return result;
 }
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 }  // namespace
 
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
@@ -153,24 +147,6 @@ Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const Relat
 Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis unused;
   return relative_overlap(a, b, pose, unused);
-}
-
-Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
-  SeparatingAxis unused;
-  OverlapHessian hessian;
-  overlap_with_hessian(LonePlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())),
-                       LonePlacedSolid(b, pose.rotation), pose.displacement, unused, hessian);
-  return hessian.ab;
-}
-
-void set_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r, Matrix6d& own) {
-  own = -cross;
-  // θ×r = −[r]×θ: a turn of A about its centre carries B along.
-  own.rightCols<3>().noalias() += cross.leftCols<3>() * skew(r);
-  own.topRightCorner<3, 3>() -= skew(area);
-  for (int c = 0; c < 6; ++c) {
-    for (int row = 0; row <= c; ++row) own(row, c) = own(c, row) = (own(row, c) + own(c, row)) / 2;
-  }
 }
 
 }  // namespace isojam

@@ -4,7 +4,7 @@
 
 #include "engine/geometry/overlap/lanes.hpp"
 
-// By blocks of 3×3, a column to a register: what set_own_hessian() writes in matrices, without a loop over 36 numbers.
+// By blocks of 3×3, a column to a register, without a loop over 36 numbers.
 
 namespace isojam {
 

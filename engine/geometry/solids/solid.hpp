@@ -24,9 +24,9 @@ class Solid {
   /// The one that a packing points to, which must be one of these.
   static Solid of(const ConvexSolid& solid) { return Solid(solid); }
 
-  /// What it stands for.
+  /// Its geometry.
   const ConvexSolid& operator*() const { return *solid_; }
-  /// What it stands for.
+  /// Members of its geometry.
   const ConvexSolid* operator->() const { return solid_; }
 
   /// Whether it has to be defined by vertices.

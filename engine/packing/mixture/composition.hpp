@@ -35,7 +35,7 @@ class Composition {
   /// The solid of particle i in unit volume: its shape. One pointer for one shape.
   const ConvexSolid& unit(std::size_t i) const { return one_ ? *one_ : *mixed_->particles[i].unit; }
   int kind(std::size_t i) const { return one_ ? 0 : mixed_->particles[i].kind; }  ///< kind of particle i
-  int kinds() const { return one_ ? 1 : mixed_->kinds; }                          ///< how many there are
+  int kinds() const { return one_ ? 1 : mixed_->kinds; }                          ///< number of kinds
   /// Whether all particles have one shape, if not one size.
   bool has_one_shape() const;
   /// The solids of all particles, none if they are uniform.

@@ -14,7 +14,7 @@ struct Handover {
   int child = 0;
   std::vector<int> places;  ///< of the child's rows among this front's columns, then rows; ascending
   std::vector<int> runs;    ///< where a run of consecutive places begins, none across the end of the columns
-  int runs_of_columns = 0;  ///< how many of these, the first, are among the columns
+  int runs_of_columns = 0;  ///< number of runs among the columns; these come first
 };
 
 /// One supernode: [L11; L21] in the panels of panels.hpp. L21 begins a panel of its own.

@@ -9,8 +9,7 @@
 //   6. the gap finds the same face-face contacts where they lie decades below; where there is no gap it says so;
 //   7. fixed cut-offs are the means over six classifications, and count far more constraints;
 //   8. a pool of packings is fitted once, as one packing with all contacts would be, and classified one by one; a pool
-//   of
-//      one is the packing itself;
+//      of one is the packing itself;
 //   9. no contact, one contact and contacts all perfectly aligned have defined answers.
 
 #include "engine/analysis/contacts.hpp"

@@ -29,7 +29,7 @@ constexpr int particles = 48;
 
 const ConvexSolid& solid() { return platonic(SolidKind::octahedron); }
 
-/// Jammed once for all tests.
+/// Jammed once in each process.
 const JamResult& jammed() {
   static const JamResult result = [] {
     JamOptions options;

@@ -6,8 +6,7 @@
 //   4. for cubes S is the cubatic order of their three axes;
 //   5. local Q_l of a simple cubic lattice is the closed form, a particle without contacts has none;
 //   6. the pair correlation is a brute-force mean over pairs and images, its counts those of a lattice's shells, 1
-//   where
-//      all are aligned, 0 within chance where none are;
+//      where all are aligned, 0 within chance where none are;
 //   7. N = 1, 2, 3 and no contacts have defined answers; what cannot be is refused.
 
 #include "engine/analysis/orientation_order.hpp"

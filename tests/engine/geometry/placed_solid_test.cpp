@@ -18,6 +18,7 @@
 #include "engine/geometry/overlap/distances.hpp"
 #include "engine/geometry/overlap/overlap.hpp"
 #include "tests/engine/geometry/overlap/pairs.hpp"
+#include "tests/oracle/own_hessian.hpp"
 
 namespace isojam {
 namespace {
@@ -196,12 +197,11 @@ TEST(PlacedSolidTest, OverlapIsThatOfTheRelativePoseTurned) {
     Matrix6d frame = Matrix6d::Zero();
     frame.topLeftCorner<3, 3>() = frame.bottomRightCorner<3, 3>() = q;
     const Matrix6d cross =
-        frame * overlap_cross_hessian(pair.solid_a(), pair.solid_b(), pair.relative()) * frame.transpose();
+        frame * oracle::overlap_cross_hessian(pair.solid_a(), pair.solid_b(), pair.relative()) * frame.transpose();
     const double bound = 1e3 * limit * cross.norm();
     EXPECT_LE((hessian.ab - cross).norm(), bound) << describe(pair);
-    Matrix6d own_a, own_b;
-    set_own_hessian(cross, lab.area, placed.r, own_a);
-    set_own_hessian(cross.transpose(), -lab.area, -placed.r, own_b);
+    const Matrix6d own_a = oracle::own_hessian(cross, lab.area, placed.r),
+                   own_b = oracle::own_hessian(cross.transpose(), -lab.area, -placed.r);
     EXPECT_LE((hessian.aa - own_a).norm(), bound) << describe(pair);
     EXPECT_LE((hessian.bb - own_b).norm(), bound) << describe(pair);
   });

@@ -25,7 +25,6 @@ TEST(FollowDownhill, LeavesASaddle) {
   none.max_descents = 0;
   const DownhillResult saddle = follow_downhill(start, none);
   ASSERT_EQ(saddle.ended, DownhillEnd::still_unstable) << to_string(saddle.ended);
-  EXPECT_TRUE(saddle.was_unstable());
   EXPECT_EQ(saddle.descents, 0);
   EXPECT_GT(saddle.stability.negative, 0);
   EXPECT_TRUE(is_equilibrium(saddle.summary));
@@ -38,13 +37,11 @@ TEST(FollowDownhill, LeavesASaddle) {
               saddle.summary.energy / start.size(), found.descents, found.stability.negative,
               found.summary.energy / start.size());
   ASSERT_EQ(found.ended, DownhillEnd::reached_minimum) << to_string(found.ended);
-  EXPECT_TRUE(found.was_unstable());
   EXPECT_GE(found.descents, 1);
   EXPECT_EQ(found.stability.negative, 0);
   EXPECT_NE(found.stability.verdict, Verdict::unstable);
   EXPECT_LE(balance_of(found.packing).residual, 1e-6);
   EXPECT_LT(found.summary.energy, saddle.summary.energy);
-  EXPECT_NEAR(found.energy_drop, saddle.summary.energy - found.summary.energy, 1e-12 * saddle.summary.energy);
   EXPECT_TRUE(same_bits(found.packing, follow_downhill(saddle.packing, options).packing));
 }
 
@@ -52,9 +49,7 @@ TEST(FollowDownhill, LeavesAMinimumAlone) {
   const Packing& minimum = nearest_state(jammed(SolidKind::octahedron, 48, .01));
   const DownhillResult result = follow_downhill(minimum);
   EXPECT_EQ(result.ended, DownhillEnd::was_minimum) << to_string(result.ended);
-  EXPECT_FALSE(result.was_unstable());
   EXPECT_EQ(result.descents, 0);
-  EXPECT_EQ(result.energy_drop, 0);
   EXPECT_EQ(result.stability.verdict, Verdict::stable);
   EXPECT_TRUE(same_bits(result.packing, minimum));
 }

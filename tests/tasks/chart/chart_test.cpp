@@ -1,6 +1,6 @@
 // Facts proved here:
 // - a configuration without keys is the built-in one; what is written is read back equal, both built-in ones among
-// them;
+//   them;
 // - a configuration that is not understood, out of range or impossible is refused with pointer and what is allowed, and
 //   the schema refuses what it can express; its defaults are the program's;
 // - a Pareto front holds what no other point beats, in order of time, and neither failures nor points without error;

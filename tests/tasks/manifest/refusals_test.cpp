@@ -1,7 +1,6 @@
 // Facts proved here:
 // - what is wrong with a manifest is told at once, a line for each error, in the order of the document, and nothing
-// that
-//   follows from another error;
+//   that follows from another error;
 // - two errors in different places give the two lines that each gives alone;
 // - what holds between values is looked at where each is right;
 // - comments are called so, at their line and column, and are none within a string;

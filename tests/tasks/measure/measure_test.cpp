@@ -18,6 +18,7 @@
 #include <cmath>
 
 #include "engine/rigidity/rigidity.hpp"
+#include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "tasks/measure/recorded_measurement.hpp"
 #include "tasks/replicate/record.hpp"
@@ -116,7 +117,7 @@ TEST(Measure, CountsModesAsADenseSolverDoes) {
 /// What the record says of the rows of `matrix`, where the contacts have so many `constraints`.
 void expect_counted(const Json& counted, const RigidityMatrix& matrix, int constraints, double per_particle) {
   const auto coordinates = static_cast<int>(matrix.rows.cols());
-  const Eigen::VectorXd sigma = singular_values(matrix);
+  const Eigen::VectorXd sigma = singular_values_of(Eigen::MatrixXd(matrix.rows));
   const auto rank = static_cast<int>((sigma.array() > counted.at("tolerance").get<double>()).count());
   EXPECT_EQ(counted.at("constraints"), constraints);
   EXPECT_EQ(std::lround(per_particle * coordinates / 12), constraints);

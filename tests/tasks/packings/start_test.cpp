@@ -1,12 +1,10 @@
 // Facts proved here:
 // - a GSD of another program's making, its solid in its own units, turned, shifted and in another order of vertices, in
-// a
-//   mixture of shapes and sizes too, gives the packing that was meant, to single precision; so does an extended XYZ, to
-//   the last digits; so does one that Python's gsd wrote;
+//   a mixture of shapes and sizes too, gives the packing that was meant, to single precision; so does an extended XYZ,
+//   to the last digits; so does one that Python's gsd wrote;
 // - files that are cut, hold other particles or none, are refused, and no byte of them is trusted;
 // - replicates begin from packings instead of at random: the program's own bit for bit, so that an expansion goes on
-// from
-//   the state that was stored, nearer to jamming; the record says from what;
+//   from the state that was stored, nearer to jamming; the record says from what;
 // - what cannot be begun from is refused before anything runs, at its place.
 
 #include <fmt/format.h>

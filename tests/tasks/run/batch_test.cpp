@@ -2,7 +2,7 @@
 // - -j 1 and -j 2 give byte-identical tables, packings, and records up to timing; all of them conform to the schemas;
 // - a second run repeats nothing and changes no byte; one that lost or damaged a record redoes just that one;
 // - a run stopped by SIGTERM or SIGINT ends with 75 within seconds, and the same command completes it to the same
-// bytes;
+//   bytes;
 // - a replicate gives the same bits in another sweep; more replicates leave those there untouched;
 // - a failed replicate is recorded with where and why, counted in the table, and turns the exit code to 1;
 // - a directory of another manifest ends the run with 65 and is left as it was;

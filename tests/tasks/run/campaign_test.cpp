@@ -1,8 +1,7 @@
 // Facts proved here, with made-up outcomes:
 // - without a goal a campaign gives every replicate that has no valid record, once, in one round, and what it costs;
 // - with a goal it gives batches, and ends each point where the rule ends it on all its values; which outcome of a
-// round
-//   is recorded first, an interruption, and sharding change nothing; the table says how many were needed;
+//   round is recorded first, an interruption, and sharding change nothing; the table says how many were needed;
 // - replicates that the manifest excludes are no value towards a goal, to the campaign as to the table;
 // - shards never give the same replicate and together give all.
 

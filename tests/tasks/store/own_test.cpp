@@ -5,7 +5,7 @@
 // - a pipe, a link to an endless device and a million nested lists are damage, at once;
 // - a record of what the machine lacked is redone;
 // - of manifests that begin at once in a fresh directory one gets it, and the others are refused by the keys that
-// differ.
+//   differ.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,8 +1,7 @@
 // Facts proved here:
 // - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
 // - a record without its packing is not held; a packing keeps every bit of its state, low parts included, and conforms
-// to
-//   its schema, alike or a mixture, in a cube or not;
+//   to its schema, alike or a mixture, in a cube or not;
 // - a directory of another manifest is refused and left as it was, in whichever file the other manifest shows;
 // - more replicates may be asked for later, and fewer do not shrink the plan on disk;
 // - temporaries of a writer that was killed are not taken for results.

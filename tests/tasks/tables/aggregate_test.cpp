@@ -1,8 +1,7 @@
 // Facts proved here:
 // - the table does not depend on the order of the records, nor on a record being given twice;
 // - failed replicates are counted and in no mean; flagged ones are counted, and in the means they have a value for
-// unless
-//   their flag is excluded: these are in the means of all;
+//   unless their flag is excluded: these are in the means of all;
 // - against Δφ, quantities are interpolated in ln Δφ between the states of a replicate and not beyond them;
 // - the residual of a row is the worst of its replicates;
 // - records of other settings, and two results of one replicate, are refused;

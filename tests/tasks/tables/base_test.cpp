@@ -1,7 +1,7 @@
 // Facts proved here, with made-up records, and through the executable:
 // - the differences of a row from its base are those of replicates of one number, mean, standard deviation and
-// Student's
-//   interval as computed by hand; a replicate that failed, is excluded or lacks the value on either side is left out;
+//   Student's interval as computed by hand; a replicate that failed, is excluded or lacks the value on either side is
+//   left out;
 // - where replicates vary together the paired interval is narrower than one made of the two rows' own;
 // - rows are compared with the one of their solid and size that has the base's values and their own of the others; the
 //   base itself is not; records of several manifests pair within each;

@@ -1,7 +1,7 @@
 // Facts proved:
 //   1. of random contacts 60 % of tetrahedra, 56 % of octahedra, 52 % of dodecahedra and of icosahedra are of two
-//   edges; surface and mean curvature of cubes and boxes are the known ones, in any size; shares sum to 1 and follow
-//   the order of the solids;
+//      edges; surface and mean curvature of cubes and boxes are the known ones, in any size; shares sum to 1 and follow
+//      the order of the solids;
 //   2. drawn over turns of one solid, all parallelograms of the Minkowski sum have the mean area M_A M_B/2π, and their
 //      angles, by area, the distributions given, for every Platonic solid, for two different ones and for solids whose
 //      edges differ; by number instead of area they would not;

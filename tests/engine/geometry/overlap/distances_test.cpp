@@ -2,8 +2,7 @@
 //   every edge and every face of the intersection, as clipping finds it, is among the parts that the slab keeps, and
 //     where the slab is empty the solids are apart;
 //   what it keeps is the least that its definition allows: a part is left out exactly if all its vertices are outside
-//   of
-//     the slab by more than rounding;
+//     of the slab by more than rounding;
 //   the distances of kept vertices from kept planes are those of the whole table, and a plane is there once at least.
 
 #include "engine/geometry/overlap/distances.hpp"

@@ -14,6 +14,7 @@
 
 #include "engine/geometry/overlap/overlap.hpp"
 #include "tests/engine/geometry/overlap/pairs.hpp"
+#include "tests/oracle/own_hessian.hpp"
 
 namespace isojam {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 using namespace testing_pairs;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using oracle::skew;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
@@ -115,22 +117,14 @@ TEST(OverlapDerivativesTest, WrongGradientsAreRefused) {
   }
 }
 
-Matrix3d skew(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 /// The 12×12 Hessian of V as the engine has it, lab frame.
 Matrix12d hessian(const Pair& pair) {
   const RelativePose pose = pair.relative();
   const Overlap result = overlap(pair);
-  const Matrix6d cross = overlap_cross_hessian(pair.solid_a(), pair.solid_b(), pose);
+  const Matrix6d cross = oracle::overlap_cross_hessian(pair.solid_a(), pair.solid_b(), pose);
   Matrix12d h;
-  Matrix6d own_a, own_b;
-  set_own_hessian(cross, result.area, pose.displacement, own_a);
-  set_own_hessian(cross.transpose(), -result.area, -pose.displacement, own_b);
-  h << own_a, cross, cross.transpose(), own_b;
+  h << oracle::own_hessian(cross, result.area, pose.displacement), cross, cross.transpose(),
+      oracle::own_hessian(cross.transpose(), -result.area, -pose.displacement);
   Matrix12d frame = Matrix12d::Zero();
   for (int k = 0; k < 12; k += 3) frame.block<3, 3>(k, k) = pair.a.orientation.toRotationMatrix();
   return frame * h * frame.transpose();

@@ -1,5 +1,6 @@
 // Fact proved here: for random H_AB, S and r, of both signs and many magnitudes, zeros among them, set_own_hessians()
-// sets H_AA and H_BB to the bits of set_own_hessian(), H_AB stays as it was, and so does what lies behind the blocks.
+// sets H_AA and H_BB to the rounding of the plain formula, H_AB stays as it was, and so does what lies behind the
+// blocks.
 
 #include "engine/geometry/overlap/own_hessians.hpp"
 
@@ -10,6 +11,7 @@
 #include <cmath>
 
 #include "engine/random/stream.hpp"
+#include "tests/oracle/own_hessian.hpp"
 
 namespace isojam {
 namespace {
@@ -48,9 +50,7 @@ TEST(OwnHessians, AreThoseOfThePlainFormula) {
     for (int c = 0; c < 3; ++c) area[c] = random_number(random), r[c] = random_number(random);
     const Matrix6d ab = found.hessian.ab;
     set_own_hessians(area, r, found.hessian);
-    Matrix6d aa, bb;
-    set_own_hessian(ab, area, r, aa);
-    set_own_hessian(ab.transpose(), -area, -r, bb);
+    const Matrix6d aa = oracle::own_hessian(ab, area, r), bb = oracle::own_hessian(ab.transpose(), -area, -r);
     const auto within = [](const Matrix6d& here, const Matrix6d& there, const Matrix6d& sizes) {
       return ((here - there).cwiseAbs().array() <= 4 * eps * sizes.array()).all();
     };
