@@ -11,7 +11,7 @@ namespace {
 // of forces and moments in doubles, its symmetric part. It asks about states as the minimiser left them, and so has no
 // saddle followed downhill; where another measure needs that, it sees what that one sees.
 
-constexpr std::string_view group = "modes by differences";
+constexpr std::string_view group = "modes by central differences";
 constexpr Quantity exact{"unstable_exact", "/difference_modes/exact/share", group, "1", "n_-/6N"};
 
 /// A step, in V_p^(1/3), and the share of negative modes that it gives.

@@ -8,15 +8,15 @@
 
 namespace isojam {
 
-/// Every reservation that the record of a replicate without failure may hold.
+/// Warnings that the record of a replicate may hold if it did not fail.
 enum class Flag : std::uint8_t {
-  crystalline,         ///< Q6 of its contacts is that of a crystal
-  not_balanced,        ///< the rule on the energy let states pass whose forces do not balance
-  goal_not_reached,    ///< expansion did not come as near to jamming as asked
-  outside_fit_window,  ///< φ_J was fitted to states farther from jamming than asked
-  not_stable,          ///< some state has other than three zero modes, or a negative one
-  classes_undecided,   ///< a fit of the contacts' classes gave no cut-off
-  classes_doubtful     ///< one gave a cut-off that its curve does not bear out
+  crystalline,         ///< Q6 of the contacts has the value of a crystal
+  not_balanced,        ///< minimiser.energy_change accepted states whose forces do not balance
+  goal_not_reached,    ///< the decompression did not come as near to jamming as requested
+  outside_fit_window,  ///< φ_J was fitted to states farther from jamming than requested
+  not_stable,          ///< some state has a negative mode, or other than three zero modes
+  classes_undecided,   ///< a fit of the alignment angles gave no cut-off
+  classes_doubtful     ///< a fit gave a cut-off that its curve does not support
 };
 template <>
 inline constexpr std::array enum_names<Flag>{EnumName{Flag::crystalline, "crystalline"},
@@ -27,7 +27,7 @@ inline constexpr std::array enum_names<Flag>{EnumName{Flag::crystalline, "crysta
                                              EnumName{Flag::classes_undecided, "classes_undecided"},
                                              EnumName{Flag::classes_doubtful, "classes_doubtful"}};
 
-/// What means are without unless a manifest says otherwise: they are to be of disordered packings in balance.
+/// Flags excluded from means by default: means are for disordered packings in equilibrium.
 inline std::vector<Flag> usually_excluded() { return {Flag::crystalline, Flag::not_balanced}; }
 
 }  // namespace isojam

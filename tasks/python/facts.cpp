@@ -7,8 +7,8 @@
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/version.hpp"
 
-// Writes what the Python module has to know of the program's files, so that it stands once.
-// usage: isojam-facts PROGRAM FILE, where PROGRAM is the path of isojam from the module
+// Writes the facts that the Python module needs about the program's files, so that they are defined once.
+// usage: isojam-facts PROGRAM FILE, where PROGRAM is the path of isojam relative to the module
 
 namespace {
 
