@@ -79,9 +79,8 @@ def manifest_block(schema):
         what = "names, or [mixtures](#key-mixture)" if name == "solid" else kinds(schema, item)
         rows.append([f"`{name}`", f"list of {what}", "required", cell(item["description"])])
     lines += [heading("Key", "sweep"), "", *table(KEY_HEAD, rows), "",
-              "Beside these, lists of values of " +
-              ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
-              ", each as under the key of that name below.", ""]
+              "You can also sweep " + ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
+              ". Give a list of values for each. The key of the same name below has its meaning.", ""]
     for name in OBJECTS[1:6]:
         lines += own_tables(schema, list(schema.objects(top[name], name)))
     own = schema.resolved(top["solids"]["additionalProperties"])
@@ -157,7 +156,7 @@ def quantity_block(record, tables, quantities):
         above, meaning = row[-1]
         alone = above and row[4].count("/") > 1 and (len(meaning.split()) < 5 or every.count(meaning) > 1)
         row[-1] = cell(f"{above} {meaning}" if alone else meaning)
-    return table(("quantity", "table", "unit", "one of each", "place in records", "meaning"), rows) + [""]
+    return table(("quantity", "table", "unit", "one value per", "place in records", "meaning"), rows) + [""]
 
 
 def tables_block(schema):
