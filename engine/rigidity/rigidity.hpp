@@ -27,19 +27,19 @@ struct Rigidity {
 /// Requested results, and limits of zero.
 struct RigidityOptions {
   bool stresses = false;  ///< true to compute a basis of the states of self-stress
-  /// Factor of RigidityMatrix::imbalance in the tolerance. A nearby balanced state has these forces as a state of
-  /// self-stress, so that their singular value is at most of the order of the imbalance of forces.
+  /// Factor of the relative force residual (RigidityMatrix) in the tolerance. A nearby balanced state has these forces
+  /// as a state of self-stress, so that their singular value is at most of the order of that residual.
   double margin = 100;
-  /// Largest relative imbalance of forces (RigidityMatrix) for which forces indicate which singular values are zero. In
-  /// equilibrium it is a tenth of this or less.
+  /// Largest relative force residual for which forces indicate which singular values are zero. In equilibrium it is a
+  /// tenth of this or less.
   double balanced = 1e-6;
 };
 
 /// Computes the states of self-stress by inverse subspace iteration with SoftRows and the Rayleigh–Ritz method on its
 /// left singular vectors. The start is random (Halko, Martinsson & Tropp 2011), but the same for every matrix of the
 /// same size. Throws std::invalid_argument if the rows contain NaN or infinity. Singular values count as zero up to
-/// max(rows, 6N)·ε times an upper bound of the largest one, or, if forces balance, up to `margin` times
-/// RigidityMatrix::imbalance. N = 400 takes about a second.
+/// max(rows, 6N)·ε times an upper bound of the largest one, or, if forces balance, up to `margin` times the relative
+/// force residual. N = 400 takes about a second.
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 
 /// All singular values of the rows, descending: the test oracle. Dense and even slower; for N ≤ 100.

@@ -15,7 +15,7 @@ struct RigidityMatrix {
   Eigen::SparseMatrix<double> rows;  ///< constraints × 6N, every row of unit length
   /// Generalised force (V/2)|∇V| that the contact exerts along each row, 0 for tilts: rowsᵀ·forces = ∇E.
   Eigen::VectorXd forces;
-  /// Relative imbalance of forces |∇E| / |forces|: the deviation of the forces from a state of self-stress. 0 without
+  /// Relative force residual |∇E| / |forces|: the deviation of the forces from a state of self-stress. 0 without
   /// forces.
   double imbalance = 0;
 };

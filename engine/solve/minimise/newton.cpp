@@ -10,9 +10,9 @@
 // Near jamming the stiffnesses of a packing span ten orders of magnitude. For first-order methods this is the condition
 // number; Newton's method is not affected. Its limit is the range in which its model holds, so it does three things.
 // The model anticipates pairs that close and contacts that tilt (step_model.hpp). A step that raises the energy is
-// continued before it is rejected: rotating particles together moves flat contacts out of their planes by the square of
-// the angle, far more than their depth, and one Newton step from there corrects this (Chamberlain's watchdog
-// technique). The shift μ shortens steps that still fail (Levenberg, Marquardt).
+// continued before it is rejected (Chamberlain's watchdog technique). Rotating particles together moves flat contacts
+// out of their planes by the square of the angle, far more than their depth; one Newton step from there corrects this.
+// The shift μ shortens steps that still fail (Levenberg, Marquardt).
 
 namespace isojam {
 
@@ -24,8 +24,8 @@ constexpr int follow_ups = 3;
 /// A trial that raises the energy by more than this factor is hopeless.
 constexpr double hopeless = 1e6;
 
-/// Failures in one state after which the model no longer anticipates pairs: the anticipation may be wrong, and then no
-/// shift helps.
+/// Failures in one state after which the model no longer anticipates pairs: the anticipation may be
+/// incorrect, and then no shift helps.
 constexpr int patience = 4;
 
 /// Probe distance for incipient contacts as a fraction of the last step, and its bounds in inradii.

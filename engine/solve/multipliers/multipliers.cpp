@@ -334,7 +334,7 @@ class Multipliers {
     options.unjammed_energy = std::min(options_.unjammed_energy, unjammed_energy * expected_force_ * distance_);
     const MinimiseSummary rest = minimise(packing_, energy_, options, stop_);
     MinimiseSummary sum = rest;
-    // If Newton's method does not reach balance either, the earlier verdict holds.
+    // If Newton's method does not reach balance either, the earlier verdict remains.
     if (summary_.reason == StopReason::unjammed && rest.reason == StopReason::budget) sum.reason = summary_.reason;
     sum.evaluations += summary_.evaluations;
     sum.iterations += summary_.iterations;
