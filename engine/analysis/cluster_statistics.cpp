@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A cluster that does not wind, followed along its bonds.
+/// A cluster that does not wind, unwrapped along its bonds.
 struct Network {
   std::vector<Vector3d> centres;
   std::vector<std::vector<int>> neighbours;
@@ -41,7 +41,7 @@ Network unwrapped(const Packing& packing, const Cluster& cluster, std::span<cons
   return network;
 }
 
-/// Members in order of their distance in bonds from one of them, and how many lie within ℓ = 0, 1, ... bonds.
+/// Members sorted by their distance in bonds from one of them, and the number of members within ℓ = 0, 1, ... bonds.
 struct Growth {
   std::vector<int> order;
   std::vector<std::size_t> within;
@@ -74,13 +74,13 @@ double square_gyration_radius(const Network& network, std::span<const int> piece
   return sum / static_cast<double>(piece.size());
 }
 
-/// Sums of log ρ and log s over pieces of one ℓ.
+/// Sums of log ρ and log s over the pieces of one ℓ.
 struct Point {
   double log_radius = 0, log_size = 0;
   int pieces = 0;
 };
 
-/// [ℓ − 1]: pieces of radius ℓ about every member, each member's up to the first that is the whole cluster.
+/// [ℓ − 1]: pieces of radius ℓ around every member, for each member up to the first that is the whole cluster.
 std::vector<Point> piece_sizes(const Network& network) {
   std::vector<Point> points;
   for (std::size_t from = 0; from < network.centres.size(); ++from) {
@@ -101,7 +101,7 @@ std::vector<Point> piece_sizes(const Network& network) {
   return points;
 }
 
-/// Least-squares slope of log_size over log_radius; too_small if the radii do not differ or are 0.
+/// Least-squares slope of log_size against log_radius; too_small if the radii are equal or 0.
 FractalDimension fit_line(std::span<const Point> points) {
   const auto n = static_cast<double>(points.size());
   double x = 0, y = 0;
@@ -115,7 +115,7 @@ FractalDimension fit_line(std::span<const Point> points) {
     xy += (point.log_radius - x) * (point.log_size - y);
   }
   FractalDimension result{.verdict = DimensionVerdict::too_small, .points = static_cast<int>(points.size())};
-  if (!(xx > 0)) return result;  // all centres on one point: logarithms of 0
+  if (!(xx > 0)) return result;  // all centres coincide: logarithms of 0
   result.verdict = DimensionVerdict::fitted;
   result.D = xy / xx;
   for (const Point& point : points) {

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 using Vector3l = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Exact, as windings are at most N cells long.
+/// Exact in integers, because windings are at most N cells long.
 bool independent(const std::vector<Vector3i>& basis, const Vector3i& candidate) {
   const Vector3l v = candidate.cast<std::int64_t>();
   if (basis.empty()) return !v.isZero();
@@ -28,7 +28,7 @@ void add_winding(std::vector<Vector3i>& basis, const Vector3i& winding) {
   if (independent(basis, winding)) basis.push_back(winding);
 }
 
-/// Union-find whose links carry periodic images: particle i lies `image` cells from where its root's cell puts it.
+/// Union-find whose links carry periodic images: `image` is the position of a particle in cells relative to its root.
 class ImageUnion {
  public:
   struct Placed {
@@ -49,13 +49,13 @@ class ImageUnion {
 
   void join(const NeighbourPair& bond) {
     Placed a = find(bond.a), b = find(bond.b);
-    // Cells from b's place under its own root to its place beside a.
+    // Cells from b's image relative to its own root to its image next to a.
     Vector3i offset = a.image + bond.shift - b.image;
     if (a.root == b.root) {
       add_winding(windings_[a.root], offset);
       return;
     }
-    // By size, so that no path is longer than log2 N.
+    // Union by size, so that no path is longer than log2 N.
     if (size_[a.root] < size_[b.root]) {
       std::swap(a, b);
       offset = -offset;
@@ -74,7 +74,7 @@ class ImageUnion {
   std::vector<std::vector<Vector3i>> windings_;
 };
 
-/// Reach of the vertices above and below the centre along the axes.
+/// Distances of the vertices below and above the centre along the axes.
 struct Reach {
   Vector3d below, above;
 };

@@ -15,7 +15,7 @@ Quad3 normal_of(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose
   return face.of_a ? a.arrays().normal(face.face) : pose.rotation * b.arrays().normal(face.face);
 }
 
-/// Centroid of a convex polyhedron, by tetrahedra from one of its corners.
+/// Centroid of a convex polyhedron, from tetrahedra that share one of its corners.
 Quad3 centroid(const QuadIntersection& intersection) {
   const auto point = [&](int k) { return intersection.points[static_cast<std::size_t>(k)]; };
   const Quad3 origin = point(intersection.faces.front().loop.front());
@@ -33,8 +33,8 @@ Quad3 centroid(const QuadIntersection& intersection) {
   return origin + (1 / volume) * moment;
 }
 
-/// Corners of one polygon that are none of the other's. Planes that meet in one vertex of a solid given in doubles meet
-/// in several points as close as rounding: these are one corner.
+/// Number of corners of one polygon that are not corners of the other. If a solid is given in double, planes that meet
+/// in one of its vertices meet in several points within rounding; these count as one corner.
 int own_corners(const QuadIntersection& intersection, const Polygon& polygon, const Polygon& other, Quad rounding) {
   std::vector<Quad3> corners;
   for (const int corner : polygon.loop) {
@@ -47,7 +47,7 @@ int own_corners(const QuadIntersection& intersection, const Polygon& polygon, co
   return static_cast<int>(corners.size());
 }
 
-/// Whether some corner is a vertex of A or B, that is, lies on faces of one of them alone.
+/// True if some corner is a vertex of A or B, that is, lies only on faces of one of them.
 bool has_vertex(const QuadIntersection& intersection) {
   std::vector<int> owners(intersection.points.size(), 0);
   for (const Polygon& face : intersection.faces) {
@@ -91,7 +91,7 @@ ContactForce contact_force(const Packing& packing, const NeighbourPair& pair) {
   const Quad3 area = to_lab * overlap.area, moment = to_lab * overlap.moment;
   const Quad size = norm(area), pull = -overlap.volume / 2;
   const Quad3 normal = (1 / size) * area;
-  // S × M/S² is the point nearest A's centre of the line about which the moment has no part across S.
+  // S × M/S² is the point nearest to A's centre on the line about which the moment has no component perpendicular to S.
   const Quad along = dot(normal, to_lab * centroid(intersection));
   const Quad3 attack = (1 / (size * size)) * cross(area, moment) + along * normal;
   result.volume = static_cast<double>(overlap.volume);

@@ -31,7 +31,7 @@ ContactNumbers contact_numbers(int particles, std::span<const ContactClass> clas
     edge_face += contact_class == ContactClass::edge_face;
     lower_order += contact_class == ContactClass::lower_order;
   }
-  // Each contact belongs to two particles. Divided last, so that the sums over classes are exact.
+  // Each contact belongs to two particles. The division comes last, so that the sums over classes are exact.
   const auto per_particle = [&](long count) { return static_cast<double>(2 * count) / particles; };
   return {.Z = per_particle(face_face + edge_face + lower_order),
           .Z_ff = per_particle(face_face),
@@ -70,7 +70,7 @@ std::optional<double> ContactAnalysis::disagreement() const {
 
 namespace {
 
-/// From the contacts of several packings together.
+/// Cut-offs from the combined contacts of several packings.
 ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vector<Alignment>> packings) {
   std::vector<double> face_face, edge_face;
   for (const std::vector<Alignment>& alignments : packings) {
@@ -88,7 +88,7 @@ ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vec
   return cutoffs;
 }
 
-/// Mean numbers over the particles of each kind: a contact counts for the kind at either end.
+/// Mean numbers over the particles of each kind: a contact counts for the kinds of both particles.
 std::vector<ContactNumbers> numbers_of_kinds(const Composition& solids, int particles,
                                              std::span<const Contact> contacts, std::span<const ContactClass> classes) {
   struct Counts {
@@ -117,20 +117,20 @@ std::vector<ContactNumbers> numbers_of_kinds(const Composition& solids, int part
   return numbers;
 }
 
-/// Whether a decides less than b.
+/// True if a is less conclusive than b.
 bool is_vaguer(const CdfFit& a, const CdfFit& b) {
   if (a.has_cutoff() != b.has_cutoff()) return b.has_cutoff();
   return a.verdict == FitVerdict::bimodal && b.verdict == FitVerdict::fitted;
 }
 
-/// One pair of shapes of a mixture, and which contacts are its own.
+/// One pair of shapes of a mixture, and its contacts.
 struct Group {
   ShapePair pair;
   std::vector<std::size_t> members;
   std::vector<Alignment> alignments;
 };
 
-/// In order of their names.
+/// Groups sorted by the names of their shapes.
 std::vector<Group> groups_of(const Composition& solids, std::span<const Contact> contacts,
                              std::span<const Alignment> alignments) {
   std::vector<Group> groups;
@@ -151,7 +151,7 @@ std::vector<Group> groups_of(const Composition& solids, std::span<const Contact>
   return groups;
 }
 
-/// Takes from `pair` what decides less than what `all` has so far.
+/// Replaces results in `all` by less conclusive ones of `pair`.
 void take_vaguer(const ShapePair& pair, ContactAnalysis& all) {
   const ClassCutoffs& cutoffs = pair.cutoffs;
   if (is_vaguer(cutoffs.face_face, all.face_face)) all.face_face = cutoffs.face_face;

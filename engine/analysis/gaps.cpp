@@ -9,8 +9,8 @@ namespace isojam {
 
 namespace {
 
-/// Whether planes along a face are as far apart as those of the best axis, to rounding: products of edges that lie in
-/// such planes are no better.
+/// True if planes parallel to a face are as far apart, within rounding, as those of the best axis. A product of edges
+/// in such planes is not better.
 bool is_of_faces(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, double width) {
   const double enough = width - gap_tolerance(a, b, pose);
   const auto apart = [&](SeparatingAxis::Kind kind, std::size_t face) {

@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 
 constexpr unsigned greatest_rank = 10;
 
-/// Normalised associated Legendre function of ranks m and l over sinᵐ, from that of m and m, by the recurrence in rank
-/// (the forward column method of Holmes and Featherstone 2002).
+/// Normalised associated Legendre function of order m and degree l, divided by sinᵐ. It is computed from that of degree
+/// m by recurrence in the degree (forward column method of Holmes and Featherstone 2002).
 double raised(double top, unsigned m, unsigned l, double z) {
   double before = 0, here = top;
   const double m2 = squared(m);
@@ -37,7 +37,7 @@ VectorXd real_harmonics(const Vector3d& direction, unsigned l) {
   const Vector3d unit = direction.normalized();
   const double x = unit.x(), y = unit.y(), z = unit.z();
   VectorXd values(2 * l + 1);
-  double top = 0.5 / std::sqrt(std::numbers::pi), cosine = 1, sine = 0;  // sinᵐ·cos and sin of m·azimuth
+  double top = 0.5 / std::sqrt(std::numbers::pi), cosine = 1, sine = 0;  // sinᵐ·cos and sinᵐ·sin of m·azimuth
   for (unsigned m = 0; m <= l; ++m) {
     if (m > 0) {
       top *= std::sqrt((2.0 * m + 1) / (2.0 * m));
@@ -52,8 +52,8 @@ VectorXd real_harmonics(const Vector3d& direction, unsigned l) {
   return values;
 }
 
-/// Mean of P_l over all pairs of vertex directions, by the addition theorem their squared length in rank l. Not
-/// negative; rounding of as many terms leaves it at 1e-15 or so where it vanishes.
+/// Mean of P_l over all pairs of vertex directions. By the addition theorem it is the squared length of their mean in
+/// rank l, hence not negative. Where it vanishes, rounding leaves about 1e-15.
 double strength(const ConvexSolid& solid, unsigned l) {
   double sum = 0;
   for (const Vector3d& v : solid.vertices()) {
@@ -78,7 +78,7 @@ std::optional<double> mean_of(const std::vector<std::optional<double>>& values) 
 }  // namespace
 
 unsigned orientation_rank(const ConvexSolid& solid) {
-  constexpr double vanishing = 1e-10;  // far above rounding, far below the .1 and more of the ranks that do not vanish
+  constexpr double vanishing = 1e-10;  // far above rounding, far below the 0.1 or more of ranks that do not vanish
   for (unsigned l = 1; l <= greatest_rank; ++l) {
     if (strength(solid, l) > vanishing) return l;
   }

@@ -9,33 +9,35 @@
 
 namespace isojam {
 
-/// Rank l of the first spherical harmonics that the solid's vertex directions do not average out, 1..10: 3 for
-/// tetrahedra, 4 (cubatic) for cubes and octahedra, 6 for dodecahedra and icosahedra; 2 (nematic) for most other
-/// solids. No order parameter of lower rank sees these solids turn. Throws std::invalid_argument if all ranks up to 10
-/// vanish.
+/// Smallest rank l, 1..10, for which the spherical harmonics do not vanish when averaged over the solid's vertex
+/// directions. It is 3 for tetrahedra, 4 (cubatic) for cubes and octahedra, 6 for dodecahedra and icosahedra, and 2
+/// (nematic) for most other solids. An order parameter of lower rank does not depend on the orientation. Throws
+/// std::invalid_argument if all ranks up to 10 vanish.
 unsigned orientation_rank(const ConvexSolid& solid);
 
-/// Spherical harmonics of every particle, all of one shape, (2l + 1) × N: the components Σ_v Y_lm(v) over its vertex
-/// directions in the lab frame, real harmonics, columns of unit norm. Particles alike but for a symmetry of the solid
-/// have equal columns. Products of columns are q_ij = Σ_vw P_l(v·w)/Σ_vv' P_l(v·v'), 1 if i and j are aligned, 0 on
-/// average if their orientations are independent.
+/// Spherical harmonics of every particle, all of the same shape, (2l + 1) × N: the components Σ_v Y_lm(v) over its
+/// vertex directions in the lab frame, real harmonics, columns with norm 1. Orientations that differ by a symmetry of
+/// the solid have equal columns. Products of columns are q_ij = Σ_vw P_l(v·w)/Σ_vv' P_l(v·v'): 1 if i and j are
+/// aligned, 0 on average if their orientations are independent.
 Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l);
 
 /// S_l = |mean column|, S_l² = (1/N²) Σ_ij q_ij: 1 if all are aligned, about 1/√N if orientations are independent.
 double orientation_order(const Eigen::MatrixXd& harmonics);
 
-/// Steinhardt's Q_l of each particle's own contacts, none for particles without.
+/// Steinhardt's Q_l of each particle's own contacts; nullopt for particles without contacts.
 std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contact> contacts, int particles, unsigned l);
 
-/// Order of a packing in the directions of its contacts and in its orientations. Near jamming at N = 64 and 100, S was
-/// .03 to .05 for tetrahedra, .14 to .18 for octahedra, .16 to .41 for dodecahedra and icosahedra; where Q6 of
-/// icosahedra was above crystalline_q6, it was .41 to .71.
+/// Order of a packing in the directions of its contacts and in its orientations. S near jamming for N = 64 and 100:
+///   tetrahedra                       0.03 to 0.05
+///   octahedra                        0.14 to 0.18
+///   dodecahedra and icosahedra       0.16 to 0.41
+///   icosahedra with Q6 above crystalline_q6   0.41 to 0.71
 struct Order {
-  double Q4 = 0, Q6 = 0;                     ///< over all contacts; 0 without
-  std::optional<double> local_Q4, local_Q6;  ///< means over particles with contacts; none without
-  unsigned rank = 0;                         ///< orientation_rank; 0 where particles have several shapes
-  std::optional<double> S;                   ///< orientation_order of that rank; none where there is none
-  double random_S = 0;                       ///< 1/√N, what independent orientations give
+  double Q4 = 0, Q6 = 0;                     ///< over all contacts; 0 without contacts
+  std::optional<double> local_Q4, local_Q6;  ///< means over particles with contacts; nullopt without contacts
+  unsigned rank = 0;                         ///< orientation_rank; 0 if particles have several shapes
+  std::optional<double> S;                   ///< orientation_order of that rank; nullopt if rank is 0
+  double random_S = 0;                       ///< 1/√N, the value for independent orientations
 };
 /// Order of a packing with its contacts (PackingEnergy::contacts).
 Order order_of(const Packing& packing, std::span<const Contact> contacts);
@@ -44,22 +46,22 @@ Order order_of(const Packing& packing, std::span<const Contact> contacts);
 struct OrientationCorrelation {
   /// Pairs at one distance.
   struct Bin {
-    long pairs = 0;              ///< in the bin
-    std::optional<double> mean;  ///< none without pairs
+    long pairs = 0;              ///< number of pairs in the bin
+    std::optional<double> mean;  ///< nullopt without pairs
   };
   double width = 0;       ///< V_p^(1/3)
-  std::vector<Bin> bins;  ///< nearest first
+  std::vector<Bin> bins;  ///< nearest distances first
 };
 
 /// Bins of a correlation, lengths in V_p^(1/3).
 struct OrientationCorrelationOptions {
-  double width = 0.1;  ///< a quarter of the least inradius: a shell of neighbours takes several bins
-  /// Greatest distance. By default half the side of the cell, where images begin to repeat.
+  double width = 0.1;  ///< a quarter of the smallest inradius: several bins for a shell of neighbours
+  /// Largest distance. The default is half the side of the cell, where images begin to repeat.
   std::optional<double> reach = std::nullopt;
 };
 
-/// Orientational pair correlation over all pairs and images nearer than the reach, in whole bins.
-/// Throws std::invalid_argument unless width and reach are positive.
+/// Orientational pair correlation over all pairs and images within the reach, in complete bins. Throws
+/// std::invalid_argument unless width and reach are positive.
 OrientationCorrelation orientation_correlation(const Packing& packing, const Eigen::MatrixXd& harmonics,
                                                const OrientationCorrelationOptions& options = {});
 

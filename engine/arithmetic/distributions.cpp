@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-// As in elementary.cpp.
+// libquadmath's functions, declared by hand as in elementary.cpp.
 __extension__ using Quad = __float128;
 extern "C" {
 Quad sqrtq(Quad) noexcept;
@@ -20,8 +20,8 @@ namespace {
 
 const Quad half_pi = 2 * atanq(1);
 
-/// The root of an ascending function of a positive x, by halving: its last bits are those of no other method's, and the
-/// same everywhere.
+/// Root of an ascending function of a positive x, by bisection down to adjacent doubles. The result therefore has the
+/// same bits on every processor.
 template <class Ascending>
 double root_of(const Ascending& f, double above) {
   double low = 0, high = above;
@@ -46,7 +46,8 @@ Quad student_share(Quad t, long degrees) {
   return odd ? (atanq(ratio) + sine * sum) / half_pi : sine * sum;
 }
 
-/// Terms from that of k on, each `next(j)` times the one before, until they no longer count.
+/// Sum of a series that starts with `first` at index `from`, where the ratio of terms is `next(j)`. Stops when a term
+/// is negligible.
 template <class Next>
 Quad series(Quad first, long from, long last, int step, const Next& next) {
   Quad sum = first, term = first;
@@ -79,7 +80,7 @@ BinomialTails binomial_tails(long n, double p, long k) {
   if (p == 1) return {k == n ? 1.0 : 0.0, 1};
   const Quad q = 1 - Quad(p), odds = p / q;
   const Quad here = expq(lgammaq(n + 1) - lgammaq(k + 1) - lgammaq(n - k + 1) + k * logq(p) + (n - k) * logq(q));
-  // The tail that falls from k on; it may be far below what the other one can show.
+  // Sums the tail that decreases from k on; it may be far smaller than the rounding error of the other tail.
   if (static_cast<double>(k) >= static_cast<double>(n) * p) {
     const Quad at_least = series(here, k, n, 1, [&](long j) { return (n - j) * odds / (j + 1); });
     return {static_cast<double>(1 - at_least + here), static_cast<double>(at_least)};

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-// Declared here: <quadmath.h> stands among g++'s own headers, where clang does not look.
+// Declared by hand: <quadmath.h> is among g++'s own headers, where clang does not look.
 __extension__ using Quad = __float128;
 extern "C" {
 Quad sinq(Quad) noexcept;
@@ -42,7 +42,7 @@ double hypot(double x, double y) { return static_cast<double>(hypotq(x, y)); }
 }  // namespace nearest
 
 double sinc(double x) {
-  // Σ (−x²)^k / (2k+1)!, k ≤ 9: what is left out is below 1/21! = 2e-20.
+  // Σ (−x²)^k / (2k+1)!, k ≤ 9: the remainder is below 1/21! = 2e-20.
   constexpr std::array factors{6.0, 20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0, 342.0};  // 2k (2k+1)
   if (!(std::abs(x) <= 1)) return nearest::sin(x) / x;
   const double square = x * x;

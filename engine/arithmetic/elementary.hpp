@@ -1,14 +1,14 @@
 #pragma once
 
-// The C library has two of each elementary function, one for processors with fused multiply-adds, and takes what it
-// finds at run time: their last bits differ, and so would results.
+// The C library has two versions of each elementary function, one of them for processors with fused multiply-adds, and
+// chooses at run time. Their last bits differ, and so would the results of a replicate.
 
-/// Elementary functions with the same bits on every processor: reckoned in quadruple precision, in software, and
-/// rounded once to the nearest double. Infinities and NaN come out as from the functions of the standard library. A
-/// microsecond each: not for the innermost loops.
+/// Elementary functions with the same bits on every processor: computed in software quadruple precision and rounded
+/// once to the nearest double. Infinities and NaN give the same as with the standard library. Each call takes about a
+/// microsecond, so do not use them in innermost loops.
 namespace isojam::nearest {
 
-/// The functions of these names of the standard library.
+/// The functions of the standard library with these names.
 /// @{
 double sin(double x);
 double cos(double x);
@@ -29,7 +29,8 @@ double hypot(double x, double y);
 
 namespace isojam {
 
-/// sin x / x, 1 at 0; right to 2 ε. By its series where |x| ≤ 1, and then in nanoseconds: for turns in innermost loops.
+/// sin x / x, and 1 at x = 0; relative error at most 2 ε. For |x| ≤ 1 it uses the series and takes nanoseconds, so that
+/// it can be used for rotations in innermost loops.
 double sinc(double x);
 
 inline double squared(double x) { return x * x; }    ///< x²

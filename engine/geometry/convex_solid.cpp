@@ -14,7 +14,6 @@ namespace isojam {
 
 namespace {
 
-/// A face of the hull.
 using Loop = FaceLoop;
 
 struct Plane {
@@ -22,7 +21,7 @@ struct Plane {
   Quad offset = 0;
 };
 
-/// Newell's normal: exact for a planar polygon, the least-squares one for rounded vertices.
+/// Newell's normal: exact for a planar polygon, a least-squares fit for rounded vertices.
 Plane fitted_plane(const Loop& face, const std::vector<Quad3>& points) {
   Plane plane;
   Quad3 centre{};
@@ -43,7 +42,7 @@ struct Moments {
   QuadMatrix products{};  ///< ∫ x xᵀ dV
 };
 
-/// w p pᵀ
+/// Adds w p pᵀ.
 void add_product(Quad w, const Quad3& p, QuadMatrix& sum) {
   for (std::size_t r = 0; r < 3; ++r) sum[r] = sum[r] + w * p[r] * p;
 }
@@ -76,14 +75,14 @@ Eigen::Matrix3d inertia_tensor(const Moments& m) {
   return tensor;
 }
 
-/// A multiple of 1, to what rounding of vertices in double leaves of it.
+/// True if the tensor is a multiple of the identity, within the rounding of vertices given in double.
 bool is_isotropic(const Eigen::Matrix3d& tensor) {
   const double mean = tensor.trace() / 3;
   const Eigen::Matrix3d rest = tensor - mean * Eigen::Matrix3d::Identity();
   return rest.cwiseAbs().maxCoeff() <= 64 * std::numeric_limits<double>::epsilon() * mean;
 }
 
-/// Edges tail < head, in order of (tail, head).
+/// Edges with tail < head, sorted by (tail, head).
 std::vector<Edge> find_edges(const std::vector<Loop>& faces) {
   std::map<std::pair<int, int>, int> left_of;
   for (int f = 0; f < static_cast<int>(faces.size()); ++f) {

@@ -13,7 +13,7 @@ namespace isojam {
 
 namespace {
 
-// Which vertices make a face is safe to decide in less precision than the constants of a solid have.
+// To decide which vertices form a face needs less precision than the constants of a solid.
 using Vector3l = Eigen::Matrix<long double, 3, 1>;
 
 long double extent(const std::vector<Vector3l>& points) {
@@ -22,12 +22,12 @@ long double extent(const std::vector<Vector3l>& points) {
   return scale;
 }
 
-/// Vertices given in double are where they are only to their own rounding.
+/// Tolerance for vertices that were given in double and hence rounded.
 long double rounding(long double scale) {
   return 64 * static_cast<long double>(std::numeric_limits<double>::epsilon()) * scale;
 }
 
-/// Vertices of the supporting plane through a, b, c; empty if they are collinear or the plane cuts the body.
+/// Vertices on the supporting plane through a, b, c; empty if these are collinear or the plane cuts the body.
 std::vector<int> supporting_plane(const std::vector<Vector3l>& points, int a, int b, int c, long double scale) {
   const long double tolerance = rounding(scale);
   Vector3l normal = (points[b] - points[a]).cross(points[c] - points[a]);
@@ -46,7 +46,7 @@ std::vector<int> supporting_plane(const std::vector<Vector3l>& points, int a, in
   return above && below ? std::vector<int>{} : on_plane;
 }
 
-/// Orders the vertices of a face counter-clockwise about its outward normal, starting from the least index.
+/// Orders the vertices of a face counter-clockwise about its outward normal, starting with the smallest index.
 void order_counter_clockwise(FaceLoop& face, const Vector3l& normal, const std::vector<Vector3l>& points) {
   Vector3l centre = Vector3l::Zero();
   for (const int v : face) centre += points[v];
@@ -94,7 +94,7 @@ void refuse_twins(const std::vector<Vector3l>& points) {
   }
 }
 
-/// Three faces or more meet in a vertex, two in a point of an edge, one in a point of a face, none in a point inside.
+/// Number of faces that contain a point: at least three for a vertex, two on an edge, one on a face, none inside.
 void refuse_inner_points(const std::vector<FaceLoop>& faces, std::size_t points) {
   std::vector<int> meeting(points, 0);
   for (const FaceLoop& face : faces) {

@@ -12,7 +12,7 @@ struct ConstArrays {
   const double *x, *y, *z;
 };
 
-/// The n vectors v, turned, in blocks.
+/// Rotates the n vectors v and stores them in blocks.
 void turn(const Eigen::Matrix3d& q, ConstArrays v, int n, double* turned) {
   const double q00 = q(0, 0), q01 = q(0, 1), q02 = q(0, 2);
   const double q10 = q(1, 0), q11 = q(1, 1), q12 = q(1, 2);
@@ -25,11 +25,11 @@ void turn(const Eigen::Matrix3d& q, ConstArrays v, int n, double* turned) {
   }
 }
 
-/// One component of four vectors (x + x_low, …), turned in double-double.
+/// One component of four vectors (x + x_low, …), rotated in double-double.
 void turn_row(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c, ConstArrays v, ConstArrays v_low,
               double* turned, double* turned_low) {
   const double *x = v.x, *y = v.y, *z = v.z, *x_low = v_low.x, *y_low = v_low.y, *z_low = v_low.z;
-  // Too many arrays for g++ to check that they are distinct; clang, which has no such pragma, checks them.
+  // There are too many arrays for g++ to check that they are distinct. clang has no such pragma, and does check them.
 #ifndef __clang__
 #pragma GCC ivdep
 #endif
@@ -53,12 +53,12 @@ void turn(const DoubleDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, 
   }
 }
 
-/// Doubles of one kind of vectors.
+/// Number of doubles for n vectors.
 std::ptrdiff_t room(int n) { return std::ptrdiff_t{block} * ((n + 3) / 4); }
 
 constexpr std::ptrdiff_t line = 8;  ///< doubles
 
-/// Of one solid: vertices, normals, and the rotation.
+/// Memory of one solid in lines: vertices, normals and the rotation.
 std::size_t lines_of(const ConvexSolid& solid) {
   constexpr std::ptrdiff_t matrix = 9;
   return static_cast<std::size_t>((room(solid.arrays().vertices) + room(solid.arrays().faces) + matrix + line - 1) /
@@ -68,7 +68,8 @@ std::size_t lines_of(const ConvexSolid& solid) {
 }  // namespace
 
 void PlacedSolids::resize(const ConvexSolid& solid, std::size_t count, bool low) {
-  has_low_ = low || (has_low_ && solid_ == &solid);  // whoever asks now and then does not pay for it every time
+  // Once allocated, low parts are kept, so that occasional requests for them do not reallocate every time.
+  has_low_ = low || (has_low_ && solid_ == &solid);
   solid_ = &solid;
   count_ = count;
   places_.clear();

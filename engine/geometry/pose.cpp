@@ -28,7 +28,7 @@ DoubleDouble squared_length(const Pose& pose) {
   return short_sum(short_sum(x * x, y * y), short_sum(z * z, w * w));
 }
 
-/// Of |q|² − 1 where q was normalised in double. Its second order then suffices for 1e-31.
+/// `excess` is |q|² − 1. It is this small if q was normalised in double, and its second order then suffices for 1e-31.
 bool is_small(double excess) { return std::abs(excess) <= 4 * std::numeric_limits<double>::epsilon(); }
 
 Pose normalised(const Pose& pose) {
@@ -48,8 +48,8 @@ Pose normalised(const Pose& pose) {
   return result;
 }
 
-/// The pose with its centre at x + dx and turned by the quaternion 1 + turn: so that a small turn is added to q and not
-/// multiplied away.
+/// The pose with its centre at x + dx, rotated by the quaternion 1 + turn. Passing the difference from 1 adds a small
+/// rotation to q without loss of digits.
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Quaterniond& turn) {
   Pose result = pose;
   const Eigen::Vector4d change = (turn * pose.orientation).coeffs();

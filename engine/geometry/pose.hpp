@@ -7,36 +7,36 @@
 
 namespace isojam {
 
-/// A vector in double-double, component by component.
+/// A vector whose components are double-doubles.
 struct DoubleDoubleVector {
-  Eigen::Vector3d high = Eigen::Vector3d::Zero(), low = Eigen::Vector3d::Zero();  ///< nearest doubles, and the rest
+  Eigen::Vector3d high = Eigen::Vector3d::Zero(), low = Eigen::Vector3d::Zero();  ///< nearest doubles; low parts
 
   DoubleDouble operator[](int c) const { return {high[c], low[c]}; }  ///< component c
   /// Sets component c.
   void set(int c, const DoubleDouble& value) { high[c] = value.high, low[c] = value.low; }
-  /// Exactly.
+  /// Exact negative.
   DoubleDoubleVector operator-() const { return {-high, -low}; }
 };
 
-/// A matrix in double-double, entry by entry.
+/// A matrix whose entries are double-doubles.
 struct DoubleDoubleMatrix {
-  Eigen::Matrix3d high = Eigen::Matrix3d::Identity(), low = Eigen::Matrix3d::Zero();  ///< nearest doubles, and the rest
+  Eigen::Matrix3d high = Eigen::Matrix3d::Identity(), low = Eigen::Matrix3d::Zero();  ///< nearest doubles; low parts
 
   DoubleDouble operator()(int r, int c) const { return {high(r, c), low(r, c)}; }  ///< entry of row r and column c
   /// Sets the entry of row r and column c.
   void set(int r, int c, const DoubleDouble& value) { high(r, c) = value.high, low(r, c) = value.low; }
 };
 
-/// Product, each entry to 1e-31 of the greatest.
+/// Matrix product; the error of each entry is at most 1e-31 of the largest entry.
 DoubleDoubleMatrix operator*(const DoubleDoubleMatrix& a, const DoubleDoubleMatrix& b);
 
 /// Position of the centre (V_p^(1/3)) and orientation (quaternion q, body frame → lab frame) of a particle, each a
-/// double-double: x = position + position_low, q = orientation + orientation_low, with the first the nearest double of
-/// the sum. The rotation is the one by q/|q|, whatever |q|. Whoever assigns a first part resets the second.
+/// double-double: x = position + position_low, q = orientation + orientation_low, where the first part is the double
+/// nearest to the sum. The rotation is that of q/|q|, for any |q|. If you assign a first part, reset the second one.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< centre, V_p^(1/3), nearest doubles
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< q, nearest doubles
-  Eigen::Vector3d position_low = Eigen::Vector3d::Zero();           ///< the rest of the centre
+  Eigen::Vector3d position_low = Eigen::Vector3d::Zero();           ///< low part of the centre
   Eigen::Vector4d orientation_low = Eigen::Vector4d::Zero();        ///< x, y, z, w, as in orientation.coeffs()
 
   bool operator==(const Pose& other) const;
@@ -46,25 +46,25 @@ struct Pose {
   DoubleDouble component(int c) const { return {orientation.coeffs()[c], orientation_low[c]}; }
 };
 
-/// The pose with its centre at x + dx and turned by exp(θ)·q, dx and θ in the lab frame; |q| = 1 to 1e-31. Steps far
-/// below the spacing of doubles are kept.
+/// The pose after a shift of the centre by dx and a rotation of the orientation to exp(θ)·q, dx and θ in the lab frame.
+/// |q| = 1 to 1e-31. Steps far below the spacing of doubles are kept.
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta);
 
-/// The same for the turn with unit quaternion (√(1 − |v|²), v), v = sin(|θ|/2) θ/|θ|; |v| ≤ 1.
+/// The same with the rotation given by its unit quaternion (√(1 − |v|²), v), v = sin(|θ|/2) θ/|θ|; |v| ≤ 1.
 Pose moved_by_half_turn(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& v);
 
 /// The pose with its centre at s·x.
 Pose scaled(const Pose& pose, const DoubleDouble& s);
 
-/// The pose with its centre at F x, its orientation as it is.
+/// The pose with its centre at F x and unchanged orientation.
 Pose deformed(const Pose& pose, const DoubleDoubleMatrix& f);
 
-/// Rotation by q/|q|, body frame → lab frame, to 1e-31.
+/// Rotation by q/|q|, body frame → lab frame, with an error of at most 1e-31.
 DoubleDoubleMatrix rotation_matrix(const Pose& pose);
 
-/// Solid B seen from the body frame of A: a point y of B's body frame lies at rotation·y + displacement.
+/// Solid B seen from the body frame of A: a point y in B's body frame is at rotation·y + displacement.
 struct RelativePose {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< B's body frame → A's
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< from B's body frame to A's
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< B's centre in A's body frame
 };
 
@@ -82,11 +82,11 @@ struct QuadPose {
 Quad3 quad_position(const Pose& pose);
 /// Rotation by q/|q|, body frame → lab frame.
 QuadMatrix quad_rotation(const Pose& pose);
-/// The same in quadruple precision.
+/// Exact conversion to quadruple precision.
 Quad3 widened(const DoubleDoubleVector& v);
 QuadMatrix widened(const DoubleDoubleMatrix& m);
 QuadPose widened(const RelativePose& pose);
-/// The nearest doubles.
+/// Rounds to the nearest doubles.
 RelativePose narrowed(const QuadPose& pose);
 /// Relative pose of B at `displacement` = x_B − x_A (lab frame, periodic image already chosen).
 QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement);

@@ -8,22 +8,22 @@
 
 namespace isojam {
 
-/// Quadruple precision (113 bits), in software: for constants, for degenerate pairs and for oracles.
+/// Software quadruple precision (113 bits): for constants, degenerate pairs and test oracles.
 __extension__ using Quad = __float128;
-/// A vector.
+/// A vector in quadruple precision.
 using Quad3 = std::array<Quad, 3>;
 using QuadMatrix = std::array<Quad3, 3>;  ///< rows
 
-/// The sum of both parts, exactly.
+/// The exact sum of both parts.
 inline Quad widened(const DoubleDouble& x) { return Quad(x.high) + Quad(x.low); }
 
-/// Nearest double-double: the nearest double, and the nearest double of the rest.
+/// Nearest double-double: the nearest double, and the double nearest to the difference.
 inline DoubleDouble narrowed(Quad x) {
   const auto high = static_cast<double>(x);
   return {high, static_cast<double>(x - Quad(high))};
 }
 
-/// The nearest doubles.
+/// Rounds to the nearest doubles.
 inline Eigen::Vector3d rounded(const Quad3& p) {
   return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
@@ -52,14 +52,14 @@ inline QuadMatrix operator*(const QuadMatrix& m, const QuadMatrix& n) {
   return transposed({m * columns[0], m * columns[1], m * columns[2]});
 }
 
-/// √x: Newton's method doubles the digits of the best guess that the standard library has.
+/// √x: one step of Newton's method doubles the digits of the standard library's long double root.
 inline Quad square_root(Quad x) {
   if (!(x > 0)) return 0;
   const Quad guess = std::sqrt(static_cast<long double>(x));
   return (guess + x / guess) / 2;
 }
 
-/// ∛x, by a step of Newton's method as well.
+/// ∛x, also by one step of Newton's method.
 inline Quad cube_root(Quad x) {
   if (x == 0) return 0;
   const Quad guess = std::cbrt(static_cast<long double>(x));

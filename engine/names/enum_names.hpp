@@ -10,18 +10,18 @@
 
 namespace isojam {
 
-/// An enumerator and what files and messages call it.
+/// An enumerator and its name in files and messages.
 template <class Enum>
 struct EnumName {
   Enum value;             ///< the enumerator
-  std::string_view name;  ///< what it is called
+  std::string_view name;  ///< its name
 };
-/// g++ deduces as much by itself; clang does so from 17 on, and clang-tidy 14 is what reads these headers.
+/// g++ deduces this by itself; clang does so only from version 17 on, and clang-tidy 14 reads these headers.
 template <class Enum>
 EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
-/// The names of an enumeration in the order in which they are offered, each enumerator once. Specialised right after
-/// the enumeration, which thereby has to_string() and from_string():
+/// The names of an enumeration in the order in which they are listed, each enumerator once. Specialise it directly
+/// after the enumeration, which then has to_string() and from_string():
 ///
 ///   enum class Axis { x, y };
 ///   template <>
@@ -33,7 +33,7 @@ template <class Enum>
 concept NamedEnum = std::is_enum_v<Enum> && !enum_names<Enum>.empty();
 
 template <NamedEnum Enum>
-/// The name of an enumerator, which has one.
+/// The name of an enumerator; the enumerator must have one.
 constexpr std::string_view to_string(Enum value) {
   for (const auto& entry : enum_names<Enum>) {
     if (entry.value == value) return entry.name;
@@ -51,7 +51,7 @@ constexpr std::optional<Enum> from_string(std::string_view name) {
   return std::nullopt;
 }
 
-/// All enumerators that have names, in their order.
+/// All enumerators that have names, in the order of enum_names.
 template <NamedEnum Enum>
 inline constexpr auto all_of = [] {
   std::array<Enum, enum_names<Enum>.size()> values{};

@@ -12,7 +12,7 @@ namespace isojam {
 
 namespace {
 
-/// Sums that an evaluation needs on the way.
+/// Sums that an evaluation needs for its results.
 struct Accumulator {
   double force = 0;
   std::vector<double> stiffness;  ///< per particle, Σ ½ |∇V|² over its contacts
@@ -20,13 +20,13 @@ struct Accumulator {
   double energy_noise = 0;        ///< Σ ρ_c V²/2
 };
 
-/// ρ_c.
+/// ρ_c, see Evaluation::residual_floor.
 double relative_error(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r, const Overlap& overlap) {
   const double tolerance = gap_tolerance(a, b, r), area = overlap.area.norm();
   return tolerance / std::max(double_double_below(a, b), overlap.volume / area) + tolerance / std::sqrt(area);
 }
 
-/// What one contact adds to an evaluation, lab frame. ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
+/// Contribution of one contact to an evaluation, lab frame: ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
 ContactTerms terms_of(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap) {
   ContactTerms terms;
   const Eigen::Vector3d r = displacement(packing, pair);
@@ -63,7 +63,7 @@ void add_contact(const NeighbourPair& pair, const ContactTerms& terms, Evaluatio
   ++sum.contacts;
 }
 
-/// Sets residual_floor and energy_noise; mean_force > 0.
+/// Sets residual_floor and energy_noise; requires mean_force > 0.
 void bound_rounding(const Packing& packing, Precision precision, const Accumulator& sums, Evaluation& result) {
   if (precision == Precision::double_double) {
     const double levers = packing.solids.greatest_lever();
@@ -71,7 +71,7 @@ void bound_rounding(const Packing& packing, Precision precision, const Accumulat
     result.energy_noise = sums.energy_noise;
     return;
   }
-  // H ≤ Σ ½ ∇V ∇Vᵀ: its largest eigenvalue is at most twice the stiffest diagonal block.
+  // H ≤ Σ ½ ∇V ∇Vᵀ: its largest eigenvalue is at most twice that of the stiffest diagonal block.
   const double lambda = 2 * *std::max_element(sums.stiffness.begin(), sums.stiffness.end());
   const double ulp = std::numeric_limits<double>::epsilon() * packing.cell.side();
   result.residual_floor = lambda * ulp / result.mean_force;
@@ -85,8 +85,8 @@ bool is_finite(const Packing& packing) {
   });
 }
 
-/// Calls visit(place in the list, overlap, overlap with the gap closed), null where there is none, in order of the
-/// list.
+/// Calls visit(index in the list, overlap, overlap with the gap closed) in the order of the list; an overlap that does
+/// not exist is null.
 template <class Visit>
 void for_each_of_either(const TouchingPairs& now, const TouchingPairs& closed, const Visit& visit) {
   for (std::size_t block = 0; block < now.blocks.size(); ++block) {
@@ -123,7 +123,7 @@ double deviator_of(const Evaluation& evaluation) {
 }
 
 void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
-  // Hessians and contacts are mostly asked for in a state that was evaluated a moment ago.
+  // Hessians and contacts are mostly requested for a state that has just been evaluated.
   const bool seen = seen_solids_ == packing.solids && seen_cell_ && *seen_cell_ == packing.cell &&
                     seen_ == packing.poses && seen_precision_ == precision;
   if (seen) return;
@@ -141,17 +141,18 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
   ++evaluations_;
   Evaluation result;
   if (!is_finite(packing)) {
-    // Comparisons with what is not a number would call every pair apart.
+    // Comparisons with NaN would classify every pair as separated.
     result.energy = std::numeric_limits<double>::quiet_NaN();
     result.gradient = Eigen::VectorXd::Constant(6 * packing.size(), result.energy);
     return result;
   }
-  seen_.clear();  // an evaluation is one, whatever came before
+  seen_.clear();  // drop the cache, so that every call computes and counts, even for a repeated state
   overlap_all(packing, precision);
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
   const std::vector<double> zeros(packing.poses.size(), 0.0);
   Accumulator on_the_way{0, zeros, zeros};
-  // The arithmetic of a contact is done in parallel; only the additions, whose order decides their rounding, are not.
+  // The terms of the contacts are computed in parallel. They are added serially, because the order of additions
+  // determines their rounding.
   const std::vector<NeighbourPair>& pairs = list_.pairs();
   terms_.resize(touching_.blocks.size());
   for_each_block(terms_.size(), [&](std::size_t block) {

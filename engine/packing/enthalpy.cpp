@@ -13,10 +13,10 @@ namespace isojam {
 
 namespace {
 
-/// Relative, of p (V − V₀).
+/// Relative rounding error of p (V − V₀).
 constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
-/// Stress on the strains that are free over a pressure.
+/// Stress on the free strains divided by a pressure.
 double imbalance(const Vector6d& stress, double pressure) {
   const double largest = strain_tensor(stress).cwiseAbs().maxCoeff();
   if (largest == 0) return 0;
@@ -41,13 +41,13 @@ double Enthalpy::work(const PeriodicCell& cell) const {
   return by_pressure - reference_.volume() * control_.deviator.cwiseProduct(change).sum();
 }
 
-/// V₀ F τ, whose symmetric part strains work against beside the pressure: under ε F becomes F + ε F + ½ ε² F.
+/// V₀ F τ. Its symmetric part does work under strain, as the pressure does: a strain ε changes F to F + ε F + ½ ε² F.
 Eigen::Matrix3d Enthalpy::load(const PeriodicCell& cell) const {
   if (!sheared_) return Eigen::Matrix3d::Zero();
   return reference_.volume() * cell.vectors().high * inverse(reference_) * control_.deviator;
 }
 
-/// Of the free strains.
+/// Derivatives with respect to the free strains.
 Eigen::VectorXd Enthalpy::strain_gradient(const Eigen::Matrix3d& stress, const Packing& packing) const {
   Vector6d excess = strain_components(stress + pressure() * Eigen::Matrix3d::Identity());
   if (sheared_) excess -= strain_components(load(packing.cell)) / packing.cell.volume();
@@ -82,7 +82,7 @@ EnvelopeEvaluation Enthalpy::of(EnvelopeEvaluation evaluation, const Packing& pa
 
 void Enthalpy::add_to(BlockMatrix& hessian, const Packing& packing) const {
   if (!frees_volume(control_.cell)) return;
-  // V exp(tr ε) to second order.
+  // Second order of V exp(tr ε).
   const Eigen::VectorXd trace =
       basis_.transpose() * (std::sqrt(3.0) * trace_direction()) / strain_length(packing.size());
   hessian.corner += pressure() * packing.cell.volume() * trace * trace.transpose();

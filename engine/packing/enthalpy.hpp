@@ -6,23 +6,26 @@ namespace isojam {
 
 struct EnvelopeEvaluation;
 
-/// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing whose cell gives way, V₀ the volume that it begins with and F
-/// the deformation of its cell since then: what is minimised. Where the cell is fixed it is the energy. The last term
-/// is the work of a dead load, which is the stress τ while F is 1; who strains far begins anew from there.
+/// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing in a variable cell: the function that is minimised. V₀ is the
+/// initial volume and F the deformation of the cell since then. In a fixed cell it equals the energy. The last term is
+/// the work of a dead load. It equals a stress τ only near F = 1, so make a new Enthalpy with the present cell as
+/// reference after a large strain.
 class Enthalpy {
  public:
-  /// Of a cell that begins as `reference`.
+  /// An enthalpy whose reference is the cell `reference`.
   Enthalpy(const CellControl& control, const PeriodicCell& reference);
 
-  const CellControl& control() const { return control_; }  ///< what is done to the cell
+  const CellControl& control() const { return control_; }  ///< freedom and load of the cell
 
-  /// The evaluation of a packing with p (V − V₀) in its energy, and with derivatives by the free strains behind those
-  /// by particles. The residual becomes that of the stress if it is greater: the largest entry of σ + p·1 − τ, or of
-  /// what the free strains feel of it, over p; where no pressure is given, over the packing's own.
+  /// p (V − V₀) − V₀ τ:(F − 1).
+  double work(const PeriodicCell& cell) const;
+  /// The evaluation with work() in its energy, and with derivatives with respect to the free strains after those of the
+  /// particles. The residual becomes that of the stress if that is larger: the largest entry of σ + p·1 − τ, projected
+  /// on the free strains, divided by p. If no pressure is prescribed, it is divided by the packing's own.
   Evaluation of(Evaluation evaluation, const Packing& packing) const;
-  /// The same for an envelope, in place of the energy.
+  /// The same for an envelope instead of the energy.
   EnvelopeEvaluation of(EnvelopeEvaluation evaluation, const Packing& packing) const;
-  /// Adds the second derivatives of the load to the corner of those of the energy.
+  /// Adds the second derivatives of the load to the corner of the energy's Hessian.
   void add_to(BlockMatrix& hessian, const Packing& packing) const;
 
  private:
@@ -36,7 +39,7 @@ class Enthalpy {
   StrainBasis basis_;
   PeriodicCell reference_;
   DoubleDouble reference_volume_;
-  bool sheared_;  ///< τ is not zero
+  bool sheared_;  ///< true if τ is not zero
 };
 
 }  // namespace isojam

@@ -9,9 +9,9 @@ namespace isojam {
 
 namespace {
 
-/// A flat contact of vector area S whose section line crosses its middle resists tilt about axes in its plane:
-/// V_τ ≈ |S|^(3/2)/5 there, and ½ V_τ² = |S|³/50. Contacts of lower order have so small an area that it vanishes beside
-/// ½ |∇V|².
+/// A flat contact of vector area S whose section line crosses its centre resists tilt about axes in its plane. There
+/// V_τ ≈ |S|^(3/2)/5, and ½ V_τ² = |S|³/50. Other kinds of contacts have such a small area that this term vanishes
+/// beside ½ |∇V|².
 Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, const GyrationRadii& radii) {
   const double square = area.squaredNorm();
   if (!(square > 0)) return Eigen::Matrix3d::Zero();
@@ -37,9 +37,9 @@ IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overl
   if (now.touching()) pair.now = tangent(now, r, radii);
   if (closed.touching()) {
     pair.closed = tangent(closed, r - approach, radii);
-    pair.closed.at_rest -= closed.area.dot(approach);  // B moved by −approach, against −S_A
+    pair.closed.at_rest -= closed.area.dot(approach);  // B moved by −approach, and ∂V/∂x_B = −S_A
   }
-  // Strain moves B by ε r, against −S_A.
+  // Strain moves B by ε r, and ∂V/∂x_B = −S_A.
   if (strains.cols() > 0) {
     pair.now.slope_strains = -(strained(r) * strains).transpose() * now.area;
     pair.closed.slope_strains = -(strained(r) * strains).transpose() * closed.area;

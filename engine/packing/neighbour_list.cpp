@@ -8,11 +8,11 @@ namespace isojam {
 
 namespace {
 
-/// Skin of the neighbour list in circumradii: wide enough that a minimisation rebuilds it seldom, narrow enough that
-/// few listed pairs are out of reach.
+/// Skin of the neighbour list in circumradii: wide enough that a minimisation rarely rebuilds the list, narrow enough
+/// that few listed pairs are out of reach.
 constexpr double skin_in_circumradii = 0.15;
 
-/// Axes of the pairs that stay, by a merge of two lists in canonical order.
+/// Axes of the pairs that remain, by merging two lists in canonical order.
 std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_pairs,
                                          const std::vector<SeparatingAxis>& old_axes,
                                          const std::vector<NeighbourPair>& pairs) {
@@ -27,9 +27,9 @@ std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_p
 
 }  // namespace
 
-/// Centres have come from x to F x + u, and r to F r + u_b − u_a: a pair that was farther apart than reach and skin is
-/// no nearer than |F r| − 2 max |u|, |F r| ≥ (1 − |F − 1|) |r|,
-/// which bounds pairs of the largest particles most.
+/// Centres have moved from x to F x + u, and displacements from r to F r + u_b − u_a. A pair that was farther apart
+/// than reach and skin now has at least the distance |F r| − 2 max |u|, with |F r| ≥ (1 − |F − 1|) |r|. The condition
+/// is strictest for pairs of the largest particles.
 bool NeighbourList::is_valid(const Packing& packing) const {
   const std::size_t n = packing.poses.size();
   if (!(solids_ == packing.solids) || !cell_ || positions_.size() != n) return false;

@@ -9,24 +9,24 @@
 
 namespace isojam {
 
-/// Pairs of particles within reach and a skin, with a separating axis of each, kept while neither particles nor cell
-/// have moved so far that a pair beyond the skin can be within reach: a cache, which changes the cost of what is
-/// computed from it and never the result.
+/// Pairs of particles within reach plus a skin, each with a separating axis. The list is kept until particles or cell
+/// have moved so far that an unlisted pair could be within reach. It is a cache: it changes the cost of a computation,
+/// and never the result.
 class NeighbourList {
  public:
-  /// Lists the pairs of `packing`. Throws std::invalid_argument unless is_legal(cell, solids.widest()).
+  /// Updates the list for `packing`. Throws std::invalid_argument unless is_legal(cell, solids.widest()).
   void refresh(const Packing& packing);
 
-  /// In order of (a, b, shift); with centres farther apart than both circumradii too.
+  /// Pairs sorted by (a, b, shift), including pairs in the skin, whose circumspheres do not intersect.
   const std::vector<NeighbourPair>& pairs() const { return pairs_; }
-  std::vector<SeparatingAxis>& axes() { return axes_; }  ///< of pairs()
+  std::vector<SeparatingAxis>& axes() { return axes_; }  ///< the axes of pairs()
 
  private:
   bool is_valid(const Packing& packing) const;
 
   std::vector<NeighbourPair> pairs_;
   std::vector<SeparatingAxis> axes_;
-  std::vector<Eigen::Vector3d> positions_;  ///< when it was made
+  std::vector<Eigen::Vector3d> positions_;  ///< positions for which the list was made
   std::optional<PeriodicCell> cell_;
   double reach_ = 0, skin_ = 0;
   std::optional<Composition> solids_;

@@ -19,7 +19,8 @@ void append_images(const Packing& packing, int a, int b, double reach, std::vect
       packing.poses[static_cast<std::size_t>(b)].position - packing.poses[static_cast<std::size_t>(a)].position;
   const Eigen::Vector3i nearest = packing.cell.nearest_shift(d);
   const Eigen::Vector3d nearest_d = d + packing.cell.translation(nearest);
-  // The first image is within half a cell along each lattice vector: farther ones matter only while that is in reach.
+  // The nearest image is within half a cell along each lattice vector. Farther images matter only if `reach` exceeds
+  // that.
   Eigen::Vector3i spread;
   for (int c = 0; c < 3; ++c) {
     const double height = packing.cell.heights()[c];
@@ -36,13 +37,13 @@ void append_images(const Packing& packing, int a, int b, double reach, std::vect
   }
 }
 
-/// From the `first` on, in order of (a, b, shift).
+/// Sorts the pairs from index `first` on by (a, b, shift).
 void sort_canonically(std::vector<NeighbourPair>& pairs, std::size_t first) {
   std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
             [](const auto& p, const auto& q) { return canonical_key(p) < canonical_key(q); });
 }
 
-/// Some particles by cell of a grid with `cells` ≥ 3 cells along each lattice vector.
+/// A subset of the particles, sorted into a grid with `cells` ≥ 3 cells along each lattice vector.
 class CellGrid {
  public:
   CellGrid(const Packing& packing, std::span<const int> particles, const Eigen::Vector3i& cells)
@@ -50,7 +51,8 @@ class CellGrid {
     for (const int i : particles) members_[index(home(i))].push_back(i);
   }
 
-  /// Those in the cell of particle i, which need not be one of them, and in the 26 around it.
+  /// Visits the grid's particles in the cell of particle i and in the 26 cells around it. Particle i need not be in the
+  /// grid.
   template <class Visit>
   void for_each_near(int i, Visit&& visit) const {
     const Eigen::Vector3i here = home(i);
@@ -82,7 +84,8 @@ class CellGrid {
   std::vector<std::vector<int>> members_;
 };
 
-/// Cells of a grid for so many particles, `reach` or more from face to face; nullopt if they are too few for a grid.
+/// Numbers of grid cells for a number of particles, each at least `reach` from face to face; nullopt if they are too
+/// few.
 std::optional<Eigen::Vector3i> grid_cells(const PeriodicCell& cell, double reach, std::size_t particles) {
   Eigen::Vector3i cells;
   for (int c = 0; c < 3; ++c)
@@ -93,10 +96,10 @@ std::optional<Eigen::Vector3i> grid_cells(const PeriodicCell& cell, double reach
 
 double radius_of(const Packing& packing, int i) { return packing.solids[static_cast<std::size_t>(i)].circumradius(); }
 
-/// Particles of a class of size.
+/// Particles of similar size.
 class SizeClass {
  public:
-  /// `members`: largest first.
+  /// `members` must be sorted with the largest first.
   SizeClass(const Packing& packing, std::vector<int> members, double skin)
       : members_(std::move(members)),
         radius_(radius_of(packing, members_.front())),
@@ -107,7 +110,7 @@ class SizeClass {
 
   double radius() const { return radius_; }
   bool has(double radius) const { return least_radius_ <= radius && radius <= radius_; }
-  /// All that may be in reach of particle i, no larger than `radius`.
+  /// Visits all particles that may be in reach of particle i, which must not be larger than `radius`.
   template <class Visit>
   void for_each_near(int i, Visit&& visit) const {
     if (grid_) return grid_->for_each_near(i, visit);
@@ -120,7 +123,7 @@ class SizeClass {
   std::optional<CellGrid> grid_;
 };
 
-/// Largest first.
+/// Size classes, largest first.
 std::vector<SizeClass> size_classes(const Packing& packing, double skin) {
   std::vector<int> by_size(packing.poses.size());
   std::iota(by_size.begin(), by_size.end(), 0);
@@ -180,10 +183,10 @@ std::vector<NeighbourPair> find_in_reach(const Packing& packing, double skin) {
   for (int i = 0; i < packing.size(); ++i) {
     const double radius = radius_of(packing, i);
     for (const SizeClass& size_class : classes) {
-      // Each looks for what is of its class or larger, whose grid is coarse enough.
+      // Each particle searches only its own class and classes of larger particles, whose grids are coarse enough.
       if (size_class.radius() < radius) break;
       size_class.for_each_near(i, [&](int j) {
-        if (size_class.has(radius) && j <= i) return;  // both look for each other
+        if (size_class.has(radius) && j <= i) return;  // in the same class each of both finds the other
         const double other = radius_of(packing, j);
         append_images(packing, std::min(i, j), std::max(i, j), radius + other + skin, pairs);
       });

@@ -13,7 +13,7 @@ namespace isojam {
 
 namespace {
 
-/// Four normals, normalised, are uniform on the unit quaternions and so on SO(3).
+/// Four normal numbers, normalised, are uniform on the unit quaternions and hence on SO(3).
 Eigen::Quaterniond random_orientation(RandomStream& random) {
   Eigen::Quaterniond q;
   do {
@@ -23,7 +23,7 @@ Eigen::Quaterniond random_orientation(RandomStream& random) {
   return q.normalized();
 }
 
-/// Place of a position along a Z-order curve through the cell, 2^10 cells a side.
+/// Index of a position along a Z-order curve through the cell, with 2^10 cells per side.
 std::uint32_t place_on_curve(const Eigen::Vector3d& position, double side) {
   std::uint32_t place = 0;
   for (int bit = 9; bit >= 0; --bit) {
@@ -53,7 +53,8 @@ Packing random_packing(std::span<const Particle> particles, double density, Rand
     for (int c = 0; c < 3; ++c) pose.position[c] = side * random.uniform();
     pose.orientation = random_orientation(random);
   }
-  // Neighbours in space become neighbours in memory, which thousands of particles need for their cost to stay linear.
+  // Makes neighbours in space neighbours in memory. Otherwise the cost for thousands of particles would grow faster
+  // than linearly.
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -92,13 +93,13 @@ Packing deformed(const Packing& packing, const DoubleDoubleMatrix& f) {
 
 namespace {
 
-/// Strained by the entries of a step after those of particles.
+/// The packing, strained by the entries of a step after those of the particles.
 Packing strained_by(const Packing& packing, const Eigen::VectorXd& step) {
   const Eigen::Index strains = step.size() - 6 * Eigen::Index{packing.size()};
   const Vector6d strain = strain_basis(freedom_of(strains)) * step.tail(strains) / strain_length(packing.size());
   if (strain.isZero(0)) return packing;
   if (strain.allFinite()) return deformed(packing, exponential(strain_tensor(strain)));
-  Packing lost = packing;  // a cell is always finite; what stands in it need not be
+  Packing lost = packing;  // a cell must be finite, but positions need not be
   for (Pose& pose : lost.poses) pose.position.setConstant(std::numeric_limits<double>::quiet_NaN());
   return lost;
 }
@@ -108,7 +109,7 @@ Packing strained_by(const Packing& packing, const Eigen::VectorXd& step) {
 Packing moved(const Packing& packing, const Eigen::VectorXd& step) {
   Packing result = strained_by(packing, step);
   for (int i = 0; i < packing.size(); ++i) {
-    // To the bit where it was: what is known of it stays good.
+    // An unmoved particle keeps its bits, so that caches for it stay valid.
     if (step.segment<6>(6 * i).isZero(0)) continue;
     Pose& pose = result.poses[static_cast<std::size_t>(i)];
     pose = moved(pose, step.segment<3>(6 * i), step.segment<3>(6 * i + 3) / packing.solids[i].gyration_radius());

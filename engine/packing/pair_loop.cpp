@@ -12,10 +12,10 @@ namespace isojam {
 
 namespace {
 
-/// Pairs handled as one task: some 50 µs, far more than a task costs, few enough to share out.
+/// Pairs per task: about 50 µs of work, far more than the cost of a task, and small enough to balance the load.
 constexpr std::size_t grain = 128;
 
-/// A pair that may touch. Numbers one by one: vectors of two would be loaded before what was stored in two is there.
+/// A pair that may touch. Stored as three scalars: a packed load of two doubles would stall on store forwarding.
 struct NearPair {
   std::size_t pair;
   double x, y, z;  ///< x_B − x_A
@@ -24,8 +24,8 @@ struct NearPair {
 };
 using NearPairs = std::array<NearPair, grain>;
 
-/// Of the pairs first … last − 1 those whose circumspheres meet. Neither here nor in the next pass can a branch predict
-/// what a pair will be: all are written, and those that stay move the end on.
+/// Selects those of the pairs first … last − 1 whose circumspheres intersect. Selection is branch-free here and in the
+/// next pass, because a branch would be unpredictable: every pair is written, and `count` advances only for those kept.
 template <class Reach>
 std::size_t within_reach(const Packing& packing, std::span<const NeighbourPair> pairs, std::size_t first,
                          std::size_t last, const Reach& reach_of, NearPairs& near) {
@@ -54,7 +54,7 @@ std::size_t within_reach(const Packing& packing, std::span<const NeighbourPair> 
       packing, pairs, first, last, [reach](const NeighbourPair&) { return reach; }, near);
 }
 
-/// Of these the ones that their axes do not separate.
+/// Keeps the pairs that their cached axes do not separate.
 std::size_t not_separated(const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
                           std::span<const SeparatingAxis> axes, std::size_t count, NearPairs& near) {
   std::size_t left = 0;
@@ -94,7 +94,7 @@ PairCounts overlap_block(const Packing& packing, Precision precision, const Plac
     if (found.touching()) {
       touching.push_back({near[k].pair, found});
     } else if (axis.kind == SeparatingAxis::Kind::none) {
-      // No face separates: an edge pair does, and it is worth a search once.
+      // No face separates the pair, so a product of edges does; a single search for it pays off.
       axis = best_axis(a, b, near[k].r());
     }
   }

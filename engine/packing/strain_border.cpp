@@ -14,7 +14,7 @@ void StrainBorder::add_pair(int a, int b, const PairHessian& h, const Eigen::Vec
                             const Eigen::Vector3d& r) {
   if (basis_.cols() == 0) return;
   const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 6> dr = strained(r) * basis_;
-  // B moved by dr with A at rest.
+  // A strain moves B by dr relative to A.
   matrix_.border.middleRows<6>(6 * a) += h.ab.leftCols<3>() * dr;
   matrix_.border.middleRows<6>(6 * b) += h.bb.leftCols<3>() * dr;
   matrix_.corner += dr.transpose() * h.bb.topLeftCorner<3, 3>() * dr;

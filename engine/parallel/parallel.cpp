@@ -16,7 +16,7 @@ void for_each_index(std::size_t count, const std::function<void(std::size_t)>& r
 }
 
 void for_each_index_within(std::size_t count, const std::function<void(std::size_t)>& run) {
-  // A context of its own: whoever cancels the one it is called from would make it skip calls without a word.
+  // Isolated context: cancelling the caller's context would silently skip iterations.
   tbb::task_group_context own(tbb::task_group_context::isolated);
   tbb::parallel_for(std::size_t{0}, count, run, own);
 }
@@ -31,7 +31,7 @@ bool for_each_in_forest(std::span<const int> parents, const std::function<bool(i
     if (waiting_for[k] == 0) leaves.push_back(static_cast<int>(k));
   }
   std::atomic<bool> refused = false;
-  // Whoever is the last of its siblings goes on with the parent, for whose sake nobody ever waits.
+  // The thread that finishes the last child continues with the parent; no thread blocks.
   const auto climb = [&](std::size_t leaf) {
     for (int k = leaves[leaf]; k >= 0; k = parents[k]) {
       if (refused) return;
@@ -41,7 +41,7 @@ bool for_each_in_forest(std::span<const int> parents, const std::function<bool(i
   };
   tbb::this_task_arena::isolate([&] {
     tbb::task_group_context own(tbb::task_group_context::isolated);
-    // One leaf at a time: they stand for very different amounts of work.
+    // Grain size 1, because the work per leaf varies widely.
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, leaves.size(), 1),
         [&](const tbb::blocked_range<std::size_t>& range) {

@@ -11,7 +11,7 @@ namespace isojam {
 namespace {
 
 std::mt19937_64 seeded(std::initializer_list<std::uint64_t> key) {
-  // seed_seq mixes 32-bit words, so each key word is handed over in two halves.
+  // seed_seq mixes 32-bit words, so each 64-bit word of the key is passed as two halves.
   std::vector<std::uint32_t> words;
   for (const std::uint64_t word : key) {
     words.push_back(static_cast<std::uint32_t>(word));

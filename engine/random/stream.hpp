@@ -10,15 +10,15 @@ namespace isojam {
 /// Purpose of a stream of random bits; part of its key.
 enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2 };
 
-/// A reproducible stream of random bits, a function of its key alone, such as (manifest seed, solid and particles,
-/// replicate, purpose). The 64-bit Mersenne twister and std::seed_seq are fixed bit by bit by the C++ standard; the
-/// distributions of the standard library are not, so the mapping to uniforms is our own.
+/// A reproducible stream of random bits that depends only on its key, such as (manifest seed, solid and particles,
+/// replicate, purpose). The C++ standard fixes the 64-bit Mersenne twister and std::seed_seq bit by bit. It does not
+/// fix its distributions, so this class maps bits to uniform numbers itself.
 class RandomStream {
  public:
-  /// The stream of that key.
+  /// The stream with this key.
   RandomStream(std::initializer_list<std::uint64_t> key);
 
-  std::uint64_t bits() { return engine_(); }  ///< 64 of them, all as likely
+  std::uint64_t bits() { return engine_(); }  ///< 64 independent random bits
   /// Uniform in [0, 1), all 2^53 multiples of 2^-53 equally likely.
   double uniform();
   /// Standard normal (Box–Muller).
@@ -28,7 +28,7 @@ class RandomStream {
   std::mt19937_64 engine_;
 };
 
-/// 64-bit FNV-1a of a text, to make a key out of a canonical description.
+/// 64-bit FNV-1a hash of a text; makes a key from a canonical description.
 std::uint64_t hash_of(std::string_view text);
 
 }  // namespace isojam

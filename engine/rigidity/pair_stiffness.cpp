@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The six motions of a pair as one body, columns: translations, and turns about A's centre.
+/// The six rigid motions of a pair, as columns: translations, and rotations about A's centre.
 Eigen::Matrix<double, 12, 6> rigid_motions(const Vector3d& r, double radius_a, double radius_b) {
   Eigen::Matrix<double, 12, 6> motions = Eigen::Matrix<double, 12, 6>::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -25,7 +25,7 @@ Eigen::Matrix<double, 12, 6> rigid_motions(const Vector3d& r, double radius_a, d
   return motions;
 }
 
-/// Relative motions of the pair at right angles to the normal.
+/// Relative motions of the pair perpendicular to the normal.
 Eigen::Matrix<double, 12, 5> relative_motions(const Eigen::Matrix<double, 12, 6>& rigid, const Vector12d& normal) {
   Eigen::Matrix<double, 12, 7> others;
   others << rigid, normal;
@@ -67,7 +67,7 @@ PairStiffness pair_stiffness(const Packing& packing, const PlacedSolids& placed,
   return result;
 }
 
-/// A vector of a pair's motions with its rows in a matrix of all particles.
+/// Adds a vector of motions of a pair as a row of a matrix for all particles.
 void add_row(const Contact& contact, const Vector12d& motion, int row, std::vector<Eigen::Triplet<double>>& entries) {
   for (int k = 0; k < 6; ++k) {
     entries.emplace_back(row, 6 * contact.pair.a + k, motion[k]);

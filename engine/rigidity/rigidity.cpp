@@ -17,20 +17,21 @@ using Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Directions beyond those that must be soft, and how many of them must turn out not to be: the smallest singular value
-/// that counts is found the better the more lie beyond it.
+/// Number of directions beyond those that must be soft, and minimum number of them that must turn out not to be. More
+/// directions make the smallest nonzero singular value more accurate.
 constexpr Index spare = 12, least_beyond = 6;
-/// Rounds of damping. One divides what is opposed with σ by σ²/τ², 1e6 and more in packings; three leave nothing but
-/// rounding, and singular values of their own to those nearest to none.
+/// Rounds of damping. One round divides the part with singular value σ by σ²/τ², 1e6 and more in packings. After three
+/// only rounding is left, and the singular values nearest to zero are resolved.
 constexpr int rounds = 3;
 
-/// Orthonormal combinations of the rows, softest last, and their singular values, those of rowsᵀ·combinations.
+/// Orthonormal combinations of the rows, softest last, and their singular values, which are those of
+/// rowsᵀ·combinations.
 struct SoftSpace {
   MatrixXd combinations;  ///< constraints × k
   VectorXd sigma;         ///< k, descending
 };
 
-/// Rayleigh and Ritz: not of rows·rowsᵀ, whose small eigenvalues would drown, but by the singular values of rowsᵀ·Q.
+/// Rayleigh–Ritz by the singular values of rowsᵀ·Q. The eigenvalues of rows·rowsᵀ would not resolve small ones.
 SoftSpace diagonalised(const RigidityMatrix& matrix, const MatrixXd& q) {
   const MatrixXd image = matrix.rows.transpose() * q;
   const Index k = q.cols();
@@ -48,7 +49,7 @@ SoftSpace diagonalised(const RigidityMatrix& matrix, const MatrixXd& q) {
   return space;
 }
 
-/// The k softest combinations, all of them if there are no more than k.
+/// The k softest combinations, or all if there are at most k.
 SoftSpace softest(const RigidityMatrix& matrix, const SoftRows& soft, Index k) {
   const Index constraints = matrix.rows.rows();
   if (k >= constraints) return diagonalised(matrix, MatrixXd::Identity(constraints, constraints));

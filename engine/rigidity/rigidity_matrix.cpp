@@ -16,7 +16,7 @@ class Rows {
  public:
   explicit Rows(const Packing& packing) : packing_(packing) {}
 
-  /// ∇V of the contact, from the frame of A to the lab.
+  /// Adds ∇V of the contact, converted from the frame of A to the lab frame.
   void add_normal(const Contact& contact) {
     const Eigen::Quaterniond& q = orientation(contact.pair.a);
     const Vector3d area = q * contact.overlap.area, moment = q * contact.overlap.moment;
@@ -27,7 +27,7 @@ class Rows {
     forces_.push_back(contact.overlap.volume / 2 * length);
   }
 
-  /// Turns of A against B about `axis`, a unit vector in the frame of A.
+  /// Adds the rotation of A relative to B about `axis`, a unit vector in the frame of A.
   void add_tilt(const Contact& contact, const Vector3d& axis) {
     // θ_A − θ_B = R·θ_A/R_A − R·θ_B/R_B; the row has unit length.
     const double ratio = radius(contact.pair.a) / radius(contact.pair.b);
@@ -67,7 +67,7 @@ class Rows {
   std::vector<double> forces_;
 };
 
-/// A's solid and B's.
+/// The solids of A and B.
 using Pair = std::pair<const ConvexSolid&, const ConvexSolid&>;
 
 void add_edge_face(const Pair& solids, const Contact& contact, const Alignment& alignment, Rows& rows) {

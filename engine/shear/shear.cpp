@@ -15,11 +15,11 @@ namespace isojam {
 
 namespace {
 
-/// A dead load is the stress asked for up to the strain that it makes: so often it is applied anew from where that led,
-/// until the stress is right.
+/// A dead load equals the requested stress only before the strain that it causes. It is therefore applied again from
+/// the resulting state, up to this many times, until the stress agrees.
 constexpr int most_renewals = 8;
 
-/// γ of a deformation, its rotation apart: of FᵀF = exp(2 ε) to first order beyond what is measured.
+/// γ of a deformation without its rotation: from FᵀF = exp(2 ε) to first order in ε.
 double strain_of_deformation(const Eigen::Matrix3d& f, ShearMode mode) {
   const Eigen::Matrix3d green = (f.transpose() * f - Eigen::Matrix3d::Identity()) / 2;
   return mode == ShearMode::pure ? green(0, 0) - green(1, 1) : 2 * green(0, 1);
@@ -49,7 +49,7 @@ class Shear {
  private:
   const ShearState& here() const { return result_.states.back(); }
 
-  /// φ − φ_J of E ∝ Δφ⁶, for scales.
+  /// φ − φ_J from E ∝ Δφ⁶, used for scales.
   double distance() const {
     const double phi = here().packing.density();
     return 6 * here().energy / here().packing.size() * phi * phi / here().pressure;
@@ -92,7 +92,7 @@ class Shear {
     }
   }
 
-  /// A minimum near an equilibrium.
+  /// Relaxes an equilibrium to a minimum if it is a saddle.
   ShearState settled(Packing packing, const MinimiseSummary& summary, double load, const CellControl& control) {
     if (!is_equilibrium(summary)) return measured(std::move(packing), load, summary);
     DownhillOptions downhill;
@@ -137,13 +137,14 @@ class Shear {
     return state;
   }
 
-  /// Whether the stress is the one asked for where the packing is now, and not only where the load was applied.
+  /// True if the stress equals the requested one for the present cell as reference, and not only for the cell where the
+  /// load was applied.
   bool balanced(const Packing& packing, const CellControl& control) {
     const Evaluation value = energy_.evaluate(packing, Precision::double_double);
     return Enthalpy(control, packing.cell).of(value, packing).residual <= options_.minimise.residual;
   }
 
-  /// Sets dissipated and dropped of a state that follows here().
+  /// Sets `dissipated` and `dropped` of a state that follows here().
   void judge(ShearState& next) const {
     const double volume = (here().packing.cell.volume() + next.packing.cell.volume()) / 2;
     const double shear_work = volume * (here().stress + next.stress) / 2 * (next.strain - here().strain);

@@ -14,17 +14,17 @@ namespace isojam {
 
 namespace {
 
-/// How often an expansion step that failed is tried again at half its length.
+/// Number of times that a failed expansion step is repeated at half its length.
 constexpr int max_halvings = 4;
 
-/// Evaluations of a strain step on the way up in hasty consolidation.
+/// Evaluations of a compression step in hasty consolidation.
 constexpr long hasty_evaluations = 50;
 
-/// Equilibria are followed from φ − φ_J below this. Farther off all contacts are soft, and Newton's method needs no
-/// help.
+/// Equilibria are followed if φ − φ_J is below this. Farther away all contacts are soft, and Newton's method converges
+/// without help.
 constexpr double followed_within = 1;
 
-/// Mean contact force at a pressure, from 3 p V_cell = Σ r·F with some 4.5 contacts a particle at distance 1.
+/// Mean contact force at a pressure, from 3 p V_cell = Σ r·F with about 4.5 contacts per particle at distance 1.
 double mean_force_at(double pressure, double density) { return 3 * pressure / (4.5 * density); }
 
 /// One strain step of a run.
@@ -103,7 +103,7 @@ class StrainStep {
     return step.energy_per_particle >= options_.target_energy;
   }
 
-  /// The strain step that keeps the unrelaxed energy below the target, at most `consolidation_step`.
+  /// A strain step after which the unrelaxed energy is below the target, at most `consolidation_step`.
   double gentle_step() {
     const Packing& packing = progress_.packing;
     double step = options_.consolidation_step;
@@ -116,7 +116,7 @@ class StrainStep {
     return step;
   }
 
-  /// Strains up, towards the target energy; the first step only minimises.
+  /// Compresses towards the target energy; the first step only minimises.
   void consolidate() {
     Packing& packing = progress_.packing;
     packing.cell = packing.cell.reduced();
@@ -137,19 +137,20 @@ class StrainStep {
   /// Estimated φ − φ_J of the last equilibrium.
   double distance() const { return distance_to_jamming(last_state()); }
 
-  /// What bounds an expansion step beside the fraction: nearer than asked for costs more than it tells.
+  /// Upper limit of an expansion step, besides the fraction: states nearer than requested cost more than they are
+  /// worth.
   double step_bound() const { return std::min(options_.longest_step, distance() - 0.95 * options_.final_distance); }
 
-  /// A lone state may be nearer than asked for.
+  /// If there is only one state, the next one may be nearer than requested.
   double expansion_step() const {
     const double step = progress_.step_fraction * distance(), bound = step_bound();
     return bound > 0 ? std::min(step, bound) : step;
   }
 
-  /// Strains down towards φ_J from the last equilibrium; the first step only minimises.
+  /// Decompresses towards φ_J from the last equilibrium; the first step only minimises.
   void expand() {
     if (progress_.lost >= 0) return rise();
-    // Before the step, so that the pairs of both of its ends are counted in the same lattice.
+    // Reduced before the step, so that the pairs at both of its ends refer to the same lattice vectors.
     progress_.packing.cell = progress_.packing.cell.reduced();
     Packing next = progress_.packing;
     const bool first = result_.states.empty();
@@ -167,14 +168,14 @@ class StrainStep {
     const double strain = progress_.packing.density() - next.density();
     if ((ends_branch || gave_way(result_.path.back())) && strain > options_.event_resolution * distance() &&
         options_.event_resolution > 0) {
-      result_.path.back().rearrangement.reset();  // of a step that is not made
+      result_.path.back().rearrangement.reset();  // the step is discarded
       progress_.step_fraction = strain / distance() / 2;
       return;
     }
     if (ends_branch) return lose(std::move(next));
     if (!first) progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
-    // A packing that shrinks as its pressure falls has found a denser branch: energies of the one that it left say
-    // nothing about φ_J of that.
+    // A packing that becomes denser as its pressure decreases has found a denser branch. Energies of the earlier branch
+    // contain no information about φ_J of the new one.
     if (!first && options_.control == Control::pressure && next.density() >= progress_.packing.density())
       forget_states();
     keep(std::move(next));
@@ -183,8 +184,7 @@ class StrainStep {
       end_expansion(JamStatus::jammed);
   }
 
-  /// Whether what consolidation passed for a packing at the target energy was not yet in balance, and lost most of that
-  /// energy on the way to it.
+  /// True if the last compression state was not yet in equilibrium and lost most of its energy on further minimisation.
   bool gave_way_at_the_top(const JamStep& step) const {
     return !options_.target_before_relaxation && step.energy_per_particle < options_.target_energy / 2 &&
            (is_state(step.summary) || step.summary.reason == StopReason::unjammed);
@@ -201,7 +201,7 @@ class StrainStep {
     result_.state_steps.push_back(static_cast<int>(result_.path.size()) - 1);
   }
 
-  /// Whether the next state is to be found from the last equilibrium and not from the strained packing alone.
+  /// True if the next state is computed from the last equilibrium and not only from the strained packing.
   bool follows() const {
     return options_.minimise.method == Method::multipliers && !result_.states.empty() &&
            distance() <= followed_within && is_equilibrium(last_state().summary);
@@ -225,8 +225,8 @@ class StrainStep {
     return append(next, follow_equilibrium(next, density, distance(), energy_, minimiser(), stop_));
   }
 
-  /// Whether the packing that the last step led to has come apart, or slides farther than is worth following, even in
-  /// half the step in which it did so first.
+  /// True if the last step unjammed the packing, or if the last two steps, the second one half as long, spent their
+  /// budget because the packing slides too far.
   bool gives_way() const {
     const auto ended = [&](std::size_t back, StopReason reason) {
       return result_.path.size() >= back && result_.path[result_.path.size() - back].summary.reason == reason;
@@ -234,18 +234,18 @@ class StrainStep {
     return ended(1, StopReason::unjammed) || (ended(1, StopReason::budget) && ended(2, StopReason::budget));
   }
 
-  /// The branch has come to its end: the packing is not jammed at a density at which it was expected to be, or nowhere
-  /// near.
+  /// The branch has ended: the packing is unjammed at a density where it was expected to be jammed, or is far from
+  /// equilibrium.
   void lose(Packing packing) {
     result_.path.back().lost = true;
     if (++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
     progress_.packing = std::move(packing);
     progress_.lost = result_.state_steps.back();
-    progress_.step_fraction /= 2;  // slower from here, or the same may happen again
+    progress_.step_fraction /= 2;  // smaller steps from here on, because the same may happen again
   }
 
-  /// Strains what the packing has become up again, to an equilibrium from which the expansion can go on. Energies of
-  /// the branch that was lost say nothing about φ_J of the new one.
+  /// Compresses the remaining packing to an equilibrium from which the expansion can continue. Energies of the ended
+  /// branch contain no information about φ_J of the new one.
   void rise() {
     const JamStep& before = result_.path[static_cast<std::size_t>(progress_.lost)];
     const double distance = distance_to_jamming(before), strain = progress_.step_fraction * distance;
@@ -265,13 +265,14 @@ class StrainStep {
     keep(std::move(next));
   }
 
-  /// An equilibrium, or what ended by the rule on the energy if that was asked for: it is how others have jammed.
+  /// True for an equilibrium, or a state that ended by the energy rule if that was requested, as in other published
+  /// protocols.
   bool is_state(const MinimiseSummary& summary) const {
     return is_equilibrium(summary) || summary.reason == StopReason::energy_change;
   }
 
-  /// An expansion step led to no state. The next is half as long, whichever bound made this one: half the fraction
-  /// alone can leave the step as it was, and then it fails again with the same bits.
+  /// An expansion step led to no state. The next one is half as long, whichever limit determined this one. Halving only
+  /// the fraction might not change the step, which would then fail again with the same bits.
   void failed(bool first) {
     if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
     progress_.step_fraction = std::min(progress_.step_fraction, step_bound() / distance()) / 2;
@@ -283,7 +284,7 @@ class StrainStep {
   JamResult& result_;
   const JamOptions& options_;
   std::stop_token stop_;
-  PackingEnergy energy_;  // of this step alone: its counts must not depend on what an earlier one left in its caches
+  PackingEnergy energy_;  // for this step only: its counts must not depend on caches of an earlier step
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ Line fit_asymptote(std::span<const EnergyPoint> states, std::span<const int> cho
   return fit_line(root, density);
 }
 
-/// x of E ∝ (φ − φ_J)^x with both free: for each φ_J a line in logarithms.
+/// x of E ∝ (φ − φ_J)^x with both x and φ_J free: a line in logarithms for each φ_J.
 double free_exponent(std::span<const EnergyPoint> states, std::span<const int> chosen, double window) {
   if (chosen.size() < 4) return 0;
   const double nearest = states[static_cast<std::size_t>(chosen.front())].density;
@@ -38,7 +38,7 @@ double free_exponent(std::span<const EnergyPoint> states, std::span<const int> c
       log_distance.push_back(nearest::log(states[static_cast<std::size_t>(k)].density - nearest + gap));
     return fit_line(log_distance, log_energy);
   };
-  // The gap between φ_J and the nearest state is a scale parameter: search its logarithm.
+  // The gap between φ_J and the nearest state is a scale parameter, so the search is in its logarithm.
   const auto cost = [&](double log_gap) { return fit_at(nearest::exp(log_gap)).squared_residual; };
   const auto [log_gap, unused] = boost::math::tools::brent_find_minima(
       cost, nearest::log(window * 1e-3), nearest::log(window * 4), std::numeric_limits<double>::digits / 2);
@@ -56,7 +56,7 @@ std::optional<JammingPoint> fit_jamming_point(std::span<const EnergyPoint> state
   std::stable_sort(order.begin(), order.end(), [&](int p, int q) {
     return states[static_cast<std::size_t>(p)].density < states[static_cast<std::size_t>(q)].density;
   });
-  // φ_J and the states within the window of it fix each other; the number of states can only settle or cycle.
+  // φ_J determines the states within its window, and these determine φ_J. The iteration either converges or cycles.
   std::size_t used = 2;
   Line line;
   for (std::size_t round = 0; round <= order.size(); ++round) {

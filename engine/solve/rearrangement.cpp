@@ -14,20 +14,20 @@ namespace isojam {
 
 namespace {
 
-/// Touching pairs, by their keys, ascending.
+/// Keys of the touching pairs, ascending.
 auto touching_pairs(const Packing& packing) {
   std::vector<decltype(canonical_key(NeighbourPair{}))> keys;
   for (const Contact& contact : PackingEnergy().contacts(packing)) keys.push_back(canonical_key(contact.pair));
   return keys;
 }
 
-/// F with h₁ = F h₀ for the lattice vectors of two cells.
+/// F such that h₁ = F h₀ for the lattice vectors of two cells.
 Eigen::Matrix3d deformation(const PeriodicCell& before, const PeriodicCell& after) {
   if (before.is_cube() && after.is_cube()) return after.side() / before.side() * Eigen::Matrix3d::Identity();
   return after.vectors().high * before.vectors().high.inverse();
 }
 
-/// |dx|² + R²|dθ|² of a particle beside the affine strain.
+/// |dx|² + R²|dθ|² of a particle after subtracting the affine strain.
 double squared_displacement(const Pose& before, const Pose& after, const Eigen::Matrix3d& f, double radius) {
   const Eigen::Vector3d dx = after.position - f * before.position;
   const Eigen::Quaterniond turn = after.orientation * before.orientation.conjugate();

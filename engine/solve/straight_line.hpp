@@ -6,7 +6,7 @@ namespace isojam {
 
 /// Least-squares line y = intercept + slope·x.
 struct Line {
-  double intercept = 0, slope = 0;                    ///< of the line
+  double intercept = 0, slope = 0;                    ///< parameters of the line
   double squared_residual = 0;                        ///< Σ (y − line)²
   double intercept_variance = 0, slope_variance = 0;  ///< 0 with two points
 };
@@ -14,7 +14,7 @@ struct Line {
 /// Fits at least two points, not all at the same x.
 Line fit_line(std::span<const double> x, std::span<const double> y);
 
-/// Quantile t with P(|T| < t) = .95, T Student's with `degrees` ≥ 1 of freedom.
+/// Quantile t with P(|T| < t) = 0.95 for Student's T with `degrees` ≥ 1 degrees of freedom.
 double student_95(double degrees);
 
 }  // namespace isojam

@@ -12,37 +12,38 @@
 
 namespace isojam {
 
-/// A packing without its near-rattlers: what is left when those are taken away that assess() names, and those that it
-/// names in the rest, until it names none. The rest stands where it stood, in the same cell, and is not minimised anew:
-/// `here` tells how far it is from balance, which is as far as before if what went carried no force.
+/// A packing without its near-rattlers. They are removed recursively: those that assess() reports in the packing, then
+/// those that it reports in the rest, until it reports none. The remaining particles keep their poses and the cell,
+/// without a new minimisation. `here` contains their force residual, which is as before if the removed particles
+/// carried no force.
 struct Backbone {
-  Packing packing;             ///< what is left, in its order; no poses if that is nothing, and what follows is empty
-  std::vector<int> kept{};     ///< its numbers in the whole, ascending
-  std::vector<int> removed{};  ///< the others, ascending
-  int rounds = 0;              ///< in which some were taken away
-  Evaluation here{};           ///< of what is left, as the rest of these
-  BlockMatrix hessian{};       ///< of what is left
+  Packing packing;  ///< the remaining particles in their order; without any, it has no poses, and the rest is empty
+  std::vector<int> kept{};     ///< their indices in the whole packing, ascending
+  std::vector<int> removed{};  ///< indices of the removed particles, ascending
+  int rounds = 0;              ///< number of rounds that removed particles
+  Evaluation here{};           ///< evaluation of the remaining packing; the members below refer to it too
+  BlockMatrix hessian{};       ///< its Hessian
   SpectrumEnds ends{};         ///< its modes
-  Stability stability{};       ///< counts of its modes, and that no near-rattler is left
+  Stability stability{};       ///< counts of its modes; no near-rattler is left
 };
 
-/// Takes near-rattlers away until none is named.
+/// Removes near-rattlers until none is reported.
 Backbone backbone_of(const Packing& packing, const ModeOptions& options = {},
                      Precision precision = Precision::double_double);
 
-/// Some particles of a packing, numbers ascending, in its cell.
+/// A part of a packing in the same cell; `kept` contains ascending indices of particles.
 Packing part_of(const Packing& packing, std::span<const int> kept);
 
-/// The contacts between these, with their numbers in that part, and the places of those contacts in the list.
+/// The contacts between the particles of a part.
 struct PartContacts {
-  std::vector<Contact> contacts;    ///< numbered as in the part
-  std::vector<std::size_t> places;  ///< of each in the list of all
+  std::vector<Contact> contacts;    ///< contacts with the particle numbers of the part
+  std::vector<std::size_t> places;  ///< index of each contact in the full list
 };
-/// Of the part with these particles of so many.
+/// Contacts within the part `kept` of a packing of `particles`.
 PartContacts contacts_within(std::span<const Contact> contacts, std::span<const int> kept, int particles);
 
-/// Elastic tensor of what is left alone: elastic_tensor() of it, at its own stress, per volume of the whole cell.
-/// nullopt as there, and if nothing is left.
+/// Elastic tensor of the remaining packing at its own stress, per volume of the whole cell; see elastic_tensor().
+/// nullopt as there, and if no particle is left.
 std::optional<ElasticTensor> elastic_tensor(const Backbone& backbone);
 
 }  // namespace isojam

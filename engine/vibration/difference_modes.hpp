@@ -7,10 +7,10 @@
 
 namespace isojam {
 
-/// All 6N eigenvalues, ascending, of D by central differences with step h (difference_hessian): of what a program
-/// without analytic second derivatives takes for D. Translations, null vectors of differences too but for rounding, are
-/// projected out: three of the eigenvalues are 0 as nearly as those of D. h in V_p^(1/3), of x and of R·θ. Throws as
-/// difference_hessian does.
+/// All 6N eigenvalues, ascending, of D by central differences with step h (difference_hessian). A program without
+/// analytic second derivatives would use these as D. Translations, which are null vectors of differences too except for
+/// rounding, are projected out. Three of the eigenvalues are therefore 0, as accurately as those of D. h in V_p^(1/3),
+/// for x and for R·θ. Throws like difference_hessian.
 Eigen::VectorXd difference_modes(const Packing& packing, double h, Precision precision);
 
 }  // namespace isojam

@@ -43,7 +43,7 @@ std::vector<InverseRoot> inverse_roots(const Packing& packing) {
   return result;
 }
 
-/// Whether M = 1.
+/// True if M = 1.
 bool has_unit_mass(const Composition& solids) { return solids.is_uniform() && solids.only().is_spherical_top(); }
 
 }  // namespace
@@ -62,7 +62,7 @@ BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian) {
   for (int k = 0; k < hessian.size(); ++k) {
     Matrix6d& own = hessian.diagonal[static_cast<std::size_t>(k)];
     scale(own, k, k);
-    own = ((own + own.transpose()) / 2).eval();  // what rounding took of its symmetry
+    own = ((own + own.transpose()) / 2).eval();  // removes the asymmetry due to rounding
   }
   for (BlockMatrix::Block& block : hessian.off_diagonal) scale(block.value, block.row, block.column);
   if (!packing.solids.is_uniform()) {

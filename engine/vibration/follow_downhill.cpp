@@ -13,11 +13,12 @@ namespace isojam {
 
 namespace {
 
-/// Halvings of a trial step: down to 1e-12 of the first, less than the depth of any contact that matters.
+/// Number of halvings of a trial step: down to 1e-12 of the first, which is less than the depth of any relevant
+/// contact.
 constexpr int max_halvings = 40;
 
-/// The packing moved along ±mode, by the longest trial step that lowers the enthalpy by more than its noise, to the
-/// lower side.
+/// The packing displaced along +mode or −mode, whichever has the lower enthalpy. Uses the longest trial step that
+/// lowers the enthalpy by more than its noise.
 std::optional<Packing> step_down(const Packing& packing, const Eigen::VectorXd& mode, double first_step,
                                  Precision precision, const Enthalpy& enthalpy, PackingEnergy& energy) {
   const auto evaluate = [&](const Packing& there) { return enthalpy.of(energy.evaluate(there, precision), there); };
@@ -70,8 +71,10 @@ class Follower {
     result_.summary = minimise(result_.packing, energy_, options_.minimise, stop_);
   }
 
-  /// Sets the stability. The direction to go if that says so: the lowest mode of the particles, or where that is not
-  /// unstable the softest strain.
+  double enthalpy() { return result_.summary.energy + enthalpy_.work(result_.packing.cell); }
+
+  /// Sets the stability. If it is unstable, returns the direction of descent: the lowest mode of the particles, or, if
+  /// the particles alone are stable, the softest strain.
   std::optional<Eigen::VectorXd> assess_here() {
     const Precision precision = result_.summary.precision;
     const Evaluation here = energy_.evaluate(result_.packing, precision);

@@ -11,14 +11,14 @@
 
 namespace isojam {
 
-/// How the way downhill ended.
+/// Reason for the end of a descent.
 enum class DownhillEnd {
   not_called,
-  was_minimum,      ///< no negative mode to begin with: the packing is as it came
-  reached_minimum,  ///< a minimum was found below a saddle
+  was_minimum,      ///< there was no negative mode: the packing is unchanged
+  reached_minimum,  ///< a minimum was found after at least one saddle
   lost_balance,     ///< a minimisation ended without equilibrium
-  still_unstable,   ///< negative modes left: descents spent, or no lower energy found along the mode
-  undetermined      ///< no verdict on stability, or no modes
+  still_unstable,   ///< negative modes remain: max_descents is reached, or no lower energy was found along the mode
+  undetermined      ///< the stability is undetermined, or there are no modes
 };
 template <>
 inline constexpr std::array enum_names<DownhillEnd>{
@@ -26,27 +26,32 @@ inline constexpr std::array enum_names<DownhillEnd>{
     EnumName{DownhillEnd::reached_minimum, "reached_minimum"}, EnumName{DownhillEnd::lost_balance, "lost_balance"},
     EnumName{DownhillEnd::still_unstable, "still_unstable"},   EnumName{DownhillEnd::undetermined, "undetermined"}};
 
-/// How far it is followed.
+/// Limits and methods of a descent.
 struct DownhillOptions {
-  int max_descents = 5;  ///< a saddle below a saddle is seldom, three of them are unheard of
-  /// Largest displacement of a particle in the first trial along the mode, in inradii; halved until the energy falls.
+  int max_descents = 5;  ///< a descent rarely ends at another saddle; three in a row were never observed
+  /// Largest displacement of a particle in the first trial along the mode, in inradii; halved until the energy
+  /// decreases.
   double first_step = 0.1;
-  MinimiseOptions minimise;         ///< how equilibria on the way are found
-  ModeOptions modes{.highest = 1};  ///< only the lowest is followed; λ_max is for the tolerance
+  MinimiseOptions minimise;         ///< options of the minimisations
+  ModeOptions modes{.highest = 1};  ///< only the lowest mode is used; λ_max sets the tolerance
 };
 
-/// What came of it.
+/// Result of a descent.
 struct DownhillResult {
-  DownhillEnd ended = DownhillEnd::not_called;  ///< why it went no farther
-  Packing packing;                              ///< where it ended
-  MinimiseSummary summary{};                    ///< of the last minimisation
-  Stability stability{};                        ///< of `packing`; not called where balance was lost
-  int descents = 0;                             ///< saddles left behind
+  DownhillEnd ended = DownhillEnd::not_called;  ///< reason for its end
+  Packing packing;                              ///< final state
+  MinimiseSummary summary{};                    ///< summary of the last minimisation
+  Stability stability{};   ///< stability of `packing`; not called if the last minimisation found no equilibrium
+  int descents = 0;        ///< number of saddles that were relaxed
+  double energy_drop = 0;  ///< decrease of the enthalpy from the first equilibrium to the last
+
+  /// True if the initial equilibrium is known to be a saddle.
+  bool was_unstable() const { return descents > 0 || stability.negative > 0; }
 };
 
-/// Follows an unstable equilibrium along its lowest mode, on the side where the energy falls more, to a minimum, and
-/// looks again, a few times at most. What comes is minimised first: an equilibrium stays as it is. Where the cell is
-/// free, options.minimise.control, it is one of particles and cell together.
+/// Relaxes an unstable equilibrium along its lowest mode to a minimum, on the side where the energy decreases more.
+/// Repeats this if the result is unstable, a few times at most. The initial packing is minimised first; an equilibrium
+/// stays unchanged. For a variable cell (options.minimise.control) it is an equilibrium of particles and cell together.
 DownhillResult follow_downhill(const Packing& packing, const DownhillOptions& options = {}, std::stop_token stop = {});
 
 }  // namespace isojam

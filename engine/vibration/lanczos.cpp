@@ -20,7 +20,7 @@ LanczosModes solved(Solver& solver, Spectra::SortRule rule, const LanczosRequest
     }
     solver.compute(rule, request.restarts, request.tolerance, Spectra::SortRule::SmallestAlge);
   } catch (const std::system_error&) {
-    throw;  // of the machine, not of the problem
+    throw;  // a system error, not a numerical failure
   } catch (const std::runtime_error&) {
     modes.ended = LanczosEnd::small_problem_failed;
     return modes;

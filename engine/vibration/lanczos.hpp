@@ -6,13 +6,13 @@
 
 namespace isojam {
 
-/// A symmetric operator as Spectra takes it, whatever stands behind it. One type for all, so that its solvers are
-/// compiled once.
+/// A symmetric operator in the form that Spectra needs. The single type for all operators lets its solvers be compiled
+/// once.
 class LanczosOperation {
  public:
   using Scalar = double;
 
-  /// `operation` has rows(), perform_op(x, y) and set_shift(σ), and must outlive this.
+  /// `operation` must have rows(), perform_op(x, y) and set_shift(σ), and must outlive this object.
   template <class Operation>
   explicit LanczosOperation(Operation& operation)
       : rows_(operation.rows()),
@@ -33,13 +33,13 @@ class LanczosOperation {
 enum class LanczosWanted { least, greatest };
 
 struct LanczosRequest {
-  LanczosWanted wanted = LanczosWanted::greatest;  ///< end of the spectrum; of no meaning with a shift
-  Eigen::Index modes = 1, subspace = 20;           ///< eigenpairs, and dimension of the Krylov space that is kept
-  /// With a shift the operation is (A − σ)⁻¹, and the eigenvalues nearest σ are wanted.
+  LanczosWanted wanted = LanczosWanted::greatest;  ///< end of the spectrum; ignored with a shift
+  Eigen::Index modes = 1, subspace = 20;           ///< number of eigenpairs, and dimension of the Krylov space
+  /// If set, the operation is (A − σ)⁻¹, and the eigenvalues nearest to σ are computed.
   std::optional<double> shift = std::nullopt;
   double tolerance = 1e-10;  ///< relative accuracy of an eigenvalue (of 1/(λ − σ))
   int restarts = 300;
-  Eigen::VectorXd start{};  ///< of rows() entries; empty: Spectra's own random one
+  Eigen::VectorXd start{};  ///< rows() entries; if empty, Spectra's own random vector
 };
 
 enum class LanczosEnd {
@@ -50,13 +50,13 @@ enum class LanczosEnd {
 
 struct LanczosModes {
   LanczosEnd ended = LanczosEnd::restarts_spent;
-  Eigen::VectorXd eigenvalues;  ///< of A, in Spectra's order; empty unless converged
+  Eigen::VectorXd eigenvalues;  ///< eigenvalues of A in Spectra's order; empty unless converged
   Eigen::MatrixXd vectors;      ///< columns in the same order
   long products = 0;            ///< operations performed
 };
 
-/// Implicitly restarted Lanczos (Spectra). What the operation throws, such as at a shift that is an eigenvalue, goes
-/// through.
+/// Implicitly restarted Lanczos method (Spectra). Exceptions of the operation, such as for a shift that is an
+/// eigenvalue, are passed on.
 LanczosModes lanczos(LanczosOperation operation, const LanczosRequest& request);
 
 }  // namespace isojam

@@ -6,8 +6,7 @@
 
 namespace isojam {
 
-/// Projects the three translations of the packing as a whole out of a vector of 6N entries. `root_masses` as a
-/// BlockMatrix has them.
+/// Projects the three translations of the whole packing out of a vector of 6N entries. `root_masses` as in BlockMatrix.
 inline void remove_translations(const Eigen::VectorXd& root_masses, Eigen::Ref<Eigen::VectorXd> u) {
   if (root_masses.size() > 0) {
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
@@ -23,11 +22,11 @@ inline void remove_translations(const Eigen::VectorXd& root_masses, Eigen::Ref<E
   for (Eigen::Index k = 0; k < u.size(); k += 6) u.segment<3>(k) -= mean;
 }
 
-/// Start vector of Lanczos, the same for every matrix of 6N rows, without symmetry that could hide a mode from it.
+/// Start vector of the Lanczos method, the same for every matrix of 6N rows. It has no symmetry that could hide a mode.
 Eigen::VectorXd lanczos_start(const BlockMatrix& matrix);
 
-/// Operator P op P, P the projector that removes translations: the form in which Spectra takes an operator. Both must
-/// outlive this.
+/// Operator P op P, where P projects translations out, in the form that Spectra needs. `operation` and `matrix` must
+/// outlive it.
 template <class Operation>
 class Deflated {
  public:

@@ -63,7 +63,7 @@ std::optional<DensityOfStates> density_of_states(const VectorXd& eigenvalues, do
   const double all = static_cast<double>(eigenvalues.size()), width = (logs.back() - logs.front()) / bins;
   states.cumulative.resize(bins + 1);
   for (int k = 0; k <= bins; ++k) {
-    // The last bin is closed: it holds the highest mode.
+    // The last bin is closed: it contains the highest mode.
     const auto below = k < bins ? std::lower_bound(logs.begin(), logs.end(), states.edges[k]) : logs.end();
     states.cumulative[k] = (static_cast<double>(below - logs.begin()) + states.without_frequency) / all;
   }

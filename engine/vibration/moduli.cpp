@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// x_b − x_a of every block off the diagonal, by a merge of two lists in the order of pairs.
+/// x_b − x_a of every off-diagonal block, by merging two lists that are sorted by pair.
 std::vector<Vector3d> displacements(const Packing& packing, const BlockMatrix& hessian,
                                     std::span<const Contact> contacts) {
   std::vector<Vector3d> result;
@@ -37,15 +37,15 @@ std::vector<Vector3d> displacements(const Packing& packing, const BlockMatrix& h
   return result;
 }
 
-/// What strain does before anything relaxes.
+/// Affine (Born) part of the response.
 struct Affine {
-  Matrix6d stiffness = Matrix6d::Zero();  ///< d²E/dε², not over V
+  Matrix6d stiffness = Matrix6d::Zero();  ///< d²E/dε², not divided by V
   Eigen::MatrixXd forces;                 ///< Ξ = ∂²E/∂r∂ε, 6N × 6
 };
 
-/// A pair's energy depends on positions through r = x_b − x_a only: its derivatives by r are those by x_b, and, up to
-/// sign, those by x_a, which the block H_ab of the Hessian holds. Beside r, exp(ε) r has a second order ½ ε² r, on
-/// which the stress does work: V σ:ε².
+/// A pair's energy depends on positions only through r = x_b − x_a. Its derivatives with respect to r are those with
+/// respect to x_b, and, up to sign, those with respect to x_a, which the block H_ab of the Hessian contains. The
+/// second-order term ½ ε² r of exp(ε) r adds the work of the stress: V σ:ε².
 Affine affine_response(const Packing& packing, const BlockMatrix& hessian, std::span<const Contact> contacts,
                        const Evaluation& evaluation) {
   Affine response;
@@ -63,7 +63,7 @@ Affine affine_response(const Packing& packing, const BlockMatrix& hessian, std::
   return response;
 }
 
-/// From d²E/ds² of r → e^s r, which is 9V(K − p).
+/// From d²E/ds² for r → e^s r, which is 9V(K − p).
 double bulk(const Matrix6d& tensor, double pressure) { return tensor.topLeftCorner<3, 3>().sum() / 9 + pressure; }
 
 }  // namespace
@@ -95,12 +95,12 @@ std::optional<ElasticTensor> elastic_tensor(const Packing& packing, const BlockM
   Eigen::MatrixXd moves(affine.forces.rows(), 6), reactions(affine.forces.rows(), 6);
   for (int i = 0; i < 6; ++i) {
     Eigen::VectorXd force = -affine.forces.col(i);
-    force.head<3>().setZero();  // pinned; the others' resultant is what it was
+    force.head<3>().setZero();  // pinned; the resultant of the other forces is unchanged
     moves.col(i) = cholesky.solve(force);
     reactions.col(i) = hessian * Eigen::VectorXd(moves.col(i));
   }
-  // Stationary in the moves: an error of theirs counts by its square only, where affine − Ξᵀ D⁺ Ξ would cancel to few
-  // digits.
+  // This form is stationary in the displacements, so that their errors enter only squared. The form affine − Ξᵀ D⁺ Ξ
+  // would lose most digits to cancellation.
   const Matrix6d cross = affine.forces.transpose() * moves;
   const Matrix6d relaxed = affine.stiffness + cross + cross.transpose() + moves.transpose() * reactions;
   ElasticTensor tensor;

@@ -6,12 +6,12 @@ namespace isojam {
 
 enum class Pinning {
   translations,                ///< the three translations of particle 0
-  translations_and_untouched,  ///< and particles without contacts, which have no stiffness at all
+  translations_and_untouched,  ///< also all coordinates of particles without contacts, which have no stiffness
 };
 
-/// D with some coordinates held: their rows and columns 0, `held_diagonal` on the diagonal. D being blind to
-/// translations, the rest is definite exactly where D is definite beyond them, and D u = f, f without resultant, is
-/// solved by the u found here, up to a translation.
+/// D with some coordinates pinned: their rows and columns are 0, with `held_diagonal` on the diagonal. Since D is zero
+/// for translations, the rest is definite exactly if D is definite apart from translations. For a force f without
+/// resultant the solution u of this matrix solves D u = f, up to a translation.
 BlockMatrix pinned_matrix(const BlockMatrix& matrix, double held_diagonal, Pinning pinning);
 
 }  // namespace isojam

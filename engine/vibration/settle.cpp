@@ -9,7 +9,7 @@ namespace isojam {
 
 namespace {
 
-/// True if the state was a saddle and is a minimum now.
+/// Returns true if the state was a saddle and is now a minimum.
 bool settle_state(Packing& packing, JamStep& step, const DownhillOptions& options, const std::stop_token& stop) {
   DownhillResult result = follow_downhill(packing, options, stop);
   if (result.ended != DownhillEnd::reached_minimum) return false;
@@ -29,11 +29,11 @@ bool settle_state(Packing& packing, JamStep& step, const DownhillOptions& option
 void settle(JamResult& result, const JamOptions& options, std::stop_token stop) {
   DownhillOptions downhill;
   downhill.minimise = options.minimise;
-  downhill.modes.lowest = 4;  // one is followed; the others are company for Lanczos
+  downhill.modes.lowest = 4;  // one mode is used; the others improve the convergence of the Lanczos method
   bool changed = false;
   for (std::size_t k = 0; k < result.states.size() && !stop.stop_requested(); ++k) {
     JamStep& step = result.path[static_cast<std::size_t>(result.state_steps[k])];
-    // The first state of an expansion is one of given density.
+    // The first state of an expansion has a given density.
     downhill.minimise.control = options.control == Control::pressure && k > 0
                                     ? control_at_pressure(options, step.pressure)
                                     : control_at_density(options);

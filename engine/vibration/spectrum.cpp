@@ -36,13 +36,13 @@ void judge(ModeSet& modes, const BlockMatrix& matrix, double lambda_max) {
   }
 }
 
-/// The modes of an operation, ascending. False, and no modes, if Lanczos did not converge.
+/// The modes of an operation, ascending. Returns false without modes if the Lanczos method did not converge.
 bool take_modes(const BlockMatrix& matrix, LanczosOperation operation, LanczosRequest request, ModeSet& modes) {
   ++modes.attempts;
   request.start = lanczos_start(matrix);
   LanczosModes found = lanczos(std::move(operation), request);
   if (found.ended != LanczosEnd::converged) return false;
-  // Spectra keeps the order asked for, descending whatever the rule is called.
+  // Spectra returns the requested order, but descending for any rule.
   modes.eigenvalues = found.eigenvalues.reverse();
   modes.vectors = found.vectors.rowwise().reverse();
   if (modes.eigenvalues.size() > 1 && modes.eigenvalues[0] > modes.eigenvalues[modes.size() - 1]) {
@@ -81,7 +81,7 @@ class Ends {
   }
 
  private:
-  /// Lanczos needs room for as many vectors again.
+  /// The Lanczos method needs space for about twice as many vectors.
   bool serves(Index wanted) const { return wanted > 0 && 2 * wanted + 20 <= all_; }
 
   bool find_highest(Index wanted, SpectrumEnds& ends) const {
@@ -104,12 +104,12 @@ class Ends {
 
   bool find_lowest(Index wanted, SpectrumEnds& ends) const {
     ModeSet& modes = ends.lowest;
-    // Close below 0; then, for a Hessian with negative modes, below all of the spectrum.
+    // The first shift is slightly below 0, the second is below the whole spectrum, for a Hessian with negative modes.
     for (int attempt = 0; attempt < 2; ++attempt) {
       const double shift = attempt == 0 ? -options_.shift * ends.lambda_max : below_all(ends.lambda_max);
       if (!invert(wanted, attempt, shift, modes)) continue;
       judge(modes, matrix_, ends.lambda_max);
-      // ‖Du − λu‖ ≤ ‖D − σ‖ times the residual of the inverse's eigenpair, and rounding.
+      // ‖Du − λu‖ ≤ ‖D − σ‖ times the residual of the inverse's eigenpair, plus rounding.
       const double from_tolerance = options_.lowest_tolerance * (ends.lambda_max - shift);
       if (modes.residual * ends.lambda_max > rounding_bound(matrix_, ends.lambda_max) + from_tolerance) continue;
       modes.ended = attempt == 0 ? ModeEnd::converged : ModeEnd::retried;
@@ -129,17 +129,18 @@ class Ends {
                                    .restarts = options_.restarts};
       if (!take_modes(matrix_, LanczosOperation(operation), request, modes)) return false;
     } catch (const std::domain_error&) {
-      return false;  // the shift hit an eigenvalue
+      return false;  // the shift is an eigenvalue
     }
     return (modes.eigenvalues.array() < shift).count() == inverse.negative_pivots();
   }
 
-  /// Below the lowest mode by a fraction of its distance from 0, or the usual shift if that is further.
+  /// A shift below the lowest mode by a fraction of its distance from 0, or a multiple of the usual shift if that is
+  /// lower.
   double below_all(double lambda_max) const {
     Product product(matrix_);
     Deflated<Product> operation(product, matrix_);
     ModeSet lowest;
-    const double rough = 1e-2;  // of the lowest mode itself: it is only to be undercut
+    const double rough = 1e-2;  // relative to the lowest mode; the shift must only be below it
     const double fallback = -norm_bound(matrix_);
     const LanczosRequest request{.wanted = LanczosWanted::least,
                                  .modes = 1,
@@ -201,7 +202,7 @@ ModeSet dense_modes(const BlockMatrix& matrix) {
   modes.ended = ModeEnd::failed;
   MatrixXd rotated = dense_matrix(matrix);
   if (rotated.rows() <= 3 || !rotated.allFinite()) return modes;
-  // In a basis whose first three vectors are the translations, the rest of D is a matrix of its own.
+  // In a basis whose first three vectors are the translations, the other rows and columns of D decouple.
   const CompletedBasis basis(translations(matrix));
   const Index rest = rotated.rows() - 3;
   basis.enter(rotated);

@@ -11,13 +11,13 @@
 
 namespace isojam {
 
-/// What the counts of modes say.
+/// Stability according to the counts of modes.
 enum class Verdict {
   not_called,
-  stable,       ///< three zero modes, no negative one: a strict minimum but for translations
-  marginal,     ///< further zero modes, none negative
-  unstable,     ///< negative modes
-  undetermined  ///< inertia could not be had: D is not finite, or singular wherever it was tried
+  stable,       ///< three zero modes, no negative one: a strict minimum apart from translations
+  marginal,     ///< more than three zero modes, no negative one
+  unstable,     ///< at least one negative mode
+  undetermined  ///< the inertia is unknown: D is not finite, or singular at every shift tried
 };
 template <>
 inline constexpr std::array enum_names<Verdict>{
@@ -25,17 +25,17 @@ inline constexpr std::array enum_names<Verdict>{
     EnumName{Verdict::marginal, "marginal"}, EnumName{Verdict::unstable, "unstable"},
     EnumName{Verdict::undetermined, "undetermined"}};
 
-/// A particle that its contacts may not hold.
+/// A particle that its contacts may not constrain.
 struct NearRattler {
-  /// Why.
+  /// Reason for the classification.
   enum class Reason {
-    few_contacts,        ///< fewer than four
-    vanishing_stiffness  ///< a zero or negative mode with all others at rest, or one that is mostly its own
+    few_contacts,        ///< fewer than four contacts
+    vanishing_stiffness  ///< zero or negative: its own block of D, or a mode that is mostly its own
   };
-  int particle = 0;                      ///< by number
-  Reason reason = Reason::few_contacts;  ///< why it may be loose
-  int contacts = 0;                      ///< of the particle
-  double least_eigenvalue = 0;           ///< of its own block of D
+  int particle = 0;                      ///< index of the particle
+  Reason reason = Reason::few_contacts;  ///< reason for the classification
+  int contacts = 0;                      ///< number of its contacts
+  double least_eigenvalue = 0;           ///< smallest eigenvalue of its own block of D
 };
 template <>
 inline constexpr std::array enum_names<NearRattler::Reason>{
@@ -44,27 +44,26 @@ inline constexpr std::array enum_names<NearRattler::Reason>{
 
 /// Counts of all modes.
 struct Stability {
-  Verdict verdict = Verdict::not_called;     ///< what they say
-  int zero = 0, negative = 0, positive = 0;  ///< of all 6N modes, and strains, exact by Sylvester's inertia
-  double tolerance = 0;                      ///< |λ| up to this is zero
-  double translation_error = 0;              ///< max ‖D t‖ over the three translations; below tolerance
-  std::vector<NearRattler> near_rattlers;    ///< ascending by particle; at most one entry for each
+  Verdict verdict = Verdict::not_called;     ///< result
+  int zero = 0, negative = 0, positive = 0;  ///< numbers among all 6N modes and strains; exact by Sylvester's inertia
+  double tolerance = 0;                      ///< |λ| up to this counts as zero
+  double translation_error = 0;              ///< max ‖D t‖ over the three translations; below `tolerance`
+  std::vector<NearRattler> near_rattlers;    ///< sorted by particle; at most one entry per particle
 };
 
-/// Tolerance that separates zero from small: rounding_bound(D, λ_max) + the largest |T_i|/R² of an unbalanced torque.
-/// The second, because turns do not commute: the Hessian of a particle that feels a torque T depends by up to T/2 on
-/// what is meant by a small turn.
+/// Tolerance below which an eigenvalue counts as zero: rounding_bound(D, λ_max) + the largest |T_i|/R² of an unbalanced
+/// torque. The second term is needed because rotations do not commute: the Hessian of a particle with a torque T
+/// depends by up to T/2 on the parametrisation of small rotations.
 double zero_tolerance(const BlockMatrix& matrix, double lambda_max, double unbalanced_torque = 0);
 
-/// Largest |T_i|/R² of an evaluation, the second argument of zero_tolerance.
+/// Largest |T_i|/R² of an evaluation, the second term of zero_tolerance.
 double unbalanced_torque(const Evaluation& evaluation, const Composition& solids);
 
-/// Counts all modes of D, by the number of eigenvalues below −tolerance and above +tolerance, and names near-rattlers.
-/// A packing whose D with one particle pinned is above the tolerance has 6N − 3 positive modes (eigenvalues
-/// interlace), which a Cholesky factorisation shows; anything else is counted by LDLᵀ.
-/// Of a matrix with a border those directions are counted in which particles and cell move together.
-/// Four contacts are the fewest that can hold a particle: forces on fewer than four points balance in a plane, and
-/// nothing opposes a motion out of it to first order.
+/// Counts all modes of D from the numbers of eigenvalues below −tolerance and above +tolerance, and lists
+/// near-rattlers. If D with one particle pinned is above the tolerance, which a Cholesky factorisation shows, then 6N −
+/// 3 modes are positive, because eigenvalues interlace. Otherwise LDLᵀ counts them. For a matrix with a border the
+/// modes are those of particles and cell together. A particle needs at least four contacts: forces on fewer points
+/// balance only in a plane, and nothing opposes a motion out of it to first order.
 Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque = 0);
 
 }  // namespace isojam

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <stdexcept>
 
-// With y = (upper − θ)/(upper − α), which runs from 1 at α to 0 at upper, the cubic is written in the Legendre
-// polynomials P_j shifted to [0, 1], ∫ P_i P_j dy = δ_ij/(2j + 1). The least-squares coefficients are then
-// β_j = (2j + 1) ∫ c P_j dy, and with c a step function these are sums of the antiderivatives of P_j at the
-// angles, polynomials of degree ≤ 4 in y. Sums of powers of upper − θ, all positive, serve every α.
-// The error at the best cubic, E(α), has the slope dE/dα = c² − (a_0 − c)² = a_0 (2c − a_0): only the lower limit
-// of the integral depends on α, the space of cubics does not.
+// With y = (upper − θ)/(upper − α), which decreases from 1 at α to 0 at upper, the cubic is written in the Legendre
+// polynomials P_j shifted to [0, 1], ∫ P_i P_j dy = δ_ij/(2j + 1). The least-squares coefficients are then β_j = (2j +
+// 1) ∫ c P_j dy. Since c is a step function, they are sums of the antiderivatives of P_j at the angles: polynomials of
+// degree ≤ 4 in y. Sums of powers of upper − θ, which are all positive, serve every α. The error of the best cubic,
+// E(α), has the slope dE/dα = c² − (a_0 − c)² = a_0 (2c − a_0), because only the lower limit of the integral depends on
+// α; the space of cubics does not.
 
 namespace isojam {
 
@@ -21,7 +21,7 @@ using Vector4d = Eigen::Vector4d;
 
 constexpr int free_parameters = 5;  // α and a_0..a_3
 
-/// The empirical CDF c of all angles, seen on [0, upper].
+/// The empirical CDF c of all angles on [0, upper].
 class Window {
  public:
   Window(std::span<const double> angles, double upper) : total_(static_cast<double>(angles.size())), upper_(upper) {
@@ -38,12 +38,12 @@ class Window {
     }
   }
 
-  long inside() const { return inside_; }  ///< angles below upper
+  long inside() const { return inside_; }  ///< number of angles below upper
   double upper() const { return upper_; }
-  double angle(long k) const { return sorted_[k]; }  ///< in ascending order, from 0
+  double angle(long k) const { return sorted_[k]; }  ///< ascending, from index 0
   double height(long count) const { return static_cast<double>(count) / total_; }
 
-  /// Angles inside the window that are ≤ α.
+  /// Number of angles inside the window that are ≤ α.
   long count_at(double alpha) const {
     return std::upper_bound(sorted_.begin(), sorted_.begin() + inside_, alpha) - sorted_.begin();
   }
@@ -81,10 +81,10 @@ class Window {
   double total_, upper_;
   long inside_ = 0;
   std::vector<double> sorted_;
-  std::vector<Powers> power_sums_;  ///< [k]: over the angles k, k + 1, ... of the window
+  std::vector<Powers> power_sums_;  ///< [k]: sums over the angles k, k + 1, ... of the window
 };
 
-/// ∫_0^upper c² dθ − E(α): what the best cubic from α on explains.
+/// ∫_0^upper c² dθ − E(α): the part that the best cubic from α on explains.
 double explained(const Window& window, double alpha) {
   const Vector4d beta = window.legendre_coefficients(alpha);
   return (window.upper() - alpha) * beta.cwiseAbs2().dot(Vector4d(1, 1. / 3, 1. / 5, 1. / 7));
@@ -96,7 +96,7 @@ double error_slope(const Window& window, double alpha, long count) {
   return a0 * (2 * window.height(count) - a0);
 }
 
-/// Where E stops falling between `low` and `high`, two neighbouring points with no angle between them.
+/// Point between `low` and `high` where E stops decreasing; no angle may lie between these two.
 double descend(const Window& window, double low, double high, long count) {
   while (true) {
     const double middle = low + (high - low) / 2;
@@ -105,9 +105,9 @@ double descend(const Window& window, double low, double high, long count) {
   }
 }
 
-/// E is continuous and between angles smooth: its minimum is at an angle, or where its slope changes sign.
+/// E is continuous, and smooth between angles: its minimum is at an angle, or where its slope changes sign.
 double best_alpha(const Window& window) {
-  constexpr int subdivisions = 64;  // resolves wide gaps, in which E may have more than one minimum
+  constexpr int subdivisions = 64;  // resolves wide gaps, where E may have several minima
   std::vector<double> points;
   for (int i = 0; i < subdivisions; ++i) points.push_back(window.upper() * i / subdivisions);
   for (long k = 0; k < window.inside(); ++k) points.push_back(window.angle(k));
@@ -135,9 +135,9 @@ double best_alpha(const Window& window) {
   return best;
 }
 
-/// a_0 = Σ β_j = c(α) + (1/n) Σ K(y_k) over the angles above α. Those of the jump, up to c = a_0, have K ≈ 1 as if
-/// they were below α, and are no noise; the variance of the others' sum is Σ K²/n² if they are independent.
-/// As K ≤ 1, a_0 never exceeds c(upper).
+/// a_0 = Σ β_j = c(α) + (1/n) Σ K(y_k) over the angles above α. The angles of the jump, up to c = a_0, have K ≈ 1 as if
+/// they were below α, and contribute no noise. If the others are independent, the variance of their sum is Σ K²/n².
+/// Since K ≤ 1, a_0 never exceeds c(upper).
 double standard_error(const Window& window, const CdfFit& fit) {
   double sum = 0;
   for (long k = window.count_at(fit.alpha); k < window.inside(); ++k) {
@@ -149,8 +149,8 @@ double standard_error(const Window& window, const CdfFit& fit) {
   return std::sqrt(sum) * window.height(1);
 }
 
-/// Exact ∫ (c_f − c)² dθ over a stretch of constant c: a sextic, by four Gauss points. No difference of large
-/// numbers, unlike ∫c² − explained.
+/// Exact ∫ (c_f − c)² dθ over an interval of constant c: a sextic, by four Gauss points. Unlike ∫c² − explained, it is
+/// no difference of large numbers.
 double stretch_error(const CdfFit& fit, double from, double to, double height) {
   static constexpr double node[2] = {0.33998104358485626, 0.86113631159405258};
   static constexpr double weight[2] = {0.65214515486254614, 0.34785484513745386};
@@ -178,8 +178,8 @@ double fit_error(const CdfFit& fit, const Window& window) {
   return error;
 }
 
-/// Steps meet the curve from both sides, and a cubic turns twice at most between angles: 16 points of each stretch find
-/// what exceeds the noise of a step.
+/// The curve may deviate on both sides of a step, and a cubic has at most two extremes between angles. 16 points per
+/// interval are enough to find deviations above the noise of a step.
 double largest_deviation(const CdfFit& fit, const Window& window) {
   double largest = 0, from = std::max(fit.alpha, window.end_of_step(fit.a[0]));
   for (long k = window.count_at(from); k <= window.inside(); ++k) {
@@ -195,8 +195,8 @@ double largest_deviation(const CdfFit& fit, const Window& window) {
 }
 
 FitVerdict judge(const CdfFit& fit, const Window& window) {
-  constexpr double kolmogorov = 1.358;  // 5 % of sup |F_n − F| √n lie above
-  // A fit to a CDF without a jump finds one of the size of the noise.
+  constexpr double kolmogorov = 1.358;  // 5 % of sup |F_n − F| √n exceed this
+  // A fit to a CDF without a jump finds a jump of the size of the noise.
   if (fit.a[0] < std::max(window.height(1), 2 * fit.a0_error)) return FitVerdict::collapsed;
   if (fit.alpha >= window.upper() / 2) return FitVerdict::alpha_out_of_range;
   if (fit.deviation > kolmogorov * std::sqrt(window.height(1))) return FitVerdict::bimodal;

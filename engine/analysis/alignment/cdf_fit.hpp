@@ -8,15 +8,15 @@
 
 namespace isojam {
 
-/// What came of a fit.
+/// Result of a fit.
 enum class FitVerdict {
   not_called,
   fitted,
-  /// The basis does not describe c: they differ by more than Kolmogorov's 5 % bound somewhere, as where there is a
-  /// second jump. The cut-off is given, but not to be trusted.
+  /// The basis does not describe c: somewhere they differ by more than Kolmogorov's 5 % limit, for example at a second
+  /// jump. The cut-off is set, but is doubtful.
   bimodal,
-  collapsed,           ///< c shows no jump: a_0 is within 2 standard errors of 0, or worth less than one angle
-  alpha_out_of_range,  ///< the jump is in the upper half of the window: nothing is near alignment
+  collapsed,           ///< c has no jump: a_0 is within 2 standard errors of 0, or less than one angle's step
+  alpha_out_of_range,  ///< the jump is in the upper half of the window: no angle is near alignment
   too_few              ///< fewer angles below `upper` than the five free parameters α, a_0..a_3
 };
 template <>
@@ -27,28 +27,28 @@ inline constexpr std::array enum_names<FitVerdict>{EnumName{FitVerdict::not_call
                                                    EnumName{FitVerdict::alpha_out_of_range, "alpha_out_of_range"},
                                                    EnumName{FitVerdict::too_few, "too_few"}};
 
-/// Least-squares fit of the paper's basis c_f(θ) = H(θ−α)[a_0 − Σ_{n=1..3} a_n (θ−α)^n] to an empirical CDF on
-/// [0, upper], upper half the least critical angle.
+/// Least-squares fit of the paper's basis c_f(θ) = H(θ−α)[a_0 − Σ_{n=1..3} a_n (θ−α)^n] to an empirical CDF on [0,
+/// upper]; `upper` is half the smallest critical angle.
 struct CdfFit {
-  FitVerdict verdict = FitVerdict::not_called;  ///< whether there is a cut-off, and why not
+  FitVerdict verdict = FitVerdict::not_called;  ///< result
   double alpha = 0;                             ///< radians
   double a[4] = {0, 0, 0, 0};                   ///< a_0 ≤ c(upper)
-  double a0_error = 0;  ///< standard error of a_0 from the angles above the jump, taken as independent
+  double a0_error = 0;  ///< standard error of a_0 from the angles above the jump, assumed independent
   double error = 0;     ///< ∫ (c_f − c)² dθ
   /// Largest deviation sup |c_f − c| beyond the jump, where c ≥ a_0. Noise of n independent angles exceeds 1.358/√n in
-  /// one set of twenty, more rarely about a curve fitted to them.
+  /// one of twenty sets, and more rarely relative to a curve fitted to them.
   double deviation = 0;
-  /// Cut-off θ_cut (radians): c = a_0. As c has steps, the end of the step nearest to a_0, at most `upper`: the
-  /// fraction of angles below θ_cut is a_0 to within half a step. 0 unless fitted or bimodal.
+  /// Cut-off θ_cut (radians): c(θ_cut) = a_0. Since c has steps, it is the end of the step nearest to a_0, at most
+  /// `upper`; the fraction of angles below θ_cut is a_0 within half a step. 0 unless the verdict is fitted or bimodal.
   double cutoff = 0;
 
-  /// Whether the fit gives a cut-off, be it one not to be trusted.
+  /// True if a cut-off was found, including doubtful ones.
   bool has_cutoff() const { return verdict == FitVerdict::fitted || verdict == FitVerdict::bimodal; }
 };
 
-/// Finds the global minimum of the error, over α in [0, upper) too; c is integrated exactly.
-/// `angles` in any order, radians, all contacts (also those above `upper`: the CDF counts them).
-/// Throws std::invalid_argument if an angle is negative or not finite, or `upper` is not positive.
+/// Finds the global minimum of the error, including α in [0, upper); c is integrated exactly. `angles` may have any
+/// order, in radians, and must include all contacts (also those above `upper`, which count in the CDF). Throws
+/// std::invalid_argument if an angle is negative or not finite, or `upper` is not positive.
 CdfFit fit_cdf(std::span<const double> angles, double upper);
 
 }  // namespace isojam

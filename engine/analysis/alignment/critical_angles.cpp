@@ -49,8 +49,8 @@ std::vector<double> dihedral_angles(const ConvexSolid& solid) {
   return angles;
 }
 
-/// The value that all angles share; nullopt if they do not. Vertices are rounded, so angles that are one agree to some
-/// ulp of a length over an edge.
+/// The common value of all angles; nullopt if they differ. Vertices are rounded, so that equal angles agree within a
+/// few ulp of a length divided by an edge length.
 std::optional<double> common(const ConvexSolid& solid, const std::vector<double>& angles) {
   double shortest_edge = solid.diameter();
   for (const Edge& edge : solid.edges()) {
@@ -62,9 +62,9 @@ std::optional<double> common(const ConvexSolid& solid, const std::vector<double>
   return angles.front();
 }
 
-/// What all vertices and edges have in common.
+/// Common angles of all vertices and edges.
 struct SharedAngles {
-  double dihedral, edge, normal;  ///< the last two as in VertexFigure
+  double dihedral, edge, normal;  ///< edge and normal as in VertexFigure
 };
 
 std::optional<SharedAngles> shared_angles(const ConvexSolid& solid) {
@@ -81,17 +81,17 @@ std::optional<SharedAngles> shared_angles(const ConvexSolid& solid) {
 
 void set_edge_angles(double half_dihedral, CriticalAngles& critical) {
   const double sine = nearest::sin(half_dihedral);
-  // Edge-edge: the edges cross at a right angle, each pair of faces symmetric about the line of contact.
+  // Edge-edge: the edges cross at a right angle, and each pair of faces is symmetric about the line of contact.
   critical.ef_edge_edge = right_angle - half_dihedral;
   critical.ff_edge_edge = nearest::acos(sine * sine);
-  // Edge-face: the two faces at the edge are equally steep on the face that it lies in.
+  // Edge-face: the two faces at the edge have the same angle with the face that contains it.
   critical.ff_edge_face = right_angle - half_dihedral;
 }
 
-/// The cone of outward normals of a vertex: a polygon on the sphere, its corners the normals of the faces that meet
-/// there, its sides perpendicular to the edges. A plane that touches the vertex alone has its normal inside.
+/// The cone of outward normals of a vertex: a polygon on the sphere. Its corners are the normals of the faces that meet
+/// in the vertex, its sides are perpendicular to the edges. If a plane touches only the vertex, its normal is inside.
 struct NormalCone {
-  std::vector<Vector3d> corners, sides;  ///< unit; directions d of the cone have d·side ≥ 0
+  std::vector<Vector3d> corners, sides;  ///< unit vectors; directions d of the cone have d·side ≥ 0
 };
 
 std::vector<NormalCone> normal_cones(const ConvexSolid& solid) {
@@ -119,7 +119,7 @@ double greatest_product(const std::vector<Vector3d>& list, const Vector3d& direc
   return greatest;
 }
 
-/// Calls look(d) for every unit vector that has the same product with three vectors of a list, either way round.
+/// Calls look(d) for every unit vector that has the same product with three vectors of a list, with both signs.
 template <class Look>
 void for_each_centre(const std::vector<Vector3d>& list, const Look& look) {
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -134,8 +134,8 @@ void for_each_centre(const std::vector<Vector3d>& list, const Look& look) {
   }
 }
 
-/// The greatest angle to the sides that a direction of the cone can have, the radius of its inscribed circle: which
-/// touches three sides, or two of them where great circles are farthest apart.
+/// The largest angle to the sides among the directions of the cone: the radius of its inscribed circle. The circle
+/// touches three sides, or two of them where the great circles are farthest apart.
 double inscribed_radius(const NormalCone& cone) {
   double best = 0;
   const auto look = [&](const Vector3d& d) { best = std::max(best, least_product(cone.sides, d)); };
@@ -146,8 +146,8 @@ double inscribed_radius(const NormalCone& cone) {
   return nearest::asin(std::min(1.0, best));
 }
 
-/// The greatest angle to the nearest corner that a direction of the cone can have: at a centre of three corners inside,
-/// or on a side, where the plane between two corners cuts it.
+/// The largest angle to the nearest corner among the directions of the cone. It occurs at a point inside that is
+/// equally far from three corners, or on a side, at its intersection with the plane between two corners.
 double farthest_from_corners(const NormalCone& cone, double tolerance) {
   double best = 1;
   const auto look = [&](const Vector3d& d) {

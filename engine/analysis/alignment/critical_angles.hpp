@@ -5,35 +5,35 @@
 
 namespace isojam {
 
-/// Critical alignment angles (radians): the largest that each contact topology allows, for two equal solids in
-/// the orientation of highest symmetry (the paper's Table II). Where vertices or edges are not all alike, the least of
-/// what each of them allows in its own best orientation: below it, no feature of the solid keeps an angle from a
-/// contact.
+/// Critical alignment angles (radians): the largest angle that each contact topology allows, for two equal solids in
+/// the orientation of highest symmetry (the paper's Table II). If vertices or edges differ, it is the smallest of the
+/// angles that each allows in its own best orientation; below it, no feature of the solid excludes an angle.
 struct CriticalAngles {
-  double ef_vertex_face = 0, ef_edge_edge = 0;  ///< θ_ef of a vertex on a face, and of two edges crossed
+  double ef_vertex_face = 0, ef_edge_edge = 0;  ///< θ_ef of a vertex on a face, and of two crossed edges
   double ff_vertex_face = 0, ff_edge_edge = 0, ff_edge_face = 0;  ///< θ_ff of these, and of an edge in a face
 
-  double ef_min() const;                          ///< least of the θ_ef
-  double ff_min() const;                          ///< least of the θ_ff
-  void take_lesser(const CriticalAngles& other);  ///< of each
+  double ef_min() const;                          ///< smallest of the θ_ef
+  double ff_min() const;                          ///< smallest of the θ_ff
+  void take_lesser(const CriticalAngles& other);  ///< takes the smaller value of each angle
 };
 
-/// Returns the angles: in closed form, from the dihedral angle and the vertex figure, where edges and vertices are all
-/// alike; from the widest dihedral angle and the cones of normals of all vertices otherwise.
+/// The critical angles. If all edges and all vertices are equivalent, they follow in closed form from the dihedral
+/// angle and the vertex figure. Otherwise they follow from the largest dihedral angle and the normal cones of all
+/// vertices.
 CriticalAngles critical_angles(const ConvexSolid& solid);
 
-/// Of two solids: the least that either allows in the other's face, and where edges cross, with half-angles α = π/2 −
-/// δ/2 of the widest dihedral angles δ, θ_ff = arccos(cos α_A cos α_B) and the lesser α as θ_ef.
+/// Critical angles of two solids. For contacts with a face: the smaller value of both. For crossed edges, with
+/// half-angles α = π/2 − δ/2 of the largest dihedral angles δ: θ_ff = arccos(cos α_A cos α_B), and θ_ef is the smaller
+/// α.
 CriticalAngles critical_angles(const ConvexSolid& a, const ConvexSolid& b);
 
-/// The least of each over all pairs of the solids of a mixture.
+/// The smallest value of each angle over all pairs of solids in a mixture.
 CriticalAngles critical_angles(const Mixture& mixture);
 
-/// Whether vertices, edges and faces are all alike, as far as angles at them and numbers of sides tell: a regular
-/// solid.
+/// True for a regular solid: all vertices, edges and faces have the same angles and numbers of sides.
 bool has_like_features(const ConvexSolid& solid);
 
-/// The second way, for any solid: the oracle of the first.
+/// The second method, which applies to any solid: the test oracle of the first.
 CriticalAngles critical_angles_of_cones(const ConvexSolid& solid);
 
 }  // namespace isojam

@@ -12,7 +12,7 @@ namespace isojam {
 
 namespace {
 
-constexpr std::size_t least_angles = 10;  // fewer are separated by chance, whatever η says
+constexpr std::size_t least_angles = 10;  // fewer angles may be separated by chance, for any η
 
 /// log θ of the angles below upper, ascending.
 std::vector<double> logarithms(std::span<const double> angles, double upper, double resolution) {
@@ -30,18 +30,18 @@ struct Split {
   double separation = 0;
 };
 
-/// Never between equal values. No separation if all are.
+/// Never splits equal values. No separation if all are equal.
 Split best_split(const std::vector<double>& x) {
   const auto n = static_cast<double>(x.size());
   const double mean = std::accumulate(x.begin(), x.end(), 0.0) / n;
   double variance = 0;
   for (const double value : x) variance += (value - mean) * (value - mean) / n;
   Split best;
-  double sum = 0;  // of deviations from the mean below the split
+  double sum = 0;  // sum of deviations from the mean below the split
   for (std::size_t k = 1; k < x.size(); ++k) {
     sum += x[k - 1] - mean;
     if (x[k] == x[k - 1]) continue;
-    // w_0 w_1 (μ_1 − μ_0)² with both means taken from the common one
+    // w_0 w_1 (μ_1 − μ_0)², with both means relative to the common one
     const auto below = static_cast<double>(k);
     const double separation = sum * sum / (below * (n - below) * variance);
     if (separation > best.separation) best = {k, separation};

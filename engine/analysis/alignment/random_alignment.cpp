@@ -20,7 +20,7 @@ using std::numbers::pi;
 
 double angle_between(const Vector3d& u, const Vector3d& v) { return nearest::atan2(u.cross(v).norm(), u.dot(v)); }
 
-/// A stratified sample has as many cells of equal area along either cylindrical coordinate of the sphere.
+/// A stratified sample has this many cells of equal area along both cylindrical coordinates of the sphere.
 constexpr int bands = 256;
 
 Vector3d direction_at(double z, double azimuth) {
@@ -28,7 +28,12 @@ Vector3d direction_at(double z, double azimuth) {
   return {r * nearest::cos(azimuth), r * nearest::sin(azimuth), z};
 }
 
-/// Share of ascending values below x, linear between them; from 0 at 0.
+Vector3d random_direction(RandomStream& random) {
+  const double z = 2 * random.uniform() - 1, azimuth = 2 * pi * random.uniform();
+  return direction_at(z, azimuth);
+}
+
+/// Fraction of ascending values below x, linear between them and starting from 0 at 0.
 double share_below(const std::vector<double>& values, double x) {
   const auto above = std::lower_bound(values.begin(), values.end(), x);
   if (above == values.end()) return 1;
@@ -38,7 +43,7 @@ double share_below(const std::vector<double>& values, double x) {
   return std::min(1.0, (below + part) / static_cast<double>(values.size()));
 }
 
-/// Where the value is greatest, the first of several.
+/// Position of the largest value; the first one if there are several.
 template <class Range, class Value>
 auto greatest(const Range& range, const Value& value) {
   auto best = range.begin();
@@ -52,7 +57,7 @@ auto greatest(const Range& range, const Value& value) {
   return best;
 }
 
-/// The directions of a solid's features, found once for a whole sample.
+/// The directions of a solid's features, computed once for a whole sample.
 class Features {
  public:
   explicit Features(const ConvexSolid& solid) : solid_(solid) {
@@ -60,14 +65,17 @@ class Features {
       edges_.push_back((solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized());
   }
 
-  /// That part of the way from one face normal at the edge to the other, which is all that an edge in a face can turn.
+  const Vector3d& edge(std::size_t e) const { return edges_[e]; }
+
+  /// The direction at the fraction `part` of the rotation from one face normal at the edge to the other. An edge in a
+  /// face can rotate only within this range.
   Vector3d turned_about(std::size_t e, double part) const {
     const Edge& edge = solid_.edges()[e];
     const Vector3d& left = solid_.faces()[static_cast<std::size_t>(edge.left)].normal;
     const Vector3d& right = solid_.faces()[static_cast<std::size_t>(edge.right)].normal;
     const double sense = left.cross(right).dot(edges_[e]) < 0 ? -1 : 1;
     const double angle = sense * (part * angle_between(left, right));
-    // Rodrigues: the axis is at right angles to what is turned.
+    // Rodrigues' formula for an axis perpendicular to the rotated vector.
     return nearest::cos(angle) * left + nearest::sin(angle) * edges_[e].cross(left);
   }
 
@@ -76,7 +84,7 @@ class Features {
     return angle_between(nearest.normal, direction);
   }
 
-  /// Of the edges that meet in the outermost vertex.
+  /// Smallest elevation of the edges that meet in the outermost vertex.
   double least_elevation(const Vector3d& direction) const {
     const auto outermost = greatest(solid_.vertices(), [&](const Vector3d& vertex) { return vertex.dot(direction); });
     double least = 1;
@@ -98,7 +106,7 @@ RandomAlignment::RandomAlignment(const ConvexSolid& solid, Way way)
   if (way == Way::sampled || !set_regular(solid)) sample(solid);
 }
 
-/// Faces all alike, and so are edges and vertices: their angles agree. Then 2E/V edges meet in a vertex.
+/// Requires that all faces, edges and vertices have the same angles. Then 2E/V edges meet in a vertex.
 bool RandomAlignment::set_regular(const ConvexSolid& solid) {
   if (!has_like_features(solid)) return false;
   const CriticalAngles critical = critical_angles(solid);
@@ -144,25 +152,25 @@ double RandomAlignment::face_face(double theta) const {
     if (theta <= caps_apart_) return faces_ * squared(nearest::sin(theta / 2));
     return share_below(face_face_, theta);
   }
-  const double inradius = constrained_ff_max_;  // of the polygon that a face subtends
+  const double inradius = constrained_ff_max_;  // inradius of the polygon that a face subtends
   if (theta <= inradius) return faces_ * squared(nearest::sin(theta / 2));
-  // Azimuth ψ about the normal from the middle of a side, where the side is at the angle ρ, tan ρ = tan(inradius)/cos
-  // ψ: within `cut` it is nearer than θ, and ∫ (1 − cos ρ) dψ = ψ − arcsin(cos(inradius) sin ψ).
+  // At the azimuth ψ about the normal from the middle of a side, the side is at the angle ρ, tan ρ = tan(inradius)/cos
+  // ψ. For ψ within `cut` it is nearer than θ, and ∫ (1 − cos ρ) dψ = ψ − arcsin(cos(inradius) sin ψ).
   const double cut = nearest::acos(nearest::tan(inradius) / nearest::tan(theta));
   const double inside = cut - nearest::asin(nearest::cos(inradius) * nearest::sin(cut));
   const double cap = (pi / face_sides_ - cut) * 2 * squared(nearest::sin(theta / 2));
   return std::min(1.0, faces_ * face_sides_ / (2 * pi) * (inside + cap));
 }
 
-// With the vertex's axis along z, the sides of the polygon are perpendicular to the edges, unit vectors
-// e_k = (cos β cos 2πk/q, cos β sin 2πk/q, sin β) from the other end to the vertex, β = ef_max; points farther than θ
-// from every side have n·e_k > sin θ. They are bounded by q arcs of circles about e_k, of geodesic curvature tan θ and
-// length φ cos θ, which meet at the exterior angle ε: the area is 2π − q(φ sin θ + ε).
+// With the vertex's axis along z, the sides of the polygon are perpendicular to the edges, unit vectors e_k = (cos β
+// cos 2πk/q, cos β sin 2πk/q, sin β) from the other end to the vertex, β = ef_max. Points farther than θ from every
+// side have n·e_k > sin θ. The region of these points is bounded by q arcs of circles about e_k, of geodesic curvature
+// tan θ and length φ cos θ, which meet at the exterior angle ε. Its area is 2π − q(φ sin θ + ε).
 double RandomAlignment::cone_beyond(double theta) const {
   const double half = pi / valence_, sine = nearest::sin(ef_max_), cosine = nearest::cos(ef_max_);
   const Vector3d first(cosine, 0, sine);
   const Vector3d second(cosine * nearest::cos(2 * half), cosine * nearest::sin(2 * half), sine);
-  // The corner between them at colatitude ρ: cos ρ sin β − sin ρ cos β cos(π/q) = sin θ.
+  // The corner between them is at the colatitude ρ: cos ρ sin β − sin ρ cos β cos(π/q) = sin θ.
   const double slope = cosine * nearest::cos(half), radius = nearest::hypot(sine, slope);
   const double rho = nearest::acos(std::min(1.0, nearest::sin(theta) / radius)) - nearest::atan2(slope, sine);
   const Vector3d corner(-nearest::sin(rho) * nearest::cos(half), -nearest::sin(rho) * nearest::sin(half),

@@ -26,7 +26,7 @@ double exterior_angle(const ConvexSolid& solid, const Edge& edge) {
   return nearest::atan2(left.cross(right).norm(), left.dot(right));
 }
 
-/// The edges of a solid, each as likely as ℓ α.
+/// The edges of a solid, each with a probability proportional to ℓ α.
 struct Edges {
   explicit Edges(const ConvexSolid& solid) {
     double sum = 0;
@@ -47,7 +47,7 @@ struct Edges {
   struct Angle {
     double half = 0;              ///< α/2
     double tangent = 0;           ///< tan(α/4)
-    double sine = 0, cosine = 0;  ///< of α
+    double sine = 0, cosine = 0;  ///< sine and cosine of α
   };
   const Angle& at(double x) const {
     const auto found = std::upper_bound(up_to.begin(), up_to.end() - 1, x);
@@ -62,8 +62,9 @@ struct Edges {
   std::vector<Angle> angles;
 };
 
-/// Directions from the common normal to those of both faces at an edge, by sine and cosine: one by s ∈ [0, α/2] on one
-/// side, the other by α − s on the other side. No elementary function is needed: x ∈ [0, 1] tells tan(s/2).
+/// Directions from the common normal to the normals of both faces at an edge, as sine and cosine: the angle s ∈ [0,
+/// α/2] on one side, and α − s on the other side. x ∈ [0, 1] determines tan(s/2), so that no elementary function is
+/// needed.
 struct Tilts {
   Tilts(const Edges::Angle& angle, double x) {
     const double t = angle.tangent * x, square = 1 + squared(t);
@@ -75,11 +76,11 @@ struct Tilts {
 
   double least_sine() const { return std::min(sines[0], -sines[1]); }
 
-  double weight = 0;  ///< ds/dx over α/2
+  double weight = 0;  ///< ds/dx divided by α/2
   std::array<double, 2> sines{}, cosines{};
 };
 
-/// The angle ψ ∈ [0, π] between the edges, by tan(ψ/2) = y/(1 − y).
+/// The angle ψ ∈ [0, π] between the edges, from tan(ψ/2) = y/(1 − y).
 struct Crossing {
   explicit Crossing(double y) {
     const double square = squared(y) + squared(1 - y);
@@ -90,7 +91,7 @@ struct Crossing {
   double sine = 0, cosine = 0, weight = 0;
 };
 
-/// Of four pairs of faces.
+/// Smallest chord of the four pairs of faces.
 double least_chord(const Tilts& a, const Tilts& b, const Crossing& crossing) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 2; ++i) {
@@ -120,8 +121,8 @@ std::array<double, dimensions> even_point(int k) {
   return x;
 }
 
-/// Half of the points are even in x and y, for the bulk of the distributions; half as the fourth powers of even ones,
-/// for small angles.
+/// Half of the points are even in x and y, for the bulk of the distributions. The other half are fourth powers of even
+/// points, for small angles.
 struct Place {
   Place(double u, double v, bool small)
       : x(small ? fourth(u) : u), y(small ? fourth(v) : v), weight(2 / (1 + density(x) * density(y))) {}
@@ -132,7 +133,7 @@ struct Place {
   double weight;  ///< inverse density of points
 };
 
-/// Over both kinds of parts.
+/// Weighted mean over both kinds of contact.
 template <class Vertices, class EdgeParts, class Function>
 double mean(const Vertices& vertices, const EdgeParts& edges, const Function& of) {
   double sum = 0;
@@ -175,7 +176,7 @@ RandomEdgeContact::RandomEdgeContact(const ConvexSolid& a, const ConvexSolid& b)
   const Edges edges_a(a), edges_b(b);
   const double cut = std::min(edges_a.least_half(), edges_b.least_half()) / 100;
   const double half_a = edges_a.greatest_half(), half_b = edges_b.greatest_half();
-  // At the middle of either edge, crossed at a right angle.
+  // Angles at the middle of either edge, crossed at a right angle.
   face_face_ = {Curve::By::chord, 2, cut, nearest::acos(nearest::cos(half_a) * nearest::cos(half_b))};
   edge_face_ = {Curve::By::sine, 1, cut, std::min(half_a, half_b)};
   std::vector<Weighted> chords, sines;

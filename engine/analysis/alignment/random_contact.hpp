@@ -8,54 +8,56 @@
 
 namespace isojam {
 
-// Two convex solids of random orientations that touch as isotropic ones do: of all places where B can stand and touch
-// A, the surface of the Minkowski sum of A and −B, any is as likely. It consists of faces of either, on which a vertex
-// of the other lies, and of parallelograms of an edge of each. Over all turns of B its mean area is
-// S_A + S_B + M_A M_B/2π, S the surface and M = ½ Σ ℓ α the integral of the mean curvature, over edges of length ℓ and
-// exterior angle α (the principal kinematic formula). For RandomAlignment a vertex always touches a face.
+// Two convex solids with random orientations that touch like isotropic ones: all positions in which B touches A are
+// equally likely. These positions form the surface of the Minkowski sum of A and −B. It consists of faces of either
+// solid, on which a vertex of the other lies, and of parallelograms from an edge of each. Its mean area over all
+// rotations of B is S_A + S_B + M_A M_B/2π. S is the surface area, and M = ½ Σ ℓ α the integral of the mean curvature,
+// over edges of length ℓ and exterior angle α (principal kinematic formula). In RandomAlignment, in contrast, a vertex
+// always touches a face.
 
-/// What weighs a solid's contacts.
+/// Quantities that determine the frequency of a solid's contacts.
 struct ContactSize {
   double surface = 0;         ///< S
   double mean_curvature = 0;  ///< M
 };
-/// Of this solid.
+/// The quantities of a solid.
 ContactSize contact_size(const ConvexSolid& solid);
 
-/// Shares of all contacts of two solids; their sum is 1.
+/// Fractions of all contacts of two solids; their sum is 1.
 struct ContactShares {
-  double vertex_of_a = 0;  ///< on a face of B
-  double vertex_of_b = 0;  ///< on a face of A
-  double edge_edge = 0;    ///< edges of both crossed
+  double vertex_of_a = 0;  ///< vertex of A on a face of B
+  double vertex_of_b = 0;  ///< vertex of B on a face of A
+  double edge_edge = 0;    ///< crossed edges of both
 };
-/// Of solids with these sizes, by the mean area of the sum.
+/// Fractions for solids with these sizes, from the mean area of the Minkowski sum.
 ContactShares contact_shares(const ContactSize& a, const ContactSize& b);
 
-/// Distributions of alignment angles where an edge of A touches one of B. Edges are as likely as ℓ α, the common normal
-/// stands anywhere between the normals of the two faces at either edge, and the angle ψ between the edges has the
-/// density sin²ψ: once for the area of the parallelogram, once for the turns at which two arcs of normals cross
-/// (Poincaré).
-///   θ_ff: the least angle between a normal of A at its edge and an opposite one of B; c → 4 ⟨1/(α_A α_B)⟩ θ² at 0.
-///   θ_ef: sin θ_ef = sin ψ · the least sine of the angles from the common normal to those four.
-/// From 131072 fixed points, which is right to 2e-3, and by the law at 0 below a hundredth of the least α/2. Any convex
-/// solids; sizes mean nothing.
+/// Distributions of alignment angles if an edge of A touches an edge of B. The probability of an edge is proportional
+/// to ℓ α. The common normal is uniform between the normals of the two faces at either edge. The angle ψ between the
+/// edges has the density sin²ψ: one factor for the area of the parallelogram, one for the rotations in which two arcs
+/// of normals cross (Poincaré).
+///   θ_ff: the smallest angle between a normal of A at its edge and an opposite one of B; c → 4 ⟨1/(α_A α_B)⟩ θ² at 0.
+///   θ_ef: sin θ_ef = sin ψ · the smallest sine of the angles from the common normal to those four.
+/// Computed from 131072 fixed points with an error of 2e-3; below a hundredth of the smallest α/2 the limiting law at 0
+/// is used. Applies to any convex solids, independent of their sizes.
 class RandomEdgeContact {
  public:
-  /// Of edges of these two.
+  /// Distributions for edges of these two solids.
   RandomEdgeContact(const ConvexSolid& a, const ConvexSolid& b);
 
   double face_face(double theta) const { return face_face_(theta); }  ///< distribution of θ_ff
   double edge_face(double theta) const { return edge_face_(theta); }  ///< distribution of θ_ef
-  double ff_max() const { return face_face_.largest; }                ///< where face_face reaches 1
-  double ef_max() const { return edge_face_.largest; }                ///< where edge_face does
+  double ff_max() const { return face_face_.largest; }                ///< angle where face_face reaches 1
+  double ef_max() const { return edge_face_.largest; }                ///< angle where edge_face reaches 1
 
  private:
-  /// A distribution by what grows with the angle and needs no inverse function: its sine, or the chord 2 sin(θ/2).
+  /// A distribution stored as a function of a quantity that increases with the angle and needs no inverse function: the
+  /// sine, or the chord 2 sin(θ/2).
   struct Curve {
     enum class By { sine, chord };
     By by = By::sine;
-    int power = 1;                       ///< of θ, at 0
-    double cut = 0, largest = 0;         ///< angles: the law at 0 holds below the one, the share is 1 from the other on
+    int power = 1;                       ///< power of θ near 0
+    double cut = 0, largest = 0;         ///< below `cut` the law at 0 applies; from `largest` on the fraction is 1
     std::vector<double> at{}, shares{};  ///< ascending
     double share_at_cut = 0;
 
@@ -71,22 +73,22 @@ class RandomEdgeContact {
   Curve face_face_, edge_face_;
 };
 
-/// Distributions of the angles of all contacts, a sum of both kinds.
+/// Distributions of the angles of all contacts: the sum of both kinds, weighted by their fractions.
 class RandomContact {
  public:
   RandomContact() = default;
-  /// Of solids that are all alike.
+  /// Contacts of identical solids.
   explicit RandomContact(const ConvexSolid& solid);
 
-  /// Kinds of contact with their shares of all, which sum to 1.
+  /// Add a kind of contact with its fraction of all contacts; the fractions must sum to 1.
   void add(double share, RandomAlignment vertices) { vertices_.push_back({share, std::move(vertices)}); }
   void add(double share, RandomEdgeContact edges) { edges_.push_back({share, std::move(edges)}); }
 
   double face_face(double theta) const;  ///< distribution of θ_ff
   double edge_face(double theta) const;  ///< distribution of θ_ef
-  double ff_max() const;                 ///< where face_face reaches 1
-  double ef_max() const;                 ///< where edge_face does
-  double edge_edge_share() const;        ///< share of contacts that are of two edges
+  double ff_max() const;                 ///< angle where face_face reaches 1
+  double ef_max() const;                 ///< angle where edge_face reaches 1
+  double edge_edge_share() const;        ///< fraction of contacts between two edges
 
  private:
   template <class Angles>

@@ -5,13 +5,13 @@
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 
-// A is cut by the face planes of B one after another. In quadruple precision every pose that doubles can express is
-// resolved: a vertex is on a plane exactly, or off it by far more than the rounding of this arithmetic. What lies on a
-// plane counts as inside, so that a face of A that coincides with one of B is kept once, as A's.
+// A is cut by the face planes of B one after another. Quadruple precision resolves every pose that doubles can express:
+// a vertex is either exactly on a plane, or off it by far more than the rounding error of this arithmetic. A point on a
+// plane counts as inside. If a face of A coincides with one of B, it is therefore kept once, as A's.
 //
-// The vertices of a solid given in doubles are planar only to their rounding. A plane that runs along a face so closely
-// may leave it and enter it more than once, and there is no one polygon to close the cut. Such a cut is noticed, and
-// all is done again with vertices counted as on a plane to within that rounding.
+// If a solid is given in double, the vertices of a face lie in one plane only within rounding. A plane almost parallel
+// to such a face may cross it more than once, and then no single polygon closes the cut. The code detects such a cut
+// and starts again, with a tolerance of that rounding for vertices on a plane.
 
 namespace isojam {
 
@@ -47,7 +47,8 @@ class PlaneCut {
     for (const Quad3& point : solid.points) distance_.push_back(dot(plane.normal, point) - plane.offset);
   }
 
-  /// Cuts, and closes the hole by face `face` of B. False if the plane crosses a face more than once.
+  /// Cuts, and closes the hole with a polygon on face `face` of B. Returns false if the plane crosses a face more than
+  /// once.
   [[nodiscard]] bool apply(int face) {
     std::vector<Polygon> kept;
     for (Polygon& f : solid_.faces) {
@@ -64,7 +65,7 @@ class PlaneCut {
  private:
   bool outside(int p) const { return distance_[static_cast<std::size_t>(p)] > tolerance_; }
 
-  /// The point where the edge from a kept vertex to a cut one meets the plane.
+  /// The point where the edge from a kept vertex to a removed one intersects the plane.
   int crossing(int kept, int cut) {
     const Quad d = distance_[static_cast<std::size_t>(kept)], e = distance_[static_cast<std::size_t>(cut)];
     if (d >= -tolerance_) return kept;
@@ -96,12 +97,12 @@ class PlaneCut {
     }
     while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
     if (departures > 1) consistent_ = false;
-    // The cap runs along the same edge the other way.
+    // The closing polygon contains the same edge in the opposite direction.
     if (left >= 0 && entered >= 0 && left != entered && !cap_next_.emplace(entered, left).second) consistent_ = false;
     face.loop = std::move(loop);
   }
 
-  /// Vertices of the closing polygon; fewer than there are links if the links do not form one loop.
+  /// Vertices of the closing polygon; fewer than the number of links if the links do not form one loop.
   std::vector<int> cap_loop() const {
     std::vector<int> loop;
     if (cap_next_.empty()) return loop;
@@ -124,7 +125,7 @@ class PlaneCut {
   bool consistent_ = true;
 };
 
-/// Volume, and S and M as those of the faces on B, reversed.
+/// Adds V, and S and M as the negative integrals over the faces on B.
 void integrate(const QuadIntersection& solid, QuadOverlap& sum) {
   if (solid.faces.empty()) return;
   const Quad3 origin = solid.points[static_cast<std::size_t>(solid.faces.front().loop.front())];
@@ -168,7 +169,7 @@ void mark_features(const ConvexSolid& a, const ConvexSolid& b, const QuadInterse
   result.edges_b = edges_between(b, pairs_b);
 }
 
-/// A ∩ B; false if a cut was not consistent.
+/// The intersection of A and B; returns false if a cut was inconsistent.
 bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose, Quad tolerance,
              QuadIntersection& solid) {
   solid = whole(a);
@@ -181,12 +182,13 @@ bool cut_all(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose, Q
 }  // namespace
 
 QuadIntersection clipped_intersection(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose) {
-  // Between the rounding of quadruple precision (1e-34 of a coordinate) and the least distance that the rounding of
-  // doubles leaves between planes that do not coincide.
+  // This tolerance is between the rounding of quadruple precision (1e-34 of a coordinate) and the smallest distance of
+  // planes that do not coincide, which the rounding of doubles determines.
   const Quad exact = Quad(a.circumradius() * std::max(1.0, b.scale() / a.scale())) * Quad(1e-28);
   QuadIntersection solid;
   if (!cut_all(a, b, pose, exact, solid)) {
-    // With everything on every plane nothing is cut: the loop ends.
+    // The tolerance grows until all cuts are consistent. The loop ends: when every vertex counts as on every plane,
+    // nothing is cut.
     Quad rounding = gap_tolerance(a, b, narrowed(pose));
     while (!cut_all(a, b, pose, rounding, solid)) rounding *= 2;
   }

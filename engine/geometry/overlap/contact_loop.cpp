@@ -9,16 +9,17 @@
 
 #include "engine/geometry/overlap/small_distances.hpp"
 
-// Phase 1 (distances.cpp) tabulates the signed distances of either solid's vertices from the other's planes; of solids
-// with many faces, those in the slab between their supports. Phase 2, here, sees nothing but this table: every edge of
-// one solid is clipped by the planes of the other. Where it enters or leaves it pierces a face, and there the loop
-// passes from one of the edge's two faces to the other: one segment of the loop ends and the next begins. Segments are
-// identified by their pair of faces, so the loop closes if and only if every pair that begins also ends, once. No
-// segment is ever found by intersecting two planes, which is ill-conditioned when they are nearly parallel.
+// Phase 1 (distances.cpp) tabulates the signed distances of each solid's vertices from the other's planes. For solids
+// with many faces it includes only the vertices and planes in the slab between their supports. Phase 2, in this file,
+// uses only this table. It clips every edge of one solid by the planes of the other. Where an edge enters or leaves, it
+// pierces a face, and the loop passes there from one of the edge's two faces to the other: one segment of the loop ends
+// and the next begins. A segment is identified by its pair of faces, so the loop closes if and only if every pair that
+// begins also ends, exactly once. No segment is found by intersecting two planes, which is ill-conditioned if they are
+// nearly parallel.
 //
-// Contacts are so small that mispredicted branches would cost more than the arithmetic: what differs from pair to pair
-// is chosen by masks and selection, and only the lengths of loops remain unpredictable. Each loop does one thing, so
-// that several of its steps are in flight at once.
+// Contacts are so small that mispredicted branches would cost more than the arithmetic. Everything that differs from
+// pair to pair is therefore chosen by masks and selection, and only the lengths of loops are unpredictable. Each loop
+// does one thing, so that the processor overlaps several of its iterations.
 
 namespace isojam {
 
@@ -26,23 +27,23 @@ namespace {
 
 constexpr std::size_t none = 2 * SolidArrays::capacity;
 
-/// A number for every edge that one of the two solids may have: `room` for those of A, then as many of B.
+/// Numbers for all possible edges of two solids: `room` numbers for A, followed by as many for B.
 template <int room>
 struct Numbers {
-  /// Whether the edges of both are bits of one word.
+  /// True if one word holds the edges of both solids as bits.
   static constexpr bool in_one_word = 2 * room <= 64;
-  /// A pair of faces (i, j) is room·i + j: so many bits are j's.
+  /// A pair of faces (i, j) has the number room·i + j; j takes this many bits.
   static constexpr int bits = std::countr_zero(unsigned{room});
   static constexpr std::uint32_t all_pairs = room * room;
   static constexpr int corners = 4 * room;
 
-  /// EdgeRecord::pairs, which are numbered with room for 32.
+  /// EdgeRecord::pairs, which are numbered for room = 32, converted to this room.
   static std::uint32_t pairs(const EdgeRecord& edge, std::uint32_t of_b) {
     return edge.pairs[of_b] << (bits - 5) * (of_b ^ 1);
   }
 };
 
-/// A vertex on a plane, to within rounding, and not certainly outside of another one.
+/// True if a vertex lies on a plane within rounding and is not certainly outside another plane.
 bool has_vertex_on_plane(const Distances& d, double tolerance) {
   if (d.nearest >= tolerance) return false;
   for (std::uint64_t rows = d.rows; rows; rows &= rows - 1) {
@@ -57,19 +58,19 @@ bool has_vertex_on_plane(const Distances& d, double tolerance) {
   return false;
 }
 
-/// What a solid brings to the loop.
+/// Data of one solid for the loop.
 struct Side {
   const EdgeRecord* edge;
   const double* vertex;
-  const double* distance;  ///< of its vertices from the other's planes,
-  const double* height;    ///< and over the reference plane, with this step from vertex to vertex
+  const double* distance;  ///< distances of its vertices from the other solid's planes
+  const double* height;    ///< heights of its vertices over the reference plane, `stride` apart
   std::size_t stride;
-  const std::uint8_t* face;  ///< that a column of distances belongs to
-  std::size_t reference;     ///< column of the reference plane in `distance`; none if it is the solid's own
+  const std::uint8_t* face;  ///< face of each column of `distance`
+  std::size_t reference;     ///< column of the reference plane in `distance`; none if the plane belongs to this solid
   Lanes shift;               ///< the solid's centre; height 0
 };
 
-/// Chooses the plane that heights are measured from, and fills what the solids bring.
+/// Chooses the reference plane for heights, and fills the data of both solids.
 inline void prepare(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop,
                     Side* sides) {
   const PlacedSolid* solid[2] = {&a, &b};
@@ -82,7 +83,7 @@ inline void prepare(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vec
     sides[s].distance = table[s]->of;
     sides[s].face = table[s]->face;
   }
-  // Either way is as likely: indices instead of branches.
+  // Both outcomes are equally likely, so an index replaces the branch.
   const int owner = loop.of_a.least_penetration < loop.of_b.least_penetration, other = 1 - owner;
   const auto plane = static_cast<std::uint32_t>(table[other]->least_penetrated);
   const int face = table[other]->face[plane];
@@ -94,11 +95,11 @@ inline void prepare(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vec
 }
 
 constexpr double at_tail = 0;
-constexpr double at_head = 1 + 64 * std::numeric_limits<double>::epsilon();  // past every tagged parameter
+constexpr double at_head = 1 + 64 * std::numeric_limits<double>::epsilon();  // larger than every tagged parameter
 
-/// Where an edge enters and leaves the other solid, in every lane: the parameter (0 at the tail, 1 at the head), tagged
-/// by the plane. Parameters closer than 64 ulp are told apart by their tags: then an edge of the intersection that
-/// short is gained or lost, or the loop does not close.
+/// Parameters where an edge enters and leaves the other solid (0 at the tail, 1 at the head), tagged by the plane, in
+/// every lane. Tags decide the order of parameters that differ by less than 64 ulp. An edge of the intersection that is
+/// so short may be gained or lost, or the loop may not close.
 struct Interval {
   Lanes enter, leave;
 };
@@ -116,7 +117,8 @@ inline Interval clip(Count vectors, const double* tail, const double* head) {
   return {greatest(enter), least(leave)};
 }
 
-/// Of the edges `alive`, bit 0 the one with the number `first`. Returns the number of crossings found so far.
+/// Finds crossings of the edges in `alive`, where bit 0 is the edge with number `first`. Returns the number of
+/// crossings found so far.
 template <int room, class Count>
 int find_crossings(Count vectors, const Side* sides, std::uint64_t alive, std::uint32_t first, ContactLoop& loop,
                    int count) {
@@ -136,20 +138,22 @@ int find_crossings(Count vectors, const Side* sides, std::uint64_t alive, std::u
 }
 
 struct Masks {
-  /// Negative where an end of an edge is its own vertex, by bit 0: it enters, bit 1: it leaves.
+  /// Negative for an end of an edge that is the edge's own vertex. The index has bit 0 if the edge enters, bit 1 if it
+  /// leaves.
   alignas(32) double own_end[4][4] = {{-1, -1, -1, -1}, {1, 1, -1, -1}, {-1, -1, 1, 1}, {1, 1, 1, 1}};
   alignas(32) double whole[4] = {0, -1, -1, 0};
-  /// 0 in place of a height that is 0 by construction.
+  /// Factor that is 0 for a height that is exactly 0 by construction.
   alignas(32) double height[2][4] = {{1, 1, 1, 1}, {1, 1, 1, 0}};
 };
 constexpr Masks masks;
 
-/// The two corners of an edge that passes through the other solid.
+/// Computes the two corners of an edge that passes through the other solid.
 inline void place_corners(const Side& side, const EdgeRecord& edge, std::size_t planes, const ContactLoop::Crossing& c,
                           double (*corner)[4]) {
   const double *tail = side.distance + planes * edge.tail, *head = side.distance + planes * edge.head;
   const std::uint32_t enters = c.enters(), leaves = c.leaves();
-  // Weights of tail and head at either end: products of distances, each right to its own last bits however small.
+  // Weights of tail and head at either end are products of distances, each correct to its last bits even if it is
+  // small.
   const Lanes pierced = Lanes::of(tail[c.into], head[c.into], tail[c.out_of], head[c.out_of]);
   const Lanes d = where_negative(Lanes::load(masks.own_end[enters + 2 * leaves]), Lanes::load(masks.whole), pierced);
   const Lanes exchanged = swapped_pairs(d), weight = exchanged / (exchanged - d);
@@ -163,7 +167,8 @@ inline void place_corners(const Side& side, const EdgeRecord& edge, std::size_t 
   (to * Lanes::load(masks.height[leaves & std::uint32_t{c.out_of == side.reference}])).store(corner[1]);
 }
 
-/// Where an edge pierces a face: the pair of faces whose segment begins there, and the pair whose segment ends.
+/// The points where edges pierce a face. At each point the segment of one pair of faces begins and that of another pair
+/// ends.
 struct Piercings {
   struct At {
     std::uint32_t pairs;  ///< begins + 2^16·ends
@@ -178,12 +183,12 @@ struct Piercings {
   }
 };
 
-/// Edges by number, as bits.
+/// A set of edge numbers, as bits.
 template <int room>
 class EdgeSet {
  public:
   void add(std::uint32_t edge) { word_[in_one_word ? 0 : edge / 64] |= std::uint64_t{1} << edge % 64; }
-  /// Of one solid.
+  /// Edges of one solid.
   std::uint64_t of(int side) const {
     if constexpr (in_one_word) return static_cast<std::uint32_t>(word_[0] >> room * side);
     return word_[side];
@@ -194,7 +199,7 @@ class EdgeSet {
   std::uint64_t word_[in_one_word ? 1 : 2] = {};
 };
 
-/// `vectors[0]` of the planes that edges of A are clipped by, [1] of B.
+/// `vectors(0)` is the number of vectors of planes that clip the edges of A, `vectors(1)` the one for B.
 template <int room, class Vectors>
 void place_spans(const Vectors& vectors, const Side* sides, int spans, ContactLoop& loop, Piercings& piercings) {
   EdgeSet<room> edges;
@@ -224,11 +229,11 @@ void place_spans(const Vectors& vectors, const Side* sides, int spans, ContactLo
   for (int s = 0; s < 2; ++s) loop.edges[s] = edges.of(s), loop.faces[s] = faces[s];
 }
 
-/// Joins every end to the beginning of the same pair of faces. False if the loop does not close.
+/// Joins every end with the beginning of the same pair of faces. Returns false if the loop does not close.
 template <int room>
 bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
   using Entry = std::conditional_t<(Numbers<room>::corners < 256), std::uint8_t, std::uint16_t>;
-  alignas(32) Entry beginning[Numbers<room>::all_pairs];  // corner + 1; 0: none
+  alignas(32) Entry beginning[Numbers<room>::all_pairs];  // corner + 1; 0 means none
   std::memset(beginning, 0, sizeof(Entry) * room * static_cast<std::size_t>(faces_a));
   for (std::size_t k = 0; k < piercings.count; ++k) {
     const std::uint32_t pair = piercings.at[k].pairs & 0xFFFF, corner = piercings.at[k].corner;
@@ -241,7 +246,7 @@ bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
     const std::uint32_t from = beginning[pair];
     beginning[pair] = 0;
     open |= from == 0;
-    // One store: four bytes would be stored in loops of their own, one after the other.
+    // A single store: otherwise the compiler would store the four bytes in four separate loops.
     static_assert(std::endian::native == std::endian::little);
     const std::uint32_t faces = pair % room | pair / room << 8;
     const std::uint32_t corners = (from - 1) % ContactLoop::max_corners | piercings.at[k].corner << 8;
@@ -251,7 +256,7 @@ bool close_loop(const Piercings& piercings, int faces_a, ContactLoop& loop) {
   return !open;
 }
 
-/// The loop for both solids at once where their edges are in one word, so that its end is mispredicted once.
+/// If one word holds the edges of both solids, a single loop handles them, so that its end is mispredicted only once.
 template <int room, class Count>
 int find_all_crossings(Count vectors, const Side* sides, ContactLoop& loop) {
   const std::uint64_t of_a = loop.of_a.edges, of_b = loop.of_b.edges;
@@ -260,7 +265,6 @@ int find_all_crossings(Count vectors, const Side* sides, ContactLoop& loop) {
   return find_crossings<room>(vectors, sides, of_b, room, loop, find_crossings<room>(vectors, sides, of_a, 0, loop, 0));
 }
 
-/// Phase 2.
 template <int room>
 void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   Side sides[2];
@@ -279,14 +283,15 @@ void trace(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r,
     place_spans<room>([=](std::uint32_t of_b) { return of_b ? vectors_b : vectors_a; }, sides, spans, loop, piercings);
   }
   if (piercings.count == 0) {
-    // No edge pierces a face: the solids are apart, or one holds the other and all its edges lie inside.
+    // No edge pierces a face: the solids are separated, or one contains the other and all its edges are inside.
     loop.verdict = loop.spans == 0 ? LoopVerdict::separated : LoopVerdict::degenerate;
   } else {
     loop.verdict = close_loop<room>(piercings, a.faces(), loop) ? LoopVerdict::closed : LoopVerdict::degenerate;
   }
 }
 
-/// Whether a face separates; it becomes the loop's axis if it does so beyond the rows of the table and rounding.
+/// True if a face separates the solids. It becomes the loop's axis if it separates all vertices, also those without a
+/// row in the table, by more than rounding.
 bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop) {
   using Kind = SeparatingAxis::Kind;
   SeparatingAxis axis;
@@ -301,7 +306,7 @@ bool separated_by_face(const PlacedSolid& a, const PlacedSolid& b, const Eigen::
   return true;
 }
 
-/// Finding the near ones of so many faces takes longer than taking all of them.
+/// For solids with at most this many faces, using all faces is faster than selecting the near ones.
 constexpr int few_faces = 8;
 
 /// Phase 1.
@@ -322,7 +327,7 @@ void tabulate(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d&
   tabulate_distances(b, a, -r, loop.of_b);
 }
 
-/// Phase 2; distances below `tolerance` may be zero.
+/// Phase 2; distances below `tolerance` count as zero.
 template <int room>
 void judge(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, double tolerance, ContactLoop& loop) {
   loop.verdict = LoopVerdict::separated;

@@ -4,8 +4,8 @@
 
 #include "engine/geometry/overlap/lanes.hpp"
 
-// Twice over the segments. What belongs to one of them is found for four at a time, one in each lane; then they are
-// added up one after the other.
+// Two passes over the segments: the terms are computed for four segments at a time, one per lane; then they are added
+// one after the other.
 
 namespace isojam {
 
@@ -27,12 +27,12 @@ Four cross(const Four& a, const Four& b) {
   return {fma_minus(a.y, b.z, a.z * b.y), fma_minus(a.z, b.x, a.x * b.z), fma_minus(a.x, b.y, a.y * b.x)};
 }
 
-/// Products rounded before they are subtracted: exactly 0 for parallel vectors.
+/// Rounds the products before the subtraction, so that the result is exactly 0 for parallel vectors.
 Four plain_cross(const Four& a, const Four& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Four segments of a loop; the last is repeated where there are fewer.
+/// Four segments of a loop; the last one is repeated if there are fewer.
 struct Segments {
   const ContactLoop::Segment* at[4];
 
@@ -54,13 +54,14 @@ struct Segments {
   }
 };
 
-/// |n×m|.
+/// |n×m| in double.
 Lanes sine(const PlacedSolid&, const PlacedSolid&, const Segments&, const Four& n, const Four& m,
            const Eigen::Vector3d&) {
   return length(plain_cross(n, m));
 }
 
-/// The same as |n×(n+m)| or |n×(n−m)|, of which the short sum is exact: right to its last bits for parallel planes too.
+/// The same as |n×(n+m)| or |n×(n−m)|, where the short sum is exact. The result is hence correct to its last bits even
+/// for nearly parallel planes.
 Lanes sine(const PlacedSolid& a, const PlacedSolid& b, const Segments& segments, const Four& n, const Four& m,
            const DoubleDoubleVector&) {
   const Lanes sign = where_negative(dot(n, m), Lanes::all(1), Lanes::all(-1));
@@ -72,7 +73,8 @@ Lanes sine(const PlacedSolid& a, const PlacedSolid& b, const Segments& segments,
 const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
 const Eigen::Vector3d& rounded(const DoubleDoubleVector& r) { return r.high; }
 
-/// What four segments add to H_AB: rows of n_i, of its arm and of d×n_i; and in columns what they are multiplied by.
+/// Contributions of four segments to H_AB: rows of n_i, of its torque vector and of d×n_i, and the columns by which
+/// they are multiplied.
 struct Terms {
   Lanes push[4], arm[4], turn[4];
   alignas(32) double push_b[3][4], arm_b[3][4], turn_b[3][4];
@@ -90,7 +92,7 @@ void terms_of(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r,
   const Four along = w - v, middle = Lanes::all(0.5) * (v + w), from_a = repeated(loop.origin);
   const Four from_b = repeated(loop.origin - rounded(r));
   const Lanes parallel = sine(a, b, segments, n, m, r), none = Lanes::all(0);
-  // Negative where sine > 0.
+  // The mask is negative where sine > 0.
   const Lanes weight = where_negative(none - parallel, length(along) / parallel, none);
   rows_of(n.x, n.y, n.z, terms.push);
   const Four arm = cross(middle + from_a, n), turn = cross(along, n);
@@ -101,7 +103,7 @@ void terms_of(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r,
   store(weight * Lanes::all(1.0 / 12) * cross(along, m), terms.turn_b);
 }
 
-/// The columns of H_AB, each in two halves of three rows.
+/// The columns of H_AB, each as two halves of three rows.
 struct Columns {
   Lanes upper[6], lower[6];
 
@@ -117,7 +119,7 @@ struct Columns {
   }
 
   void store(Matrix6d& h) const {
-    // Four at a time, the fourth overwritten by the next, but for the last.
+    // Stores four numbers at a time; the next store overwrites the fourth. The last column is copied separately.
     repeat(std::integral_constant<int, 5>{},
            [&](int c) { upper[c].store(h.data() + 6 * c), lower[c].store(h.data() + 6 * c + 3); });
     alignas(32) double last[4];

@@ -15,10 +15,11 @@ constexpr int capacity = SolidArrays::capacity;
 
 std::uint64_t first_bits(int n) { return (std::uint64_t{1} << n) - 1; }
 
-/// Vertices that reach into the circumsphere of the other solid, at `to_other` from this one's centre.
+/// Vertices that reach into the circumsphere of the other solid, whose centre is at `to_other`.
 std::uint64_t within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_other, double other_radius) {
   const double distance = to_other.norm();
-  // The slack is far more than rounding, of sizes 1e5 apart too, and far less than anything that would cost time.
+  // The slack is far larger than rounding, even for sizes that differ by a factor of 1e5, and far too small to cost
+  // time.
   const Lanes least = Lanes::all(distance * (distance - other_radius * (1 + 1e-9)));
   const Lanes x = Lanes::all(to_other.x()), y = Lanes::all(to_other.y()), z = Lanes::all(to_other.z());
   std::uint64_t below = 0;
@@ -30,7 +31,7 @@ std::uint64_t within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_ot
   return ~below & first_bits(body.vertices());
 }
 
-/// Signs and extremes of the table, gathered row by row.
+/// Signs and extremes of the table, collected row by row.
 template <class Vectors>
 class Scan {
  public:
@@ -38,7 +39,7 @@ class Scan {
     repeat(vectors, [&](int k) { lowest_[k] = nearest_; });
   }
 
-  /// Adds vertex v, at `distance(k)` from planes 4k..; the planes it lies inside of, one bit each.
+  /// Adds vertex v, at `distance(k)` from planes 4k…; returns one bit per plane that it lies inside.
   template <class Row>
   std::uint64_t add(const Row& distance) {
     std::uint64_t inside = 0;
@@ -65,7 +66,7 @@ class Scan {
   Lanes lowest_[capacity / 4];
 };
 
-/// Up to 8 vertices, 8 planes and 16 edges: all rows, and their signs in the bytes of one register.
+/// For up to 8 vertices, 8 planes and 16 edges: scans all rows, with their signs in the bytes of one register.
 template <class Counts, class Row>
 void scan_all(const Counts& counts, const SolidArrays& solid, const Row& row, Distances& d) {
   Scan scan(counts.vectors);
@@ -75,7 +76,7 @@ void scan_all(const Counts& counts, const SolidArrays& solid, const Row& row, Di
   d.edges = equal_unions(inside, solid.tail, solid.head, (1U << 4 * counts.vectors) - 1) & d.candidates;
 }
 
-/// Rows of d.rows and edges of d.candidates only.
+/// Scans only the rows in d.rows and the edges in d.candidates.
 template <class Vectors, class Row>
 void scan_rows(Vectors vectors, const SolidArrays& solid, const Row& row, Distances& d) {
   Scan scan(vectors);
@@ -108,7 +109,7 @@ constexpr auto every_face = [] {
   return numbers;
 }();
 
-/// All planes of a solid, as it has them.
+/// All planes of a solid, in the solid's own memory.
 struct AllPlanes {
   const double *normals, *offsets;
 
@@ -118,13 +119,13 @@ struct AllPlanes {
   Lanes offset(int k) const { return Lanes::load(offsets + 4 * k); }
 };
 
-/// How many vectors a count may be.
+/// Largest number of vectors for a type of count.
 template <class Vectors>
 constexpr int room = capacity / 4;
 template <int n>
 constexpr int room<std::integral_constant<int, n>> = n;
 
-/// Some planes of a solid, gathered.
+/// Selected planes of a solid, copied together.
 template <class Vectors>
 class NearPlanes {
  public:
@@ -177,7 +178,7 @@ class Rows {
   Lanes constant_[capacity / 4];
 };
 
-/// What has one of these vertices.
+/// Vertices, edges and faces of the stars of these vertices.
 Parts parts_at(std::uint64_t vertices, const SolidArrays& solid) {
   Parts all;
   for (; vertices; vertices &= vertices - 1) all |= solid.star[std::countr_zero(vertices)];
@@ -186,7 +187,7 @@ Parts parts_at(std::uint64_t vertices, const SolidArrays& solid) {
 
 void keep(const Parts& parts, Distances& d) { d.rows = parts.vertices, d.candidates = parts.edges; }
 
-/// All planes.
+/// Fills the table with all planes of the other solid.
 template <class Counts>
 void tabulate_all(const Counts& counts, const PlacedSolid& body, const PlacedSolid& other,
                   const Eigen::Vector3d& to_other, Distances& d) {
@@ -200,7 +201,7 @@ void tabulate_all(const Counts& counts, const PlacedSolid& body, const PlacedSol
   } else {
     keep(parts_at(within_reach(body, to_other, other.solid().circumradius()), solid), d);
     scan_rows(counts.vectors, solid, row, d);
-    if (d.rows == 0) d.least_penetrated = 0;  // every plane separates; none was seen
+    if (d.rows == 0) d.least_penetrated = 0;  // no vertex is in reach: every plane separates, and no row was scanned
   }
 }
 
@@ -213,13 +214,13 @@ Slab slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vecto
     const double* p = body.vertex_block(k);
     return fma(x, Lanes::load(p), fma(y, Lanes::load(p + 4), fma(z, Lanes::load(p + 8), from)));
   };
-  // Padding repeats the first vertex.
+  // The padding repeats the first vertex.
   const int blocks_a = (a.vertices() + 3) / 4, blocks_b = (b.vertices() + 3) / 4;
   const Lanes from_b = Lanes::all(r.squaredNorm());
   Lanes highest = along_a[0] = along(a, 0, Lanes::all(0)), lowest = along_b[0] = along(b, 0, from_b);
   for (int k = 1; k < blocks_a; ++k) highest = max(highest, along_a[k] = along(a, k, Lanes::all(0)));
   for (int k = 1; k < blocks_b; ++k) lowest = min(lowest, along_b[k] = along(b, k, from_b));
-  // The slack is far more than rounding and far less than anything that would cost time.
+  // The slack is far larger than rounding, and far too small to cost time.
   const Lanes slack =
       Lanes::all(1e-9 * r.lpNorm<1>() * (r.lpNorm<1>() + a.solid().circumradius() + b.solid().circumradius()));
   const Lanes top = greatest(highest) + slack, bottom = least(lowest) - slack;
@@ -244,7 +245,7 @@ void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, 
   for (std::uint64_t faces = slab.of_b.faces; faces; faces &= faces - 1)
     d.near_face[count++] = static_cast<std::uint8_t>(std::countr_zero(faces));
   const int vectors = (count + 3) / 4;
-  // One plane more than once changes nothing.
+  // Padding with a repeated plane changes no result.
   std::memset(d.near_face + count, d.near_face[count - 1], static_cast<std::size_t>(4 * vectors - count));
   d.planes = 4 * vectors, d.face = d.near_face;
   const SolidArrays& solid = body.solid().arrays();

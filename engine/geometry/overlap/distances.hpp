@@ -9,31 +9,32 @@
 
 namespace isojam {
 
-/// What of two solids lies, in part, between the supports of both along the line of centres. The intersection lies
-/// there too: no other edge reaches it, and no other face bounds it. Nothing if the solids are apart along that line.
+/// The parts of two solids that lie, at least partly, between the supports of both along the line of centres. The
+/// intersection lies in this slab, so no other edge reaches it and no other face bounds it. Empty if the solids are
+/// separated along that line.
 struct Slab {
   Parts of_a, of_b;
 };
 
-/// B's centre at r from A's.
+/// The slab of A and B, with B's centre at r from A's.
 Slab slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
 
-/// Signed distances (V_p^(1/3)) of the vertices of one solid from the planes of the other, > 0 outside. Vertices that
-/// lie certainly outside, with every edge that ends there, may have no row, and planes that bound nothing of the
-/// intersection no column.
+/// Signed distances (V_p^(1/3)) of the vertices of one solid from the planes of the other, > 0 outside. A vertex may
+/// lack a row if it and all edges that end in it are certainly outside. Columns exist only for planes that can bound
+/// the intersection.
 struct Distances {
-  static constexpr int max_size = SolidArrays::capacity * SolidArrays::capacity;  ///< of a table
+  static constexpr int max_size = SolidArrays::capacity * SolidArrays::capacity;  ///< entries of a table
 
-  int planes = 0;                ///< columns, padded to a multiple of 4 with planes that change nothing
-  const std::uint8_t* face;      ///< of the other solid, by column
-  std::uint64_t rows = 0;        ///< vertices that have a row
-  std::uint64_t candidates = 0;  ///< edges with an end that is not certainly outside: both ends have rows
-  std::uint64_t edges = 0;       ///< of these, the ones that no plane has both ends outside of
-  double nearest = 0;            ///< least |distance| in the table
-  int least_penetrated = 0;      ///< column of the plane that the vertices reach behind least,
-  double least_penetration = 0;  ///< and how deep; not positive if it separates. Its last bits are noise
-  double* of = nullptr;          ///< vertices × planes
-  std::uint8_t near_face[SolidArrays::capacity];  ///< what `face` points to if there are not all of them
+  int planes = 0;                ///< number of columns, padded to a multiple of 4 with planes that change no result
+  const std::uint8_t* face;      ///< face of the other solid, by column
+  std::uint64_t rows = 0;        ///< bits of the vertices that have a row
+  std::uint64_t candidates = 0;  ///< bits of the edges with an end that is not certainly outside; both ends have rows
+  std::uint64_t edges = 0;       ///< bits of the candidates, without those that have both ends outside the same plane
+  double nearest = 0;            ///< smallest |distance| in the table
+  int least_penetrated = 0;      ///< column of the plane with the smallest penetration by the vertices
+  double least_penetration = 0;  ///< that penetration; not positive if the plane separates. Its last bits are a tag
+  double* of = nullptr;          ///< the distances, vertices × planes
+  std::uint8_t near_face[SolidArrays::capacity];  ///< storage of `face` if it lists only some faces
 
   static int size(const PlacedSolid& body, const PlacedSolid& other) {
     return body.vertices() * ((other.faces() + 3) / 4 * 4);
@@ -42,18 +43,18 @@ struct Distances {
   int least_penetrated_face() const { return face[least_penetrated]; }
 };
 
-/// Fills the table, d.of, for `body`, the centre of `other` being at `to_other` from its own.
+/// Fills the table d.of for `body`, with the centre of `other` at `to_other` from its own.
 void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
                         Distances& d);
 
-/// The same of what lies in the slab alone, `body` being A.
+/// The same for the parts in the slab only, where `body` is the slab's A.
 void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
                              const Slab& slab, Distances& d);
 
-/// Sets everything but the rows and the table anew, after entries of the table have been changed.
+/// Recomputes everything except the rows and the table, after entries of the table have changed.
 void classify(const ConvexSolid& body, Distances& d);
 
-/// Numbers of vertices and of vectors of 4 planes, known to the compiler for the Platonic solids.
+/// Numbers of vertices, of vectors of 4 planes, and of edges; known to the compiler for the Platonic solids.
 template <int v, int p, int e>
 struct Counts {
   static constexpr std::integral_constant<int, v> vertices{};
@@ -69,7 +70,7 @@ inline void with_counts(const SolidArrays& body, int planes, const Function& fun
   const int vectors = (planes + 3) / 4;
   switch (64 * body.vertices + vectors) {
     case 64 * 4 + 1: return function(Counts<4, 1, 6>{});
-    // Other solids have as many vertices, and more edges or fewer.
+    // Other solids may have the same number of vertices, but another number of edges.
     case 64 * 8 + 2:
       if (body.edges == 12) return function(Counts<8, 2, 12>{});
       break;
@@ -87,7 +88,7 @@ inline void with_counts(const SolidArrays& body, int planes, const Function& fun
   function(AnyCounts{body.vertices, vectors, body.edges});
 }
 
-/// Calls function(k) for k < n, without a loop if n is known: what it accumulates stays in registers.
+/// Calls function(k) for k < n, unrolled if n is known, so that accumulators stay in registers.
 template <int n, class Function>
 inline void repeat(std::integral_constant<int, n>, const Function& function) {
   [&]<int... k>(std::integer_sequence<int, k...>) { (function(k), ...); }
@@ -98,7 +99,7 @@ inline void repeat(int n, const Function& function) {
   for (int k = 0; k < n; ++k) function(k);
 }
 
-/// Calls function with the number of vectors alone, known to the compiler where it is that of a Platonic solid.
+/// Calls function with the number of vectors, which is known to the compiler if a Platonic solid has that number.
 template <class Function>
 void with_vectors(int vectors, const Function& function) {
   switch (vectors) {

@@ -11,8 +11,8 @@
 
 namespace isojam {
 
-/// Four doubles in one vector register where the build allows it. The portable twin gives the same bits, far more
-/// slowly where std::fma is a function of the C library.
+/// Four doubles, in one vector register where the build allows it. The portable version gives the same bits, but is far
+/// slower where std::fma is a function of the C library.
 #ifdef ISOJAM_AVX2
 
 struct Lanes {
@@ -20,7 +20,7 @@ struct Lanes {
 
   static Lanes load(const double* p) { return {_mm256_loadu_pd(p)}; }
   static Lanes load(const std::uint64_t* p) {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the intrinsic's own idiom
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the intrinsic requires it
     return {_mm256_castsi256_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)))};
   }
   static Lanes all(double x) { return {_mm256_set1_pd(x)}; }
@@ -38,16 +38,16 @@ inline Lanes fma_minus(Lanes a, Lanes b, Lanes c) { return {_mm256_fmsub_pd(a.v,
 inline Lanes min(Lanes a, Lanes b) { return {_mm256_min_pd(a.v, b.v)}; }
 inline Lanes max(Lanes a, Lanes b) { return {_mm256_max_pd(a.v, b.v)}; }
 inline Lanes absolute(Lanes a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
-/// Choice between lanes: a where the sign bit of s is set, else b.
+/// Per lane: a where the sign bit of s is set, else b.
 inline Lanes where_negative(Lanes s, Lanes a, Lanes b) { return {_mm256_blendv_pd(b.v, a.v, s.v)}; }
 /// Negative (all bits set) where a = b.
 inline Lanes equal(Lanes a, Lanes b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ)}; }
-/// Lanes 0 and 1 of a, 2 and 3 of b.
+/// Lanes 0 and 1 of a, lanes 2 and 3 of b.
 inline Lanes halves(Lanes a, Lanes b) { return {_mm256_blend_pd(a.v, b.v, 0b1100)}; }
 inline Lanes without_fourth(Lanes a) { return {_mm256_blend_pd(a.v, _mm256_setzero_pd(), 0b1000)}; }
 /// Bit k: the sign bit of lane k.
 inline unsigned sign_bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_pd(a.v)); }
-inline Lanes operator&(Lanes a, Lanes b) { return {_mm256_and_pd(a.v, b.v)}; }  ///< bit by bit
+inline Lanes operator&(Lanes a, Lanes b) { return {_mm256_and_pd(a.v, b.v)}; }  ///< bitwise
 inline Lanes operator|(Lanes a, Lanes b) { return {_mm256_or_pd(a.v, b.v)}; }
 /// Sets x, y, z to the first three components of four rows.
 inline void transpose(const double* p, const double* q, const double* r, const double* s, Lanes& x, Lanes& y,
@@ -58,7 +58,7 @@ inline void transpose(const double* p, const double* q, const double* r, const d
   y = {_mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20)};
   z = {_mm256_permute2f128_pd(even, even_2, 0x31)};
 }
-/// Sets the four rows (x, y, z, 0).
+/// Stores the four rows (x, y, z, 0).
 inline void rows_of(Lanes x, Lanes y, Lanes z, Lanes* rows) {
   const __m256d zero = _mm256_setzero_pd();
   const __m256d even = _mm256_unpacklo_pd(x.v, y.v), odd = _mm256_unpackhi_pd(x.v, y.v);
@@ -78,11 +78,11 @@ template <int k>
 Lanes lane(Lanes a) {
   return {_mm256_permute4x64_pd(a.v, 0b01010101 * k)};
 }
-/// Bit e, e < 16: whether byte tail[e] of `bytes` | byte head[e] is `all`.
+/// Bit e, e < 16, of the result is set if byte tail[e] of `bytes` | byte head[e] of `bytes` equals `all`.
 inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail, const std::uint8_t* head,
                                   std::uint32_t all) {
   const __m128i table = _mm_cvtsi64_si128(static_cast<long long>(bytes));
-  // NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast): the intrinsic's own idiom
+  // NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast): the intrinsic requires it
   const __m128i t = _mm_shuffle_epi8(table, _mm_load_si128(reinterpret_cast<const __m128i*>(tail)));
   const __m128i h = _mm_shuffle_epi8(table, _mm_load_si128(reinterpret_cast<const __m128i*>(head)));
   // NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
@@ -191,8 +191,8 @@ inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail,
 
 #endif
 
-/// Numbers that travel in the last bits of a double, so that an extreme brings along where it was found. They cost 6 of
-/// its 52 bits.
+/// Indices stored in the last 6 of a double's 52 mantissa bits, so that an extreme carries the index where it was
+/// found.
 inline constexpr std::uint64_t tag_bits = 63;
 struct Tags {
   alignas(32) std::uint64_t mask[4] = {~tag_bits, ~tag_bits, ~tag_bits, ~tag_bits};
@@ -203,11 +203,11 @@ struct Tags {
 };
 inline constexpr Tags tags;
 
-/// Lane k tagged by first + k, a multiple of 4 below 64.
+/// Tags lane k with first + k; `first` is a multiple of 4 below 64.
 inline Lanes tagged(Lanes a, int first) { return (a & Lanes::load(tags.mask)) | Lanes::load(tags.number + first); }
 inline std::uint32_t tag_of(double x) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(x) & tag_bits); }
 
-/// The extreme of all lanes, or their sum, in each of them.
+/// Minimum, maximum or sum of all lanes, in every lane.
 inline Lanes least(Lanes a) {
   const Lanes pairs = min(a, swapped_pairs(a));
   return min(pairs, swapped_halves(pairs));
@@ -221,7 +221,7 @@ inline Lanes sum(Lanes a) {
   return pairs + swapped_halves(pairs);
 }
 
-/// Lanes z, x, y of a×b: a cross product without its last permutation, which sums of them need but once.
+/// Lanes z, x, y of a×b: a cross product without its last permutation, which a sum of such products needs only once.
 inline Lanes cross_zxy(Lanes a, Lanes b) { return fma_minus(a, yzx(b), yzx(a) * b); }
 
 }  // namespace isojam

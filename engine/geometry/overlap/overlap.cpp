@@ -15,8 +15,8 @@ namespace isojam {
 
 namespace {
 
-/// Σ (v−o)×(w−o) (h_o+h_v+h_w), as cross_zxy() has it, for the face left of an edge v → w with o = l, minus the same
-/// for the right with o = r: v×w (h_l−h_r) + (l (h_l+h_v+h_w) − r (h_r+h_v+h_w)) × (v−w).
+/// Σ (v−o)×(w−o) (h_o+h_v+h_w), with lanes as in cross_zxy(), for the face left of an edge v → w with o = l, minus the
+/// same for the face on the right with o = r: v×w (h_l−h_r) + (l (h_l+h_v+h_w) − r (h_r+h_v+h_w)) × (v−w).
 inline Lanes fan(Lanes v_cross_w, Lanes v_plus_w, Lanes w_minus_v, Lanes l, Lanes r) {
   const Lanes lever = r * lane<3>(v_plus_w + r) - l * lane<3>(v_plus_w + l);
   return fma(v_cross_w, lane<3>(l - r), cross_zxy(lever, w_minus_v));
@@ -66,7 +66,7 @@ Overlap clipped(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVe
 const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
 const Eigen::Vector3d& rounded(const DoubleDoubleVector& r) { return r.high; }
 
-/// Input in doubles does not carry corners any better than doubles.
+/// Input in double does not determine corners more accurately than double.
 bool refined(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&, const Overlap&, ContactLoop&) {
   return false;
 }
@@ -90,7 +90,7 @@ void set_zero(OverlapHessian& hessian) {
   hessian.bb.setZero();
 }
 
-/// In doubles or in double-double, as r is; `hessian` may be null.
+/// Computes in double or double-double, depending on the type of r; `hessian` may be null.
 template <class Displacement>
 Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis,
                    OverlapHessian* hessian) {
@@ -105,7 +105,7 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
   if (loop.verdict == LoopVerdict::closed) {
     integrate(loop, result);
     if (refined(a, b, r, result, loop)) integrate(loop, result);
-    if (result.volume > 0) {  // or rounding ate a sliver
+    if (result.volume > 0) {  // otherwise rounding lost a sliver
       if (!hessian) return result;
       set_cross_hessian(a, b, r, loop, hessian->ab);
       set_own_hessians(result.area, rounded(r), *hessian);
@@ -147,6 +147,24 @@ Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const Relat
 Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis unused;
   return relative_overlap(a, b, pose, unused);
+}
+
+Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
+  SeparatingAxis unused;
+  OverlapHessian hessian;
+  overlap_with_hessian(LonePlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())),
+                       LonePlacedSolid(b, pose.rotation), pose.displacement, unused, hessian);
+  return hessian.ab;
+}
+
+void set_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r, Matrix6d& own) {
+  own = -cross;
+  // θ×r = −[r]×θ: a rotation of A about its centre also moves B.
+  own.rightCols<3>().noalias() += cross.leftCols<3>() * skew(r);
+  own.topRightCorner<3, 3>() -= skew(area);
+  for (int c = 0; c < 6; ++c) {
+    for (int row = 0; row <= c; ++row) own(row, c) = own(c, row) = (own(row, c) + own(c, row)) / 2;
+  }
 }
 
 }  // namespace isojam

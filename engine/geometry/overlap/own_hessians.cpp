@@ -4,13 +4,13 @@
 
 #include "engine/geometry/overlap/lanes.hpp"
 
-// By blocks of 3×3, a column to a register, without a loop over 36 numbers.
+// The computation of set_own_hessian() in blocks of 3×3, one column per register, without a loop over 36 numbers.
 
 namespace isojam {
 
 namespace {
 
-/// Three columns of three; what the fourth lanes hold does not matter.
+/// Three columns with three rows; the fourth lanes are arbitrary.
 struct Block {
   Lanes column[3];
 };
@@ -38,12 +38,12 @@ Block transposed(const Block& a) {
 }
 
 struct Blocks {
-  Block xx, xt, tx, tt;  ///< by positions (x) and turns (t)
+  Block xx, xt, tx, tt;  ///< blocks of positions (x) and rotations (t)
 };
 
 Blocks blocks_of(const Matrix6d& h) {
   const double* p = h.data();
-  // What follows the last column is not the matrix's: it is read with the number before it, and turned.
+  // The last column has nothing behind it to load. It is loaded with the number before it, and its lanes are rotated.
   const Lanes last = yzwx(Lanes::load(p + 32));
   return {{{Lanes::load(p), Lanes::load(p + 6), Lanes::load(p + 12)}},
           {{Lanes::load(p + 18), Lanes::load(p + 24), Lanes::load(p + 30)}},
@@ -55,7 +55,7 @@ void store(const Block& upper_left, const Block& upper_right, const Block& lower
   double* p = h.data();
   const Block lower_left = transposed(upper_right);
   const auto put = [p](int column, Lanes upper, Lanes lower) {
-    upper.store(p + 6 * column), lower.store(p + 6 * column + 3);  // the fourth of each is overwritten by the next
+    upper.store(p + 6 * column), lower.store(p + 6 * column + 3);  // the next store overwrites the fourth number
   };
   for (int c = 0; c < 3; ++c) put(c, upper_left.column[c], lower_left.column[c]);
   for (int c = 0; c < 2; ++c) put(3 + c, upper_right.column[c], lower_right.column[c]);
@@ -64,14 +64,14 @@ void store(const Block& upper_left, const Block& upper_right, const Block& lower
   std::copy_n(end, 3, p + 33);
 }
 
-/// B [r]×, of which every column is a difference of two. Rounded as a product of matrices is.
+/// B [r]×. Every column is a difference of two products, rounded like a matrix product.
 Block times_skew(const Block& b, Lanes x, Lanes y, Lanes z) {
   const Lanes* c = b.column;
   const Lanes none = Lanes::all(0);
   return {{fma(none - y, c[2], z * c[1]), fma(x, c[2], (none - z) * c[0]), fma(none - x, c[1], y * c[0])}};
 }
 
-/// Minus [v]×.
+/// −[v]×.
 Block minus_skew(double x, double y, double z) {
   return {{Lanes::of(0, -z, y, 0), Lanes::of(z, 0, -x, 0), Lanes::of(-y, x, 0, 0)}};
 }

@@ -21,7 +21,7 @@ Quad3 edge_vector(const ConvexSolid& solid, int edge) {
   return solid.arrays().vertex(e.head) - solid.arrays().vertex(e.tail);
 }
 
-/// From A to B, in A's frame, of no particular length.
+/// Direction of the axis from A to B, in A's frame, not normalised.
 Quad3 direction_of(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose, const SeparatingAxis& axis) {
   if (axis.kind == SeparatingAxis::Kind::face_a) return a.arrays().normal(axis.a);
   if (axis.kind == SeparatingAxis::Kind::face_b) return Quad(-1) * (pose.rotation * b.arrays().normal(axis.b));
@@ -35,7 +35,7 @@ Quad depth_along(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pos
   return (support(a, n) + support(b, back) - dot(n, pose.displacement)) / norm(n);
 }
 
-/// Calls visit(axis) for each.
+/// Calls visit(axis) for every candidate axis.
 template <class Visit>
 void for_each_axis(const ConvexSolid& a, const ConvexSolid& b, const Visit& visit) {
   using Kind = SeparatingAxis::Kind;

@@ -5,16 +5,16 @@
 
 namespace isojam {
 
-/// How far A and B reach into each other along an axis, and which: the shortest translation that parts them is `depth`
-/// long and goes along it.
+/// Penetration depth of A and B, and its axis: the shortest translation that separates them has length `depth` and this
+/// direction.
 struct Penetration {
-  SeparatingAxis axis;  ///< along which both are parted soonest
-  Quad depth = 0;       ///< V_p^(1/3); negative if they are apart, and then no more than their distance
+  SeparatingAxis axis;  ///< axis with the smallest depth
+  Quad depth = 0;  ///< V_p^(1/3); negative if the solids are separated, and then −depth is at most their distance
 };
 
-/// The axis of least depth among all face normals and edge-edge products, told apart in quadruple precision where
-/// doubles cannot. Products of edges are tried in the direction from A to B, which is the right one unless the centres
-/// nearly coincide. Slow: every axis is tried.
+/// The axis with the smallest depth among all face normals and edge-edge products. Quadruple precision decides where
+/// doubles cannot. Products of edges are tried in the direction from A to B, which is correct unless the centres nearly
+/// coincide. Slow: it tries every axis.
 Penetration penetration(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
 
 }  // namespace isojam

@@ -11,7 +11,7 @@ namespace isojam {
 
 namespace {
 
-/// Support function max_v u·v of a solid's vertices.
+/// Support function max_v u·v over a solid's vertices.
 double support(const SolidArrays& solid, const Eigen::Vector3d& u) {
   double best = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < solid.vertices; ++k)
@@ -52,7 +52,8 @@ inline Vector tail_to_head(const PlacedSolid& solid, const EdgeRecord& edge) {
   return {q[0] - p[0], q[4] - p[4], q[8] - p[8]};
 }
 
-/// x of the axis at [0], y at [4], z at [8]. Which kind it is cannot be predicted: all are made, and one is picked.
+/// The axis, with x at [0], y at [4], z at [8]. Its kind is unpredictable for a branch, so all kinds are computed and
+/// one is selected.
 inline const double* pick_direction(const PlacedSolid& a, const PlacedSolid& b, const SeparatingAxis& axis,
                                     double* across) {
   const EdgeRecord &e = a.solid().arrays().record[axis.a], &f = b.solid().arrays().record[axis.b];
@@ -62,7 +63,7 @@ inline const double* pick_direction(const PlacedSolid& a, const PlacedSolid& b, 
   return by_kind[static_cast<int>(axis.kind)];
 }
 
-/// Gap along the unit vector u (A's frame) from A to B.
+/// Gap along the unit vector u (A's frame), which points from A to B.
 double gap_along(const SolidArrays& a, const SolidArrays& b, const RelativePose& pose, const Eigen::Vector3d& u) {
   return u.dot(pose.displacement) - support(a, u) - support(b, -(pose.rotation.transpose() * u));
 }
@@ -78,7 +79,7 @@ double edge_gap(const SolidArrays& a, const SolidArrays& b, const RelativePose& 
   const Eigen::Vector3d q = pose.rotation * direction(b, edge_b);
   Eigen::Vector3d u = p.cross(q);
   const double norm = u.norm();
-  // Parallel edges give no axis of their own: a face normal does as well.
+  // The product of parallel edges is no axis; a face normal replaces it.
   if (norm <= std::numeric_limits<double>::epsilon() * p.norm() * q.norm())
     return -std::numeric_limits<double>::infinity();
   u /= u.dot(pose.displacement) < 0 ? -norm : norm;
@@ -131,13 +132,13 @@ bool separates(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d
   const double* u = pick_direction(a, b, axis, across);
   const double ux = u[0], uy = u[4], uz = u[8];
   const double along = ux * r.x() + uy * r.y() + uz * r.z();
-  // From A to B. That of crossed edges may point either way.
+  // Signs that make the axis point from A to B. The product of two edges may point either way.
   const double signs[] = {1, 1, -1, std::copysign(1.0, along)};
   const double sign = signs[static_cast<int>(axis.kind)];
   const Extent extent{Lanes::all(sign * ux), Lanes::all(sign * uy), Lanes::all(sign * uz)};
   const double gap = sign * along - extent.highest(a) + extent.lowest(b);
   const double tolerance = gap_tolerance(a.solid(), b.solid(), r);
-  // Without a square root or a quotient: u is not a unit vector.
+  // u is not a unit vector; comparing squares avoids a square root and a division.
   return gap > 0 && gap * gap > tolerance * tolerance * (ux * ux + uy * uy + uz * uz);
 }
 

@@ -5,16 +5,17 @@
 #include "engine/geometry/overlap/lanes.hpp"
 #include "engine/geometry/overlap/small_distances.hpp"
 
-// A corner lies between two vertices where the distances from a plane have it, p + t (q − p), t = d_p/(d_p − d_q). In
-// doubles it is off by some 1e-16, however small the contact: S by that times its width. Here distances, t and corners
-// are in double-double, and so are the differences of corners and their heights, rounded last. Heights are counted from
-// one of them too: where edges cross, the reference plane may be far away.
+// A corner lies on an edge p → q at p + t (q − p), where t = d_p/(d_p − d_q) follows from the distances of p and q from
+// a plane. In double the error of a corner is about 1e-16, independent of the size of the contact, and the error of S
+// is that times the width of the contact. Here distances, t and corners are in double-double. So are the differences of
+// corners and their heights, which are rounded last. Heights are relative to one of the corners too, because the
+// reference plane of crossed edges may be far away.
 
 namespace isojam {
 
 namespace {
 
-/// Of fine_below(), for |S| over the width of the loop.
+/// Limit of |S| / width of the loop, in units of fine_below().
 constexpr double refined_below = 1e-2;
 
 DoubleDoubleVector operator+(const DoubleDoubleVector& p, const DoubleDoubleVector& q) {
@@ -29,7 +30,7 @@ DoubleDouble dot(const DoubleDoubleVector& p, const DoubleDoubleVector& q) {
   return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
 }
 
-/// The body on whose edge a corner lies, and the one whose plane is pierced there.
+/// The body whose edge contains a corner, and the body whose plane is pierced there.
 struct Side {
   const PlacedSolid *body, *other;
   DoubleDoubleVector to_other, from_a;  ///< from the body's centre to the other's; from A's centre to the body's
@@ -48,7 +49,7 @@ struct Side {
   }
 };
 
-/// Of the loop alone, without corners inside.
+/// Width of the loop, without corners inside.
 double width(const ContactLoop& loop) {
   const auto corner = [&](int k) { return Lanes::load(loop.corner[loop.segment[k].from]); };
   const Lanes first = corner(0);

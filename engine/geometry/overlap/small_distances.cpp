@@ -8,7 +8,7 @@
 
 namespace isojam {
 
-/// Products of high parts are exact, low parts are there to first order.
+/// Products of high parts are exact; low parts are included to first order.
 DoubleDouble distance_double_double(const PlacedSolid& body, int vertex, const PlacedSolid& other, int plane,
                                     const DoubleDoubleVector& to_other) {
   const DoubleDoubleVector n = other.normal_double_double(plane), y = body.vertex_double_double(vertex);

@@ -67,7 +67,7 @@ std::vector<Quad3> icosahedron() {
   return points;
 }
 
-/// Every edge of the tetrahedron gives two vertices, a third of it apart from its ends.
+/// Every edge of the tetrahedron gives two vertices, each at one third of its length from an end.
 std::vector<Quad3> truncated_tetrahedron() {
   const std::vector<Quad3> whole = tetrahedron();
   std::vector<Quad3> points;
@@ -99,7 +99,7 @@ std::vector<Quad3> truncated_octahedron() {
   return points;
 }
 
-/// What is cut off an edge at either end leaves √2 − 1 of it, as long as the cuts are.
+/// The cuts leave √2 − 1 of each edge between them. The new edges of the cuts have the same length.
 std::vector<Quad3> truncated_cube() {
   std::vector<Quad3> points;
   for (Quad3 point : cube()) {
@@ -113,7 +113,8 @@ std::vector<Quad3> truncated_cube() {
   return points;
 }
 
-/// The point at the angle 2π k/n of the unit circle. Newton's method on z^n = 1 doubles the digits of its guess.
+/// The point of the unit circle at the angle 2π k/n. One step of Newton's method on z^n = 1 doubles the digits of the
+/// guess.
 std::array<Quad, 2> root_of_unity(int k, int n) {
   const long double angle = 2 * std::numbers::pi_v<long double> * k / n;
   Quad x = std::cos(angle), y = std::sin(angle);
@@ -123,12 +124,12 @@ std::array<Quad, 2> root_of_unity(int k, int n) {
     py = px * y + py * x;
     px = next;
   }
-  // z − (z^n − 1)/(n z^(n−1)), and 1/z^(n−1) is its conjugate where |z| is 1.
+  // z − (z^n − 1)/(n z^(n−1)), where 1/z^(n−1) is the conjugate of z^(n−1) because |z| = 1.
   const Quad fx = px * x - py * y - 1, fy = px * y + py * x;
   return {x - (fx * px + fy * py) / n, y - (fy * px - fx * py) / n};
 }
 
-/// Vertices of an n-gon at that height; `turned`, 0 or 1, by half the angle between neighbours.
+/// Vertices of a regular n-gon at a height. `turned` = 1 rotates it by half the angle between neighbours; 0 does not.
 void add_polygon(std::vector<Quad3>& points, int n, int turned, Quad height) {
   for (int k = 0; k < n; ++k) {
     const auto [x, y] = root_of_unity(2 * k + turned, 2 * n);
@@ -136,7 +137,7 @@ void add_polygon(std::vector<Quad3>& points, int n, int turned, Quad height) {
   }
 }
 
-/// An edge is 2 sin(π/n), and so is the distance between the polygons.
+/// The edge length is 2 sin(π/n), and so is the distance between the two polygons.
 std::vector<Quad3> prism(int n) {
   const Quad half = root_of_unity(1, 2 * n)[1];
   std::vector<Quad3> points;
@@ -145,7 +146,8 @@ std::vector<Quad3> prism(int n) {
   return points;
 }
 
-/// A vertex is 2 sin(π/2n) beside the nearest ones of the other polygon: h² = 4 sin²(π/n) − 4 sin²(π/2n).
+/// A vertex has a horizontal distance of 2 sin(π/2n) from the nearest ones of the other polygon: h² = 4 sin²(π/n) − 4
+/// sin²(π/2n).
 std::vector<Quad3> antiprism(int n) {
   const Quad edge = root_of_unity(1, 2 * n)[1], beside = root_of_unity(1, 4 * n)[1];
   const Quad half = square_root(edge * edge - beside * beside);
@@ -170,11 +172,11 @@ constexpr std::array list{Named{"tetrahedron", tetrahedron},
                           Named{"truncated_octahedron", truncated_octahedron},
                           Named{"truncated_cube", truncated_cube}};
 
-/// A family of solids with a number behind its name.
+/// A family of solids whose name ends with a number n.
 struct Family {
   std::string_view name;
   int least, most;
-  int left_out;  ///< a Platonic solid under another name
+  int left_out;  ///< n of a Platonic solid, which has another name
   std::vector<Quad3> (*vertices)(int n);
 };
 constexpr std::array families{Family{"antiprism", 4, ConvexSolid::max_features / 4, 3, antiprism},

@@ -23,7 +23,7 @@ Vertices numbers(std::span<const Eigen::Vector3d> vertices) {
   return result;
 }
 
-/// The solids that were asked for so far, by name and vertices; filled by any thread.
+/// The solids requested so far, by name and vertices. Any thread may add one.
 class Shared {
  public:
   template <class Make>
@@ -44,7 +44,7 @@ Shared& shared() {
   return solids;
 }
 
-/// Where the name stands in named_solids(); behind all of them for prisms and for what is defined.
+/// Index of the name in named_solids(); the number of names for prisms and user-defined solids, which sort last.
 std::ptrdiff_t place_of(std::string_view name) {
   const auto names = named_solids();
   return std::find(names.begin(), names.end(), name) - names.begin();

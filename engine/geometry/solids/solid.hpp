@@ -10,26 +10,26 @@
 
 namespace isojam {
 
-/// One of the solids that packings are made of: a value the size of a pointer. Equal solids of one name are one
-/// ConvexSolid, which lives as long as the program, so that packings may point to it. Ordered as lists and tables are:
-/// the Platonic solids in the order of all_solids, the others that have names of their own, then by name and vertices.
+/// A solid from which packings are made: a value with the size of a pointer. Equal solids with the same name share one
+/// ConvexSolid, which lives until the program ends, so that packings may point to it. Order, as in lists and tables:
+/// the Platonic solids as in all_solids, the other built-in solids, then the rest by name and vertices.
 class Solid {
  public:
-  /// The Platonic solid of that kind.
-  Solid(SolidKind kind) : solid_(&platonic(kind)) {}  // NOLINT(google-explicit-constructor): is one of them
-  /// The solid with that name of its own (named_vertices); nullopt if there is none.
+  /// The Platonic solid of a kind.
+  Solid(SolidKind kind) : solid_(&platonic(kind)) {}  // NOLINT(google-explicit-constructor): a kind is a solid
+  /// The built-in solid with this name (named_vertices); nullopt if there is none.
   static std::optional<Solid> named(std::string_view name);
-  /// The hull of `vertices`. Throws NoSolid as ConvexSolid does.
+  /// The convex hull of `vertices`. Throws NoSolid like ConvexSolid.
   static Solid made_of(const std::string& name, std::span<const Eigen::Vector3d> vertices);
-  /// The one that a packing points to, which must be one of these.
+  /// The Solid for a packing's ConvexSolid, which must come from a Solid.
   static Solid of(const ConvexSolid& solid) { return Solid(solid); }
 
-  /// Its geometry.
+  /// The polyhedron.
   const ConvexSolid& operator*() const { return *solid_; }
-  /// Members of its geometry.
+  /// The polyhedron's members.
   const ConvexSolid* operator->() const { return solid_; }
 
-  /// Whether it has to be defined by vertices.
+  /// True if the user defined the solid by its vertices.
   bool is_defined() const { return !solid_->given().empty(); }
 
   friend bool operator==(const Solid& a, const Solid& b) { return a.solid_ == b.solid_; }
@@ -41,7 +41,7 @@ class Solid {
   const ConvexSolid* solid_;
 };
 
-/// Its name.
+/// Name of the solid.
 inline std::string_view to_string(const Solid& solid) { return solid->name(); }
 
 }  // namespace isojam

@@ -34,7 +34,7 @@ DoubleDoubleVector sum(const DoubleDoubleVector& v, double k, const DoubleDouble
   return result;
 }
 
-/// Vectors of a lattice while it is reduced, in order of length.
+/// Vectors of a lattice during its reduction, sorted by length.
 using Basis = std::array<DoubleDoubleVector, 3>;
 
 double length(const DoubleDoubleVector& v) { return v.high.norm(); }
@@ -43,12 +43,12 @@ void sort_by_length(Basis& basis) {
   std::stable_sort(basis.begin(), basis.end(), [](const auto& v, const auto& w) { return length(v) < length(w); });
 }
 
-/// Makes the last of the vectors as short as the others can make it. True if that is shorter than it was by more than
-/// rounding.
+/// Subtracts multiples of the first two vectors from the last one, to make it as short as possible. Returns true if it
+/// became shorter by more than rounding.
 bool shorten_last(Basis& basis) {
   const Eigen::Vector3d &a = basis[0].high, &b = basis[1].high, c = basis[2].high;
-  // Coordinates of the foot of c in the plane of a and b; the nearest lattice point is one of those about it where a
-  // and b are reduced themselves.
+  // Coordinates of the projection of c on the plane of a and b. If a and b are reduced, the nearest lattice point is
+  // one of the four around the projection.
   Eigen::Matrix2d gram;
   gram << a.dot(a), a.dot(b), a.dot(b), b.dot(b);
   const Eigen::Vector2d foot = gram.inverse() * Eigen::Vector2d(a.dot(c), b.dot(c));
@@ -66,7 +66,7 @@ bool shorten_last(Basis& basis) {
   return true;
 }
 
-/// The same for the second of the vectors (Lagrange).
+/// The same for the second vector (Lagrange).
 bool shorten_second(Basis& basis) {
   const Eigen::Vector3d &a = basis[0].high, &b = basis[1].high;
   const double k = std::round(a.dot(b) / a.dot(a));
@@ -75,8 +75,8 @@ bool shorten_second(Basis& basis) {
   return true;
 }
 
-/// Semaev's algorithm (2001): in three dimensions vectors of which each is the shortest that the ones before can make
-/// of it are Minkowski-reduced. Every change shortens a vector by more than rounding, so that it ends.
+/// Semaev's algorithm (2001). Three vectors are Minkowski-reduced if no combination with the earlier ones makes any
+/// vector shorter. Every change shortens a vector by more than rounding, so the loop ends.
 bool reduce(Basis& basis) {
   bool changed = false;
   while (true) {
@@ -146,7 +146,7 @@ Eigen::Vector3i PeriodicCell::nearest_shift(const Eigen::Vector3d& d) const {
 Eigen::Vector3d PeriodicCell::nearest_image(const Eigen::Vector3d& d) const {
   Eigen::Vector3d first = d + translation(nearest_shift(d));
   if (is_cube_) return first;
-  // Whatever is nearer lies fewer cells away than its length has heights.
+  // A nearer image is fewer cells away than the length of the first image divided by the height.
   const Eigen::Vector3i most = (first.norm() * heights_.cwiseInverse()).array().floor().cast<int>() + 1;
   Eigen::Vector3d best = first;
   for (int i = -most[0]; i <= most[0]; ++i) {
@@ -161,7 +161,7 @@ Eigen::Vector3d PeriodicCell::nearest_image(const Eigen::Vector3d& d) const {
 }
 
 double PeriodicCell::shortest_translation() const {
-  // The first of Minkowski's vectors is the shortest of all.
+  // The first vector of a Minkowski-reduced basis is the shortest translation.
   return is_cube_ ? side_ : reduced().vectors().high.colwise().norm().minCoeff();
 }
 

@@ -7,28 +7,29 @@
 
 namespace isojam {
 
-/// Periodic cell, spanned by three lattice vectors, each a double-double: a cube of side L unless it was made
-/// otherwise. Lengths in V_p^(1/3).
+/// Periodic cell, spanned by three lattice vectors, each in double-double. It is a cube of side L unless constructed or
+/// deformed otherwise. Lengths in V_p^(1/3).
 class PeriodicCell {
  public:
   /// A cube. Throws std::invalid_argument unless side is finite and positive.
   explicit PeriodicCell(double side);
-  /// Lattice vectors as columns. Throws std::invalid_argument unless they are finite and right-handed.
+  /// A cell with these lattice vectors as columns. Throws std::invalid_argument unless they are finite and
+  /// right-handed.
   explicit PeriodicCell(const DoubleDoubleMatrix& vectors);
 
   bool operator==(const PeriodicCell& other) const;
 
-  /// Whether the lattice vectors are L x̂, L ŷ, L ẑ to the last bit.
+  /// True if the lattice vectors are exactly L x̂, L ŷ, L ẑ.
   bool is_cube() const { return is_cube_; }
-  /// L of a cube; of other cells V_cell^(1/3).
+  /// L for a cube; V_cell^(1/3) for other cells.
   double side() const { return side_; }
   double volume() const { return volume_; }                       ///< V_cell, V_p
-  DoubleDouble volume_double_double() const;                      ///< the same to 1e-31
+  DoubleDouble volume_double_double() const;                      ///< V_cell with an error of at most 1e-31
   const DoubleDoubleMatrix& vectors() const { return vectors_; }  ///< the lattice vectors, as columns
-  /// Distances between opposite faces of the cell: what lies n cells apart along a lattice vector is no nearer than n
-  /// of these.
+  /// Distances between opposite faces of the cell. Points that are n cells apart along a lattice vector have at least n
+  /// times this distance.
   const Eigen::Vector3d& heights() const { return heights_; }
-  /// Coordinates of d along the lattice vectors, in cells.
+  /// Coordinates of d in units of the lattice vectors.
   Eigen::Vector3d fractional(const Eigen::Vector3d& d) const;
 
   /// Σ_c shift_c·(lattice vector c).
@@ -37,20 +38,20 @@ class PeriodicCell {
     if (is_cube_) return side_ * s;
     return vectors_.high * s;
   }
-  /// One component of translation().
+  /// One component of translation() in double-double.
   DoubleDouble translation_double_double(int component, const Eigen::Vector3i& shift) const;
 
-  /// Integers k with fractional(d) + k in [−½, ½) along each lattice vector.
+  /// Integers k such that fractional(d) + k is in [−½, ½) along each lattice vector.
   Eigen::Vector3i nearest_shift(const Eigen::Vector3d& d) const;
-  /// The shortest of all images of d.
+  /// The shortest of all periodic images of d.
   Eigen::Vector3d nearest_image(const Eigen::Vector3d& d) const;
-  /// Length of the shortest translation that the lattice has.
+  /// Length of the shortest lattice translation.
   double shortest_translation() const;
 
-  /// The cell with lattice vectors F·(lattice vectors). Throws std::invalid_argument as the constructor does.
+  /// The cell with lattice vectors F·(lattice vectors). Throws std::invalid_argument like the constructor.
   PeriodicCell deformed(const DoubleDoubleMatrix& f) const;
-  /// A cell of the same lattice whose vectors are the shortest that span it (Minkowski's reduction): heights and angles
-  /// are then as large as the lattice has them. A cell that is so already is returned as it is.
+  /// A cell of the same lattice with the shortest spanning vectors (Minkowski reduction), which have the largest
+  /// heights and angles. A cell that is already reduced is returned unchanged.
   PeriodicCell reduced() const;
 
  private:
@@ -63,18 +64,18 @@ class PeriodicCell {
   bool is_cube_;
 };
 
-/// Length of lattice translations below which a particle may touch two images of another: images of B that touch A lie
-/// in A ⊕ (−B), whose diameter is at most diameter(A) + diameter(B), and two of them differ by a translation; so the
-/// shortest translation must exceed 2·diameter, in a cube its side, in any cell.
+/// Length that every lattice translation must exceed so that no particle touches two images of another one. Images of B
+/// that touch A lie in A ⊕ (−B), whose diameter is at most diameter(A) + diameter(B), and two of them differ by a
+/// lattice translation. So the shortest translation, which is the side of a cube, must exceed 2·diameter.
 double least_side(const ConvexSolid& solid);
 
-/// Whether no particle can touch two images of another: shortest_translation() > least_side(solid).
+/// True if no particle can touch two images of another one: shortest_translation() > least_side(solid).
 bool is_legal(const PeriodicCell& cell, const ConvexSolid& solid);
 
-/// Side of the cubic cell of n unit-volume particles at density φ: (n/φ)^(1/3).
+/// Side of the cubic cell of n particles of unit volume at density φ: (n/φ)^(1/3).
 double side_at(int n, double density);
 
-/// Least number of particles whose cubic cell is legal up to density φ.
+/// Smallest number of particles whose cubic cell is legal up to density φ.
 int least_particles(const ConvexSolid& solid, double density);
 
 }  // namespace isojam

@@ -73,7 +73,7 @@ DoubleDoubleMatrix exponential(const Eigen::Matrix3d& strain) {
   base.high = strain;
   const double size = strain.norm();
   double bound = 1;
-  // Until the next term is below the last bit of the smallest change that is kept, 1e-32 of ε.
+  // Stops when the next term is below the last bit of the smallest change that is kept, 1e-32 of ε.
   for (int k = 1; bound > 1e-33 * size; ++k) {
     term = quotient(term * base, k);
     result = sum(result, term);

@@ -11,7 +11,7 @@ namespace isojam {
 
 namespace {
 
-/// The force of each listed pair, by a merge of two lists in canonical order; null if it has none.
+/// The multiplier of each listed pair, by merging two lists in canonical order; null if it has none.
 std::vector<const ContactMultiplier*> by_pair(const std::vector<NeighbourPair>& pairs,
                                               std::span<const ContactMultiplier> forces) {
   std::vector<const ContactMultiplier*> found(pairs.size(), nullptr);
@@ -27,7 +27,7 @@ bool apart(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r,
   const double reach = a.solid().circumradius() + b.solid().circumradius();
   if (r.squaredNorm() >= reach * reach || separates(a, b, r, axis)) return true;
   if (overlap(a, b, r, axis).touching()) return false;
-  // No face separates: an edge pair does, and it is worth a search once.
+  // No face separates the pair, so a product of edges does; a single search for it pays off.
   if (axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
   return true;
 }
@@ -46,7 +46,7 @@ void add(const EnvelopeContact& contact, EnvelopeEvaluation& sum) {
   ++sum.touching;
 }
 
-/// Sums up contacts that touch or have a multiplier; the others are dropped.
+/// Sums over contacts that touch or have a multiplier; the others are dropped.
 EnvelopeEvaluation summed(std::vector<EnvelopeContact> contacts, int particles) {
   EnvelopeEvaluation sum;
   sum.gradient = Eigen::VectorXd::Zero(6 * particles);
@@ -61,7 +61,7 @@ EnvelopeEvaluation summed(std::vector<EnvelopeContact> contacts, int particles) 
 
 }  // namespace
 
-/// Those anew that have moved.
+/// Re-places only the particles that have moved.
 void EnvelopeEnergy::place(const Packing& packing) {
   list_.refresh(packing);
   const std::size_t n = packing.poses.size();
@@ -76,7 +76,7 @@ void EnvelopeEnergy::place(const Packing& packing) {
   });
 }
 
-/// Of the listed pairs those that have a force or touch.
+/// Listed pairs that touch or have a multiplier.
 std::vector<std::size_t> EnvelopeEnergy::near_pairs(const Packing& packing,
                                                     const std::vector<const ContactMultiplier*>& force_of,
                                                     std::span<const char> only) {

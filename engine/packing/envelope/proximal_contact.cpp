@@ -7,24 +7,24 @@
 #include <cmath>
 #include <limits>
 
-// The minimand F(w) = e(w) + ½ ρ |w|² − μ·w is strictly convex but for the little by which e is not, and Newton's
-// method finds its minimum in three or four steps unless it meets a kink of ∇e: where a gap closes, and where a face
-// comes to be cut by the other's section line. There a full step goes too far and the next as far back, for ever; so
-// steps end where the slope along them is a fraction of what it was.
+// The minimand F(w) = e(w) + ½ ρ |w|² − μ·w is strictly convex, except where e is slightly non-convex. Newton's method
+// finds its minimum in three or four steps unless it meets a kink of ∇e: where a gap closes, or where the other body's
+// section line begins to cross a face. There it would jump back and forth between both sides of the kink. A line search
+// therefore ends each step where the slope is a fraction of its initial value.
 
 namespace isojam {
 
 namespace {
 
-/// Imbalance |∇F| / (|∇e| + |μ|) that is asked for, and the one that is taken where rounding lets it fall no further.
+/// Required residual |∇F| / (|∇e| + |μ|), and the residual that is accepted if rounding prevents further progress.
 constexpr double goal = 1e-12, enough = 1e-9;
 constexpr int most_steps = 60, most_probes = 30;
 
-/// A full step is taken if the slope at its end is no more than this, and a shorter one at which the slope is within
-/// the second, both as fractions of the slope at its beginning.
+/// Fractions of the initial slope. A full step is accepted if the slope at its end is at most `overshoot`, a shorter
+/// step if the slope is at most `flat_enough`.
 constexpr double overshoot = 0.5, flat_enough = 0.3;
 
-/// No ghost moves farther in one step (inradii).
+/// Limit of the ghost's displacement in one step (inradii).
 constexpr double longest_step = 0.2;
 
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
@@ -33,7 +33,8 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return m;
 }
 
-/// L Lᵀ of a symmetric matrix, made positive definite by as much of the identity as it takes, in units of `scale`.
+/// Cholesky factor L Lᵀ of a symmetric matrix plus as much of the identity as makes it positive definite; `scale` is
+/// the unit of this shift.
 Eigen::LLT<Matrix6d> factorised(const Matrix6d& matrix, double scale) {
   Eigen::LLT<Matrix6d> factor(matrix);
   double shift = scale / 4;
@@ -44,12 +45,13 @@ Eigen::LLT<Matrix6d> factorised(const Matrix6d& matrix, double scale) {
   return factor;
 }
 
-/// A trial ghost; all in the lab frame.
+/// A trial position of the ghost; all quantities in the lab frame.
 struct Ghost {
-  PairEnergy pair;                       ///< of A and the ghost
+  PairEnergy pair;                       ///< energy of A and the ghost
   Vector6d shift = Vector6d::Zero();     ///< w
-  Vector6d gradient = Vector6d::Zero();  ///< of F by (x, R·θ) of the ghost
-  /// ∂w/∂(R·θ) of the ghost, rotational part of w; its translational part is the ghost's.
+  Vector6d gradient = Vector6d::Zero();  ///< gradient of F with respect to (x, R·θ) of the ghost
+  /// Derivative of the rotational part of w with respect to R·θ of the ghost; the translational part of w is the
+  /// ghost's.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   double value = 0;  ///< F
 };
@@ -92,7 +94,7 @@ class Proximal {
     DoubleDoubleVector r = r_;
     for (int c = 0; c < 3; ++c) r.set(c, short_sum(r_[c], shift[c]));
     ghost.pair = pair_energy(a_, placed_[0], r);
-    // q → exp(dθ) q changes its vector part v by ½ (q₀ dθ + dθ×v).
+    // q → exp(dθ) q changes the vector part v by ½ (q₀ dθ + dθ×v).
     ghost.turn = std::sqrt(1 - half.squaredNorm()) * Eigen::Matrix3d::Identity() - cross_matrix(half);
     const Vector6d spring = stiffness_ * shift - multiplier_;
     ghost.gradient = ghost.pair.gradient_b + joined(spring.head<3>(), ghost.turn.transpose() * spring.tail<3>());
@@ -110,7 +112,7 @@ class Proximal {
     return now <= goal || (now <= enough && now >= before / 2);
   }
 
-  /// Second derivatives of F by (x, R·θ) of the ghost, to first order in w.
+  /// Second derivatives of F with respect to (x, R·θ) of the ghost, to first order in w.
   Matrix6d matrix(const Ghost& ghost) const {
     Matrix6d m = ghost.pair.hessian.bb;
     m.diagonal().head<3>().array() += stiffness_;
@@ -118,7 +120,7 @@ class Proximal {
     return m;
   }
 
-  /// Newton's step by (x, R·θ) of the ghost; where the matrix is not positive definite, Levenberg's and Marquardt's.
+  /// Newton step in (x, R·θ) of the ghost; a Levenberg–Marquardt step if the matrix is not positive definite.
   Vector6d newton(const Ghost& here) const {
     const Vector6d step = -factorised(matrix(here), stiffness_).solve(here.gradient);
     const double length = std::max(step.head<3>().norm(), step.tail<3>().norm());
@@ -141,9 +143,9 @@ class Proximal {
     Ghost next = at(here.shift + along);
     const double from = slope(here, along);
     double to = slope(next, along);
-    // From a gap the way leads through an overlap that is far too deep, and from there back to the right one.
+    // A step from a gap first leads to an overlap that is far too deep, and the next step back to the solution.
     if (here.pair.energy == 0 || to <= -overshoot * from) return next;
-    // Regula falsi, with the slope at the end that stays halved (Illinois).
+    // Regula falsi; the slope at the end that does not move is halved (Illinois method).
     double low = 0, high = 1, slope_low = from, slope_high = to;
     for (int k = 0; k < most_probes && std::abs(to) > -flat_enough * from; ++k) {
       const double t = low + (high - low) * std::clamp(slope_low / (slope_low - slope_high), 0.02, 0.98);
@@ -168,7 +170,7 @@ class Proximal {
     contact.wrench = to_body(b_, wrench(ghost));
     contact.gradient_a = pair.gradient_a;
     contact.gradient_b = pair.gradient_b;
-    // About B's centre.
+    // torque about B's centre
     contact.gradient_b.tail<3>() += ghost.shift.head<3>().cross(pair.gradient_b.head<3>()) / radius_;
     contact.ghost = pair.hessian;
     contact.root = factorised(matrix(ghost), stiffness_).matrixL();
@@ -186,10 +188,10 @@ class Proximal {
   int iterations_ = 0;
 };
 
-/// Schur complement of L Lᵀ in the second derivatives by A and the ghost. As squares of L⁻¹ times them and not by the
-/// inverse: of a flat contact they are of order .1 and ρ may be 1e-9, so that entries of the inverse times them would
-/// cancel to what is left but for 1e-16·.1/ρ, which couples stiff and soft directions and turns up as negative
-/// curvature.
+/// Schur complement of L Lᵀ in the second derivatives with respect to A and the ghost. It subtracts squares of L⁻¹
+/// times these derivatives instead of using the inverse. For a flat contact the derivatives are of order 0.1 and ρ may
+/// be 1e-9. Products with the inverse would cancel with an error of 1e-16·0.1/ρ, which couples stiff and soft
+/// directions and appears as negative curvature.
 PairHessian complement(const PairHessian& h, const Matrix6d& root) {
   const auto lower = root.triangularView<Eigen::Lower>();
   const Matrix6d a = lower.solve(h.ab.transpose()), b = lower.solve(h.bb);

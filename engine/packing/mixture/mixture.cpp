@@ -13,7 +13,7 @@ namespace isojam {
 
 namespace {
 
-/// "octahedron_0.5+octahedronx1.4_0.5"
+/// Text such as "octahedron_0.5+octahedronx1.4_0.5".
 std::string text_of(const std::vector<MixtureKind>& kinds) {
   std::string text;
   for (const MixtureKind& kind : kinds) {
@@ -39,7 +39,7 @@ std::vector<int> Mixture::counts(int n) const {
   std::vector<double> rest;
   for (const MixtureKind& kind : kinds_) {
     const double share = kind.fraction * n;
-    // A share that is whole but for rounding is whole.
+    // A share that is an integer within rounding counts as an integer.
     counts.push_back(static_cast<int>(std::floor(share + 1e-9)));
     rest.push_back(share - counts.back());
   }
@@ -82,7 +82,7 @@ std::strong_ordering operator<=>(const Mixture& a, const Mixture& b) {
 
 int least_particles(const Mixture& mixture, double density) {
   if (mixture.is_one_solid()) return least_particles(*mixture.solid(), density);
-  // Sizes depend on the number only by rounding, and by how far quantiles reach out.
+  // Sizes depend on the number of particles only through rounding and through the outermost quantiles.
   const auto is_legal_for = [&](int n) {
     double widest = 0;
     for (const Particle& particle : mixture.particles(n))

@@ -14,39 +14,39 @@ namespace isojam {
 /// One kind of particles in a mixture.
 struct MixtureKind {
   Solid solid = SolidKind::tetrahedron;  ///< its shape
-  double fraction = 1;                   ///< of the particles, by number
-  Sizes sizes{};                         ///< of its particles
+  double fraction = 1;                   ///< fraction of the particles, by number
+  Sizes sizes{};                         ///< distribution of its sizes
 
-  // NOLINTNEXTLINE(modernize-use-nullptr): it takes the 0 of a defaulted comparison for a pointer
+  // NOLINTNEXTLINE(modernize-use-nullptr): the check mistakes the 0 of a defaulted comparison for a pointer
   friend auto operator<=>(const MixtureKind&, const MixtureKind&) = default;
 };
 
-/// What packings are made of: one solid, or several kinds of solids and sizes. A value.
+/// The solids and sizes from which packings are made: one solid, or several kinds. A value.
 class Mixture {
  public:
-  /// All particles alike.
-  Mixture(Solid solid) : Mixture({{solid}}, "") {}  // NOLINT(google-explicit-constructor): the simplest one
-  /// The same of a Platonic solid.
+  /// All particles are the same solid.
+  Mixture(Solid solid) : Mixture({{solid}}, "") {}  // NOLINT(google-explicit-constructor): the simplest mixture
+  /// All particles are the same Platonic solid.
   Mixture(SolidKind kind) : Mixture(Solid(kind)) {}  // NOLINT(google-explicit-constructor)
-  /// Kinds whose fractions sum to 1. Without a name it has one that says what it is.
+  /// Kinds whose fractions sum to 1. An empty name is replaced by a description of the kinds.
   Mixture(std::vector<MixtureKind> kinds, std::string name);
 
-  /// Whether all particles are alike.
+  /// True if all particles are identical.
   bool is_one_solid() const;
-  /// The solid of all particles, which are alike.
+  /// The solid of all particles; requires is_one_solid().
   const Solid& solid() const { return kinds_.front().solid; }
   const std::vector<MixtureKind>& kinds() const { return kinds_; }  ///< in the order given
-  const std::string& name() const { return name_; }                 ///< what files and messages call it
+  const std::string& name() const { return name_; }                 ///< name in files and messages
 
-  /// n particles, kind by kind: as many of each as its fraction of n says, rounded so that they are n (largest
-  /// remainders); the m of a kind with sizes the quantiles (k + ½)/m of their law. Scaled so that their mean volume is
-  /// 1; all of exactly unit volume if they are of one size.
+  /// n particles, kind by kind. The number of each kind is its fraction of n, rounded by the method of largest
+  /// remainders. The sizes of the m particles of a kind are the quantiles (k + ½)/m of its distribution. Sizes are
+  /// scaled so that the mean volume is 1; if all are equal, every volume is exactly 1.
   std::vector<Particle> particles(int n) const;
-  /// How many of each kind there are among n.
+  /// Number of particles of each kind among n.
   std::vector<int> counts(int n) const;
 
   friend bool operator==(const Mixture&, const Mixture&) = default;
-  /// Single solids in their order, then mixtures by their kinds.
+  /// Single solids first, in their order, then mixtures by their kinds.
   friend std::strong_ordering operator<=>(const Mixture& a, const Mixture& b);
 
  private:
@@ -54,10 +54,10 @@ class Mixture {
   std::string name_;
 };
 
-/// Its name.
+/// Name of the mixture.
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
-/// Least number of particles of a mixture whose cubic cell is legal up to density φ; 2^17 if that is not enough.
+/// Smallest number of particles of a mixture whose cubic cell is legal up to density φ; 2^17 if that is too few.
 int least_particles(const Mixture& mixture, double density);
 
 }  // namespace isojam

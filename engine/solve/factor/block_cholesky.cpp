@@ -8,14 +8,14 @@ namespace isojam {
 
 namespace {
 
-/// From so many multiplications on, a third of a millisecond, the rows of a front are shared out.
+/// Multiplications of a front, a third of a millisecond, above which threads share its rows.
 constexpr double work_of_shared_front = 5e6;
 
 using Block6 = Eigen::Map<Matrix6d, Eigen::Unaligned, Eigen::OuterStride<panels::height>>;
 
-/// Makes room for `size` entries of any value, and for some more, so that patterns that change a little find their room
-/// made. Eigen frees what a vector had before it asks for more, and frees it again if it gets none, unless the vector
-/// is empty.
+/// Makes room for `size` entries with arbitrary values, and for some more, so that small changes of the pattern need no
+/// new memory. The vector is emptied first: otherwise Eigen frees its memory before the allocation, and frees it again
+/// if the allocation fails.
 void reserve(Eigen::VectorXd& vector, std::ptrdiff_t size) {
   if (vector.size() >= size) return;
   vector = Eigen::VectorXd();
@@ -44,7 +44,7 @@ bool BlockCholesky::has_pattern_of(const BlockMatrix& matrix) const {
 }
 
 void BlockCholesky::analyse(const BlockMatrix& matrix) {
-  size_ = -1;  // should memory be out
+  size_ = -1;  // in case analysis runs out of memory
   plan_ = plan_fronts(matrix);
   pattern_.clear();
   for (const BlockMatrix::Block& block : matrix.off_diagonal) pattern_.emplace_back(block.row, block.column);
@@ -88,7 +88,7 @@ void BlockCholesky::take_over(const Front& front, const Handover& handover, int 
   }
 }
 
-/// Child after child, so that every entry is summed in one order, whoever sums it.
+/// Adds one child after another, so that the order of additions does not depend on the threads.
 void BlockCholesky::gather_columns(const Front& front, panels::Threads threads) {
   for (const Handover& handover : front.handovers) {
     panels::for_each(static_cast<int>(handover.places.size()), threads,
@@ -116,7 +116,7 @@ bool BlockCholesky::eliminate(const Front& front, const BlockMatrix& matrix, dou
                          reciprocals_.data() + std::ptrdiff_t{6} * front.node.first, below, front.panels, threads)) {
     return false;
   }
-  // After the product, which then need not be added to anything.
+  // After the product, which can then overwrite the memory instead of being added.
   panels::minus_square(below, front.width(), front.panels, updates_.data() + front.update, threads);
   gather_update(front, threads);
   return true;
@@ -126,8 +126,8 @@ bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
   return factorise_blocks(matrix, shift) && factorise_border(matrix, shift);
 }
 
-/// The complement of H' = H + shift in C' = C + shift is stationary in the response X: as C' + BᵀX + XᵀB + XᵀH'X it is
-/// wrong by the square of the error of X, where C' − Bᵀ H'⁻¹ B would cancel to few digits.
+/// The Schur complement of H' = H + shift in C' = C + shift is stationary in the response X. In the form C' + BᵀX + XᵀB
+/// + XᵀH'X its error is of second order in that of X; the form C' − Bᵀ H'⁻¹ B would lose most digits to cancellation.
 bool BlockCholesky::factorise_border(const BlockMatrix& matrix, double shift) {
   const Eigen::Index n = 6 * Eigen::Index{matrix.size()}, strains = matrix.strains();
   response_.resize(n, strains);

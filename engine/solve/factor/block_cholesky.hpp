@@ -12,21 +12,21 @@
 
 namespace isojam {
 
-/// Cholesky factorisation of H + shift·1 for a sparse symmetric matrix of 6×6 blocks, multifrontal on the graph of
-/// particles (Duff & Reid 1983, Liu 1992): supernodes are eliminated as dense fronts, each handing its update matrix
-/// up to its parent. Large ones are done by several threads, the tree of fronts and the rows of the largest fronts
-/// shared out, with the same bits for any number of them. The symbolic part is kept while the pattern of the matrix
-/// stays the same. Strains that border the matrix come last: as many solves of the factor as there are strains, and the
-/// Cholesky factor of the Schur complement.
+/// Cholesky factorisation of H + shift·1 for a sparse symmetric matrix of 6×6 blocks, by the multifrontal method on the
+/// graph of particles (Duff & Reid 1983, Liu 1992). Supernodes are eliminated as dense fronts, and each passes its
+/// update matrix to its parent. Large matrices use several threads, which share the tree of fronts and the rows of the
+/// largest fronts. The bits are the same for any number of threads. The symbolic part is kept while the pattern of the
+/// matrix stays the same. The strains that border the matrix come last: one solve for each strain, and the Cholesky
+/// factor of the Schur complement.
 ///
 ///   BlockCholesky factor;
 ///   if (factor.factorise(energy.hessian(packing), 1e-9)) step = -factor.solve(gradient);
 class BlockCholesky {
  public:
-  /// Factorises; false if the shifted matrix is not positive definite to working precision; then solve() must not be
-  /// called.
+  /// Factorises. Returns false if the shifted matrix is not positive definite in working precision; solve() must then
+  /// not be called.
   bool factorise(const BlockMatrix& matrix, double shift);
-  /// Solution (H + shift·1)⁻¹ b, b with matrix.rows() entries.
+  /// Solution (H + shift·1)⁻¹ b; b has matrix.rows() entries.
   Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& b) const;
 
  private:

@@ -5,9 +5,9 @@
 
 namespace isojam {
 
-// Eigen's dense decompositions, each compiled once: they are half a minute of templates wherever they are included.
+// Eigen's dense decompositions, each compiled only once: including them costs half a minute of template instantiation.
 
-/// Eigenvalues of a symmetric matrix, of which the lower half is read; ascending.
+/// Eigenvalues of a symmetric matrix in ascending order; reads only the lower half.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
 struct SymmetricEigen {
@@ -16,10 +16,10 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
-/// An orthonormal basis of the span of independent columns, by Householder reflections; as many columns.
+/// An orthonormal basis of the span of independent columns, by Householder reflections; same number of columns.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
-/// An orthogonal basis of all space, of which the first vectors span independent columns.
+/// An orthogonal basis of the whole space whose first vectors span the given independent columns.
 class CompletedBasis {
  public:
   explicit CompletedBasis(const Eigen::MatrixXd& columns);
@@ -27,9 +27,9 @@ class CompletedBasis {
   CompletedBasis(const CompletedBasis&) = delete;
   CompletedBasis& operator=(const CompletedBasis&) = delete;
 
-  /// A becomes QᵀAQ: A in this basis.
+  /// Transforms A into this basis: QᵀAQ.
   void enter(Eigen::MatrixXd& matrix) const;
-  /// Columns in this basis become Q·columns.
+  /// Transforms columns back from this basis: Q·columns.
   void leave(Eigen::MatrixXd& columns) const;
 
  private:
@@ -37,10 +37,10 @@ class CompletedBasis {
   std::unique_ptr<const Reflections> reflections_;
 };
 
-/// R of the Householder QR of a matrix with no more columns than rows: columns × columns.
+/// R of the Householder QR of a matrix with at least as many rows as columns; size columns × columns.
 Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& matrix);
 
-/// A⁻¹ b of a positive definite A, by Cholesky.
+/// A⁻¹ b for a positive definite A, by Cholesky factorisation.
 Eigen::VectorXd solve_positive_definite(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 struct RightSingular {
@@ -49,7 +49,7 @@ struct RightSingular {
 };
 RightSingular right_singular(const Eigen::MatrixXd& matrix);
 
-/// Descending, as many as the lesser of rows and columns.
+/// Singular values in descending order, min(rows, columns).
 Eigen::VectorXd singular_values_of(const Eigen::MatrixXd& matrix);
 
 }  // namespace isojam

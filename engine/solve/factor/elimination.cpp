@@ -12,7 +12,8 @@ std::vector<int> inverse(const std::vector<int>& permutation) {
   return result;
 }
 
-/// A step of the elimination under construction: its own places and the later places it couples to, ascending.
+/// A step of the elimination during its construction: its own positions, and the later positions it couples to,
+/// ascending.
 struct Step {
   std::vector<int> own, rows;
   std::vector<int> children;
@@ -34,30 +35,30 @@ std::vector<Step> single_steps(const BlockMatrix& matrix, const std::vector<int>
     if (rows.empty()) continue;
     steps[k].parent = rows.front();
     steps[rows.front()].children.push_back(static_cast<int>(k));
-    // Everything else that this particle couples to fills in its parent.
+    // All other particles that this one couples to fill in its parent.
     steps[rows.front()].rows.insert(steps[rows.front()].rows.end(), rows.begin() + 1, rows.end());
   }
   return steps;
 }
 
-/// Ways to choose three of n.
+/// Number of ways to choose three of n.
 double choose_three(double n) { return n * (n - 1) * (n - 2) / 6; }
 
-/// Time of eliminating `columns` particles that couple to `rows` later ones, in products of two 6×6 blocks: each column
-/// of h rows takes (h + 1)(h + 2)/2.
+/// Time for eliminating `columns` particles that couple to `rows` later ones, in units of products of two 6×6 blocks: a
+/// column with h rows takes (h + 1)(h + 2)/2.
 double cost(std::size_t columns, std::size_t rows) {
   const auto c = static_cast<double>(columns), r = static_cast<double>(rows);
-  constexpr double hand_up = 1.5;  // a block handed up to the parent
+  constexpr double hand_up = 1.5;  // cost of passing a block to the parent
   constexpr double overhead = 40;
   return choose_three(r + c + 2) - choose_three(r + 2) + hand_up * r * (r + 1) / 2 + overhead;
 }
 
-/// Merges steps into their parents where that takes less time than the two apart.
+/// Merges steps into their parents if that takes less time than the separate steps.
 void merge(std::vector<Step>& steps) {
   for (std::size_t k = 0; k < steps.size(); ++k) {
     Step& step = steps[k];
     std::vector<int> kept;
-    // Children of a child that merges become candidates in their turn.
+    // Children of a merged child become candidates too.
     std::vector<int> candidates(step.children.rbegin(), step.children.rend());
     while (!candidates.empty()) {
       Step& child = steps[candidates.back()];
@@ -77,7 +78,7 @@ void merge(std::vector<Step>& steps) {
   }
 }
 
-/// Steps that are left, children before parents and next to them.
+/// The remaining steps, children before parents and adjacent to them.
 std::vector<int> postorder(const std::vector<Step>& steps) {
   std::vector<int> order, stack;
   std::vector<char> is_child(steps.size(), 0);

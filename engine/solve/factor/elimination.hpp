@@ -6,21 +6,21 @@
 
 namespace isojam {
 
-/// Particles eliminated together: places first … first + columns − 1 of the elimination order.
+/// Particles that are eliminated together: positions first … first + columns − 1 of the elimination order.
 struct Supernode {
   int first = 0, columns = 0;
-  std::vector<int> rows;      ///< later places that they couple to, directly or by fill-in; ascending
+  std::vector<int> rows;      ///< later positions that they couple to, directly or by fill-in; ascending
   std::vector<int> children;  ///< supernodes whose first row is one of these columns; ascending
 };
 
-/// Order in which a Cholesky factorisation eliminates the particles, and what it does at each step.
+/// Order in which a Cholesky factorisation eliminates the particles, and the supernodes.
 struct Elimination {
-  std::vector<int> node_of;           ///< particle at each place
-  std::vector<Supernode> supernodes;  ///< children before parents, in order of `first`
+  std::vector<int> node_of;           ///< particle at each position
+  std::vector<Supernode> supernodes;  ///< children before parents, sorted by `first`
 };
 
-/// Plans the elimination for the pattern of `matrix` in about this order of its particles; a function of the pattern
-/// and the order alone.
+/// Plans the elimination for the pattern of `matrix`, close to the given order of its particles. The result depends
+/// only on the pattern and the order.
 Elimination plan_elimination(const BlockMatrix& matrix, const std::vector<int>& order);
 
 }  // namespace isojam

@@ -9,22 +9,23 @@ namespace isojam {
 
 namespace {
 
-/// With less than so many multiplications, 3 ms, a factorisation is left to one thread.
+/// With fewer multiplications than this, 3 ms, one thread does the whole factorisation.
 constexpr double work_to_share = 5e7;
 
-/// A subtree with less than this part of all work is left to one thread: small enough to keep several busy to the end.
+/// A subtree with less than this fraction of all work is done by one thread: small enough to keep several threads busy
+/// until the end.
 constexpr double part_of_one = 1.0 / 32;
 
-constexpr int per_panel = panels::height / 6;  ///< particles
+constexpr int per_panel = panels::height / 6;  ///< particles per panel
 
 int panels_of(int particles) { return (particles + per_panel - 1) / per_panel; }
 
-/// Where a row and a column of 6×6 blocks meet in panels of `width` columns.
+/// Index of the 6×6 block at a row and a column in panels of `width` columns.
 std::ptrdiff_t block_at(int row, int column, int width) {
   return panels::size(row / per_panel, width) + std::ptrdiff_t{6} * panels::height * column + 6 * (row % per_panel);
 }
 
-/// Which of its columns, then rows, place k of the elimination order is in a supernode.
+/// Index of position k of the elimination order in a supernode: its columns, then its rows.
 int place_in(const Supernode& node, int k) {
   if (k < node.first + node.columns) return k - node.first;
   return node.columns + static_cast<int>(std::lower_bound(node.rows.begin(), node.rows.end(), k) - node.rows.begin());
@@ -63,7 +64,7 @@ void place_blocks(const BlockMatrix& matrix, FrontPlan& plan) {
     const BlockMatrix::Block& block = matrix.off_diagonal[b];
     const int row = place_of[block.row], column = place_of[block.column];
     Front& front = front_with(block);
-    // A block is stored as (row, column); the lower half wants (later, earlier).
+    // A block is stored as (row, column); the lower half needs (later, earlier).
     plan.blocks[front.last_block++] = {
         static_cast<int>(b),
         front.at(place_in(front.node, std::max(row, column)), std::min(row, column) - front.node.first), row < column};
@@ -90,8 +91,8 @@ void place_children(FrontPlan& plan) {
 
 void divide(FrontPlan& plan) {
   const std::size_t n = plan.fronts.size();
-  std::vector<double> work(n);               // of the subtree
-  std::vector<int> parent(n, -1), first(n);  // front, and where its subtree begins
+  std::vector<double> work(n);               // work of the subtree
+  std::vector<int> parent(n, -1), first(n);  // parent front, and first front of the subtree
   double all = 0;
   for (std::size_t f = 0; f < n; ++f) {
     const Front& front = plan.fronts[f];
@@ -110,7 +111,7 @@ void divide(FrontPlan& plan) {
     return;
   }
   const double small = part_of_one * all;
-  std::vector<int> range_of(n, -1);  // that ends with this front
+  std::vector<int> range_of(n, -1);  // range that ends with this front
   for (std::size_t f = 0; f < n; ++f) {
     if (work[f] <= small && parent[f] >= 0 && work[parent[f]] <= small) continue;
     range_of[f] = static_cast<int>(plan.ranges.size());
@@ -122,15 +123,15 @@ void divide(FrontPlan& plan) {
   }
 }
 
-/// The update of a front, from its begin to its end.
+/// Memory of the update of a front, from its beginning to its end.
 struct Span {
   std::ptrdiff_t begin = 0, end = 0;
   int front = 0;
 };
 
-/// Lays out the updates of a range, where `live` are those that its children left, ascending; returns the end of the
-/// highest. An update lives from its own front to its parent's. Each takes the lowest gap that fits, so that what is in
-/// use stays together in the cache.
+/// Places the updates of a range in memory. `live` are the updates left by its children, ascending. Returns the end of
+/// the highest one. An update is needed from its own front to its parent's. Each takes the lowest gap that is large
+/// enough, so that active memory stays together in the cache.
 std::ptrdiff_t lay_out_range(const FrontRange& range, std::vector<Span> live, std::vector<Front>& fronts) {
   std::ptrdiff_t size = 0;
   for (int f = range.first; f < range.last; ++f) {
@@ -148,14 +149,14 @@ std::ptrdiff_t lay_out_range(const FrontRange& range, std::vector<Span> live, st
   return size;
 }
 
-/// Every range has a part of its parent's for itself and all below it, so that what it reuses there has been taken over
-/// by a front below it.
+/// Every range has a part of its parent's memory for itself and all ranges below it. Memory that it reuses there has
+/// already been consumed by a front below it.
 void lay_out_updates(FrontPlan& plan) {
   const std::size_t n = plan.ranges.size();
   std::vector<std::ptrdiff_t> size(n, 0), begin(n, 0);
-  std::vector<std::vector<Span>> left(n);  // by the children of each
+  std::vector<std::vector<Span>> left(n);  // updates left by the children of each range
   for (std::size_t r = 0; r < n; ++r) {
-    // So far size[r] is what the children take.
+    // At this point size[r] is the memory of the children.
     size[r] = std::max(size[r], lay_out_range(plan.ranges[r], std::move(left[r]), plan.fronts));
     const int parent = plan.parents[r], last = plan.ranges[r].last - 1;
     std::ptrdiff_t& end = parent >= 0 ? size[parent] : plan.updates_size;

@@ -12,13 +12,15 @@ namespace isojam {
 
 namespace {
 
-/// From so many particles on a packing is dissected. Operations of minimum degree over those of dissection, of
-/// octahedra with 8.4 contacts each: N = 100 .89, 150 .88, 200 1.09, 300 1.30, 400 1.39, 800 1.47, 1000 1.78, 2000 2.1,
-/// 4000 2.8. Dissection itself takes 3 to 9 times as long as minimum degree, 1 ms at N = 300: with it the two are equal
-/// there if nothing is kept from one matrix to the next, and from N = 400 on (9.9 against 12.6 ms) it wins anyway.
+/// Number of particles from which nested dissection is used. Ratio of operations, minimum degree to dissection, for
+/// octahedra with 8.4 contacts each:
+///   N       100   150   200   300   400   800   1000  2000  4000
+///   ratio   0.89  0.88  1.09  1.30  1.39  1.47  1.78  2.1   2.8
+/// Dissection itself takes 3 to 9 times as long as minimum degree, 1 ms for N = 300. There both take the same total
+/// time if nothing is kept from one matrix to the next. From N = 400 on dissection is faster (9.9 against 12.6 ms).
 constexpr int dissected_from = 300;
 
-/// Neighbours of every particle, as METIS wants them.
+/// Neighbours of every particle in the format of METIS.
 struct Graph {
   std::vector<idx_t> begin, neighbours;
 };
@@ -41,7 +43,7 @@ Graph graph_of(const BlockMatrix& matrix) {
 }  // namespace
 
 std::vector<int> minimum_degree_order(const BlockMatrix& matrix) {
-  // Columns of the lower half: the blocks are in this order.
+  // Columns of the lower half: the blocks are already in this order.
   Eigen::SparseMatrix<double> graph(matrix.size(), matrix.size());
   graph.reserve(matrix.size() + static_cast<Eigen::Index>(matrix.off_diagonal.size()));
   auto block = matrix.off_diagonal.begin();
@@ -64,8 +66,8 @@ std::vector<int> dissection_order(const BlockMatrix& matrix) {
   METIS_SetDefaultOptions(options.data());
   options[METIS_OPTION_SEED] = 1;
   std::vector<idx_t> order(matrix.diagonal.size()), place_of(matrix.diagonal.size());
-  // METIS 5.1 draws from rand(), which all threads share, and seeds it first: one at a time they all draw the same. It
-  // also has handlers of its own for SIGABRT and SIGTERM meanwhile, for the first of which it calls when memory is out.
+  // METIS 5.1 seeds and uses rand(), which all threads share; one call at a time gives the same numbers in all. It also
+  // installs its own handlers for SIGABRT and SIGTERM during the call, and raises the first if it runs out of memory.
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   const int status = METIS_NodeND(&size, graph.begin.data(), graph.neighbours.data(), nullptr, options.data(),

@@ -6,8 +6,8 @@
 
 namespace isojam {
 
-// Orders of the graph of particles in which a Cholesky factorisation fills in little: the particle at each place.
-// Functions of the pattern of the matrix alone.
+// Orders of the graph of particles with little fill-in in a Cholesky factorisation: the particle at each position. They
+// depend only on the pattern of the matrix.
 
 /// Approximate minimum degree (Amestoy, Davis & Duff 1996).
 std::vector<int> minimum_degree_order(const BlockMatrix& matrix);
@@ -15,7 +15,7 @@ std::vector<int> minimum_degree_order(const BlockMatrix& matrix);
 /// Nested dissection (METIS, Karypis & Kumar 1998). Throws std::bad_alloc.
 std::vector<int> dissection_order(const BlockMatrix& matrix);
 
-/// That of the two which is the better for so many particles.
+/// The better of these two orders for the number of particles.
 std::vector<int> fill_reducing_order(const BlockMatrix& matrix);
 
 }  // namespace isojam

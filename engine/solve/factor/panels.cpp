@@ -13,15 +13,15 @@ namespace isojam::panels {
 
 namespace {
 
-// Four also where there are no such vectors, and the compiler makes two of each: sums over lanes come out the same.
+// Four lanes even without such vectors, where the compiler splits them in two: sums over lanes have the same order.
 constexpr int lanes = 4;
 constexpr int vectors = height / lanes;
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 
-/// Columns worked on together: twelve rows of them leave registers for the factors.
+/// Columns processed together: with twelve rows each they leave registers for the factors.
 constexpr int step = 3;
 
-/// Columns of the factor that are put to use at once: a panel of them stays in the cache nearest to the core.
+/// Columns of the factor used in one pass: a panel of them stays in the first-level cache.
 constexpr int depth_at_once = 144;
 
 struct Tile {
@@ -42,8 +42,8 @@ inline void store(const Lanes (&column)[vectors], double* to) {
 inline Lanes spread(double b) { return _mm256_set1_pd(b); }
 /// c −= a·b, rounded once.
 inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) { c = _mm256_fnmadd_pd(a, b, c); }
-/// Keeps a value in its register: the compiler would read it from memory again at every use, and loads would become
-/// the limit.
+/// Keeps a value in its register. Otherwise the compiler would load it from memory at every use, and loads would become
+/// the bottleneck.
 inline void keep(Lanes& value) { asm("" : "+x"(value)); }
 #else
 inline Lanes spread(double b) {
@@ -57,13 +57,13 @@ inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) {
 inline void keep(Lanes& /*value*/) {}
 #endif
 
-/// tile − A Bᵀ, A the first `depth` columns of a panel, B as many of `step` rows of a panel.
+/// tile −= A Bᵀ; A is the first `depth` columns of a panel, B the same columns of `step` rows of a panel.
 inline void subtract_product(const double* a, const double* b, int depth, Tile& tile) {
   for (int k = 0; k < depth; ++k, a += height, b += height) {
     Lanes column[vectors];
     load(a, column);
 #pragma GCC unroll 6
-    // NOLINTNEXTLINE(modernize-loop-convert): a loop that the pragma unrolls, as those around it
+    // NOLINTNEXTLINE(modernize-loop-convert): unrolled by the pragma like the loops around it
     for (int v = 0; v < vectors; ++v) keep(column[v]);
 #pragma GCC unroll 3
     for (int j = 0; j < step; ++j) {
@@ -84,12 +84,12 @@ inline void store(const Tile& tile, double* to) {
   for (int j = 0; j < step; ++j) store(tile.of[j], to + height * j);
 }
 
-/// Where rows k … k + step − 1 begin.
+/// Beginning of rows k … k + step − 1.
 inline const double* rows_at(const double* matrix, int width, int k) {
   return matrix + size(k / height, width) + k % height;
 }
 
-/// X L⁻ᵀ for `step` columns, `l` pointing at the corresponding square of L.
+/// X L⁻ᵀ for `step` columns; `l` points to the corresponding square of L.
 inline void solve_step(const double* l, const double* reciprocals, Tile& x) {
 #pragma GCC unroll 3
   for (int k = 0; k < step; ++k) {
@@ -103,7 +103,7 @@ inline void solve_step(const double* l, const double* reciprocals, Tile& x) {
   }
 }
 
-/// One panel of B L⁻ᵀ, columns first … last − 1; what columns before `first` do to them has been done.
+/// Columns first … last − 1 of one panel of B L⁻ᵀ. The columns before `first` must already have been subtracted.
 void solve_panel(const double* l, int width, const double* reciprocals, int first, int last, double* panel) {
   for (int k = first; k < last; k += step) {
     const double* rows = rows_at(l, width, k);
@@ -115,7 +115,7 @@ void solve_panel(const double* l, int width, const double* reciprocals, int firs
   }
 }
 
-/// What columns first … last − 1 do to the columns of a panel from `last` on, as far as `end`.
+/// Subtracts the contribution of columns first … last − 1 from columns last … end − 1 of a panel.
 void update_panel(const double* l, int width, int first, int last, int end, double* panel) {
   for (int k = last; k < end; k += step) {
     Tile tile;
@@ -125,8 +125,8 @@ void update_panel(const double* l, int width, int first, int last, int end, doub
   }
 }
 
-/// What `depth` columns of X from `first` on do to panel p of −X Xᵀ, the first ones to begin with. A function of its
-/// own, for g++ 12 keeps fewer tiles in registers where it is a lambda's.
+/// Adds the contribution of `depth` columns of X from `first` on to panel p of −X Xᵀ; first = 0 overwrites the panel.
+/// It is a separate function because g++ 12 keeps fewer tiles in registers if it is part of a lambda.
 [[gnu::noinline]] void square_panel(const double* x, int width, int first, int depth, int p, double* c) {
   const double* rows = x + size(p, width) + height * first;
   double* to = c + packed_size(p);
@@ -138,7 +138,7 @@ void update_panel(const double* l, int width, int first, int last, int end, doub
   }
 }
 
-/// L of the square of `step` rows and columns at `a`; its reciprocals.
+/// Computes L of the square of `step` rows and columns at `a`, and its reciprocals.
 bool factorise_step(double* a, double* reciprocals) {
   for (int k = 0; k < step; ++k) {
     const double pivot = a[height * k + k];
@@ -154,7 +154,7 @@ bool factorise_step(double* a, double* reciprocals) {
   return true;
 }
 
-/// Columns k … k + step − 1 of the panel that holds their diagonal, as solve_panel does those left of it.
+/// Columns k … k + step − 1 of the panel that contains their diagonal, like solve_panel for the panels below.
 bool factorise_diagonal(double* panel, int first, int k, double* reciprocals) {
   const int row = k % height;
   double* columns = panel + height * k;
@@ -173,7 +173,7 @@ bool factorise_diagonal(double* panel, int first, int k, double* reciprocals) {
   return true;
 }
 
-/// Column −= panel · z, z of `depth` entries.
+/// column −= panel · z; z has `depth` entries.
 inline void subtract_columns(const double* panel, int depth, const double* z, Lanes (&column)[vectors]) {
   for (int k = 0; k < depth; ++k, panel += height) {
     Lanes term[vectors];
@@ -194,7 +194,8 @@ bool factorise(double* a, int width, double* reciprocals, double* b, int count, 
         if (!factorise_diagonal(panel, first, k, reciprocals + k)) return false;
       }
     }
-    // Panels of A below, then those of B. A panel is updated by those above it, which have to be solved by then.
+    // The remaining panels of A, then those of B. A panel is updated by the panels above it, which must be solved
+    // before.
     const int next = (last + height - 1) / height, below = (width + height - 1) / height - next;
     const auto panel_at = [&](int p) { return p < below ? a + size(next + p, width) : b + size(p - below, width); };
     const auto solve = [&](int p) { solve_panel(a, width, reciprocals, first, last, panel_at(p)); };

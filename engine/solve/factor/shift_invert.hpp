@@ -8,9 +8,9 @@
 
 namespace isojam {
 
-/// Operator (H − σ·1)⁻¹ for any σ that is not an eigenvalue: by BlockCholesky while the shifted matrix is positive
-/// definite, by Eigen's SimplicialLDLT where it is not. The form is the one that Spectra's shift-invert solvers ask
-/// for; H must outlive it.
+/// Operator (H − σ·1)⁻¹ for any σ that is not an eigenvalue: by BlockCholesky if the shifted matrix is positive
+/// definite, otherwise by Eigen's SimplicialLDLT. It has the interface required by Spectra's shift-invert solvers. H
+/// must outlive it.
 ///
 ///   ShiftInvert operation(hessian);
 ///   Spectra::SymEigsShiftSolver<ShiftInvert> solver(operation, 53, 120, -1e-9 * lambda_max);
@@ -23,13 +23,13 @@ class ShiftInvert {
   Eigen::Index rows() const { return matrix_.rows(); }
   Eigen::Index cols() const { return rows(); }
   /// Factorises. Throws std::domain_error if a pivot is zero or not finite: σ is an eigenvalue (of a leading part) of H
-  /// to working precision, or H holds what is not a number.
+  /// in working precision, or H contains NaN.
   void set_shift(double sigma);
   /// Sets y = (H − σ·1)⁻¹ x, both of rows() entries.
   void perform_op(const double* x, double* y) const;
 
-  bool positive_definite() const { return positive_definite_; }  ///< of H − σ·1
-  /// Eigenvalues of H below σ, by Sylvester's law of inertia.
+  bool positive_definite() const { return positive_definite_; }  ///< true if H − σ·1 is positive definite
+  /// Number of eigenvalues of H below σ, by Sylvester's law of inertia.
   int negative_pivots() const { return negative_pivots_; }
 
  private:

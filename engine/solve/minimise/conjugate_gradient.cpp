@@ -6,10 +6,10 @@ namespace isojam {
 
 namespace {
 
-/// CG needs a nearly exact line search, or its directions lose conjugacy.
+/// CG needs a nearly exact line search; otherwise its directions lose conjugacy.
 constexpr double curvature = 0.1;
 
-/// A first trial that moves the farthest particle by this much: any small length will do, later steps learn from it.
+/// Displacement of the farthest particle in the first trial. Any small length works, since later steps adapt.
 constexpr double first_displacement = 1e-3;
 
 }  // namespace

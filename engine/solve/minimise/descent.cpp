@@ -9,11 +9,11 @@ namespace isojam {
 
 namespace {
 
-/// No particle moves farther than this fraction of the inradius in one trial: the energy's model of a step knows
-/// nothing of pairs that are farther apart.
+/// Upper limit of every particle's displacement in one trial, in inradii: the energy's model of a step does not include
+/// pairs that are farther apart.
 constexpr double trust_in_inradii = 0.4;
 
-/// Within this many times the floor of the residual its rounding errors begin to mislead.
+/// If the residual is below this many times its floor, rounding errors begin to mislead.
 constexpr double floors_before_refining = 10;
 
 }  // namespace
@@ -35,7 +35,8 @@ Descent::Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions&
       previous_energy_(std::numeric_limits<double>::infinity()),
       evaluations_(1) {}
 
-/// Doubles do until the floor of their residual is near. Then only two of them can tell whether the goal is reached.
+/// Double precision is enough until the residual is near its floor. Then only double-double can decide whether the goal
+/// is reached.
 void Descent::raise_precision() {
   const bool near_floor = here_.residual <= std::max(options_.residual, floors_before_refining * here_.residual_floor);
   if (precision_ == Precision::double_double || !near_floor || here_.residual_floor <= options_.residual) return;
@@ -64,7 +65,7 @@ void Descent::count_factorisations(long factorisations, long updates) {
 std::optional<StopReason> Descent::verdict() {
   if (!std::isfinite(here_.energy) || !here_.gradient.allFinite()) return StopReason::not_finite;
   if (cell_limit_) return StopReason::cell_limit;
-  // A pressure makes a packing jammed.
+  // Under a pressure a packing is always jammed.
   const bool loaded = frees_volume(options_.control.cell);
   if (here_.contacts == 0 && !loaded) return StopReason::unjammed;
   raise_precision();
@@ -115,7 +116,7 @@ bool Descent::advance(const Eigen::VectorXd& direction, double first_step, doubl
     at_trial = probe(packing_, step * direction, trial);
     step_of_trial = step;
     const LinePoint point{step, at_trial.energy, at_trial.gradient.dot(direction)};
-    // The search ends at the last point or at the lowest one; among energies equal but for noise, elsewhere.
+    // The search ends at the last point or at the lowest one, or elsewhere if energies differ only by noise.
     if (step_of_lowest == 0 || point.value < at_lowest.energy) {
       lowest = trial;
       at_lowest = at_trial;

@@ -10,8 +10,8 @@
 
 namespace isojam {
 
-/// State that every minimiser shares: the current state, the best one seen, the evaluations spent and the reasons to
-/// stop. Steps are accepted only downhill, so the current state is the best one.
+/// State that every minimiser shares: the current state, the best one found, the number of evaluations, and the reasons
+/// to stop. Only downhill steps are accepted, so the current state is the best one.
 class Descent {
  public:
   Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop);
@@ -21,23 +21,23 @@ class Descent {
   const MinimiseOptions& options() const { return options_; }
   long evaluations() const { return evaluations_; }
 
-  /// Reason to stop in this state, if there is one. Goes over to double-double where the answer needs it.
+  /// Reason to stop in this state, if there is one. Changes to double-double if the decision needs it.
   std::optional<StopReason> verdict();
-  /// Moves along `direction` (a descent direction) by a line search from `first_step` times it; false if no lower
-  /// energy was found. The step taken, as a multiple of `direction`, is in last_step().
+  /// Moves along `direction` (a descent direction) by a line search that starts with the step `first_step`·direction.
+  /// Returns false if no lower energy was found. last_step() is the step taken, as a multiple of `direction`.
   bool advance(const Eigen::VectorXd& direction, double first_step, double curvature);
   double last_step() const { return last_step_; }
-  /// Bound on the displacement of every particle in one trial step (V_p^(1/3)).
+  /// Upper limit of every particle's displacement in one trial step (V_p^(1/3)).
   double longest_displacement() const;
-  /// Second derivatives at any state, and its incipient contacts within `probe_distance` (V_p^(1/3)).
+  /// Second derivatives in any state, and its incipient contacts within `probe_distance` (V_p^(1/3)).
   SecondOrder second_order(const Packing& packing, double probe_distance);
-  /// Evaluates the state at `step` from another one without moving there. A cell that would not be legal is as far as
-  /// this minimisation goes; the energy is infinite there.
+  /// Evaluates the state after `step` from `from` without moving the current state. Returns infinite energy if the cell
+  /// would be too small; the minimisation then stops with cell_limit.
   Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
-  /// Moves to a probed state.
+  /// Moves to a state that probe() evaluated.
   void accept(Packing there, Evaluation value);
 
-  /// Adds the solver's share of the summary's work.
+  /// Adds the work of the solver to the summary.
   void count_factorisations(long factorisations, long updates);
 
   MinimiseSummary finish(StopReason reason) const;
@@ -60,7 +60,7 @@ class Descent {
   MinimiseWork work_;
 };
 
-/// Largest particle displacement |dx| or R|dθ| in a step, or what of strains ℓ·ε is as long.
+/// Largest particle displacement |dx| or R|dθ| in a step; strains ℓ·ε count in the same way.
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);

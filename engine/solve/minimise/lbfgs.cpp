@@ -9,13 +9,13 @@ namespace {
 constexpr double curvature = 0.9;
 constexpr double first_displacement = 1e-3;
 
-/// A step and the change of gradient along it.
+/// A step and the change of the gradient along it.
 struct Correction {
   Eigen::VectorXd step, change;
   double inverse_product = 0;
 };
 
-/// −H g with H the limited-memory inverse Hessian, by the two-loop recursion.
+/// −H g, where H is the limited-memory inverse Hessian, by the two-loop recursion.
 Eigen::VectorXd descent_direction(const std::deque<Correction>& memory, const Eigen::VectorXd& gradient) {
   Eigen::VectorXd q = -gradient;
   std::vector<double> alpha(memory.size());
@@ -34,7 +34,7 @@ Eigen::VectorXd descent_direction(const std::deque<Correction>& memory, const Ei
 
 }  // namespace
 
-/// Limited-memory BFGS. Orientations enter through their tangent (R·dθ): a step's end is the next step's origin.
+/// Limited-memory BFGS. Orientations enter through their tangent (R·dθ): each step ends at the origin of the next one.
 MinimiseSummary minimise_lbfgs(Descent& descent) {
   std::deque<Correction> memory;
   while (true) {

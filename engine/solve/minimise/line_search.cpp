@@ -9,7 +9,8 @@ namespace isojam {
 
 namespace {
 
-/// Minimum of the cubic through two points with slopes; kept off the ends of the interval so that it shrinks.
+/// Minimum of the cubic through two points with slopes, kept away from the ends of the interval so that the interval
+/// shrinks.
 double cubic_minimum(const LinePoint& p, const LinePoint& q) {
   const double width = q.step - p.step;
   const double d1 = p.slope + q.slope - 3 * (q.value - p.value) / width;
@@ -39,12 +40,12 @@ class Search {
     return p.value <= start_.value + noise_ && p.slope <= (2 * options_.decrease - 1) * start_.slope;
   }
   bool flat_enough(const LinePoint& p) const { return std::abs(p.slope) <= -options_.curvature * start_.slope; }
-  /// Lower, or where rounding leaves that open, flatter.
+  /// True if p is lower, or flatter if rounding leaves the order open.
   bool better(const LinePoint& p, const LinePoint& best) const {
     if (std::abs(p.value - best.value) > noise_) return p.value < best.value;
     return std::abs(p.slope) < std::abs(best.slope);
   }
-  /// Higher than the best point by more than rounding.
+  /// True if p is higher than the best point by more than rounding.
   bool higher(const LinePoint& p, const LinePoint& best) const { return p.value > best.value + noise_; }
 
  private:
@@ -53,7 +54,7 @@ class Search {
   double noise_;
 };
 
-/// Where to look next: farther than `p` until the minimum is bracketed, then within the bracket.
+/// Next trial step: farther than `p` until the minimum is bracketed, then within the bracket.
 double next_step(const LinePoint& p, const LinePoint& low, const LinePoint& high, bool bracketed, double longest) {
   if (!bracketed) return std::min({3 * p.step, longest});
   return std::isfinite(high.value) ? cubic_minimum(low, high) : (low.step + high.step) / 2;
@@ -67,7 +68,7 @@ LineSearchResult line_search(const std::function<LinePoint(double)>& at, const L
   const Search search(start, options);
   LineSearchResult result;
   result.point = start;
-  // `low` is the best point with sufficient decrease; the minimum lies between it and `high` once bracketed.
+  // `low` is the best point with sufficient decrease. Once bracketed, the minimum lies between it and `high`.
   LinePoint low = start, high;
   bool bracketed = false;
   double step = std::min(first_step, options.longest_step);
@@ -98,7 +99,7 @@ LineSearchResult line_search(const std::function<LinePoint(double)>& at, const L
       }
       low = p;
       if (!bracketed && p.step >= options.longest_step) {
-        result.found = true;  // still descending at the longest step allowed: as good as it gets
+        result.found = true;  // still descending at the longest step allowed
         result.point = p;
         return result;
       }

@@ -11,34 +11,34 @@
 
 namespace isojam {
 
-/// Method of minimisation. multipliers follows an equilibrium through a strain step (solve/multipliers/), which jam()
-/// does near jamming; where there is none to follow, and wherever minimise() is called, it is newton. The others are
-/// there to be compared with: near jamming they do not converge.
+/// Method of minimisation. `multipliers` follows an equilibrium through a strain step (solve/multipliers/), which jam()
+/// uses near jamming. Without an equilibrium to follow, and in minimise(), it is the same as `newton`. The other
+/// methods are for comparison; near jamming they do not converge.
 enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
 inline constexpr std::array enum_names<Method>{
     EnumName{Method::conjugate_gradient, "conjugate_gradient"}, EnumName{Method::fire, "fire"},
     EnumName{Method::lbfgs, "lbfgs"}, EnumName{Method::newton, "newton"}, EnumName{Method::multipliers, "multipliers"}};
 
-/// How a packing is brought to equilibrium, and when that is given up.
+/// Method of minimisation, and criteria to stop it.
 struct MinimiseOptions {
-  Method method = Method::multipliers;  ///< which minimiser
+  Method method = Method::multipliers;  ///< minimiser
   /// Residual at which to stop: forces balance to this fraction of the mean contact force.
   double residual = 1e-6;
-  /// Energy rule: stop when an iteration changes the energy by less than this fraction of it; 0 switches the rule off.
-  /// The paper uses 1e-12 and nothing else; it is not a sign of equilibrium near jamming. jam() takes such states all
-  /// the same.
+  /// Energy rule: stop when an iteration changes the energy by less than this fraction; 0 switches the rule off. The
+  /// paper uses only this rule, with 1e-12. Near jamming it does not indicate equilibrium, but jam() accepts such
+  /// states.
   double energy_change = 0;
-  /// Energy per particle (Y·V_p) below which a state that is still losing energy counts as unjammed. A state with
-  /// balanced forces is never called unjammed, however low its energy.
+  /// Energy per particle (Y·V_p) below which a state whose energy still decreases counts as unjammed. A state with
+  /// balanced forces never counts as unjammed, for any energy.
   double unjammed_energy = 1e-20;
-  long max_evaluations = 20000;  ///< of energy and forces, in one minimisation
-  int history = 20;              ///< pairs that L-BFGS keeps
-  CellControl control{};         ///< of the cell: fixed, or free to give way
+  long max_evaluations = 20000;  ///< evaluations of energy and forces in one minimisation
+  int history = 20;              ///< number of pairs that L-BFGS stores
+  CellControl control{};         ///< fixed cell, or free strains and their load
 };
 
-/// Moves `packing` to a local minimum of the energy, or where the cell is free, of the enthalpy. On return it is the
-/// best state seen.
+/// Moves `packing` to a local minimum of the energy, or of the enthalpy for a variable cell. On return it is the best
+/// state found.
 MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options,
                          std::stop_token stop = {});
 

@@ -7,55 +7,55 @@
 #include "engine/solve/minimise/descent.hpp"
 #include "engine/solve/minimise/step_model.hpp"
 
-// Near jamming the stiffnesses of a packing span ten orders of magnitude, which first-order methods feel as the
-// condition number and Newton's method does not. What limits Newton's is how far its model holds, so three things are
-// done about it. The model anticipates pairs that close and contacts that tilt (step_model.hpp). A step that raises the
-// energy is followed up before it is given up: turning particles together moves flat contacts off their planes by the
-// square of the angle, far more than their depth, and one Newton step from there puts that right (Chamberlain's
-// watchdog). And the shift μ shortens what still fails (Levenberg, Marquardt).
+// Near jamming the stiffnesses of a packing span ten orders of magnitude. For first-order methods this is the condition
+// number; Newton's method is not affected. Its limit is the range in which its model holds, so it does three things.
+// The model anticipates pairs that close and contacts that tilt (step_model.hpp). A step that raises the energy is
+// continued before it is rejected (Chamberlain's watchdog technique). Rotating particles together moves flat contacts
+// out of their planes by the square of the angle, far more than their depth; one Newton step from there corrects this.
+// The shift μ shortens steps that still fail (Levenberg, Marquardt).
 
 namespace isojam {
 
 namespace {
 
-/// Steps from a trial state of higher energy before the trial is given up.
+/// Number of steps from a trial state of higher energy before the trial is rejected.
 constexpr int follow_ups = 3;
 
-/// A trial that raises the energy by more than this factor has left the valley.
+/// A trial that raises the energy by more than this factor is hopeless.
 constexpr double hopeless = 1e6;
 
-/// Failures in one state after which the model goes on without anticipated pairs: they can be wrong, and then no
-/// shift makes them right.
+/// Failures in one state after which the model no longer anticipates pairs: the anticipation may be
+/// incorrect, and then no shift helps.
 constexpr int patience = 4;
 
-/// The probe distance, within which contacts are incipient, as a fraction of the last step, with bounds in inradii.
+/// Probe distance for incipient contacts as a fraction of the last step, and its bounds in inradii.
 constexpr double probe_per_step = 0.05, least_probe = 2e-8, most_probe = 2e-3;
 
-/// The shift μ, adapted to how well the model predicted the last step.
+/// The shift μ, adapted to the quality of the model's last prediction.
 class Shift {
  public:
   void set_scale(double largest_diagonal) {
     scale_ = largest_diagonal;
     least_ = 16 * std::numeric_limits<double>::epsilon() * largest_diagonal;
-    // Beyond it a step is gradient descent by next to nothing, even where faces that close are about to become
-    // as stiff as contacts can be (of order 1) while nothing in the Hessian says so.
+    // Beyond this limit a step is gradient descent of negligible length. That holds even if closing faces are about to
+    // become as stiff as contacts can be (of order 1), which the Hessian does not show.
     most_ = 1e6 * std::max(largest_diagonal, 1.0);
     if (value_ == 0) value_ = 1e-4 * largest_diagonal;
     value_ = std::max(value_, least_);
   }
   double value() const { return value_; }
   bool exhausted() const { return value_ > most_; }
-  /// After a step that failed: faster and faster.
+  /// After a failed step; the factor grows each time.
   void raise() {
     value_ *= growth_;
     growth_ *= 2;
   }
-  /// After a step that was accepted, by the ratio of its actual to its predicted decrease (Nielsen's rule).
+  /// After an accepted step, from the ratio of its actual to its predicted decrease (Nielsen's rule).
   void adapt(double ratio) {
     value_ = std::max(value_ * std::max(0.2, 1 - cubed(2 * ratio - 1)), least_);
     growth_ = 2;
   }
-  /// After a step that needed following up.
+  /// After a step that needed follow-up steps.
   void ease() {
     value_ = std::max(value_ / 2, least_);
     growth_ = 2;
@@ -105,8 +105,8 @@ class Newton {
     return StepModel(descent_.second_order(packing, probe_distance), value.gradient, descent_.longest_displacement());
   }
 
-  /// Whether a state at energy `value` is a step forward when `predicted` was promised. Where energies no longer
-  /// resolve the step, the forces decide.
+  /// True if a state with energy `value` is an improvement when the decrease `predicted` was expected. If energies do
+  /// not resolve the step, the forces decide.
   bool acceptable(const Evaluation& value, double predicted) const {
     const Evaluation& here = descent_.here();
     const double actual = here.energy - value.energy;
@@ -114,7 +114,7 @@ class Newton {
     return actual > -here.energy_noise && value.gradient.norm() < here.gradient.norm();
   }
 
-  /// Tries one step with the present shift. True if it was accepted, followed up or not.
+  /// Tries one step with the present shift. Returns true if it was accepted, with or without follow-up steps.
   bool advance(StepModel& model) {
     const auto step = model.minimise(shift_.value(), factor_, active_);
     if (!step) {
@@ -138,7 +138,8 @@ class Newton {
     return true;
   }
 
-  /// From a trial state that was not acceptable, at `length` from the present one: true if `there` ends in one that is.
+  /// Continues from a trial state that was not acceptable, at distance `length` from the present one. Returns true if
+  /// `there` ends in an acceptable state.
   bool follow_up(Packing& there, Evaluation& value, double predicted, double length) {
     ActivePairs active = active_;
     for (int k = 0; k < follow_ups; ++k) {

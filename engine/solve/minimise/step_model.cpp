@@ -8,9 +8,9 @@
 #include "engine/solve/factor/low_rank_update.hpp"
 #include "engine/solve/minimise/descent.hpp"
 
-// Near jamming the series E + g·s + ½ s·H s holds for steps no longer than a flat contact is deep, 1e-10 and less. Two
-// things happen sooner: pairs close, and flat contacts tilt until their section line cuts the face. The model of a pair
-// has a spring for either. V of a corner that touches, its face about to come flush with the other's:
+// Near jamming the series E + g·s + ½ s·H s holds only for steps up to the depth of a flat contact, 1e-10 or less. Two
+// effects occur earlier: pairs close, and flat contacts tilt until their section line crosses the face. The model of a
+// pair has a spring for each. V of a touching corner whose face is about to become coplanar with the other body's face:
 //
 //    V |                                 *
 //      |                                * closed: tangent with the gap closed
@@ -23,50 +23,51 @@
 //    0 +-------------------------.-------------------------> step, here an approach
 //      |                        .
 //
-// drawn with *: V = max(0, now, closed), from below, V of a flat contact being convex. Of a pair still apart, now = 0.
+// The model is V = max(0, now, closed), drawn with *. It is a lower bound, because V of a flat contact is convex. If
+// the pair does not touch, now = 0.
 //
-//   incipient contact    A pair that touches, or would with centres closer by the probe distance, a part of the last
-//                        step (incipient_contact.hpp). The model knows nothing of pairs farther apart.
+//   incipient contact    A pair that touches, or would touch with centres closer by the probe distance, a fraction of
+//                        the last step (incipient_contact.hpp). The model ignores pairs that are farther apart.
 //   linearised overlap   V to first order in s, at_rest + slope·s. A pair has two: now and closed.
-//   tilt term            ½ τ·Tτ, τ the relative turn: the stiffness that a flat contact has once its section line cuts
-//                        the face. Until then V is linear in the turn, and H does not know of it.
+//   tilt term            ½ τ·Tτ, τ the relative rotation: the stiffness of a flat contact after its section line
+//                        crosses the face. Before that V is linear in the rotation, so that H lacks this stiffness.
 //   active set           Pairs that the step closes, closed > max(0, now): they have the spring ¼ closed², which adds
-//                        ½ ∇V ∇Vᵀ to H. And pairs that it tilts too far for their energy: they have a share w of T.
-//   shift                μ of Levenberg and Marquardt, the same on every coordinate. As it grows all contacts come to
-//                        have their tilt term, and pairs whose spring is softer than μ need not close in the model.
+//                        ½ ∇V ∇Vᵀ to H. And pairs that it tilts too far for their energy: they have a fraction w of T.
+//   shift The Levenberg–Marquardt μ, the same for every coordinate. For larger μ more contacts have their
+//                        tilt term, and pairs whose spring is softer than μ need not close in the model.
 //
-// The step is where the gradient of g·s + ½ s·(H + μ)s + Σ_closing ¼ closed² + Σ ½ w τ·Tτ vanishes, a linear system;
-// the active set depends on s and s on the active set, so they are found by turns, cut short after a few rounds. From
-// the decrease that is promised the springs take ¼ (closed² − now²); tilt terms and shift are caution and take nothing.
+// The step is the zero of the gradient of g·s + ½ s·(H + μ)s + Σ_closing ¼ closed² + Σ ½ w τ·Tτ, which is a linear
+// system. The active set and s depend on each other, so the two are alternated for a few iterations. In the predicted
+// decrease each spring costs ¼ (closed² − now²). Tilt terms and shift are a precaution and are not counted.
 //
-// The constants below were measured on packings of 100 octahedra and tetrahedra between φ − φ_J = .02 and .004,
-// starting from an affine strain step: evaluations to equilibrium change by less than a fifth over a factor of three in
-// each.
+// The constants below were measured for packings of 100 octahedra and tetrahedra at φ − φ_J = 0.02 … 0.004 after an
+// affine strain step. Changing any of them by a factor of three changes the number of evaluations to equilibrium by
+// less than a fifth.
 
 namespace isojam {
 
 namespace {
 
-/// Of the rounds of the active-set iteration; in later ones pairs are added and none released, so that it ends.
+/// Rounds of the active-set iteration that may release pairs. Later rounds only add pairs, so that the iteration ends.
 constexpr int releasing_rounds = 2;
 
-/// The tilt term of a contact that the step tilts, in units of its stiffness when half cut. A contact that is cut
-/// elsewhere resists less.
+/// Tilt term of a contact that the step tilts, in units of its stiffness when the section line crosses its centre.
+/// Elsewhere the resistance is smaller.
 constexpr double tilted = 0.1;
 
-/// A contact counts as tilted by a step that would store this fraction of its energy in tilt, and is no longer guessed
-/// to be below the second.
+/// A contact counts as tilted if the step would store at least the fraction `tilt_onset` of its energy in tilt. Below
+/// `tilt_release` it is not in the next initial estimate.
 constexpr double tilt_onset = 0.5, tilt_release = 0.05;
 
-/// All contacts have the tilt term once the shift reaches this fraction of the largest diagonal entry of H, and part of
-/// it below.
+/// If the shift is at least this fraction of the largest diagonal entry of H, all contacts have the full tilt term;
+/// below it, a part.
 constexpr double stiffened_at = 1e-6;
 
-/// Later rounds update the factors of the first by up to this many terms per particle instead of factorising anew: a
-/// factorisation costs as much as that many solves (17 at N = 100, 55 at N = 400).
+/// Later rounds update the factors of the first round by up to this many terms per particle. A factorisation costs as
+/// much as that many solves (17 for N = 100, 55 for N = 400).
 constexpr double updates_per_particle = 1.0 / 6;
 
-/// The tangent with the gap closed matters only where it is this many times as steep (squared) as the present one.
+/// The tangent with the gap closed matters only if its squared slope is this many times that of the present one.
 constexpr double steeper = 2;
 
 double tilt_energy(const IncipientContact& pair, const Eigen::VectorXd& step) {
@@ -93,7 +94,7 @@ void add_tilt(double weight, const IncipientContact& pair, BlockMatrix& matrix, 
   block.value.bottomRightCorner<3, 3>() -= pair.turn_a * pair.turn_b * stiffness;
 }
 
-/// The v of S = Σ v vᵀ.
+/// The vectors v of S = Σ v vᵀ.
 std::vector<Eigen::Vector3d> roots(const Eigen::Matrix3d& stiffness) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(stiffness);
   std::vector<Eigen::Vector3d> list;
@@ -138,13 +139,13 @@ ActivePairs StepModel::active_pairs(const Eigen::VectorXd& step) const {
   return active;
 }
 
-/// Whether the tangent with the gap closed can matter. Next to a shift that is stiffer than the pair it cannot.
+/// True if the tangent with the gap closed can matter. It cannot if the shift is stiffer than the pair.
 bool StepModel::may_close(const IncipientContact& pair, double shift) const {
   const double closed = squared_norm(pair.closed);
   return closed > 2 * shift && closed >= steeper * squared_norm(pair.now);
 }
 
-/// True if some pair changed its state.
+/// Returns true if some pair changed its state.
 bool StepModel::revise(const Eigen::VectorXd& step, double shift, bool may_release) {
   bool changed = false;
   for (std::size_t k = 0; k < states_.size(); ++k) {
@@ -160,14 +161,14 @@ bool StepModel::revise(const Eigen::VectorXd& step, double shift, bool may_relea
   return changed;
 }
 
-/// How much of its tilt term a pair has.
+/// Fraction of its tilt term that a pair has.
 double StepModel::tilt_weight(const IncipientContact& pair, const State& state, double shift) const {
   if (!touching(pair) && !state.closing) return 0;
   const double everywhere = std::min(1.0, shift / (stiffened_at * largest_diagonal_));
   return std::max(everywhere, state.tilted ? tilted : 0.0);
 }
 
-/// H with the springs ½ ∇V ∇Vᵀ of closing pairs and the tilt terms.
+/// H with the springs ½ ∇V ∇Vᵀ of closing pairs, and the tilt terms.
 BlockMatrix StepModel::assembled(double shift) const {
   const std::vector<BlockMatrix::Block>& present = second_.hessian.off_diagonal;
   BlockMatrix sum;
@@ -175,7 +176,7 @@ BlockMatrix StepModel::assembled(double shift) const {
   sum.border = second_.hessian.border;
   sum.corner = second_.hessian.corner;
   std::size_t next = 0;
-  // Pairs come in the order of blocks: two sorted lists become one.
+  // Pairs have the same order as blocks: this merges two sorted lists.
   const auto copy_up_to = [&](int a, int b) {
     while (next < present.size() && std::pair(present[next].row, present[next].column) <= std::pair(a, b))
       sum.off_diagonal.push_back(present[next++]);
@@ -204,8 +205,8 @@ BlockMatrix StepModel::assembled(double shift) const {
   return sum;
 }
 
-/// u of the terms u uᵀ that the matrix has gained since the pairs were in the states `before`, as columns. nullopt if
-/// it lost one, or gained too many.
+/// The vectors u of the terms u uᵀ that were added to the matrix since the pairs were in the states `before`, as
+/// columns. Returns nullopt if a term was removed or too many were added.
 std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& before, double shift) const {
   std::vector<Eigen::VectorXd> terms;
   const auto most = static_cast<std::size_t>(updates_per_particle * second_.hessian.size());
@@ -227,7 +228,7 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
   return u;
 }
 
-/// Slopes by all coordinates.
+/// Slopes with respect to all coordinates.
 Eigen::VectorXd StepModel::column(const IncipientContact& pair, const LinearisedOverlap& volume) const {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(gradient_.size());
   u.segment<6>(6 * pair.a) = volume.slope_a;
@@ -250,7 +251,7 @@ Eigen::VectorXd StepModel::gradient() const {
   return sum;
 }
 
-/// Tilt terms are caution, not expectation: they shorten the step and are not counted.
+/// Tilt terms are a precaution: they shorten the step and are not counted.
 double StepModel::decrease(const Eigen::VectorXd& step) const {
   double sum = -gradient_.dot(step) - step.dot(second_.hessian * step) / 2;
   for (std::size_t k = 0; k < states_.size(); ++k) {

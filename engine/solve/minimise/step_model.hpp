@@ -10,43 +10,42 @@
 
 namespace isojam {
 
-/// Pairs of particles that a step was expected to close or to tilt, sorted: the first guess for the next model.
+/// Sorted pairs of particles that a step is predicted to close or to tilt; the initial estimate for the next model.
 struct ActivePairs {
   std::vector<std::pair<int, int>> closing, tilted;
 };
 
-/// The factor that models of one minimisation share, for its symbolic part, and how often it was put to use.
+/// The factor shared by all models of one minimisation, which reuses its symbolic part, and counts of its use.
 struct StepFactor {
   BlockCholesky cholesky;
   long factorisations = 0;
-  long updates = 0;  ///< solved by low-rank update instead
+  long updates = 0;  ///< systems solved by a low-rank update instead
 };
 
-/// A step s as moved() takes it, and the decrease in energy (Y·V_p) that the model promises for it.
+/// A step s in the form of moved(), and the decrease in energy (Y·V_p) that the model predicts for it.
 struct ModelStep {
   Eigen::VectorXd displacement;
   double decrease = 0;
 };
 
-/// Model of the energy over a step s: E + g·s + ½ s·H s, and two things that happen before that series ends. Pairs
+/// Model of the energy for a step s: E + g·s + ½ s·H s, and two effects that occur before this series fails. Pairs
 /// close: V = max(0, now, closed), the tangents of an incipient contact. Flat contacts tilt until their section line
-/// cuts the face: they have a stiffness against tilt. Which pairs do either, the active set, is found with the step.
-/// The notions are explained, with a sketch, in step_model.cpp.
+/// crosses the face: they get a stiffness against tilt. The pairs affected, the active set, are determined together
+/// with the step. step_model.cpp explains the terms, with a sketch.
 class StepModel {
  public:
-  /// Systems that one minimise() solves at most, each by a factorisation or an update of one: what it may cost.
+  /// Maximum number of systems that one minimise() solves, each by a factorisation or an update.
   static constexpr int most_rounds = 4;
 
-  /// Model at the state with `gradient`; steps in which a particle moves farther than `longest` (V_p^(1/3)) are cut
-  /// down.
+  /// Model at the state with `gradient`. Steps that move a particle farther than `longest` (V_p^(1/3)) are scaled down.
   StepModel(SecondOrder second, Eigen::VectorXd gradient, double longest);
 
-  /// Largest diagonal entry of the Hessian, the spring constant of the stiffest coordinate.
+  /// Largest diagonal entry of the Hessian: the spring constant of the stiffest coordinate.
   double largest_diagonal() const { return largest_diagonal_; }
-  /// Keeps the present contacts only: plain E + g·s + ½ s·H s, and tilt.
+  /// Keeps only the present contacts: E + g·s + ½ s·H s, and tilt.
   void forget_closing_pairs();
-  /// Minimises the model plus ½ shift·s². `active`: first guess, then what was found. nullopt if the shifted matrix is
-  /// not positive definite.
+  /// Minimises the model plus ½ shift·s². `active` is the initial estimate, then the result. Returns nullopt if the
+  /// shifted matrix is not positive definite.
   std::optional<ModelStep> minimise(double shift, StepFactor& factor, ActivePairs& active);
 
  private:
@@ -68,7 +67,7 @@ class StepModel {
   SecondOrder second_;
   Eigen::VectorXd gradient_;
   double longest_, largest_diagonal_ = 0;
-  std::vector<State> states_;  ///< of second_.pairs
+  std::vector<State> states_;  ///< states of second_.pairs
 };
 
 }  // namespace isojam

@@ -8,18 +8,18 @@
 
 namespace isojam {
 
-/// Why a minimisation ended.
+/// Reason for the end of a minimisation.
 enum class StopReason {
   not_called,        ///< nothing was minimised
-  residual_reached,  ///< forces balance to the residual asked for
-  /// Relative energy change below the tolerance asked for, the paper's rule; not an equilibrium by itself.
+  residual_reached,  ///< forces balance to the requested residual
+  /// Relative energy change below the requested tolerance, the paper's rule; not an equilibrium by itself.
   energy_change,
-  unjammed,            ///< energy and forces fell to the floor of the unjammed verdict
-  precision_floor,     ///< no lower residual can be resolved, not even in double-double
+  unjammed,            ///< energy and forces are below the limits for unjammed states
+  precision_floor,     ///< not even double-double resolves a smaller residual
   budget,              ///< evaluations spent
-  line_search_failed,  ///< no lower energy found along any direction tried
-  cell_limit,          ///< the cell came to be so small or skew that a particle could touch two images of another
-  not_finite,          ///< energy or gradient was not finite
+  line_search_failed,  ///< no direction led to a lower energy
+  cell_limit,          ///< the cell became so small or skew that a particle could touch two images of another one
+  not_finite,          ///< energy or gradient is not finite
   interrupted          ///< stop requested from outside
 };
 template <>
@@ -34,36 +34,36 @@ inline constexpr std::array enum_names<StopReason>{EnumName{StopReason::not_call
                                                    EnumName{StopReason::not_finite, "not_finite"},
                                                    EnumName{StopReason::interrupted, "interrupted"}};
 
-/// Work of a minimisation beside its evaluations.
+/// Work of a minimisation in addition to its evaluations.
 struct MinimiseWork {
-  long double_double_evaluations = 0;  ///< of the evaluations, those in double-double
-  long hessians = 0;                   ///< second derivatives of the packing, touching pairs and near ones
-  long factorisations = 0;             ///< of a shifted Hessian, failed ones too
-  long factor_updates = 0;             ///< systems solved by updating a factor instead of factorising anew
+  long double_double_evaluations = 0;  ///< evaluations in double-double, included in `evaluations`
+  long hessians = 0;                   ///< second derivatives of the packing, with touching and near pairs
+  long factorisations = 0;             ///< factorisations of a shifted Hessian, including failed ones
+  long factor_updates = 0;             ///< systems solved by updating a factor
   long envelopes = 0;                  ///< evaluations of the multiplier method, EnvelopeEvaluation
-  long envelope_overlaps = 0;          ///< overlaps with Hessian that these took
-  long local_factorisations = 0;       ///< of the Hessian of a few particles
+  long envelope_overlaps = 0;          ///< overlaps with Hessian in these evaluations
+  long local_factorisations = 0;       ///< factorisations of the Hessian of a few particles
 
   /// Adds the work of another minimisation.
   MinimiseWork& operator+=(const MinimiseWork& term);
   bool operator==(const MinimiseWork&) const = default;
 };
 
-/// Outcome of one minimisation; the default says that none was run.
+/// Result of one minimisation; by default that of none.
 struct MinimiseSummary {
-  StopReason reason = StopReason::not_called;  ///< why it ended
+  StopReason reason = StopReason::not_called;  ///< reason for its end
   double energy = 0;                           ///< E, without the work against a pressure
   double residual = 0;                         ///< as Evaluation::residual
   double residual_floor = 0;                   ///< as Evaluation::residual_floor, in the same state
-  Precision precision = Precision::working;    ///< of the last evaluation
-  long evaluations = 0;                        ///< of energy and forces
-  long iterations = 0;                         ///< of the minimiser
-  MinimiseWork work;                           ///< beside the evaluations
+  Precision precision = Precision::working;    ///< precision of the last evaluation
+  long evaluations = 0;                        ///< evaluations of energy and forces
+  long iterations = 0;                         ///< iterations of the minimiser
+  MinimiseWork work;                           ///< work in addition to the evaluations
 
-  bool converged() const { return reason == StopReason::residual_reached; }  ///< whether it found what was asked for
+  bool converged() const { return reason == StopReason::residual_reached; }  ///< true if the residual was reached
 };
 
-/// Whether forces balance to the residual asked for, or as well as double-double can tell.
+/// True if forces balance to the requested residual, or as well as double-double resolves.
 inline bool is_equilibrium(const MinimiseSummary& summary) {
   return summary.converged() || summary.reason == StopReason::precision_floor;
 }

@@ -13,10 +13,10 @@ namespace isojam {
 
 namespace {
 
-/// Differences of Φ below this many times its rounding are none.
+/// Differences of Φ below this many times its rounding error are not significant.
 constexpr double resolved = 10;
 
-/// No success divides the shift by more than the inverse.
+/// Smallest factor by which a success multiplies the shift.
 constexpr double least_change = 0.2;
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace isojam {
 
 namespace {
 
-/// What rounding can make of an eigenvalue that is zero.
+/// Size of an eigenvalue that rounding can cause in place of zero.
 double resolved(const BlockMatrix& matrix) {
   double largest = 0;
   for (const Matrix6d& block : matrix.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());

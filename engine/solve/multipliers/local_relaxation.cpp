@@ -10,13 +10,13 @@ namespace isojam {
 
 namespace {
 
-/// A contact is mispredicted if Φ of it is wrong by this part of the decrease that was promised for all.
+/// A contact is mispredicted if the error of its Φ exceeds this fraction of the total predicted decrease.
 constexpr double wrong_by = 0.05;
 
 constexpr int most_steps = 12;
 
-/// The relaxation has ended when a step promises less than this part of the decrease promised for all; after a failed
-/// step sooner.
+/// The relaxation ends when the predicted decrease of a step is below this fraction of the total one; the second value
+/// applies after a failed step.
 constexpr double enough = 0.01, enough_after_failure = 0.001;
 
 constexpr double growth = 4;

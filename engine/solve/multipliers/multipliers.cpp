@@ -16,85 +16,86 @@
 #include "engine/solve/multipliers/local_relaxation.hpp"
 #include "engine/solve/multipliers/tangent.hpp"
 
-// Near jamming all contact forces are of one size, f ~ Δφ⁵, and so the depth of a contact depends on its kind: ~ Δφ for
-// corners and crossed edges, ~ Δφ⁵ for flat faces. A flat contact is a spring of stiffness .1 that holds over 1e-10,
-// beside springs of stiffness Δφ⁴ that hold over Δφ: Newton's method on the energy itself has to find the flat ones
-// again at every step. As a constraint with a force of its own a flat contact is harmless. So the energy of every
-// contact is replaced by its Moreau envelope Φ about a force μ (proximal_contact.hpp), none stiffer than
+// Near jamming all contact forces have similar magnitude, f ~ Δφ⁵, so the depth of a contact depends on its kind: ~ Δφ
+// for corners and crossed edges, ~ Δφ⁵ for flat faces. A flat contact is a spring of stiffness 0.1 with a range of
+// 1e-10, beside springs of stiffness Δφ⁴ with a range of Δφ. Newton's method on the energy itself must find the flat
+// contacts again in every step. As a constraint with its own force a flat contact is harmless. So the energy of every
+// contact is replaced by its Moreau envelope Φ about a force μ (proximal_contact.hpp), with the stiffness limited to
 //
 //   ρ = stiffening · k₀,   k₀ = f/Δφ,
 //
-// f the mean contact force: the stiffness of the soft contacts, some times over. Three loops, one inside the other:
+// a multiple of the stiffness of the soft contacts; f is the mean contact force. There are three nested loops:
 //
-//   start       From the equilibrium at φ₀, μ₀ = ∇e. To φ₁ positions are strained and follow the tangent, one linear
-//               solve; forces as r⁵, r = Δφ₁/Δφ₀.
-//   multipliers Φ is minimised until its forces balance better than μ is known, |∇Φ| < ½ max |∇e − μ|; then μ ← ∇e, so
-//               that no contact is shifted in the end and Φ is the energy (Hestenes 1969, Powell 1969).
-//   descent     Levenberg's and Marquardt's steps on Φ. Where contacts come and go the model of a step is wrong for a
-//               few pairs; then their particles are relaxed by themselves before the state is judged
-//               (local_relaxation.hpp), which is cheap and leaves next to no step to be rejected.
-//   finish      Once forces and multipliers agree to some 3 %, lifted steps (lifted_step.hpp), which converge
+//   start       From the equilibrium at φ₀, with μ₀ = ∇e. For φ₁ positions are strained and follow the tangent, one
+//               linear solve; forces are scaled by r⁵, r = Δφ₁/Δφ₀.
+//   multipliers Φ is minimised until the force residual is below the error of μ, |∇Φ| < ½ max |∇e − μ|. Then μ ← ∇e, so
+//               that finally all shifts are 0 and Φ is the energy (Hestenes 1969, Powell 1969).
+//   descent     Levenberg–Marquardt steps on Φ. If contacts open or close, the model of a step fails for a few pairs.
+//               Their particles are then relaxed separately before the state is judged (local_relaxation.hpp). This is
+//               cheap and leaves few steps to be rejected.
+//   finish      Once forces and multipliers agree to about 3 %, lifted steps (lifted_step.hpp), which converge
 //               quadratically. The residual of the energy itself, in double-double, decides.
 //
-// The path of equilibria is smooth between folds, where a packing gives way and its energy falls, now and then by
-// orders of magnitude. Scales follow the forces then.
+// The path of equilibria is smooth between folds. At a fold a packing rearranges and its energy falls, occasionally by
+// orders of magnitude. The scales then follow the forces.
 //
-// docs/equilibria.md has the figures that `make equilibria` prints.
+// docs/equilibria.md has the figures printed by `make equilibria`.
 
 namespace isojam {
 
 namespace {
 
-/// ρ/k₀: far above the stiffness of corners and crossed edges, which is k₀, and far below the .1 Y·V_p^(1/3) of faces.
+/// ρ/k₀: far above the stiffness k₀ of corners and crossed edges, and far below the 0.1 Y·V_p^(1/3) of faces.
 constexpr double stiffening = 300;
 
 constexpr double first_shift = 1, least_shift = 1e-7, most_shift = 1e12;  ///< λ/k₀
-constexpr double tangent_shift = 0.01;  ///< λ/k₀ of the equilibrium that it starts from
+constexpr double tangent_shift = 0.01;                                    ///< λ/k₀ of the initial equilibrium
 
-/// λ after a model that was not positive definite, and for how long it is kept above what was too little.
+/// Growth of λ after a model that was not positive definite; factor by which λ stays above that value; decay of this
+/// memory per step.
 constexpr double growth_if_indefinite = 8, above_indefinite = 1.5, forgotten = 0.5;
 
-/// A step that does worse than the first is followed by local relaxation; λ is adapted after that one too if it then
-/// does better than the second.
+/// If the decrease is less than the first fraction of the prediction, local relaxation follows. λ is adapted after it
+/// only if the ratio is then above the second.
 constexpr double relaxed_below = 0.9, trusted_above = 0.8;
 
-/// μ is renewed once ∇Φ is this part of its error.
+/// μ is renewed once ∇Φ is below this fraction of the error of μ.
 constexpr double balance_before_renewal = 0.5;
 
-/// Lifted steps begin when ∇Φ and the error of μ are this part of the mean force; after each attempt that fails, at a
-/// tenth of it. Below the second the rest is left to Newton's method on the energy, of so many evaluations.
+/// Lifted steps begin when ∇Φ and the error of μ are below the first fraction of the mean force; each failed attempt
+/// divides it by ten. Below the second, Newton's method on the energy takes over, with `last_evaluations` evaluations.
 constexpr double finish_from = 0.03, finish_to = 1e-7;
 constexpr double lifted_stiffening = 1e8, lifted_shift = 1e-7;  ///< ρ/k₀, λ/k₀
 constexpr long last_evaluations = 500;
 
-/// The energy's own residual is worth asking for below this imbalance.
+/// The energy's own residual is evaluated below this residual of the envelope.
 constexpr double nearly_balanced = 1e-3;
 
 constexpr double longest_step = 0.1, longest_tangent = 0.4;  ///< inradii
 
-/// Renewals of the multipliers, none of which halves what is wrong or lowers Φ by this part: before they go only part
-/// of the way, since they can go round for ever between the two sides of a kink, and before the rest is left to
-/// Newton's method.
+/// Limits of renewals of the multipliers that neither halve the error nor lower Φ by `least_fall`. After the first,
+/// renewals are damped, since they can alternate between the two sides of a kink. After the second, Newton's method
+/// takes over.
 constexpr int damped_after = 3, most_renewals = 15;
 constexpr double damped_part = 0.5;
 constexpr double least_fall = 1e-4;
 
-/// Forces that differ from the expected by more than this factor make new scales; fallen to the second they are those
-/// of a packing that is not jammed.
+/// If the mean force differs from the scale by more than the first factor, scales are set anew. If it falls to the
+/// second fraction of the expected one, the packing is unjammed.
 constexpr double off_scale = 3, unjammed_force = 1e-9;
-/// The energy per particle of one, over force times φ − φ_J: nearer than this asks for, energies that are lower than
-/// any limit in Y·V_p are those of packings that are jammed.
+/// Energy per particle of an unjammed packing, divided by force times φ − φ_J. This relative limit is needed because
+/// close to jamming the energy of a jammed packing can be below any fixed limit in Y·V_p.
 constexpr double unjammed_energy = 1e-6;
 
-/// Steps, one after the other, to states with fewer contacts than rigidity takes, before the packing counts as
-/// unjammed. Newton's method then has the last word.
+/// Number of consecutive states with too few contacts for rigidity after which the packing counts as unjammed. Newton's
+/// method then decides.
 constexpr int most_loose = 10;
 
-/// Far more than any state needs but those at the end of their branch, which slide a long way.
+/// Limits far above the need of all states, except those at the end of their branch, which slide a long way.
 constexpr long most_factorisations = 600, most_envelopes = 3000;
 
-/// Maxwell's count: even if every contact were of two faces, three constraints, there are fewer than the particles that
-/// have contacts have degrees of freedom.
+/// Maxwell's count: even with three constraints for every contact, as for two faces, there are fewer constraints than
+/// degrees of freedom of the particles that have contacts.
 bool cannot_be_rigid(const EnvelopeEvaluation& value) {
   std::vector<char> bears(static_cast<std::size_t>(value.gradient.size() / 6), 0);
   for (const EnvelopeContact& contact : value.contacts) {
@@ -115,7 +116,7 @@ class Multipliers {
         evaluator_(Enthalpy(options.control, packing.cell), summary_.work),
         here_{packing, {}} {}
 
-  /// From the equilibrium to one at another density.
+  /// Follows the equilibrium to another density.
   MinimiseSummary follow(double density) {
     const Packing strained = strained_to(packing_, density);
     const double stretch = strained.cell.side() / packing_.cell.side() - 1;
@@ -123,20 +124,20 @@ class Multipliers {
     return run();
   }
 
-  /// From the equilibrium to one in the cell deformed by F.
+  /// Follows the equilibrium in the cell deformed by F.
   MinimiseSummary follow(const DoubleDoubleMatrix& f) {
     follow_tangent(deformed(packing_, f), f.high - Eigen::Matrix3d::Identity(), distance_);
     return run();
   }
 
-  /// From the equilibrium to one under the load of the options: p ∝ Δφ⁵.
+  /// Follows the equilibrium under the load of the options: p ∝ Δφ⁵.
   MinimiseSummary follow_load() {
     const double now = energy_.evaluate(packing_, Precision::double_double).pressure;
     follow_tangent(packing_, Eigen::Matrix3d::Zero(), distance_ * nearest::pow(options_.control.pressure / now, 0.2));
     return run();
   }
 
-  /// To an equilibrium from where it is.
+  /// Relaxes the present state to an equilibrium.
   MinimiseSummary relax(double force) {
     first_force_ = force;
     k0_ = shift_ = 1;
@@ -168,13 +169,14 @@ class Multipliers {
     evaluator_.set_stiffness(stiffening * k0_);
   }
 
-  /// From `packing_` to what it is after a change that makes Δφ `distance`: `strained` by what was `imposed` already.
+  /// Predicts the state after a change to Δφ = `distance` from the equilibrium `packing_`. `strained` is that packing
+  /// after the strain `imposed`.
   void follow_tangent(const Packing& strained, const Eigen::Matrix3d& imposed, double distance) {
     k0_ = 1;
     set_scales(1, 1);
     const double ratio = distance / distance_;
     assert(ratio > 0);
-    // Scales ask for the mean force, which does not depend on them.
+    // The scales need the mean force, which does not depend on them.
     first_force_ = evaluator_.unshifted(packing_).value.mean_force;
     set_scales(first_force_, distance_);
     const EnvelopeState from = evaluator_.unshifted(packing_);
@@ -192,7 +194,7 @@ class Multipliers {
     if (evaluator_.cell_limit()) return StopReason::cell_limit;
     if (!std::isfinite(value.value) || !value.gradient.allFinite()) return StopReason::not_finite;
     if (value.touching == 0 || value.mean_force < unjammed_force * expected_force_ || loose_ > most_loose) {
-      // A pressure makes a packing jammed, which Newton's method then sees to.
+      // Under a pressure a packing is always jammed; Newton's method then decides.
       return frees_volume(options_.control.cell) ? StopReason::line_search_failed : StopReason::unjammed;
     }
     if (stop_.stop_requested()) return StopReason::interrupted;
@@ -223,7 +225,7 @@ class Multipliers {
     }
   }
 
-  /// Whether the last renewals of the multipliers have led nowhere: near a saddle they can go round for ever.
+  /// True if the last renewals of the multipliers made no progress: near a saddle they can continue for ever.
   bool stalled(double wrong) {
     const double value = here_.value.value;
     const bool lower = !std::isfinite(lowest_) || lowest_ - value > least_fall * std::abs(lowest_);
@@ -243,7 +245,7 @@ class Multipliers {
     here_ = evaluator_.at(std::move(here_.packing), forces);
   }
 
-  /// One step, with as many shifts as it needs unless a verdict falls.
+  /// One step, with repeated shifts until it succeeds or there is a reason to stop.
   void advance() {
     const BlockMatrix matrix = evaluator_.curvature(here_);
     ++summary_.work.hessians;
@@ -284,8 +286,8 @@ class Multipliers {
     ++summary_.iterations;
   }
 
-  /// Lifted steps as long as each halves what is wrong, and then the residual. The reason to stop if the state is an
-  /// equilibrium then.
+  /// Lifted steps as long as each halves the error, and then the residual. Returns the reason to stop if the state is
+  /// then an equilibrium.
   std::optional<StopReason> finish() {
     const auto wrong = [](const EnvelopeEvaluation& value) {
       return std::max(largest_displacement(value.gradient), value.multiplier_error);
@@ -313,7 +315,7 @@ class Multipliers {
     return std::nullopt;
   }
 
-  /// The energy itself in the present state.
+  /// Evaluates the energy itself in the present state.
   void measure() {
     const Evaluation value = evaluator_.load().of(energy_.evaluate(packing_, Precision::double_double), packing_);
     ++summary_.evaluations;
@@ -324,7 +326,7 @@ class Multipliers {
     summary_.precision = Precision::double_double;
   }
 
-  /// Newton's method on the energy for what lifted steps leave.
+  /// Newton's method on the energy for the residual that lifted steps leave.
   void polish() {
     MinimiseOptions options = options_;
     options.method = Method::newton;
@@ -332,7 +334,7 @@ class Multipliers {
     options.unjammed_energy = std::min(options_.unjammed_energy, unjammed_energy * expected_force_ * distance_);
     const MinimiseSummary rest = minimise(packing_, energy_, options, stop_);
     MinimiseSummary sum = rest;
-    // What Newton's method could not balance either is what it was found to be.
+    // If Newton's method does not reach balance either, the earlier verdict remains.
     if (summary_.reason == StopReason::unjammed && rest.reason == StopReason::budget) sum.reason = summary_.reason;
     sum.evaluations += summary_.evaluations;
     sum.iterations += summary_.iterations;
@@ -349,15 +351,15 @@ class Multipliers {
   MinimiseSummary summary_;
   EnvelopeEvaluator evaluator_;
   EnvelopeState here_;
-  double first_force_ = 0;                                   ///< mean force of the equilibrium that it starts from
-  double expected_force_ = 0;                                ///< mean force if nothing gives way
-  double force_ = 0, k0_ = 0;                                ///< scales
-  double shift_ = 0;                                         ///< λ
-  double indefinite_ = 0;                                    ///< a λ that was too little
-  double best_ = std::numeric_limits<double>::infinity();    ///< least imbalance, over the mean force, halved since
+  double first_force_ = 0;                                 ///< mean force of the initial equilibrium
+  double expected_force_ = 0;                              ///< mean force without a rearrangement
+  double force_ = 0, k0_ = 0;                              ///< scales
+  double shift_ = 0;                                       ///< λ
+  double indefinite_ = 0;                                  ///< a λ that was too small
+  double best_ = std::numeric_limits<double>::infinity();  ///< smallest error over mean force that counted as progress
   double lowest_ = std::numeric_limits<double>::infinity();  ///< Φ then
-  int renewals_ = 0;                                         ///< of multipliers since then
-  int loose_ = 0;                                            ///< steps to states that cannot be rigid
+  int renewals_ = 0;                                         ///< renewals of multipliers since then
+  int loose_ = 0;                                            ///< consecutive states that cannot be rigid
 };
 
 }  // namespace

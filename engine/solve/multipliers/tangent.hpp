@@ -8,16 +8,16 @@
 
 namespace isojam {
 
-/// How an equilibrium answers a change of density or pressure to first order.
+/// First-order response of an equilibrium to a change of density or pressure.
 struct Tangent {
-  Eigen::VectorXd step;                   ///< as moved() takes it, beside the strain that was imposed
-  std::vector<ContactMultiplier> forces;  ///< multipliers as they were, shifts as the change makes them
+  Eigen::VectorXd step;                   ///< step in the form of moved(), in addition to the imposed strain
+  std::vector<ContactMultiplier> forces;  ///< unchanged multipliers, and shifts after the change
 };
 
-/// The answer −M⁻¹ ∂g of the equilibrium `from`, M the second derivatives of Φ + `shift`·1, ∂g the change of its
-/// gradient by a strain of the cell and of all centres, or where the volume is free by the load of `evaluator`, which
-/// is not the one that `from` balances; the strain is not used then. No particle moves farther than `longest`. Where M
-/// is not positive definite the packing stays as it was.
+/// The response −M⁻¹ ∂g of the equilibrium `from`. M is the second derivatives of Φ + `shift`·1, and ∂g is the change
+/// of its gradient due to a strain of the cell and of all centres. If the volume is free, ∂g is instead due to the load
+/// of `evaluator`, which differs from the load in the equilibrium `from`; `imposed` is then not used. No particle moves
+/// farther than `longest`. If M is not positive definite, the step is zero.
 Tangent tangent(const EnvelopeState& from, const Eigen::Matrix3d& imposed, double shift, double longest,
                 EnvelopeEvaluator& evaluator, BlockCholesky& factor, MinimiseWork& work);
 

@@ -1,7 +1,8 @@
-// Facts proved, on clusters whose answers are known exactly:
-//   1. S, l_max and the longest cluster follow from sizes and extents;
-//   2. D of straight chains is 1, of sheets near 2, of blocks near 3, of a self-similar cluster near its closed form;
-//   3. rings through the boundary, small clusters and heaps on one point have no D, and say why.
+// Properties tested here, for clusters with exactly known results:
+// 1. S, l_max and the longest cluster follow from sizes and extents.
+// 2. D is 1 for straight chains, near 2 for sheets, near 3 for blocks, and near the closed form for a self-similar
+//    cluster.
+// 3. Rings through the boundary, small clusters and coincident particles have no D, and the verdict states why.
 
 #include "engine/analysis/cluster_statistics.hpp"
 
@@ -25,7 +26,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 
 TEST(ClusterStatistics, FollowFromSizesAndExtents) {
-  // Chains of 5, 3 and 1 along y, and a ring of 2 through the boundary along x at will.
+  // Chains of 5, 3 and 1 along y, and optionally a ring of 2 through the boundary along x.
   for (const bool ring : {false, true}) {
     std::vector<Vector3d> centres = row(11, 1);
     Structure structure = at(20, centres);
@@ -68,7 +69,7 @@ TEST(FractalDimension, OfSheetsAndBlocks) {
   EXPECT_NEAR(cube.D, 3, 0.15);
 }
 
-/// Vicsek's cross in three dimensions, level by level seven copies of itself in a block of side 3: D = log 7/log 3.
+/// Vicsek's cross in three dimensions: at each level seven copies of itself in a block of side 3, D = log 7/log 3.
 TEST(FractalDimension, OfASelfSimilarClusterIsItsClosedForm) {
   std::vector<Vector3d> centres{Vector3d::Zero()};
   for (int level = 0, width = 1; level < 3; ++level, width *= 3) {

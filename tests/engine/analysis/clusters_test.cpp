@@ -1,13 +1,14 @@
-// Facts proved, on clusters whose answers are known exactly:
-//   1. lone particles, a chain, a helix and a plane sheet do not wind; a ring through the boundary winds once, a sheet
-//      through it twice, a full lattice three times, a helix through it once; extents are those of the construction;
-//   2. a chain that is longer than the cell spans without winding, one that is shorter does not;
-//   3. windings are found whatever path closes them: a knight's move, a double turn, one particle on its own image, and
-//      two strands of which one runs back;
-//   4. labels, sizes, extents and rank depend on neither the order, the direction nor the repetition of bonds, nor the
-//      cell that a particle's position is given in; renumbering the particles renumbers the labels; on random bonds
-//      they are those of a breadth-first search in space and of the rank of its cycles by another method;
-//   5. bonds of face-face contacts are those of the class; bonds of nobody and statistics of nothing are refused.
+// Properties tested here, for clusters with exactly known results:
+// 1. Single particles, a chain, a helix and a plane sheet do not wind. A ring through the boundary winds once, a sheet
+//    through it twice, a full lattice three times, a helix through it once. Extents are those of the construction.
+// 2. A chain that is longer than the cell spans without winding; a shorter one does not span.
+// 3. Windings are found for any closing path: a knight's move, a double winding, one particle and its own image, and
+//    two strands in opposite directions.
+// 4. Labels, sizes, extents and rank do not depend on the order, direction or repetition of bonds, nor on the periodic
+//    image of a particle's position. Renumbering the particles renumbers the labels. On random bonds they agree with a
+//    breadth-first search in space and with the rank of its cycles by another method.
+// 5. Bonds of face-face contacts are those of the class. Bonds of unknown particles and statistics of no cluster are
+//    rejected.
 
 #include "engine/analysis/clusters.hpp"
 
@@ -154,7 +155,7 @@ TEST(Clusters, WindHoweverTheyClose) {
   alone.bonds.push_back({0, 0, {3, 2, 1}});
   EXPECT_EQ(clusters_of(alone).front().winding_rank(), 3);
 
-  // Two strands: out through the boundary and back through it. They close, but not on another image.
+  // Two strands, out through the boundary and back: they close, but not on another image.
   Structure back_and_forth = at(4, row(4, 0));
   add_chain(back_and_forth, 0, 4);
   back_and_forth.bonds.push_back({3, 0, Vector3i::UnitX()});
@@ -166,7 +167,7 @@ TEST(Clusters, WindHoweverTheyClose) {
   EXPECT_EQ(clusters_of(returning).front().extent[0], 6) << "0, 5, 6, 3 unwrapped";
 }
 
-/// Per particle: the label, the image and the windings of its cluster by breadth-first search in space.
+/// Per particle: the label, the image and the windings of its cluster, by breadth-first search in space.
 struct Searched {
   std::vector<int> label;
   std::map<int, std::vector<Vector3d>> cycles;
@@ -267,7 +268,7 @@ TEST(Clusters, DependOnNothingButTheNetwork) {
       EXPECT_EQ(same.winding_rank(), cluster.winding_rank());
       for (int axis = 0; axis < 3; ++axis) {
         ASSERT_EQ(same.extent[axis].has_value(), cluster.extent[axis].has_value());
-        // Positions up to three cells and paths of n cells away, rounded.
+        // Rounding error for positions up to three cells away and paths of n cells.
         if (cluster.extent[axis]) {
           EXPECT_NEAR(*same.extent[axis], *cluster.extent[axis], 4e-16 * n * 5);
         }

@@ -8,22 +8,22 @@
 
 namespace isojam::constructed {
 
-/// Unit cubes along the axes, and bonds between them.
+/// Unit cubes parallel to the axes, and bonds between them.
 struct Structure {
   Packing packing;
   std::vector<NeighbourPair> bonds;
 };
 
-/// Cubes with these centres in a cell of this side, no bonds.
+/// Cubes with these centres in a cell with this side, without bonds.
 Structure at(double side, const std::vector<Eigen::Vector3d>& centres);
 
-/// n sites along an axis, one apart.
+/// n sites along an axis with distance 1.
 std::vector<Eigen::Vector3d> row(int n, int axis);
 
-/// Bonds from each of the particles from..to − 1 to the next.
+/// Bonds from each of the particles from..to − 1 to the next one.
 void add_chain(Structure& structure, int from, int to);
 
-/// All sites of an n[0] × n[1] × n[2] block, bonded along the axes, through the boundary where `closed`.
+/// All sites of an n[0] × n[1] × n[2] block, bonded along the axes, and through the boundary where `closed`.
 Structure block(const Eigen::Vector3i& n, const std::array<bool, 3>& closed, double side);
 
 std::vector<Cluster> clusters_of(const Structure& structure);

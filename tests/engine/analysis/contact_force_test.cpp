@@ -1,13 +1,13 @@
-// Facts proved here:
-//   1. forces and torques of all contacts sum up, particle by particle, to the gradient of the energy in double-double,
-//      to rounding, in random packings, in jammed ones, in mixtures and in sheared cells; V, S and M are the kernel's;
-//   2. the line of action: about the point of attack a force has no torque but along itself, seen from either solid,
-//      whose torques differ by r × F; the point lies half way between the ends of the intersection;
-//   3. two bricks face to face have the depth, area, force and point of attack that a ruler gives;
-//   4. kinds: vertices in faces, edges across edges, edges in faces and faces in faces, put together at random with
-//      every Platonic solid, are told apart, whichever solid comes first;
-//   5. exchange of the two solids, a lattice translation and a rotation of the whole change nothing but the frame;
-//   6. contacts are found in double-double unless asked otherwise: a flat one 1e-17 deep has its force to 1e-9 then.
+// Properties tested here:
+// 1. Forces and torques of all contacts sum up, for each particle, to the gradient of the energy in double-double,
+//    within rounding: in random packings, jammed ones, mixtures and sheared cells. V, S and M are those of the kernel.
+// 2. About the point of attack a force has only a torque along itself, for either solid; the torques of both differ by
+//    r × F. The point is half way between the ends of the intersection.
+// 3. Two bricks face to face have the depth, area, force and point of attack of elementary geometry.
+// 4. Vertices in faces, crossed edges, edges in faces and faces on faces are identified, for random constructions with
+//    every Platonic solid and for both orders of the solids.
+// 5. Exchange of the two solids, a lattice translation and a rotation of the whole only change the frame.
+// 6. Contacts are found in double-double by default: a flat contact with a depth of 1e-17 then has its force to 1e-9.
 
 #include "engine/analysis/contact_force.hpp"
 
@@ -84,7 +84,7 @@ TEST(ContactForces, SumUpToTheGradient) {
       sum.segment<3>(6 * a + 3) -= forces[k].torque_a / radius(a);
       sum.segment<3>(6 * b + 3) -= forces[k].torque_b / radius(b);
       const Overlap& overlap = contacts[k].overlap;
-      // What the kernel promises in double-double: contacts below V 1e-8 to 1e-15, others to 1e-12.
+      // Documented errors of the kernel in double-double: 1e-15 for contacts with V < 1e-8, 1e-12 for others.
       EXPECT_NEAR(forces[k].volume, overlap.volume, 1e-12 * overlap.volume) << "contact " << k;
       EXPECT_NEAR(forces[k].area, overlap.area.norm(), 1e-12 * forces[k].area) << "contact " << k;
       sizes += forces[k].force_a.norm();
@@ -117,7 +117,7 @@ TEST(ContactForces, ActAlongALineThroughTheirPointOfAttack) {
   }
 }
 
-/// Two solids alone in a large cell; the first stands at the origin as it is.
+/// Two solids in a large cell; the first one is at the origin, not rotated.
 Packing pair_of(const ConvexSolid& solid, const RelativePose& pose) {
   Packing packing{solid, PeriodicCell(20), std::vector<Pose>(2)};
   packing.poses[1].position = pose.displacement;
@@ -130,7 +130,7 @@ TEST(ContactForces, OfTwoCubesAreThoseOfARuler) {
   pose.displacement = Vector3d(.25, -.5, .96875);  // exact in binary: 1/32 deep, 3/4 by 1/2 wide
   const Packing packing = pair_of(platonic(SolidKind::cube), pose);
   const ContactForce f = contact_force(packing, {0, 1, {0, 0, 0}});
-  // S = ∇V, V the product of the three widths; the pressure on three sides of the box goes through its middle.
+  // S = ∇V, V the product of the three widths. The total force on three sides of the box passes through its centre.
   const Vector3d width(.75, .5, 1. / 32),
       gradient(width.y() * width.z(), -width.x() * width.z(), width.x() * width.y());
   const double volume = width.prod(), area = gradient.norm();
@@ -143,7 +143,7 @@ TEST(ContactForces, OfTwoCubesAreThoseOfARuler) {
   EXPECT_EQ(f.kind, ContactKind::face_face);
 }
 
-/// Of A and of B exchanged.
+/// Kind of the contact, and of the contact with A and B exchanged.
 std::array<ContactKind, 2> kinds_of(const ConvexSolid& solid, const Contact& contact) {
   const Contact other = constructed::exchanged(contact);
   const auto kind = [&](const QuadPose& pose) {
@@ -171,7 +171,7 @@ TEST(ContactKinds, AreToldFromTheIntersection) {
       };
       expect(constructed::contact(vertex, face, spin, tilt, depth), ContactKind::vertex_face);
       expect(constructed::contact(face, face, spin, 1e-3 * depth * tilt, depth), ContactKind::face_face);
-      // A spin that keeps the edges well apart from parallel.
+      // A spin for which the edges are far from parallel.
       const double cross = std::numbers::pi * (.2 + .6 * random.uniform());
       expect(constructed::contact(edge, other_edge, cross, none, depth), ContactKind::edge_edge);
       expect(constructed::contact(edge, face, spin, 1e-3 * depth * tilt, depth), ContactKind::edge_face);
@@ -194,7 +194,7 @@ TEST(ContactForces, DoNotDependOnFrameImageOrOrder) {
     shifted.poses[0].position += packing.cell.translation(image);
     for (const Contact& contact : contacts) {
       const ContactForce f = contact_force(packing, contact.pair), g = contact_force(turned, contact.pair);
-      // Turned coordinates are rounded to 1e-16 of the cell: faces move by that, and so does the depth.
+      // Rotated coordinates are rounded to 1e-16 of the cell, which moves faces and changes the depth by as much.
       const double loose = 1e3 * epsilon * packing.cell.side() / (f.volume / f.area);
       EXPECT_NEAR(g.volume, f.volume, loose * f.volume);
       EXPECT_LT((q * f.force_a - g.force_a).norm(), loose * f.force_a.norm());
@@ -216,7 +216,7 @@ TEST(ContactForces, DoNotDependOnFrameImageOrOrder) {
 }
 
 TEST(Contacts, AreAsExactAsTheState) {
-  // Two cubes 1e-17 deep, a depth that the position of the second has in its low part only.
+  // Two cubes with a depth of 1e-17, which only the low part of the second position contains.
   RelativePose pose;
   pose.displacement = Vector3d(.25, .25, 1);
   Packing packing = pair_of(platonic(SolidKind::cube), pose);

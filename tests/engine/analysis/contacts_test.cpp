@@ -1,16 +1,18 @@
-// Facts proved:
-//   1. classes: face-face below its cut-off, else edge-face below its own, else lower order; a cut-off itself excludes;
-//   2. numbers: each contact counts for two particles, Z = Z_ff + Z_ef + Z_l, C = 3 Z_ff + 2 Z_ef + Z_l; wider fixed
-//      cut-offs never lower C (as in column 2 of Table III of Smith, Fisher and Alam 2011);
-//   3. contacts of all four topologies, put together at random and overlapped by the kernel, are recognised, for every
-//      Platonic solid, in whatever order they come;
-//   4. both angles are fitted on [0, θ_c,min/2], each its own;
-//   5. a fit that collapses or has too few angles leaves its class empty;
-//   6. the gap finds the same face-face contacts where they lie decades below; where there is no gap it says so;
-//   7. fixed cut-offs are the means over six classifications, and count far more constraints;
-//   8. a pool of packings is fitted once, as one packing with all contacts would be, and classified one by one; a pool
-//      of one is the packing itself;
-//   9. no contact, one contact and contacts all perfectly aligned have defined answers.
+// Properties tested here:
+// 1. Classes: face-face below its cut-off, else edge-face below its own, else lower order. An angle equal to a cut-off
+//    is not below it.
+// 2. Numbers: each contact counts for two particles, Z = Z_ff + Z_ef + Z_l, C = 3 Z_ff + 2 Z_ef + Z_l. Larger fixed
+//    cut-offs never lower C (as in column 2 of Table III of Smith, Fisher and Alam 2011).
+// 3. Contacts of all four topologies, constructed at random and overlapped by the kernel, are recognised for every
+//    Platonic solid and in any order.
+// 4. Each angle is fitted on its own window [0, θ_c,min/2].
+// 5. If a fit collapses or has too few angles, its class is empty.
+// 6. The gap finds the same face-face contacts if they are decades below the others. Without a gap the verdict states
+//    that.
+// 7. Fixed cut-offs give the means over six classifications, and count far more constraints.
+// 8. A pool of packings is fitted once, like one packing with all contacts, and each packing is classified separately.
+//    A pool of one is the packing itself.
+// 9. No contact, one contact and perfectly aligned contacts have defined results.
 
 #include "engine/analysis/contacts.hpp"
 
@@ -104,7 +106,7 @@ class ContactsOf : public testing::TestWithParam<SolidKind> {
   Site any_edge() { return constructed::edge_site(solid, any(solid.edges().size())); }
   Site any_face() { return constructed::face_site(solid, any(solid.faces().size())); }
   double spin() { return 2 * pi * random.uniform(); }
-  /// Smooth over decades, none of them near what the CDF fits resolve.
+  /// Spread over decades; none of them is near the resolution of the CDF fits.
   double ultra_low() { return std::pow(10.0, -7 + 3 * random.uniform()); }
 
   Contact face_on_face() {
@@ -113,7 +115,7 @@ class ContactsOf : public testing::TestWithParam<SolidKind> {
     return constructed::contact(a, any_face(), spin(), ultra_low() * axis, 1e-3);
   }
 
-  /// An edge in a face, turned about itself through the whole range of θ_ff.
+  /// An edge in a face, rotated about itself through the whole range of θ_ff.
   Contact edge_on_face() {
     const int edge = any(solid.edges().size());
     const Site a = constructed::edge_site(solid, edge);
@@ -131,7 +133,7 @@ class ContactsOf : public testing::TestWithParam<SolidKind> {
 
   Contact edge_on_edge() { return constructed::contact(any_edge(), any_edge(), spin(), Vector3d::Zero(), 1e-4); }
 
-  /// n contacts, of them a tenth face-face and two tenths edge-face.
+  /// n contacts: one tenth face-face and two tenths edge-face.
   std::vector<Contact> mixture(int n) {
     std::vector<Contact> contacts;
     for (int k = 0; k < n; ++k) {
@@ -154,7 +156,7 @@ TEST_P(ContactsOf, TopologiesAreRecognised) {
   ASSERT_EQ(analysis.face_face.verdict, FitVerdict::fitted);
   ASSERT_EQ(analysis.edge_face.verdict, FitVerdict::fitted);
 
-  // What the fits may get wrong is the sampling noise of a_0. Face-face contacts have edges in faces too.
+  // The error of the fits is the sampling noise of a_0. Face-face contacts have edges in faces too.
   const double ff_noise = 4 * analysis.face_face.a0_error, ef_noise = 4 * analysis.edge_face.a0_error;
   EXPECT_NEAR(analysis.face_face.a[0], 0.1, ff_noise);
   EXPECT_NEAR(analysis.edge_face.a[0], 0.3, ef_noise);
@@ -217,7 +219,7 @@ TEST_P(ContactsOf, TheGapFindsTheSameFaceFaceContacts) {
   ASSERT_EQ(analysis.face_face_gap.verdict, GapVerdict::separated);
   ASSERT_TRUE(analysis.Z_ff_gap && analysis.disagreement());
   EXPECT_EQ(analysis.disagreement(), *analysis.Z_ff_gap - analysis.numbers.Z_ff);
-  // Some of the other contacts are as well aligned by chance: those that lie within the decades of the face-face ones.
+  // Some of the other contacts are equally well aligned by chance, within the decades of the face-face contacts.
   int below = 0, by_chance = 0;
   for (int k = 0; k < contacts; ++k) {
     const bool aligned = all[k].face_face < analysis.face_face_gap.cutoff;

@@ -1,8 +1,8 @@
-// Facts proved here:
-//   gaps of packings are those of all pairs and images by brute force; no pair that touches is among them;
-//   a face parallel to a vertex, edge or face at a distance h has a gap of h, and so have crossed edges; which of both
-//   it is, is told; a gap does not depend on which particle comes first;
-//   widths that are not positive are refused.
+// Properties tested here:
+// - Gaps of packings are those of all pairs and images by brute force; no touching pair is among them.
+// - A face parallel to a vertex, edge or face at a distance h has a gap of h, and so have crossed edges. The kind is
+//   reported correctly. A gap does not depend on the order of the particles.
+// - Widths that are not positive are rejected.
 
 #include "engine/analysis/gaps.hpp"
 
@@ -46,7 +46,7 @@ TEST(GapsTest, AreThoseOfBruteForce) {
   }
 }
 
-/// The gap of two bodies apart by h, and the same with the bodies exchanged.
+/// Checks the gap of two bodies at a distance h, and with the bodies exchanged.
 void expect_gap(const ConvexSolid& solid, const Contact& apart, double h, bool of_faces) {
   for (const bool exchanged : {false, true}) {
     const RelativePose& pose = apart.pose;

@@ -1,14 +1,15 @@
-// Facts proved on a jammed packing of octahedra (N = 48) near its jamming point, and on those above it:
-//   1. contacts whose features make them vertex-face or edge-edge stay below the critical angles of Table II, and come
-//      near the greater ones;
-//   2. the fit and the gap agree on the face-face contacts, within their errors; fixed cut-offs count far more
-//      constraints than either; the pool of all states has the cut-offs that a fit to all their angles gives, and
-//      counts the contacts of each state by them;
-//   3. θ_ef is hyper-random at small angles, as the paper found, and more contacts are aligned than random ones are;
-//   4. clusters of face-face contacts partition the particles, hold every bond, and give the S of their sizes;
-//   5. the packing is disordered: Q6 below the crystalline threshold, orientations no more aligned than chance allows;
-//   6. a perfect crystal of cubes, slightly pressed, has an answer everywhere: all contacts face-face by either method,
-//      one cluster that winds in all directions and so has neither length nor dimension, perfect order.
+// Properties tested here, for a packing of octahedra (N = 48) near its jamming point, and for states above it:
+// 1. Contacts that are vertex-face or edge-edge by their features are below the critical angles of Table II, and come
+//    close to the larger ones.
+// 2. The fit and the gap agree on the face-face contacts within their errors. Fixed cut-offs count far more constraints
+//    than both. The pool of all states has the cut-offs of a fit to all their angles, and counts the contacts of each
+//    state by them.
+// 3. θ_ef is hyper-random at small angles, as in the paper, and more contacts are aligned than random ones.
+// 4. Clusters of face-face contacts partition the particles, contain every bond, and give the S of their sizes.
+// 5. The packing is disordered: Q6 is below the crystalline threshold, and orientations are not more aligned than by
+//    chance.
+// 6. A perfect crystal of cubes under slight compression has defined results: all contacts are face-face by both
+//    methods, one cluster winds in all directions and so has neither length nor dimension, and the order is perfect.
 
 #include <gtest/gtest.h>
 
@@ -182,7 +183,7 @@ TEST(JammedPacking, ClustersHoldItsFaceFaceContacts) {
               to_string(statistics.D_max.verdict).data());
   EXPECT_NEAR(statistics.S, mean, 1e-12 * mean);
   EXPECT_EQ(statistics.winding_rank, 0);
-  // Touching centres are nearer than two circumradii.
+  // The distance of touching particles is below two circumradii.
   const double longest_bond = 2 * solid().circumradius() / nearest().cell.side();
   EXPECT_LE(statistics.l_max.value(), (statistics.largest - 1) * longest_bond);
 }

@@ -1,10 +1,10 @@
-// Facts proved here, of packings of several shapes and sizes:
-//   every contact is classified by the cut-offs of its own pair of shapes, which are fitted to their contacts alone;
-//   of one shape in several sizes all contacts are fitted together, as if it had one;
-//   numbers of kinds, weighted by how many there are, are those of all;
-//   critical angles of two shapes do not depend on their order, are the solid's own for two alike, and where edges
-//   cross are the largest that a search over turns of both edges finds; alignment is of the features that each of the
-//   two has.
+// Properties tested here, for packings of several shapes and sizes:
+// - Every contact is classified by the cut-offs of its own pair of shapes, which are fitted only to their contacts.
+// - All contacts of one shape in several sizes are fitted together, as for a single size.
+// - Numbers of kinds, weighted by their particle numbers, give those of all particles.
+// - Critical angles of two shapes do not depend on their order, and are the solid's own for two equal ones. For crossed
+//   edges they are the largest that a search over rotations of both edges finds.
+// - The alignment refers to the features of each of the two solids.
 
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST(MixtureContacts, OfKindsAreThoseOfAll) {
   EXPECT_NEAR(mean.Z_l, analysis.numbers.Z_l, 1e-12);
 }
 
-/// Half of what the dihedral angle leaves of π, where it is widest.
+/// Half of π minus the largest dihedral angle.
 double half_opening(const ConvexSolid& solid) {
   double least = std::numbers::pi;
   for (const Edge& edge : solid.edges()) {
@@ -126,8 +126,8 @@ double half_opening(const ConvexSolid& solid) {
   return least;
 }
 
-/// The largest θ_ff that two crossing edges allow, over the angle between them and turns of both about themselves: A
-/// below, its normals at α to either side of up, B above.
+/// The largest θ_ff that two crossed edges allow, over the angle between them and rotations of both about themselves: A
+/// below, with normals at α to either side of up, B above.
 double searched_crossing(double alpha, double beta) {
   constexpr int steps = 40;
   double best = 0;
@@ -140,7 +140,7 @@ double searched_crossing(double alpha, double beta) {
         for (const int p : {-1, 1}) {
           for (const int q : {-1, 1}) {
             const double a = turn_a + p * alpha, b = turn_b + q * beta;
-            const Vector3d n(0, std::sin(a), std::cos(a));  // A's edge lies along x
+            const Vector3d n(0, std::sin(a), std::cos(a));  // A's edge is along x
             const Vector3d m =
                 -Vector3d(-std::sin(between) * std::sin(b), std::cos(between) * std::sin(b), std::cos(b));
             least = std::min(least, std::atan2(n.cross(m).norm(), -n.dot(m)));
@@ -171,7 +171,7 @@ TEST(MixtureContacts, HaveTheCriticalAnglesOfTwoShapes) {
   }
 }
 
-/// A cube's face on a tetrahedron's: one is A and the other B, whichever is numbered first.
+/// A face of a cube on a face of a tetrahedron; either can be A, for both numberings.
 TEST(MixtureContacts, AlignTheFeaturesOfEach) {
   const ConvexSolid &cube = platonic(SolidKind::cube), &tetrahedron = platonic(SolidKind::tetrahedron);
   const Vector3d down = -Vector3d::UnitZ();

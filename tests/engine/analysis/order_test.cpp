@@ -1,7 +1,7 @@
-// Facts proved here:
-//   Q_l of parallel and antiparallel bonds is 1, of none 0;
-//   Q4 and Q6 of the simple cubic, face-centred cubic and icosahedral neighbour shells are their closed forms;
-//   it does not depend on rotation, length or order of the bonds, and is about 1/sqrt(n) for independent ones.
+// Properties tested here:
+// - Q_l of parallel and antiparallel bonds is 1, without bonds 0.
+// - Q4 and Q6 of the simple cubic, face-centred cubic and icosahedral neighbour shells agree with their closed forms.
+// - Q_l does not depend on rotation, length or order of the bonds, and is about 1/sqrt(n) for independent ones.
 
 #include "engine/analysis/order.hpp"
 

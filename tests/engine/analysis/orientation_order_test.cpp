@@ -1,13 +1,13 @@
-// Facts proved:
-//   1. the rank is 3, 4, 4, 6, 6 for the Platonic solids and 2 for a box, and no lower rank has any strength;
-//   2. products of harmonics are the double sums of P_l over vertices, those of one particle are 1;
-//   3. particles turned by symmetries of their solid stay aligned, S = 1; two grains give sqrt((1 + q)/2); independent
-//      orientations give N·S² = 1 on average; turning the whole packing changes nothing;
-//   4. for cubes S is the cubatic order of their three axes;
-//   5. local Q_l of a simple cubic lattice is the closed form, a particle without contacts has none;
-//   6. the pair correlation is a brute-force mean over pairs and images, its counts those of a lattice's shells, 1
-//      where all are aligned, 0 within chance where none are;
-//   7. N = 1, 2, 3 and no contacts have defined answers; what cannot be is refused.
+// Properties tested here:
+// 1. The rank is 3, 4, 4, 6, 6 for the Platonic solids and 2 for a box; lower ranks vanish.
+// 2. Products of harmonics are the double sums of P_l over vertices; those of a particle with itself are 1.
+// 3. Particles rotated by symmetries of their solid remain aligned, S = 1. Two grains give sqrt((1 + q)/2). Independent
+//    orientations give N·S² = 1 on average. Rotating the whole packing changes nothing.
+// 4. For cubes S is the cubatic order of their three axes.
+// 5. Local Q_l of a simple cubic lattice is the closed form; a particle without contacts has none.
+// 6. The pair correlation is a brute-force mean over pairs and images. Its counts are those of a lattice's shells. It
+//    is 1 for aligned particles, and 0 within statistical error for random ones.
+// 7. N = 1, 2, 3 and no contacts have defined results. Invalid input is rejected.
 
 #include "engine/analysis/orientation_order.hpp"
 
@@ -49,7 +49,7 @@ double double_sum(const ConvexSolid& solid, const Quaterniond& p, const Quaterni
   return sum;
 }
 
-/// A rotation that maps the solid on itself, one of as many as there are directed edges.
+/// A rotation that maps the solid to itself; there are as many as directed edges.
 Quaterniond symmetry(const ConvexSolid& solid, RandomStream& random) {
   const auto frame = [&](const Edge& edge, bool reversed) {
     const Vector3d tail = solid.vertices()[edge.tail], head = solid.vertices()[edge.head];
@@ -116,7 +116,7 @@ TEST_P(OrientationOf, IndependentOrientationsGiveOneOverTheRoot) {
   constexpr int sets = 200, n = 30;
   double sum = 0;
   for (int set = 0; set < sets; ++set) sum += std::pow(order_of(scattered(solid, n, 10, random)), 2) * n;
-  // N S² is a mean of 2l + 1 squares of nearly normal components: variance 2/(2l + 1).
+  // N S² is a mean of 2l + 1 squares of almost normal components: variance 2/(2l + 1).
   EXPECT_NEAR(sum / sets, 1, 5 * std::sqrt(2.0 / (2 * rank + 1) / sets));
 }
 
@@ -171,7 +171,7 @@ TEST(OrientationOrder, OfCubesIsThatOfTheirAxes) {
   EXPECT_NEAR(order_of(packing), std::sqrt(sum / self), 1e-12);
 }
 
-/// n³ cubes, one apart, in a cell that they fill, each touching its six neighbours.
+/// n³ cubes with distance 1 that fill the cell, each touching its six neighbours.
 struct Lattice {
   Packing packing;
   std::vector<Contact> contacts;

@@ -1,9 +1,9 @@
-// Facts proved here:
-//   1. a vertex pushed into a face, and an edge into an edge that it crosses, are as deep as they were pushed, with
-//      every Platonic solid and from either side;
-//   2. no direction of a sample parts two solids, like or unlike, by a shorter way;
-//   3. faces that are parallel but for an angle that no double tells from none have the same depth from either side, to
-//      quadruple precision.
+// Properties tested here:
+// 1. A vertex pushed into a face, and an edge pushed into a crossed edge, have the depth by which they were pushed, for
+//    every Platonic solid and from either side.
+// 2. No direction of a sample separates two solids, equal or different, by a shorter translation.
+// 3. Faces that are parallel except for an angle below the resolution of double have the same depth from either side,
+//    in quadruple precision.
 
 #include "engine/geometry/overlap/penetration.hpp"
 
@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 
 constexpr double epsilon = 2.220446049250313e-16;
 
-/// Of the contact as A sees it, and as B does.
+/// Checks the contact from A's side and from B's side.
 void expect_depth(const ConvexSolid& solid, const Contact& contact, double depth) {
   const Contact other = constructed::exchanged(contact);
   for (const RelativePose& pose : {contact.pose, other.pose}) {
@@ -50,7 +50,7 @@ TEST(Penetration, OfConstructedContactsIsTheWayTheyWerePushed) {
   }
 }
 
-/// How far B has to go along the unit vector u until it is beyond A.
+/// Distance by which B must move along the unit vector u until it is beyond A.
 double way_along(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, const Vector3d& u) {
   double most_a = -a.diameter(), least_b = a.diameter() + b.diameter() + pose.displacement.norm();
   for (const Vector3d& v : a.vertices()) most_a = std::max(most_a, u.dot(v));
@@ -86,8 +86,8 @@ TEST(Penetration, OfFacesNearlyParallelIsTheSameFromEitherSide) {
       const auto face = static_cast<int>(random.uniform() * static_cast<double>(solid.faces().size()));
       const Face& own = solid.faces()[static_cast<std::size_t>(face)];
       const auto corner = [&](std::size_t c) { return solid.arrays().vertex(own.vertices[c]); };
-      // Turned about the normal, and with the opposite face on this one, not centre on centre: parallel to the rounding
-      // of its orientation.
+      // Rotated about the normal, with the opposite face on this one, shifted from centre to centre: parallel within
+      // the rounding of its orientation.
       Pose a, b;
       b.orientation = Eigen::AngleAxisd(6 * random.uniform(), own.normal);
       const Quad3 r = (2 * solid.arrays().plane_offset(face) - Quad(2e-15)) * solid.arrays().normal(face) +

@@ -1,8 +1,8 @@
-// Facts proved here:
-//   exact power laws are recovered, with an interval of width 0; scales of x and y go into the prefactor only;
-//   of noisy ones, 95 of 100 intervals hold the exponent;
-//   the exponent of three points is the one worked out by hand; with two there is no interval;
-//   points without a logarithm are left out; without two different x there is no law.
+// Properties tested here:
+// - Exact power laws are recovered with a confidence interval of width 0. Scales of x and y affect only the prefactor.
+// - For noisy power laws 95 of 100 confidence intervals contain the exponent.
+// - The exponent of three points agrees with a calculation by hand. Two points have no confidence interval.
+// - Points without a logarithm are ignored. Without two different x there is no result.
 
 #include "engine/analysis/power_law.hpp"
 
@@ -49,7 +49,7 @@ TEST(PowerLawTest, IntervalsHoldTheExponentAsOftenAsTheySay) {
     const auto law = fit_power_law(x, y);
     held += std::abs(law->exponent - 4) <= law->ci95_half_width;
   }
-  // Three standard deviations of a binomial.
+  // Three standard deviations of a binomial distribution.
   EXPECT_NEAR(held / static_cast<double>(trials), 0.95, 3 * std::sqrt(0.95 * 0.05 / trials));
 }
 

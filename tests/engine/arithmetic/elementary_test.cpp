@@ -1,8 +1,8 @@
-// Facts proved here:
-// - every function of nearest:: gives the double nearest to its value in 50 digits, at random arguments of all sizes,
-//   close to its zeros and to the ends of its domain;
-// - infinities, NaN, signed zeros and arguments outside a domain give what the standard library gives;
-// - sinc is right to 2 ε up to 1 and beyond, even, and 1 at 0.
+// Properties tested here:
+// - Every function of nearest:: returns the double nearest to its value in 50 digits, at random arguments of all
+//   magnitudes, close to its zeros and to the ends of its domain.
+// - Infinities, NaN, signed zeros and arguments outside the domain give the same as with the standard library.
+// - sinc has a relative error of at most 2 ε up to 1 and beyond, is even, and is 1 at 0.
 
 #include "engine/arithmetic/elementary.hpp"
 
@@ -22,7 +22,7 @@ using Exact = boost::multiprecision::cpp_bin_float_50;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Of all sizes from 2^low to 2^high, either sign.
+/// Random number with a magnitude from 2^low to 2^high and either sign.
 double of_any_size(RandomStream& random, int low, int high) {
   const double size = std::ldexp(1 + random.uniform(), low + static_cast<int>(random.uniform() * (high - low)));
   return random.uniform() < 0.5 ? -size : size;
@@ -33,8 +33,8 @@ struct Case {
   double (*ours)(double);
   Exact (*exact)(const Exact&);
   double (*standard)(double);
-  double lower, upper;  ///< of its domain
-  int low, high;        ///< sizes of arguments, powers of two
+  double lower, upper;  ///< ends of its domain
+  int low, high;        ///< magnitudes of arguments, powers of two
 };
 
 const Case cases[] = {

@@ -1,7 +1,7 @@
-// Facts proved here:
-//   the Platonic solids have unit volume, centroid 0, Euler characteristic 2 and the radii of their closed forms;
-//   every edge runs along its left face and back along its right one;
-//   a solid refuses vertices that are not extreme, too few, or flat.
+// Properties tested here:
+// - The Platonic solids have unit volume, centroid 0, Euler characteristic 2 and the radii of their closed forms.
+// - Every edge is in the vertex order of its left face, and reversed in that of its right face.
+// - A solid rejects vertices that are not extreme, too few, or coplanar.
 
 #include "engine/geometry/convex_solid.hpp"
 
@@ -41,7 +41,7 @@ TEST_P(Platonic, ClosesByEulersFormula) {
   EXPECT_EQ(solid.vertices().size() + solid.faces().size(), solid.edges().size() + 2);
 }
 
-/// Whether the polygon of the face goes straight from one vertex to the other.
+/// True if `to` follows `from` in the polygon of the face.
 bool runs_along(const Face& face, int from, int to) {
   const std::size_t n = face.vertices.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -55,7 +55,7 @@ TEST_P(Platonic, EdgesRunBetweenTheirFaces) {
   for (const Edge& edge : solid.edges()) {
     const Eigen::Vector3d along = solid.vertices()[edge.head] - solid.vertices()[edge.tail];
     const Eigen::Vector3d left = solid.faces()[edge.left].normal, right = solid.faces()[edge.right].normal;
-    // The outward normal turns from left to right about the edge.
+    // The outward normal rotates from left to right about the edge.
     EXPECT_GT(left.cross(right).dot(along), 0) << edge.tail << " → " << edge.head;
     EXPECT_TRUE(runs_along(solid.faces()[edge.left], edge.tail, edge.head)) << edge.tail << " → " << edge.head;
     EXPECT_TRUE(runs_along(solid.faces()[edge.right], edge.head, edge.tail)) << edge.tail << " → " << edge.head;

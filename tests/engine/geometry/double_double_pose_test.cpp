@@ -1,10 +1,10 @@
-// Facts proved here, against quadruple precision:
-//   moved() and scaled() keep the low parts: steps of 1e-25 are not lost, a thousand steps add up to their sum, and the
-//   high part is the nearest double;
-//   moved() turns by exp(θ), keeps |q| = 1 to 1e-31, and takes any q but 0 for the rotation by q/|q|;
-//   rotation_matrix() and the vertices and normals of placed solids are right to 1e-31;
-//   relative_pose() of low parts is the quotient of the rotations, and agrees with that of doubles;
-//   a solid's constants are correct to 1e-31: planes through their vertices, unit normals, unit volume, centroid 0.
+// Properties tested here, with quadruple precision as reference:
+// - moved() and scaled() keep the low parts: steps of 1e-25 are not lost, a thousand steps add up to their sum, and the
+//   high part is the nearest double.
+// - moved() rotates by exp(θ) and keeps |q| = 1 to 1e-31. Any q except 0 represents the rotation by q/|q|.
+// - rotation_matrix() and the vertices and normals of placed solids have errors of at most 1e-31.
+// - relative_pose() with low parts is the quotient of the rotations, and agrees with the version in double.
+// - A solid's constants are correct to 1e-31: planes through their vertices, unit normals, unit volume, centroid 0.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 using namespace testing_pairs;
 using Eigen::Vector3d;
 
-/// A few of the last bits of a double-double of order 1.
+/// A few times the last bit of a double-double of order 1.
 constexpr double last_bits = 1e-31;
 constexpr int cases = 200;
 
@@ -48,7 +48,7 @@ Pose random_pose(RandomStream& random) {
   return moved(pose, 1e-17 * random_direction(random), 1e-17 * random_direction(random));
 }
 
-/// 1 + [θ]× + ½[θ]×² of a small turn.
+/// 1 + [θ]× + ½[θ]×² for a small rotation.
 QuadMatrix small_turn(const Vector3d& theta) {
   const Quad x = theta.x(), y = theta.y(), z = theta.z();
   const QuadMatrix skew{Quad3{0, -z, y}, Quad3{z, 0, -x}, Quad3{-y, x, 0}};
@@ -72,7 +72,7 @@ TEST(DoubleDoublePoseTest, SmallStepsAreNotLost) {
       EXPECT_LE(size(shift - Quad3{dx.x(), dx.y(), dx.z()}), last_bits) << h;
       const QuadMatrix turned = quad_rotation(there) - quad_rotation(pose);
       const QuadMatrix expected = small_turn(theta) * quad_rotation(pose) - quad_rotation(pose);
-      // The turn itself is known to its last bits only, and its series to the third order.
+      // The rotation is known only to its last bits, and the series only to third order.
       EXPECT_LE(size(turned - expected), 16 * last_bits + 16 * epsilon * h + h * h * h) << h;
     }
   }
@@ -107,7 +107,7 @@ TEST(DoubleDoublePoseTest, LargeTurnsAreThoseOfDoubles) {
     expect_normal_form(there);
     const Eigen::Vector4d expected = rotated(pose.orientation, theta).coeffs();
     EXPECT_LE((there.orientation.coeffs() - expected).norm(), 16 * epsilon) << theta.transpose();
-    // The same rotation, from a quaternion of another length.
+    // The same rotation, from a quaternion of another norm.
     Pose longer = pose;
     longer.orientation.coeffs() *= 8;
     longer.orientation_low *= 8;

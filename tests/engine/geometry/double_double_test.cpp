@@ -1,8 +1,8 @@
-// Facts proved here, against quadruple precision, over numbers of all signs and of magnitudes 1e-30 … 1e30:
-//   two_sum and two_product lose nothing; fast_two_sum neither, if its terms are in order;
-//   every operation returns high = fl(high + low) and keeps the relative error that its header states, sums of nearly
-//   opposite numbers included;
-//   quad roots are correct to their last digits, and narrowing to double-double keeps 1e-32.
+// Properties tested here, with quadruple precision as reference, for numbers of both signs and magnitudes 1e-30 … 1e30:
+// - two_sum and two_product are exact. So is fast_two_sum if its terms are in order.
+// - Every operation returns high = fl(high + low) and has the relative error stated in the header, also for sums of
+//   nearly opposite numbers.
+// - Roots in quadruple precision are correct to their last digits, and narrowing to double-double keeps 1e-32.
 
 #include "engine/geometry/double_double.hpp"
 
@@ -33,7 +33,7 @@ double relative_error(Quad value, Quad exact) {
   return static_cast<double>(error / (exact < 0 ? -exact : exact));
 }
 
-/// Relative error of a result, infinite if it is not in its normal form.
+/// Relative error of a result; infinite if it is not in normal form.
 double error_of(const DoubleDouble& value, Quad exact) {
   if (value.high != value.high + value.low) return INFINITY;
   return exact == 0 && value.high == 0 ? 0 : relative_error(widened(value), exact);
@@ -42,7 +42,7 @@ double error_of(const DoubleDouble& value, Quad exact) {
 TEST(DoubleDoubleTest, SumAndProductOfDoublesLoseNothing) {
   RandomStream random{61, 1};
   for (int k = 0; k < cases; ++k) {
-    // Quadruple precision holds the sum exactly while the terms are within 60 bits of each other.
+    // Quadruple precision contains the sum exactly while the terms are within 60 bits of each other.
     const double a = random_double(random, 8), b = random_double(random, 8);
     const DoubleDouble sum = two_sum(a, b), product = two_product(a, b);
     EXPECT_TRUE(widened(sum) == Quad(a) + Quad(b)) << a << " + " << b;
@@ -83,7 +83,7 @@ TEST(DoubleDoubleTest, NearlyOppositeNumbersKeepTheDigitsOfTheirSum) {
     DoubleDouble b = -a;
     b.low *= 1 + random_double(random, 3) * u;
     b = two_sum(b.high, b.low);
-    // High parts cancel: quadruple precision holds the rest, though not always a and b themselves.
+    // The high parts cancel. Quadruple precision contains the rest, though not always a and b themselves.
     const Quad exact = (Quad(a.high) + Quad(b.high)) + (Quad(a.low) + Quad(b.low));
     EXPECT_LE(error_of(a + b, exact), 4 * u * u) << a.high << " + " << a.low;
   }

@@ -1,10 +1,10 @@
-// Facts proved here, on random pairs of all solids:
-//   a placed solid is the solid turned, to rounding, in every one of its arrays;
-//   the table of distances is that of the definition; a vertex without a row is outside of the other solid, and so is
-//   an edge that is not listed; the extremes are those of the rows; a table whose entries have been changed is
-//   classified anew; the overlap of placed solids is the overlap of the pair seen from A, turned into the lab, and so
-//   is its Hessian, all three blocks, which come with the same volume to the bit; an axis separates placed solids
-//   exactly if its gap seen from A says so, up to the tolerance.
+// Properties tested here, for random pairs of all solids:
+// - A placed solid is the rotated solid, within rounding, in all its arrays.
+// - The table of distances follows its definition. A vertex without a row is outside the other solid, and so is an edge
+//   that is not listed. The extremes are those of the rows. classify() is correct after entries have been changed.
+// - The overlap of placed solids is the overlap of the pair seen from A, rotated into the lab frame. The same holds for
+//   all three blocks of its Hessian, which come with exactly the same volume.
+// - An axis separates placed solids exactly if its gap seen from A exceeds the tolerance, apart from rounding.
 
 #include "engine/geometry/placed_solid.hpp"
 
@@ -77,7 +77,7 @@ double distance(const PlacedSolid& body, int vertex, const PlacedSolid& other, i
   return other.normal(face).dot(body.vertex(vertex) - to_other) - other.offset()[face];
 }
 
-/// A table with memory of its own.
+/// A table that owns its memory.
 struct Table : Distances {
   Table(const PlacedSolid& body, const PlacedSolid& other, const Vector3d& to_other)
       : memory(static_cast<std::size_t>(size(body, other))) {
@@ -133,7 +133,7 @@ TEST(DistancesTest, UnlistedEdgesAreOutside) {
         continue;
       }
       ++unlisted;
-      // Seven points of the edge: each lies outside of some plane.
+      // Seven points of the edge: each is outside some plane.
       for (int k = 0; k <= 6; ++k) {
         const Vector3d y = placed.a.vertex(edge.tail) * (6 - k) / 6 + placed.a.vertex(edge.head) * k / 6 - placed.r;
         double outermost = -SolidArrays::far;
@@ -158,7 +158,7 @@ TEST(DistancesTest, AChangedTableIsClassifiedAnew) {
     EXPECT_EQ(table.edges, before.edges) << "nothing was changed: " << describe(pair);
     EXPECT_EQ(table.nearest, before.nearest);
     EXPECT_EQ(table.least_penetration, before.least_penetration);
-    // Outside of everything: no edge is left, and every plane separates.
+    // Outside all planes: no edge remains, and every plane separates.
     for (double& entry : table.memory) entry = std::abs(entry) + 1;
     classify(pair.solid_a(), table);
     EXPECT_EQ(table.edges, 0U);

@@ -1,8 +1,8 @@
-// Facts proved here:
-//   a relative pose takes points of B's body frame where going through the lab frame takes them;
-//   exchanging A and B inverts it, and turning both bodies leaves it alone;
-//   rotated(q, θ) is exp(θ)·q: Rodrigues' formula, θ in the lab frame, turns about one axis add, the norm stays 1,
-//   and θ = 0 and the least θ are no special case.
+// Properties tested here:
+// - A relative pose transforms points of B's body frame like the transformation through the lab frame.
+// - Exchanging A and B inverts it, and rotating both bodies does not change it.
+// - rotated(q, θ) is exp(θ)·q: it follows Rodrigues' formula with θ in the lab frame, rotations about the same axis add
+//   up, and the norm stays 1. θ = 0 and the smallest θ are no special cases.
 
 #include "engine/geometry/pose.hpp"
 
@@ -23,7 +23,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr int cases = 200;
-/// Entries of a product of a few rotations are off by a few ulp of 1.
+/// The error of entries of a product of a few rotations is a few ulp of 1.
 constexpr double rotation_error = 16 * epsilon;
 
 Vector3d placed(const RelativePose& pose, const Vector3d& y) { return pose.rotation * y + pose.displacement; }
@@ -67,7 +67,7 @@ TEST(RotatedTest, IsRodriguesFormulaInTheLabFrame) {
   for (int k = 0; k < cases; ++k) {
     const Quaterniond q = random_orientation(random);
     const Vector3d axis = random_direction(random), y = random_direction(random);
-    // From far below an ulp to more than a whole turn.
+    // From far below an ulp to more than a full rotation.
     const double angle = 10 * std::pow(10.0, -20 * random.uniform());
     const Vector3d x = q * y;
     const Vector3d turned =

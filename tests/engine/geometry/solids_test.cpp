@@ -1,11 +1,12 @@
-// Facts proved here:
-//   the named solids have the numbers of faces, edges and vertices of their definitions, edges of one length, to 1e-30,
-//   and the volume that closed forms give for that length; prisms and antiprisms are those of their n;
-//   a hull of points in general position has each of them for a vertex, and every face supports;
-//   a hull with more than 64 vertices, faces or edges is refused in words, one with 64 edges is not;
-//   of points that are no solid the one to blame is named: twins, and points on an edge, on a face, and inside;
-//   the tensor of inertia of a box is that of the textbooks, and which solids are spherical tops;
-//   a Solid is one and the same for one name and one set of vertices, and ordered by what it is.
+// Properties tested here:
+// - The built-in solids have the numbers of faces, edges and vertices of their definitions, edges of equal length to
+//   1e-30, and the volume given by closed forms for that length. Prisms and antiprisms have the right n.
+// - The hull of points in general position has each of them as a vertex, and every face is a supporting plane.
+// - A hull with more than 64 vertices, faces or edges is rejected with a message; one with 64 edges is accepted.
+// - If points do not form a solid, the error names the point that causes it: coincident points, and points on an edge,
+//   on a face, or inside.
+// - The inertia tensor of a box agrees with textbooks, and spherical tops are identified.
+// - Equal names and vertices give the same Solid, and the order of solids is as documented.
 
 #include "engine/geometry/solids/solid.hpp"
 
@@ -29,7 +30,7 @@ using std::numbers::pi;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// A solid, its features, and its volume with edges of length 1.
+/// A solid, its numbers of features, and its volume for edges of length 1.
 struct Expected {
   std::string name;
   std::size_t vertices, edges, faces;
@@ -101,7 +102,7 @@ TEST(Hull, OfPointsOnASphereHasAllOfThemForVertices) {
   }
 }
 
-/// The vertex that is blamed, −1 for all of them, −2 for nothing.
+/// The vertex named by the error; −1 if none is named, −2 without an error.
 int blamed(const Points& points) {
   try {
     const ConvexSolid solid("x", points);
@@ -129,7 +130,7 @@ TEST(Hull, BlamesThePointThatIsNoVertex) {
   EXPECT_EQ(blamed({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), -1) << "flat";
 }
 
-/// Why there is no such solid; empty if there is.
+/// Text of the error; empty if the solid is accepted.
 std::string refusal(const Points& points) {
   try {
     const ConvexSolid solid("x", points);
@@ -153,7 +154,7 @@ TEST(Hull, IsRefusedWithMoreThanSixtyFourFeatures) {
       all.emplace_back(.6 * std::cos(2 * pi * k / corners), .6 * std::sin(2 * pi * k / corners), .8);
     return all;
   };
-  // All triangles but the top: E = 3V − 6 − (corners − 3).
+  // All faces except the top are triangles: E = 3V − 6 − (corners − 3).
   EXPECT_EQ(refusal(with_top(1)), "") << "63 edges";
   points.erase(points.end() - 1);
   EXPECT_EQ(refusal(with_top(3)), "a solid has at most 64 faces and edges, not 44 and 66");
@@ -213,7 +214,7 @@ TEST(SolidTest, IsOrderedByWhatItIs) {
   ascending.push_back(Solid::made_of("a", other));
   ascending.push_back(Solid::made_of("b", points));
   if (ascending[ascending.size() - 2] < ascending[ascending.size() - 3])
-    std::swap(ascending[ascending.size() - 2], ascending[ascending.size() - 3]);  // those of one name: by vertices
+    std::swap(ascending[ascending.size() - 2], ascending[ascending.size() - 3]);  // same name: ordered by vertices
   for (std::size_t i = 0; i < ascending.size(); ++i) {
     for (std::size_t j = 0; j < ascending.size(); ++j)
       EXPECT_EQ(ascending[i] < ascending[j], i < j) << to_string(ascending[i]) << " " << to_string(ascending[j]);

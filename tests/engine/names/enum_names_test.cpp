@@ -1,6 +1,6 @@
-// Facts proved here:
-//   every enumerator has one name and finds itself by it; another name finds nothing;
-//   values and names come in the order of the list, as constants.
+// Properties tested here:
+// - Every enumerator has one name and is found by it; another name finds nothing.
+// - Values and names have the order of the list, and are constants.
 
 #include "engine/names/enum_names.hpp"
 

@@ -1,5 +1,4 @@
-// Facts proved here:
-//   the product of a block matrix with a vector is that of the full symmetric matrix.
+// Property tested here: the product of a block matrix with a vector equals that of the full symmetric matrix.
 
 #include "engine/packing/block_matrix.hpp"
 

@@ -1,9 +1,10 @@
-// Facts proved here, against central differences on random packings of all solids:
-//   the gradient is that of the energy, along random directions of all 6N coordinates and along single ones; a slip of
-//   sign in the torques, or in the forces, is refused by the same check; the pressure is −dE/dV_cell, and N p/φ² =
-//   dE/dφ; the stress is (1/V_cell) dE/dε for every one of the nine strains of the displacements of the contacts; the
-//   Hessian is the derivative of the gradient, up to ½ θ×T for turns of particles that are not in equilibrium;
-//   translations are its null vectors.
+// Properties tested here for random packings of all solids, with central differences as reference:
+// - The gradient is that of the energy, along random directions of all 6N coordinates and along single ones. The same
+//   check rejects a wrong sign in the torques or in the forces.
+// - The pressure is −dE/dV_cell, and N p/φ² = dE/dφ.
+// - The stress is (1/V_cell) dE/dε for each of the nine strains of the displacements of the contacts.
+// - The Hessian is the derivative of the gradient, up to ½ θ×T for rotations of particles that are not in equilibrium.
+//   Translations are its null vectors.
 
 #include <gtest/gtest.h>
 
@@ -29,14 +30,15 @@ using Evaluate = std::function<Evaluation(const Packing&)>;
 
 Evaluation evaluate(const Packing& packing) { return PackingEnergy().evaluate(packing); }
 
-/// What is wrong with the gradient along `direction`; empty if nothing.
+/// Description of the deviation of the gradient along `direction`; empty if there is none.
 std::string slope_disagreement(const Packing& packing, const VectorXd& direction, const Evaluate& evaluation) {
-  const double h = 1e-5;  // far less than the depths that carry the energy
+  const double h = 1e-5;  // far less than the depths that determine the energy
   const Evaluation here = evaluation(packing);
   const double slope = here.gradient.dot(direction);
   const double differences =
       (evaluation(moved(packing, h * direction)).energy - evaluation(moved(packing, -h * direction)).energy) / (2 * h);
-  // Third derivatives of E are of the order of V and S, as the gradient is: h² of that, and rounding over h.
+  // Third derivatives of E are of the order of V and S, like the gradient. The tolerance is h² times that, plus
+  // rounding divided by h.
   const double limit = 1e-7 * here.gradient.norm() * direction.norm() + energy_tolerance(here) / h;
   if (std::abs(slope - differences) <= limit) return "";
   std::ostringstream text;
@@ -90,7 +92,7 @@ TEST(EnergyDerivativesTest, PressureIsTheSlopeInTheVolume) {
   }
 }
 
-/// E of the contacts with their displacements strained by ε and their orientations left alone.
+/// E of the contacts with their displacements strained by ε and unchanged orientations.
 double strained_energy(const Packing& packing, const std::vector<Contact>& contacts, const Matrix3d& strain) {
   double energy = 0;
   for (const Contact& contact : contacts) {
@@ -125,7 +127,7 @@ TEST(EnergyDerivativesTest, StressIsTheSlopeInEveryStrain) {
   }
 }
 
-/// ½ θ×T: the derivative of the gradient by turns, less its symmetric part.
+/// ½ θ×T: the derivative of the gradient with respect to rotations, minus its symmetric part.
 VectorXd turned_gradient(const Packing& packing, const VectorXd& gradient, const VectorXd& direction) {
   VectorXd result = VectorXd::Zero(direction.size());
   for (int i = 0; i < packing.size(); ++i) {

@@ -1,9 +1,10 @@
-// Facts proved here, on random packings of all solids:
-//   energy, gradient, stress, contacts and mean force are the sums over all pairs found by brute force;
-//   forces sum to zero, and the torques to what an asymmetric stress leaves;
-//   translating all particles, wrapping one by the side, relabelling, or turning the whole cell by 90° leaves the
-//   energy, and moves the gradient along; residual and mean force are as defined, with their limits for packings
-//   without contacts; every listed pair is out of reach, rejected by its axis, or overlapped.
+// Properties tested here, for random packings of all solids:
+// - Energy, gradient, stress, contacts and mean force are the sums over all pairs found by brute force.
+// - Forces sum to zero; torques sum to the value given by the asymmetric part of the stress.
+// - The energy does not change if all particles are translated, one particle is shifted by the side, particles are
+//   renumbered, or the whole cell is rotated by 90°. The gradient transforms accordingly.
+// - Residual and mean force follow their definitions, including the special cases without contacts.
+// - Every listed pair is out of reach, rejected by its axis, or overlapped.
 
 #include "engine/packing/energy.hpp"
 
@@ -29,7 +30,7 @@ using Eigen::VectorXd;
 constexpr int particles = 70;
 constexpr double density = .7;
 
-/// Rounding of one entry of the gradient: the stiffest particle moved by some ulp of the side.
+/// Rounding error of one entry of the gradient: the stiffest particle moved by a few ulp of the side.
 double gradient_tolerance(const Evaluation& evaluation) {
   return 16 * evaluation.residual_floor * evaluation.mean_force;
 }
@@ -41,7 +42,7 @@ struct Sums {
   long contacts = 0;
 };
 
-/// From every pair and the formulae of the pair alone.
+/// Sums over every pair, from the formulae of the pair only.
 Sums sums_over_pairs(const Packing& packing) {
   Sums sums;
   sums.gradient = VectorXd::Zero(6 * packing.size());
@@ -89,7 +90,7 @@ TEST(PackingEnergyTest, ForcesBalanceAndTorquesMatchTheStress) {
     }
     const double all_forces = got.mean_force * static_cast<double>(got.contacts);
     EXPECT_LE(force.norm(), 64 * epsilon * all_forces) << describe(packing);
-    // E is blind to turning everything: the turns of the bodies and of the displacements cancel.
+    // E does not change if everything is rotated: the rotations of the bodies and of the displacements cancel.
     const Matrix3d s = got.stress * packing.cell.volume();
     const Vector3d axial(s(2, 1) - s(1, 2), s(0, 2) - s(2, 0), s(1, 0) - s(0, 1));
     EXPECT_GT(axial.norm(), 1e-6 * s.norm()) << "a random packing has net torque";
@@ -121,7 +122,7 @@ TEST(PackingEnergyTest, WrappingOneParticleLeavesEverything) {
       Packing wrapped = packing;
       wrapped.poses[7].position += packing.cell.side() * sides;
       const Evaluation after = PackingEnergy().evaluate(wrapped);
-      // Coordinates four times as large are rounded four times as coarsely.
+      // Coordinates four times as large have four times the rounding error.
       EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
       EXPECT_NEAR(after.energy, before.energy, 4 * energy_tolerance(before)) << describe(packing);
       EXPECT_LE((after.gradient - before.gradient).cwiseAbs().maxCoeff(), 4 * gradient_tolerance(before))
@@ -200,7 +201,7 @@ TEST(PackingEnergyTest, CountsAddUp) {
       EXPECT_EQ(now.listed, now.out_of_reach + now.by_axis + now.overlapped) << describe(packing);
       EXPECT_EQ(now.touching - before.touching, contacts) << describe(packing);
       EXPECT_GE(now.overlapped - before.overlapped, contacts) << describe(packing);
-      // The first evaluation knows no axis. Later ones have one for nearly every pair within reach that is apart.
+      // The first evaluation knows no axis. Later ones know an axis for almost every separated pair within reach.
       if (k == 1) {
         EXPECT_EQ(now.by_axis, 0) << describe(packing);
       } else {

@@ -1,10 +1,10 @@
-// Facts proved here, of random packings of every solid:
-//   with the multipliers of the contacts as they are the envelope is the energy: value, gradient, contacts;
-//   its gradient agrees with differences of its value, and its curvature with differences of its gradient;
-//   it lies below the energy for any multipliers that leave the ghosts touching, and grows with the stiffness;
-//   contacts of flagged particles alone are those of the whole list that have a flagged particle, and where none but
-//   these move, a whole is made up of theirs and of what did not move;
-//   what was evaluated before and how many threads there are changes no bit.
+// Properties tested here, for random packings of every solid:
+// - With the multipliers of the present contacts the envelope equals the energy: value, gradient, contacts.
+// - Its gradient agrees with differences of its value, and its curvature with differences of its gradient.
+// - It is below the energy for all multipliers for which the ghosts touch, and increases with the stiffness.
+// - The contacts for a set of flagged particles are those contacts of the full list that have a flagged particle. If
+//   only these particles move, the full result is composed of theirs and of the unchanged contacts.
+// - Earlier evaluations and the number of threads change no bit.
 
 #include "engine/packing/envelope/envelope.hpp"
 
@@ -32,7 +32,7 @@ bool same_bits(const EnvelopeEvaluation& p, const EnvelopeEvaluation& q) {
          });
 }
 
-/// Forces of the contacts, each changed at random by as much as it is.
+/// Multipliers of the contacts, each changed at random by as much as its own size.
 std::vector<ContactMultiplier> changed(const EnvelopeEvaluation& exact, RandomStream& random) {
   std::vector<ContactMultiplier> forces = forces_of(exact);
   for (ContactMultiplier& force : forces) {
@@ -42,7 +42,7 @@ std::vector<ContactMultiplier> changed(const EnvelopeEvaluation& exact, RandomSt
   return forces;
 }
 
-/// A stiffness that contacts of this packing feel: their mean force over a depth.
+/// A stiffness that affects the contacts of this packing: their mean force over a depth.
 double some_stiffness(const EnvelopeEvaluation& exact) { return exact.mean_force / 0.02; }
 
 class EnvelopeOf : public testing::TestWithParam<SolidKind> {
@@ -73,7 +73,7 @@ TEST_P(EnvelopeOf, DerivativesAgreeWithDifferences) {
   RandomStream random{312, static_cast<std::uint64_t>(GetParam())};
   EnvelopeEnergy envelope;
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
-  // Stiff enough for shifts to be small: contacts of a random packing overlap deeply.
+  // So stiff that shifts are small, because contacts of a random packing overlap deeply.
   const double stiffness = 100 * some_stiffness(exact);
   const std::vector<ContactMultiplier> forces = changed(exact, random);
   const EnvelopeEvaluation here = envelope.evaluate(packing_, forces, stiffness);

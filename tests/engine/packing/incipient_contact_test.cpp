@@ -1,13 +1,13 @@
-// Facts proved here:
-//   without a probe distance, the pairs are those that touch; with one, others come in addition, in order, and are
-//   those whose solids overlap once one is moved closer;
-//   both linearised overlaps of a pair are tangents of V: in the present state and with the gap closed (central
-//   differences);
-//   flat faces a gap apart have a tangent, with the gap closed, that is −area·gap at rest and rises with the approach
-//   by area;
-//   of a flat contact V lies above both tangents, for every small approach and tilt;
-//   two nearly parallel faces that touch at a corner are given the tilt stiffness of the whole face, once probed as
-//   far as the tilt is high; it is 0 about the common normal and positive about every axis in the face.
+// Properties tested here:
+// - Without a probe distance the pairs are those that touch. With one there are additional pairs, in order: those whose
+//   solids overlap once one of them is moved closer.
+// - Both linearised overlaps of a pair are tangents of V: in the present state and with the gap closed (central
+//   differences).
+// - Flat faces separated by a gap have a tangent with the gap closed. It is −area·gap at rest, and its slope for the
+//   approach is the area.
+// - For a flat contact V is above both tangents, for every small approach and tilt.
+// - Two nearly parallel faces that touch at a corner get the tilt stiffness of the whole face, if the probe distance is
+//   at least the height of the tilt. It is 0 about the common normal and positive about every axis in the face.
 
 #include "engine/packing/incipient_contact.hpp"
 
@@ -35,7 +35,7 @@ double volume_at(const ConvexSolid& solid, const Packing& packing, const Incipie
   return relative_overlap(solid, solid, relative_pose(a.orientation, b.orientation, r)).volume;
 }
 
-/// Two unit cubes face to face along x, `gap` apart, in a cell that they do not feel.
+/// Two unit cubes face to face along x, `gap` apart, in a cell so large that it does not matter.
 Packing two_cubes(double gap, const Vector3d& tilt = Vector3d::Zero()) {
   Packing packing{cube(), PeriodicCell(10), std::vector<Pose>(2)};
   packing.poses[0].position = Vector3d(4, 5, 5);
@@ -78,8 +78,8 @@ TEST(IncipientContactTest, ProbingAddsPairs) {
   }
 }
 
-/// Largest |V difference − tangent| over the slope, of the present tangent or that with the gap closed, along a random
-/// direction.
+/// Largest |V difference − tangent| over the slope, for the present tangent or the one with the gap closed, along a
+/// random direction.
 TEST(IncipientContactTest, BothAreTangents) {
   RandomStream random{52};
   for (const Packing& packing : samples(52, 100, .65)) {
@@ -132,7 +132,7 @@ TEST(IncipientContactTest, VolumeLiesAboveTheTangentsOfAFlatContact) {
     VectorXd step = approach(size * random.normal());
     for (int axis = 1; axis < 3; ++axis) step[9 + axis] = size * random.normal();
     const double volume = volume_at(cube(), moved(packing, step), pairs[0], Vector3d::Zero());
-    // Tangents are linear in the small lengths, motions of solids are not: they differ by products of two.
+    // Tangents are linear in the small lengths, motions of solids are not: they differ by products of two lengths.
     const double slack = 10 * std::pow(depth + size + step.norm(), 2);
     EXPECT_GE(volume, pairs[0].now.at(step, 0, 1) - slack) << "size " << size;
     EXPECT_GE(volume, pairs[0].closed.at(step, 0, 1) - slack) << "size " << size;
@@ -141,7 +141,7 @@ TEST(IncipientContactTest, VolumeLiesAboveTheTangentsOfAFlatContact) {
 
 TEST(IncipientContactTest, ACornerOfAFaceStiffensLikeTheFace) {
   const double tilt = 1e-5;
-  // The far edge of B's face is higher by `tilt` than its middle; the near one touches by a hundredth of that.
+  // The far edge of B's face is higher than its middle by `tilt`; the near edge touches by a hundredth of that.
   const Packing packing = two_cubes(tilt / 2 * 0.99, Vector3d(0, 0, tilt));
   const IncipientContact touching = PackingEnergy().second_order(packing, 0).pairs.at(0);
   const IncipientContact probed = PackingEnergy().second_order(packing, 2 * tilt).pairs.at(0);

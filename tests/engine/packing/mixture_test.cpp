@@ -1,12 +1,12 @@
-// Facts proved here:
-//   numbers of each kind are exact and sizes are the quantiles of their law; the mean volume is 1;
-//   a mixture of one kind and one size is that solid, and its packings have the bits of the solid's;
-//   neighbours by actual radii are those of a plain search over all pairs, for sizes up to 30 : 1, in skew cells too,
-//   and few beside what the largest radius would list;
-//   energies are sums over all pairs of the kernel that trusts no plane, whatever was evaluated before;
-//   with the multipliers of the contacts as they are the envelope is the energy, and its gradient is the slope of its
-//   value whatever they are;
-//   a step turns every particle by R·θ over its own R.
+// Properties tested here:
+// - The numbers of each kind are exact, sizes are the quantiles of their distribution, and the mean volume is 1.
+// - A mixture of one kind and one size is that solid, and its packings have the same bits.
+// - Neighbours by actual radii agree with a search over all pairs, for sizes up to 30 : 1 and in skew cells. They are
+//   far fewer than those within the reach of the largest particles.
+// - Energies are sums over all pairs of the slow kernel, after any earlier evaluations.
+// - With the multipliers of the present contacts the envelope equals the energy. Its gradient is the derivative of its
+//   value for any multipliers.
+// - A step rotates every particle by R·θ divided by its own R.
 
 #include "engine/packing/mixture/mixture.hpp"
 
@@ -26,7 +26,7 @@ namespace {
 
 using namespace testing_packings;
 
-/// Octahedra, cubes and tetrahedra, the largest `ratio` times as long as the least.
+/// Octahedra, cubes and tetrahedra; the largest are `ratio` times as long as the smallest.
 std::vector<Particle> three_shapes(int n, double ratio) {
   return Mixture({{SolidKind::octahedron, .25, {.from = 1}},
                   {SolidKind::cube, .25, {.law = SizeLaw::uniform, .from = 1 / ratio, .to = 1}},
@@ -62,7 +62,7 @@ TEST(Mixture, HasTheSizesOfItsLawAndMeanVolumeOne) {
     for (const Particle& particle : mixture.particles(n)) volume += std::pow(particle.scale, 3);
     EXPECT_NEAR(volume / n, 1, 1e-12) << mixture.name();
   }
-  // Moments of the laws; the mean volume of sizes uniform on [a, b] is (b⁴ − a⁴)/4(b − a).
+  // Moments of the distributions; the mean volume of sizes uniform on [a, b] is (b⁴ − a⁴)/4(b − a).
   double mean = 0, log_mean = 0, log_square = 0;
   for (const Particle& particle : uniform.particles(n)) mean += particle.scale / n;
   EXPECT_NEAR(mean, std::cbrt(4 / (std::pow(1.5, 4) - std::pow(.5, 4))), 1e-6);
@@ -94,7 +94,7 @@ TEST(Mixture, IsMixedByTheSeedAlone) {
   const Packing one = mixed(100, 5, .5, 1), same = mixed(100, 5, .5, 1), other = mixed(100, 5, .5, 2);
   EXPECT_TRUE(one.solids == same.solids);
   EXPECT_FALSE(one.solids == other.solids);
-  int along = 0;  // neighbours in the order of particles that are of one kind: half of them and no more
+  int along = 0;  // neighbours in the order of particles of the same kind: about half of all
   for (std::size_t i = 1; i < 100; ++i) along += one.solids.kind(i) == one.solids.kind(i - 1);
   EXPECT_GT(along, 20);
   EXPECT_LT(along, 60);
@@ -119,7 +119,7 @@ TEST(MixtureNeighbours, AreThoseOfAPlainSearch) {
 }
 
 TEST(MixtureNeighbours, OfSmallParticlesDoNotPayForLargeOnes) {
-  // One in a hundred is ten times as long as the others, and a thousand times as heavy.
+  // One particle in a hundred is ten times as long as the others and a thousand times as heavy.
   const std::vector<Particle> particles =
       Mixture({{SolidKind::octahedron, .99}, {SolidKind::octahedron, .01, {.from = 10}}}, "").particles(4000);
   RandomStream random{9};
@@ -149,7 +149,7 @@ TEST(MixtureEnergy, IsTheSumOverAllPairs) {
     EXPECT_NEAR(fresh.energy, energy, 1e-12 * energy);
     EXPECT_EQ(fresh.energy, cached.energy);
     EXPECT_EQ(fresh.gradient, cached.gradient);
-    Packing swapped = packing;  // the same places, other solids
+    Packing swapped = packing;  // the same positions, other solids
     std::vector<Particle> list(packing.solids.particles().begin(), packing.solids.particles().end());
     std::reverse(list.begin(), list.end());
     swapped.solids = Composition(list);
@@ -162,7 +162,7 @@ TEST(MixtureEnvelope, IsTheEnergyAndHasItsSlopes) {
   const Packing packing = mixed(150, 3, .8, 5);
   const Evaluation exact = PackingEnergy().evaluate(packing, Precision::double_double);
   EnvelopeEnergy envelope;
-  const double stiffness = 100 * exact.mean_force / .02;  // ghosts move by less than a contact is deep
+  const double stiffness = 100 * exact.mean_force / .02;  // ghosts move by less than the depth of a contact
   const EnvelopeEvaluation unshifted = envelope.unshifted(packing, stiffness);
   EXPECT_NEAR(unshifted.value, exact.energy, 1e-12 * exact.energy);
   EXPECT_LE((unshifted.gradient - exact.gradient).norm(), 1e-12 * exact.gradient.norm());

@@ -1,10 +1,10 @@
-// Facts proved here:
-//   both neighbour searches give every pair and image within reach, and no other, once each, as a plain sum over many
-//   images does: reaches from a fraction of the mean distance to beyond half the side and beyond the side itself,
-//   positions outside of the cell and on the borders of its cells included;
-//   the cell list is the brute-force list up to N = 2000, in canonical order;
-//   the same in skew cells, and in cells that are not reduced: pairs and distances are those of the reduced one;
-//   on a simple cubic lattice every particle has 6 neighbours, then 18, then 26.
+// Properties tested here:
+// - Both neighbour searches give every pair and image within reach exactly once, and no others. The reference is a
+//   plain search over many images. Reaches are from a fraction of the mean distance to beyond half the side and the
+//   whole side. Positions include some outside the cell and on the borders of grid cells.
+// - The grid search agrees with brute force up to N = 2000, in canonical order.
+// - The same holds in skew cells, and in cells that are not reduced: pairs and distances are those of the reduced cell.
+// - On a simple cubic lattice every particle has 6 neighbours, then 18, then 26.
 
 #include "engine/packing/neighbours.hpp"
 
@@ -32,7 +32,7 @@ std::vector<Key> keys(const std::vector<NeighbourPair>& pairs) {
   return result;
 }
 
-/// Points of which some lie whole sides outside of the cell. Neighbours do not ask whether the solids would fit.
+/// Points, some of them several sides outside the cell. The neighbour search does not check whether the solids fit.
 Packing points(int n, double side, std::uint64_t seed) {
   RandomStream random{8, seed};
   Packing packing{platonic(SolidKind::cube), PeriodicCell(side), std::vector<Pose>(static_cast<std::size_t>(n))};
@@ -45,7 +45,7 @@ Packing points(int n, double side, std::uint64_t seed) {
   return packing;
 }
 
-/// Every shift in a range that certainly holds them all.
+/// Tests every shift in a range that certainly contains all neighbours.
 std::vector<Key> all_within(const Packing& packing, double reach) {
   std::vector<Key> result;
   const double side = packing.cell.side();
@@ -182,7 +182,7 @@ TEST(NeighboursTest, LatticePointsOnTheBordersOfCellsAreSeen) {
   Packing lattice{platonic(SolidKind::cube), PeriodicCell(m * spacing), {}};
   for (int k = 0; k < m * m * m; ++k) {
     Pose pose;
-    // Some a whole side away, and so that a few are negative zeros or just below a border.
+    // Some points are a whole side away, and a few coordinates are negative zeros or just below a border.
     const int x = k % m - m * (k % 5 == 0), y = k / m % m, z = k / (m * m);
     pose.position = spacing * Vector3d(x, y, z);
     lattice.poses.push_back(pose);

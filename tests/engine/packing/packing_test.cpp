@@ -1,10 +1,11 @@
-// Facts proved here:
-//   a random packing has the density asked for, is a function of its stream, fills the cell and SO(3) evenly;
-//   it is refused for no particle, a density outside (0, 1] and a cell too small for the minimum image; so is the
-//   energy of such a packing;
-//   in the least legal cell no particle touches two images of another, nor itself;
-//   strain moves centres affinely and leaves orientations alone; moved() adds dx and turns by dθ; both keep low parts,
-//   so that strain there and back returns positions to 1e-30 and a step of 1e-25 is not lost.
+// Properties tested here:
+// - A random packing has the requested density, depends only on its stream, and is distributed evenly in the cell and
+//   on SO(3).
+// - It is rejected for zero particles, a density outside (0, 1] and a cell too small for the minimum image. So is the
+//   energy of such a packing.
+// - In the smallest legal cell no particle touches two images of another one, nor itself.
+// - Strain moves centres affinely and does not change orientations. moved() adds dx and rotates by dθ. Both keep low
+//   parts: strain and its inverse return positions to 1e-30, and a step of 1e-25 is not lost.
 
 #include "engine/packing/packing.hpp"
 
@@ -53,7 +54,7 @@ TEST(RandomPackingTest, FillsTheCellAndTheRotationsEvenly) {
     rotation += r / n;
     squares += r.cwiseAbs2() / n;
   }
-  // Five standard errors. Entries of a uniform rotation have mean 0, variance 1/3 and ⟨x⁴⟩ − ⟨x²⟩² = 1/5 − 1/9.
+  // Five standard errors. Entries of a uniform random rotation have mean 0, variance 1/3 and ⟨x⁴⟩ − ⟨x²⟩² = 1/5 − 1/9.
   const double error = 5 / std::sqrt(n);
   EXPECT_LE((mean.array() - .5).abs().maxCoeff(), error * std::sqrt(1.0 / 12)) << mean.transpose();
   EXPECT_LE((square.array() - 1.0 / 3).abs().maxCoeff(), error * std::sqrt(1.0 / 5 - 1.0 / 9)) << square.transpose();

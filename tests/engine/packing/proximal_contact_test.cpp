@@ -1,11 +1,11 @@
-// Facts proved here, of pairs of every solid from deep overlaps to gaps, with multipliers and stiffnesses over six
-// decades:
-//   the shift that is found is a minimum of e(w) + ½ρ|w|² − μ·w: no shift tried beside it is better, the minimand
-//   computed by itself from the pose of the ghost, and the envelope lies below the energy;
-//   value, gradient and curvature agree with each other by differences;
-//   moving both bodies together changes nothing but the frame; a gap gives no force and is shifted by μ/ρ;
-//   with the multiplier ∇e no contact is shifted, and its envelope is its energy;
-//   two faces pressed together have the envelope of a spring, known in closed form, at depths down to 1e-10.
+// Properties tested here, for pairs of every solid from deep overlaps to gaps, with multipliers and stiffnesses over
+// six decades:
+// - The computed shift is a minimum of e(w) + ½ρ|w|² − μ·w: no other trial shift gives a smaller value. The test
+//   computes the minimand separately from the pose of the ghost. The envelope is below the energy.
+// - Value, gradient and curvature agree with each other by differences.
+// - Moving both bodies together changes only the frame. A gap has no force and is shifted by μ/ρ.
+// - With the multiplier ∇e the shift is 0, and the envelope is the energy.
+// - Two faces pressed together have the envelope of a spring, known in closed form, at depths down to 1e-10.
 
 #include "engine/packing/envelope/proximal_contact.hpp"
 
@@ -56,7 +56,7 @@ Pose turned(const Pose& pose, RandomStream& random) {
   return result;
 }
 
-/// A pair whose centres are closer or farther than they touch by up to `depth`, found by bisection.
+/// A pair whose centres are closer or farther than at contact by up to `depth`, found by bisection.
 Pair random_pair(SolidKind kind, double depth, RandomStream& random) {
   Pair pair{&platonic(kind), {}, {}};
   pair.a = turned(pair.a, random);
@@ -75,7 +75,7 @@ Pair random_pair(SolidKind kind, double depth, RandomStream& random) {
   return pair;
 }
 
-/// e(w) + ½ρ|w|² − μ·w from its definition, with the ghost as a body of its own.
+/// e(w) + ½ρ|w|² − μ·w from its definition, with the ghost as a separate body.
 double minimand(const Pair& pair, const ProximalTerms& terms, const Vector6d& w) {
   Pose ghost = pair.b;
   const Eigen::Vector3d half = w.tail<3>() / (2 * pair.radius());
@@ -94,7 +94,7 @@ struct Case {
   ProximalTerms terms;
 };
 
-/// Multipliers of the size of the contact's own force, stiffnesses that such a force moves by up to a depth.
+/// Multipliers of the order of the contact's own force, and stiffnesses for which such a force shifts by up to a depth.
 Case random_case(SolidKind kind, RandomStream& random) {
   const double depth = std::pow(10, -1 - 3 * random.uniform());
   Case made{random_pair(kind, depth, random), {}};
@@ -163,7 +163,7 @@ TEST_P(ProximalContactOf, DerivativesAgreeWithDifferences) {
     const double predicted = here.predicted(a, b) - here.value - slope;
     const PairHessian c = here.curvature();
     EXPECT_NEAR(predicted, (a.dot(c.aa * a) + 2 * a.dot(c.ab * b) + b.dot(c.bb * b)) / 2, 1e-9 * terms.stiffness * 12);
-    // To first order in the shift, which is no larger than the turn of the ghost; kinks make their own.
+    // Accurate to first order in the shift, which is at most the rotation of the ghost. Kinks are skipped.
     if (std::abs(forth.energy - back.energy) > 0.1 * here.energy) continue;
     const double first_order = here.shift.norm() + 1e-4;
     worst_curvature =
@@ -194,7 +194,7 @@ TEST_P(ProximalContactOf, MovesWithBothBodies) {
     }
     const ProximalContact moved_one = envelope(there, terms);
     const double scale = here.shift.norm() + here.wrench.norm() / terms.stiffness;
-    // Where flat contacts are shallow, rounding of the poses is not small beside their depth.
+    // For shallow flat contacts the rounding of the poses is not small compared with their depth.
     EXPECT_LT((moved_one.shift - here.shift).norm(), 1e-6 * scale + 1e-12) << "case " << k;
     const Vector6d gradient = joined(turn * here.gradient_b.head<3>(), turn * here.gradient_b.tail<3>());
     EXPECT_LT((moved_one.gradient_b - gradient).norm(), terms.stiffness * (1e-6 * scale + 1e-12)) << "case " << k;
@@ -236,8 +236,8 @@ TEST_P(ProximalContactOf, ItsOwnForceLeavesItUnshifted) {
 TEST(ProximalContact, PressedFacesAreASpringInClosedForm) {
   const ConvexSolid& cube = platonic(SolidKind::cube);
   for (const double depth : {1e-2, 1e-5, 1e-8, 1e-10}) {
-    // Face on face, one turned by half a right angle, where the section is least: V = A·depth, and the force passes
-    // through both centres and turns neither.
+    // Face on face, one rotated by 45°, where the area of the section is smallest: V = A·depth. The force passes
+    // through both centres and has no torque.
     Pair pair{&cube, {}, {}};
     pair.b.position = {1, 0, 0};
     pair.b.position_low = {-depth, 0, 0};
@@ -245,11 +245,11 @@ TEST(ProximalContact, PressedFacesAreASpringInClosedForm) {
     const double k =
         unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 1).wrench.norm() / depth;
     EXPECT_GT(k, 0.1) << "A²/2";
-    // Softer, and the section, which shrinks where it slides, would give way sideways.
+    // For smaller stiffnesses the minimum would shift sideways, because the section shrinks when it slides.
     for (const double stiffness : {100 * depth * depth * k, 1e-3 * k, k}) {
       ProximalTerms terms{Vector6d::Zero(), stiffness};
       terms.multiplier[0] = -0.3 * k * depth;
-      // e(w) = k (depth − w)²/2: its minimum with ½ρw² − μw.
+      // Minimum of e(w) = k (depth − w)²/2 with ½ρw² − μw.
       const double w = (k * depth + terms.multiplier[0]) / (k + stiffness);
       const ProximalContact found = envelope(pair, terms);
       std::printf("depth %.0e, ρ/k %.0e: shift %.9e, expected %.9e\n", depth, stiffness / k, found.shift[0], w);
@@ -263,8 +263,8 @@ TEST(ProximalContact, PressedFacesAreASpringInClosedForm) {
   }
 }
 
-// Near jamming stiffnesses are .1 and 1e-11, and all that holds a packing up are the small ones: what rounding couples
-// between the two must not turn up as negative curvature.
+// Near jamming stiffnesses are 0.1 and 1e-11, and only the small ones stabilise a packing. The coupling of both by
+// rounding must not appear as negative curvature.
 TEST(ProximalContact, FacesSlideFreelyHoweverFlat) {
   const ConvexSolid& cube = platonic(SolidKind::cube);
   RandomStream random{306, 0};
@@ -278,7 +278,7 @@ TEST(ProximalContact, FacesSlideFreelyHoweverFlat) {
       pair.b.position = frame * Eigen::Vector3d(1 - depth, 0.3 * random.uniform(), 0.3 * random.uniform());
       force =
           unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 1).wrench.head<3>().norm();
-      // Lower-order contacts with that force are as deep as its fifth root.
+      // Lower-order contacts with that force have a depth of about its fifth root.
       const double soft = force / std::pow(force, 0.2);
       const ProximalContact contact =
           unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 300 * soft);
@@ -289,7 +289,7 @@ TEST(ProximalContact, FacesSlideFreelyHoweverFlat) {
       worst = std::max(worst, std::abs(2 * predicted - step.dot(curvature * step)) / (300 * soft * step.squaredNorm()));
     }
     std::printf("depth %.0e: least eigenvalue %.1e of soft contacts', predictions to %.1e of ρ\n", depth, least, worst);
-    // Forces turn with their contacts, which makes curvatures of that order.
+    // Forces rotate with their contacts, which causes curvatures of that order.
     EXPECT_GT(least, -3 * std::pow(force, 0.2));
     EXPECT_LT(worst, 1e-6);
   }

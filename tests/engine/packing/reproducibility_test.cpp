@@ -1,9 +1,8 @@
-// Facts proved here, bit for bit:
-//   an evaluation, a Hessian (in either precision) and a list of contacts are functions of the packing alone: whatever
-//   was evaluated before (other solids, sizes, densities, cells; a walk that kept or rebuilt the neighbour list) and
-//   for 1 and 2 threads, and where the task that it is part of has been cancelled;
-//   Eigen's products of matrices are cut into blocks alike on every machine: for caches of 32, 256 and 2048 KiB,
-//   whatever its own are.
+// Properties tested here, bit for bit:
+// - An evaluation, a Hessian (in either precision) and a list of contacts depend only on the packing. They do not
+//   depend on earlier evaluations (other solids, sizes, densities, cells; moves that keep or rebuild the neighbour
+//   list), on 1 or 2 threads, or on cancellation of the enclosing task.
+// - Eigen cuts products of matrices into the same blocks for caches of 32, 256 and 2048 KiB, whatever the machine has.
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -17,10 +16,10 @@ namespace {
 
 using namespace testing_packings;
 
-constexpr int particles = 300;  // thousands of pairs: enough for threads to share
+constexpr int particles = 300;  // thousands of pairs: enough for several threads
 constexpr double density = .7;
 
-/// Everything the energy says of a packing.
+/// All results of the energy for a packing.
 struct Answer {
   Evaluation evaluation, in_double_double;
   SecondOrder second, second_in_double_double;
@@ -122,7 +121,7 @@ TEST(ReproducibilityTest, AnotherSolidBeforeChangesNothing) {
   for (const Packing& packing : samples(36, particles, density)) {
     SCOPED_TRACE(describe(packing));
     PackingEnergy used;
-    // Everything but the solid is the same; the dodecahedron has the least reach.
+    // Only the solid differs; the dodecahedron has the smallest reach.
     Packing other = packing;
     other.solids =
         platonic(packing.solids.only().name() == "dodecahedron" ? SolidKind::icosahedron : SolidKind::dodecahedron);
@@ -131,7 +130,7 @@ TEST(ReproducibilityTest, AnotherSolidBeforeChangesNothing) {
   }
 }
 
-/// Pairs in the list that an evaluation goes through: another list of thousands has another length.
+/// Pairs in the list that an evaluation uses: another list of thousands of pairs has another length.
 long listed_by(PackingEnergy& energy, const Packing& packing) {
   const long before = energy.counts().listed;
   energy.evaluate(packing);
@@ -154,7 +153,7 @@ TEST(ReproducibilityTest, AWalkBeforeChangesNothing) {
     EXPECT_GT(kept, 0) << "no evaluation used the list of the one before";
     EXPECT_GT(rebuilt, 0) << "one list served the whole walk";
     expect_same_bits(answer(used, current), fresh(current));
-    // Back to where it came from, in one step.
+    // Back to the start in one step.
     EXPECT_NE(listed_by(used, packing), before) << "the list of the walk's end serves its start";
     expect_same_bits(answer(used, packing), fresh(packing));
   }
@@ -185,8 +184,8 @@ TEST(ReproducibilityTest, ACancelledTaskChangesNothing) {
   }
 }
 
-// Sums of products round differently where they are cut. What Eigen asks of the processor would be another size here or
-// on the next machine, what it assumes instead another one in another release.
+// Sums of products round differently if they are cut differently. The sizes that Eigen asks the processor for would
+// differ between machines; the sizes it assumes otherwise may differ between releases.
 TEST(ReproducibilityTest, TheCachesOfTheMachineChangeNothing) {
   constexpr std::ptrdiff_t kibibyte = 1024;
   EXPECT_EQ(Eigen::l1CacheSize(), 32 * kibibyte);

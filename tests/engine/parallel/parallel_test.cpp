@@ -1,9 +1,9 @@
-// Facts proved here, for 1, 2 and 5 threads:
-//   a loop calls every index once; a forest every node once, after its children and seeing what they wrote;
-//   where a node refuses, the forest says so, and its ancestors are left out;
-//   what a call throws comes out, when no call is under way any more, from a loop, a forest and a loop within it;
-//   a thread that waits in a loop or a forest starts nothing of what is around it, and whoever cancels that leaves
-//   nothing out.
+// Properties tested here, for 1, 2 and 5 threads:
+// - A loop calls every index once. A forest calls every node once, after its children, and sees what they wrote.
+// - If a node returns false, the forest returns false and skips its ancestors.
+// - An exception of a call is rethrown when no call is running any more: from a loop, a forest, and a loop inside it.
+// - A thread that waits in a loop or a forest starts no work of an enclosing loop, and cancellation there skips no
+//   calls.
 
 #include "engine/parallel/parallel.hpp"
 
@@ -26,7 +26,7 @@ namespace {
 
 class OnThreads : public testing::TestWithParam<std::size_t> {
  protected:
-  // Without the arena, TBB has no more threads than the machine has cores.
+  // Without the arena, TBB has at most as many threads as the machine has cores.
   template <class Work>
   static void with_threads(const Work& work) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, GetParam());
@@ -37,7 +37,7 @@ class OnThreads : public testing::TestWithParam<std::size_t> {
 
 INSTANTIATE_TEST_SUITE_P(Parallel, OnThreads, testing::Values(1, 2, 5));
 
-/// A node's parent is a later one.
+/// The parent of a node has a larger index.
 std::vector<int> random_forest(int n, RandomStream& random) {
   std::vector<int> parents(static_cast<std::size_t>(n), -1);
   for (int k = 0; k + 1 < n; ++k) {
@@ -82,7 +82,7 @@ TEST_P(OnThreads, AForestCallsChildrenFirst) {
     std::vector<std::vector<int>> forests{{}, {-1}, {-1, -1}, chain(100)};
     for (int round = 0; round < 40; ++round) forests.push_back(random_forest(1 + 10 * round, random));
     for (const std::vector<int>& parents : forests) {
-      // Not atomic: what children wrote has to be seen by their parent.
+      // Not atomic: a parent must see what its children wrote.
       std::vector<long> subtree(parents.size(), 0), needed(parents.size(), 1);
       for (std::size_t k = 0; k < parents.size(); ++k) {
         if (parents[k] >= 0) needed[parents[k]] += needed[k];
@@ -155,7 +155,7 @@ TEST_P(OnThreads, WhatACallThrowsComesOut) {
   });
 }
 
-/// How often a thread that was in `call` began another of a loop around it.
+/// Number of times that a thread inside `call` began another call of an enclosing loop.
 template <class Call>
 int begun_while_waiting(const Call& call) {
   static thread_local bool inside = false;
@@ -175,9 +175,9 @@ int begun_while_waiting(const Call& call) {
 }
 
 TEST_P(OnThreads, WhoWaitsStartsNothingFromOutside) {
-  if (GetParam() == 1) return;  // who waits for nobody
+  if (GetParam() == 1) return;  // a single thread never waits
   with_threads([] {
-    // Asleep, so that the others come and take their parts, and whoever is first has to wait for them.
+    // Each part sleeps, so that other threads take parts and the first thread has to wait for them.
     const auto part = [](std::size_t) { std::this_thread::sleep_for(std::chrono::microseconds(200)); };
     EXPECT_EQ(begun_while_waiting([&] { for_each_index(6, part); }), 0);
     EXPECT_EQ(begun_while_waiting([&] {

@@ -1,9 +1,10 @@
-// Facts proved here:
-//   a stream's bits are a function of its key alone, and the ones the C++ standard prescribes;
-//   keys that differ in a word, in the upper half of a word, in order or in length give different streams;
-//   uniforms are multiples of 2^-53 in [0, 1), the bits of the stream from the top, evenly spread and uncorrelated;
-//   normals have the moments of the standard normal distribution;
-//   hash_of is 64-bit FNV-1a.
+// Properties tested here:
+// - The bits of a stream depend only on its key, and are those prescribed by the C++ standard.
+// - Keys that differ in a word, in the upper half of a word, in order or in length give different streams.
+// - Uniform numbers are multiples of 2^-53 in [0, 1) from the upper bits of the stream, evenly distributed and
+//   uncorrelated.
+// - Normal numbers have the moments of the standard normal distribution.
+// - hash_of is 64-bit FNV-1a.
 
 #include "engine/random/stream.hpp"
 
@@ -40,7 +41,7 @@ TEST(RandomStreamTest, DifferentKeysGiveDifferentStreams) {
   for (RandomStream& stream : streams) {
     for (int k = 0; k < 100; ++k) seen.insert(stream.bits());
   }
-  // 1000 draws of 64 bits repeat one with probability 3e-14.
+  // 1000 draws of 64 bits contain a repetition with probability 3e-14.
   EXPECT_EQ(seen.size(), 100 * streams.size());
 }
 
@@ -54,8 +55,7 @@ TEST(RandomStreamTest, UniformsAreTheTopBits) {
 }
 
 constexpr int draws = 200000;
-/// A mean of `draws` values may be off by this many standard errors: one test in 1.7 million fails by chance, were
-/// the seed not fixed.
+/// Tolerance of a mean of `draws` values in standard errors. With a random seed one test in 1.7 million would fail.
 constexpr double standard_errors = 5;
 
 TEST(RandomStreamTest, UniformsAreEvenlySpreadAndUncorrelated) {
@@ -86,7 +86,7 @@ TEST(RandomStreamTest, NormalsHaveTheirMoments) {
     product += x * last / draws;
     last = x;
   }
-  // ⟨x^p⟩ of the standard normal and the variance ⟨x^2p⟩ − ⟨x^p⟩² of each.
+  // ⟨x^p⟩ of the standard normal distribution, and the variance ⟨x^2p⟩ − ⟨x^p⟩² of x^p.
   const std::array<double, 5> exact{1, 0, 1, 0, 3}, variance{0, 1, 2, 15, 96};
   for (std::size_t p = 1; p < moment.size(); ++p)
     EXPECT_NEAR(moment[p], exact[p], standard_errors * std::sqrt(variance[p] / draws)) << "moment " << p;

@@ -1,12 +1,12 @@
-// Facts proved here:
-//   normals and second terms of all contacts add up to the Hessian of the packing, in jammed states of four solids and
-//   in random packings;
-//   tilts are orthonormal, at right angles to the normal and to motions of the pair as a whole, and diagonalise the
-//   second term in descending order;
-//   shares of any motion, and of any mode, add up to its energy, whatever the threshold;
-//   a vertex in a face has no stiff tilt, an edge in a face one, whose s is as 1/depth; a face that lies flat on a face
-//   none, and one or more where both part within their polygon;
-//   rows are of unit length, their number is C_s N/2, and their forces give the gradient.
+// Properties tested here:
+// - Normals and second terms of all contacts sum to the Hessian of the packing, in jammed states of four solids and in
+//   random packings.
+// - Tilts are orthonormal, perpendicular to the normal and to motions of the pair as a whole, and diagonalise the
+//   second term in descending order.
+// - Contributions to the energy of any motion, and of any mode, sum to its energy, for any threshold.
+// - A vertex in a face has no stiff tilt. An edge in a face has one, with s proportional to 1/depth. A face flat on a
+//   face has none, and one or more if both separate within their polygon.
+// - Rows have unit length, their number is C_s N/2, and their forces give the gradient.
 
 #include "engine/rigidity/pair_stiffness.hpp"
 
@@ -87,7 +87,7 @@ TEST(PairStiffnessTest, TiltsAreTheMotionsThatAreLeft) {
       diagonal.diagonal() -= pair.tilt_stiffness;
       EXPECT_LE(diagonal.norm(), 100 * eps * pair.second.norm());
       for (int k = 0; k < 4; ++k) EXPECT_GE(pair.tilt_stiffness[k], pair.tilt_stiffness[k + 1]);
-      // A turn of the pair as a whole about A's centre.
+      // A rotation of the pair as a whole about A's centre.
       const double radius = packing.solids.only().gyration_radius();
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3d turn = Vector3d::Unit(axis);
@@ -125,7 +125,7 @@ TEST(PairStiffnessTest, SharesAddUp) {
   }
 }
 
-/// The stiffness of a constructed contact, A turned at random.
+/// The stiffness of a constructed contact, with a random orientation of A.
 PairStiffness stiffness_of(const ConvexSolid& solid, const Contact& touching, RandomStream& random) {
   Packing packing{solid, PeriodicCell(100), std::vector<Pose>(2)};
   const Eigen::Quaterniond q = constructed::random_orientation(random);
@@ -154,8 +154,8 @@ TEST(PairStiffnessTest, ShapesHaveTheirTilts) {
       const auto shallow = made(edge, face, Vector3d::Zero(), 1e-6), deeper = made(edge, face, Vector3d::Zero(), 1e-4);
       EXPECT_EQ(shallow.stiff_tilts(10), 1) << to_string(kind);
       EXPECT_NEAR(shallow.relative_tilt(0) / deeper.relative_tilt(0), 100, 5) << to_string(kind);
-      // V of a flat contact that reaches all of its polygon is that polygon times the depth at its centroid: a tilt
-      // about that changes nothing. It does where the faces part within the polygon.
+      // If a flat contact covers its whole polygon, V is the area of the polygon times the depth at its centroid, so
+      // that a tilt about it changes nothing. A tilt does if the faces separate within the polygon.
       const auto flat = constructed::face_and_edges_site(solid, k);
       const Vector3d in_plane = flat.outward.unitOrthogonal();
       EXPECT_EQ(made(flat, face, 1e-9 * in_plane, 1e-4).stiff_tilts(10), 0) << to_string(kind);

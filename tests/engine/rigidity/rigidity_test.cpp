@@ -1,13 +1,14 @@
-// Facts proved here:
-//   rows are of unit length, blind to translations, and rowsᵀ·forces is the gradient of the energy;
-//   class rows let a constructed contact move as its shape lets it (slides and spins; turns about an edge), and oppose
-//   the rest; their number is C·N/2;
-//   in every state of jammed octahedra, tetrahedra and icosahedra, and of cubes: there are as many constraints as the
-//   contacts have, counted by their angles; ranks, states of self-stress and floppy motions are those of all singular
-//   values, and what counts is orders of magnitude from what does not; nearest jamming the
-//   normals have exactly one state of self-stress, and the forces of the equilibrium are it; cubes have more than one
-//   redundant constraint per particle; bases of states of self-stress are orthonormal and balance; known ranks:
-//   repeated rows, rows of a tree, no rows.
+// Properties tested here:
+// - Rows have unit length and vanish for translations, and rowsᵀ·forces is the gradient of the energy.
+// - Class rows allow the motions that the shape of a constructed contact allows (slides and spins; rotations about an
+//   edge), and oppose the others. Their number is C·N/2.
+// - For every state of jammed octahedra, tetrahedra and icosahedra, and of cubes, the number of constraints is that of
+//   the contacts by their angles. Ranks, states of self-stress and floppy motions agree with all singular values. Zero
+//   and nonzero singular values are orders of magnitude apart.
+// - Nearest to jamming the normals have exactly one state of self-stress, which the forces of the equilibrium form.
+//   Cubes have more than one redundant constraint per particle.
+// - Bases of states of self-stress are orthonormal and balance.
+// - Ranks known by construction are found: repeated rows, rows of a tree, no rows.
 
 #include "engine/rigidity/rigidity.hpp"
 
@@ -33,7 +34,7 @@ using Eigen::VectorXd;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// A state with what is known of its contacts.
+/// A state with known data of its contacts.
 struct Known {
   explicit Known(const Packing& packing) : state(packing) {
     PackingEnergy energy;
@@ -44,7 +45,7 @@ struct Known {
   }
   RigidityMatrix normals() const { return normal_constraints(state, contacts); }
   RigidityMatrix by_class() const { return class_constraints(state, contacts, angles, analysis.classes); }
-  /// 3, 2 and 1 constraints of every face-face, edge-face and lower-order contact.
+  /// 3, 2 and 1 constraints for every face-face, edge-face and lower-order contact.
   int by_counting() const {
     int sum = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -82,7 +83,7 @@ TEST(RigidityMatrixTest, RowsAreUnitAndForcesGiveTheGradient) {
   }
 }
 
-/// Two bodies in touch, A turned at random, and the motions of B about the point of touch.
+/// Two touching bodies, A in a random orientation, and the motions of B about the touching point.
 struct Pair {
   Pair(const ConvexSolid& solid, const Contact& in_frame_of_a, const Vector3d& touch, RandomStream& random)
       : packing{solid, PeriodicCell(100), std::vector<Pose>(2)},
@@ -94,7 +95,8 @@ struct Pair {
     contact.displacement = q * contact.pose.displacement;
   }
 
-  /// |rows · dr| where B moves by `slide` and turns by `turn` (frame of A) about the point of touch; |dr| = 1.
+  /// |rows · dr| for a motion where B moves by `slide` and rotates by `turn` (frame of A) about the touching point;
+  /// |dr| = 1.
   double opposed(const RigidityMatrix& matrix, const Vector3d& slide, const Vector3d& turn) const {
     const Eigen::Quaterniond& q = packing.poses[0].orientation;
     const Vector3d theta = q * turn;
@@ -106,11 +108,11 @@ struct Pair {
 
   Packing packing;
   Contact contact;
-  Vector3d lever;  ///< from B's centre to the point of touch, lab frame
+  Vector3d lever;  ///< from B's centre to the touching point, lab frame
 };
 
 constexpr double depth = 1e-4;
-constexpr double free_motion = 30 * depth;  ///< what finite depth leaves of a row where there should be nothing
+constexpr double free_motion = 30 * depth;  ///< remainder of a row for a free motion, due to the finite depth
 constexpr double opposed_motion = 0.1;
 
 TEST(RigidityMatrixTest, FaceOnFaceSlidesAndSpins) {
@@ -181,7 +183,7 @@ TEST(RigidityMatrixTest, RefusesWhatDoesNotMatch) {
   }
 }
 
-/// Constraints, states of self-stress and floppy motions by the contacts and the singular values alone.
+/// Checks the numbers of constraints, states of self-stress and floppy motions against contacts and singular values.
 void expect_counts(const Rigidity& rigidity, const RigidityMatrix& matrix, int constraints, int particles) {
   const VectorXd sigma = singular_values_of(MatrixXd(matrix.rows));
   const int rank = static_cast<int>((sigma.array() > rigidity.tolerance).count());
@@ -212,7 +214,7 @@ struct System {
   double final_distance;
 };
 
-/// Cubes order rather than jam: one compressed state of theirs.
+/// Cubes order instead of jamming: one compressed state.
 std::vector<Packing> states_of(const System& system) {
   if (system.kind != SolidKind::cube) return jammed(system.kind, system.n, system.final_distance).states;
   Packing packing = small_packing(system.kind, over_compressed(system.kind), 96, system.n);
@@ -251,7 +253,7 @@ TEST_P(RigidityOf, EveryState) {
     expect_stresses(of_classes, by_class);
     EXPECT_GE(of_classes.rank, of_normals.rank);
     EXPECT_GE(of_normals.self_stress, 1) << "an equilibrium is a state of self-stress";
-    // The forces are within the states of self-stress: nothing of them is left without their projection.
+    // The forces are a state of self-stress: subtracting their projection leaves nothing.
     const VectorXd forces = normals.forces.normalized();
     const VectorXd rest = forces - of_normals.stresses * (of_normals.stresses.transpose() * forces);
     EXPECT_LE(rest.norm(), normals.imbalance / of_normals.least_kept * 100);
@@ -277,7 +279,7 @@ TEST_P(RigidityOf, NearestJamming) {
   EXPECT_NEAR(along, 1, 1e-6) << "the forces of the equilibrium are that state";
 }
 
-/// Every second row holds nothing that the one before it does not: far more states of self-stress than by counting.
+/// Every second row repeats the one before: far more states of self-stress than by counting.
 TEST(RigidityTest, RowsGivenTwice) {
   const Known known(nearest_state(jammed(SolidKind::icosahedron, 32, .01)));
   const RigidityMatrix once = known.normals();
@@ -312,7 +314,7 @@ TEST(RigidityTest, KnownRanks) {
 
   RandomStream random{95};
   for (int rank = 1; rank < 15; ++rank) {
-    // More rows than their rank, each a mixture.
+    // More rows than their rank, each a combination of a basis.
     MatrixXd basis(rank, 18), mixture(rank + 4, rank);
     for (double& entry : basis.reshaped()) entry = random.normal();
     for (double& entry : mixture.reshaped()) entry = random.normal();

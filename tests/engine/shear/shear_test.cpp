@@ -1,11 +1,14 @@
-// Facts proved here, on jammed octahedra and dodecahedra in a free cell, in either mode and under either control:
-//   stress over strain of a small step is the shear modulus of the elastic tensor, to 1e-6; under stress control that
-//   of its inverse; stress is the slope of the energy: work and energy agree to second order in the step, so that
-//   nothing is dissipated where nothing gives way; a load that is taken back within the elastic range leaves the energy
-//   that was, to 1e-9; under stress control the stress is the one asked for, −p·1 + τ, to the residual, at the pressure
-//   of the start; far enough the packing gives way: a drop is told, energy is dissipated in it, and what was stored
-//   comes down; beyond its yield stress no equilibrium is claimed; what is not jammed, and steps that lead nowhere, are
-//   refused.
+// Properties tested here, for jammed octahedra and dodecahedra in a variable cell, in both modes and with both
+// controls:
+// - Stress over strain of a small step is the shear modulus of the elastic tensor, to 1e-6; with stress control that of
+//   its inverse.
+// - Stress is the derivative of the energy: work and energy agree to second order in the step, so that nothing is
+//   dissipated without a rearrangement.
+// - A load that is reversed within the elastic range restores the energy to 1e-9.
+// - With stress control the stress is the requested one, −p·1 + τ, to the residual, at the initial pressure.
+// - At large loads the packing rearranges: the drop is reported, energy is dissipated, and stored energy decreases.
+// - Beyond the yield stress no equilibrium is reported.
+// - A packing that is not jammed, and steps that lead nowhere, are rejected.
 
 #include "engine/shear/shear.hpp"
 
@@ -39,7 +42,7 @@ const Packing& jammed(SolidKind kind) {
   RandomStream random{23, static_cast<std::uint64_t>(kind)};
   JamResult result = jam(random_packing(platonic(kind), 60, options.initial_density, random), options);
   settle(result, options);
-  // As near to balance as can be told: its stress is a part of every difference.
+  // Minimised as far as possible, because the remaining stress is part of every difference.
   Packing packing = result.states.back();
   PackingEnergy energy;
   MinimiseOptions exact;
@@ -73,7 +76,7 @@ class ShearOf : public testing::TestWithParam<Case> {
     return *elastic_tensor(start_, energy.hessian(start_, Precision::double_double), energy.contacts(start_), here);
   }
 
-  /// ε of unit γ, in Mandel's components.
+  /// ε for unit γ, in Mandel's components.
   Vector6d direction() const {
     Eigen::Matrix3d strain = deviator_with(.5, GetParam().mode);
     return strain_components(strain);
@@ -93,7 +96,7 @@ TEST_P(ShearOf, TheFirstStepHasTheShearModulus) {
   const double step = 1e-6;
   const ShearResult forth = shear(start_, options(ShearControl::strain, step, 2 * step));
   ASSERT_EQ(forth.states.size(), 3U);
-  // What is of second order drops out.
+  // Terms of second order cancel.
   const double slope = (4 * forth.states[1].stress - forth.states[2].stress - 3 * forth.states[0].stress) / (2 * step);
   std::printf("G %.9e, by stress over strain %.9e\n", expected, slope);
   EXPECT_NEAR(slope, expected, 1e-6 * std::abs(expected));
@@ -142,7 +145,7 @@ TEST_P(ShearOf, UnderStressControlTheStressIsTheOneAskedFor) {
     EXPECT_LE((state.full_stress - wanted).cwiseAbs().maxCoeff(), 1e-8 * pressure) << k;
     EXPECT_NEAR(state.pressure, pressure, 1e-8 * pressure);
     if (state.dropped) break;
-    // Compliance and strain at so small a load: linear to a few per cent.
+    // Compliance and strain are linear to a few per cent for such a small load.
     const double expected = 2 * direction().dot(compliance * load) * state.load * pressure;
     std::printf("s/p %.0e: strain %.6e, linear %.6e\n", state.load, state.strain, expected);
     EXPECT_NEAR(state.strain, expected, .02 * std::abs(expected)) << k;

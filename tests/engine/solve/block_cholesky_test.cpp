@@ -1,11 +1,10 @@
-// Facts proved here, on Hessians of random packings of 1 … 200 particles, with particles without contacts, and on
-// random matrices of other shapes (a chain, a star, two clusters, everything coupled to everything), plus a shift:
-//   H x by blocks is H x by the dense matrix;
-//   the solution has a backward error of a few roundings, and agrees with Eigen's dense LLT and sparse SimplicialLDLT
-//   as far as the condition number lets two solvers agree;
-//   a shift a little above −λ_min is accepted, one a little below is refused, and so is a singular matrix;
-//   a factor used before (on the same pattern, on another one, on a matrix that was refused) gives the bits of a new
-//   one.
+// Properties tested here, for Hessians of random packings of 1 … 200 particles, with particles without contacts, and
+// for random matrices of other shapes (a chain, a star, two clusters, a full matrix), each plus a shift:
+// - H x by blocks is H x by the dense matrix.
+// - The solution has a backward error of a few roundings. It agrees with Eigen's dense LLT and sparse SimplicialLDLT as
+//   well as the condition number permits.
+// - A shift slightly above −λ_min is accepted; one slightly below and a singular matrix are rejected.
+// - A factor used before (for the same pattern, another one, or a rejected matrix) gives the bits of a new one.
 
 #include "engine/solve/factor/block_cholesky.hpp"
 
@@ -46,7 +45,7 @@ Packing sized_packing(SolidKind kind, int n, double density, std::uint64_t seed)
   return random_packing(platonic(kind), n, density, random);
 }
 
-/// Two particles that touch.
+/// Two touching particles.
 Packing pair_packing(SolidKind kind) {
   Packing packing = sized_packing(kind, 2, 0.02, 7);
   packing.poses[1].position =
@@ -54,7 +53,7 @@ Packing pair_packing(SolidKind kind) {
   return packing;
 }
 
-/// Symmetric, of random blocks; `coupled(i, j)` says which pairs i < j have one.
+/// Symmetric matrix of random blocks; `coupled(i, j)` is true for the pairs i < j that have one.
 template <class Coupled>
 BlockMatrix random_blocks(int n, const Coupled& coupled) {
   RandomStream random{21, static_cast<std::uint64_t>(n)};
@@ -89,7 +88,7 @@ std::vector<System> systems() {
   list.push_back(system_of("N=200 dense", hessian_of(sized_packing(SolidKind::octahedron, 200, 0.7, 6))));
   list.push_back(system_of("chain", random_blocks(30, [](int i, int j) { return j == i + 1; })));
   list.push_back(system_of("star", random_blocks(25, [](int i, int j) { return i == 12 || j == 12; })));
-  // Fronts wider than the columns that are put to use at once, with rows below them.
+  // Fronts wider than the columns used in one pass, with rows below them.
   const auto cluster = [](int i) { return i / 30; };
   list.push_back(system_of("two clusters", random_blocks(65, [&](int i, int j) {
                              return cluster(i) == cluster(j) || std::max(cluster(i), cluster(j)) == 2;
@@ -98,7 +97,7 @@ std::vector<System> systems() {
   return list;
 }
 
-/// A scale for shifts also where the Hessian is zero.
+/// A scale for shifts, even if the Hessian is zero.
 double stiffness(const System& system) { return system.highest > 0 ? system.highest : 1.0; }
 
 /// ‖A x − b‖ / (‖A‖‖x‖ + ‖b‖).
@@ -133,7 +132,7 @@ TEST(BlockCholesky, SolvesAsTheDenseAndSparseFactorsDo) {
       const Eigen::VectorXd dense_x = a.llt().solve(b);
       const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> sparse(a.sparseView());
       const Eigen::VectorXd sparse_x = sparse.solve(b);
-      // Each has a backward error of its own, which the condition number magnifies.
+      // Each solution has its own backward error, which the condition number amplifies.
       EXPECT_LE((x - dense_x).norm(), 4 * allowed * condition * x.norm()) << system.name << " shift " << shift;
       EXPECT_LE((x - sparse_x).norm(), 4 * allowed * condition * x.norm()) << system.name << " shift " << shift;
       worst_backward = std::max(worst_backward, backward / eps);
@@ -188,7 +187,7 @@ TEST(BlockCholesky, ReuseGivesTheBitsOfANewFactor) {
   for (int round = 0; round < 30; ++round) {
     const System& system = list[random.bits() % list.size()];
     const double high = 2 * (std::max(0.0, -system.lowest) + stiffness(system));
-    // The same pattern twice with different values, with a refusal in between now and then.
+    // The same pattern twice with different values, sometimes with a rejected matrix in between.
     for (const double factor : {1.0, 0.7}) {
       if (random.uniform() < 0.3) {
         ASSERT_FALSE(used.factorise(system.matrix, -high)) << system.name;

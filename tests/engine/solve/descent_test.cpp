@@ -1,8 +1,8 @@
-// Facts proved here, at states of every solid from random to converged, where energies no longer resolve a step:
-//   a step that Descent::advance takes moves the packing by last_step() times the direction, no particle beyond the
-//   longest displacement, raises the energy by no more than its noise, and leaves packing and evaluation in agreement;
-//   a direction that leads up is refused and nothing moves;
-//   the verdict is energy_change exactly when the last step changed the energy by less than that fraction of it.
+// Properties tested here, for states of every solid from random to converged, where energies no longer resolve a step:
+// - A step of Descent::advance moves the packing by last_step() times the direction, and no particle beyond the longest
+//   displacement. It raises the energy by at most its noise, and packing and evaluation agree afterwards.
+// - A direction that leads uphill is rejected and nothing moves.
+// - The verdict is energy_change exactly if the last step changed the energy by less than that fraction.
 
 #include "engine/solve/minimise/descent.hpp"
 
@@ -27,7 +27,7 @@ double misplaced(const Packing& before, const Packing& after, const Eigen::Vecto
   return worst;
 }
 
-/// Takes steps along random descent directions and counts those in which the energy could not tell up from down.
+/// Takes steps along random descent directions and counts those whose energy change is below the noise.
 int wander(Packing& packing, int steps, RandomStream& random) {
   PackingEnergy energy;
   MinimiseOptions options;

@@ -1,8 +1,8 @@
-// Facts proved here, on random graphs of 0 … 120 particles from empty to complete, and on packings:
-//   every particle is eliminated once, children before parents, and every supernode but the roots has one parent;
-//   what the elimination fills in is within the supernodes, found by eliminating a dense pattern one by one;
-//   supernodes take in fewer zeros than half of what they hold, on packings;
-//   the plan is a function of the pattern alone.
+// Properties tested here, for random graphs of 0 … 120 particles from empty to complete, and for packings:
+// - Every particle is eliminated once, children before parents, and every supernode except the roots has one parent.
+// - The fill-in is within the supernodes. The reference eliminates a dense pattern one by one.
+// - On packings fewer than half of the entries of supernodes are zeros.
+// - The plan depends only on the pattern.
 
 #include "engine/solve/factor/elimination.hpp"
 
@@ -36,7 +36,7 @@ std::vector<BlockMatrix> graphs() {
   return list;
 }
 
-/// Later places that each place couples to once the earlier ones are eliminated.
+/// Later positions that each position couples to once the earlier ones are eliminated.
 std::vector<std::set<int>> filled_in(const BlockMatrix& matrix, const std::vector<int>& node_of) {
   std::vector<int> place_of(node_of.size());
   for (std::size_t k = 0; k < node_of.size(); ++k) place_of[node_of[k]] = static_cast<int>(k);
@@ -93,7 +93,7 @@ TEST(Elimination, HoldsWhatFillsIn) {
               << "places " << k << " and " << row << " of N " << matrix.size();
       }
       EXPECT_TRUE(node.rows.empty() || node.rows.front() >= end);
-      // A child hands its update matrix up: all its rows have to be there.
+      // A child passes its update matrix to its parent, which must contain all its rows.
       for (const int child : node.children) {
         for (const int row : plan.supernodes[child].rows)
           EXPECT_TRUE(row < end || std::binary_search(node.rows.begin(), node.rows.end(), row));

@@ -1,7 +1,7 @@
-// Facts proved here, with a malloc that fails where it is told to:
-//   whichever piece of memory is refused while a matrix is dissected, planned and factorised, on one thread or several,
-//   factorise throws std::bad_alloc or does without;
-//   a factor that was used for another matrix gives the bits of a new one afterwards, as soon as there is memory.
+// Properties tested here, with a malloc that fails at a chosen call:
+// - If any single allocation fails while a matrix is dissected, planned and factorised, on one or several threads,
+//   factorise throws std::bad_alloc or succeeds without that memory.
+// - As soon as memory is available, a factor that was used for another matrix gives the bits of a new one.
 
 #include <oneapi/tbb/global_control.h>
 
@@ -13,11 +13,11 @@
 #include "tests/engine/solve/scattered_blocks.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 
-// A sanitizer has malloc for itself.
+// A sanitizer has its own malloc.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 namespace {
-// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): where malloc finds what it is told
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): settings that malloc reads
 std::atomic<bool> counting{false};
 std::atomic<long> calls{0}, refused{0};
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
@@ -42,7 +42,7 @@ namespace {
 
 enum class Came { through, short_of_memory };
 
-/// Refuses the k-th piece of memory; 0 refuses none.
+/// Lets the k-th allocation fail; 0 lets none fail.
 Came factorise(BlockCholesky& factor, const BlockMatrix& matrix, long k) {
   calls = 0;
   refused = k;
@@ -61,7 +61,7 @@ Came factorise(BlockCholesky& factor, const BlockMatrix& matrix, long k) {
 void refuse_one_after_the_other(int n, std::size_t threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const BlockMatrix matrix = scattered_blocks(n, 9);
-  BlockMatrix before = matrix;  // needs less room
+  BlockMatrix before = matrix;  // needs less memory
   std::erase_if(before.off_diagonal, [](const BlockMatrix::Block& block) { return block.column % 3 == 0; });
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(Eigen::Index{6} * n, -1, 1);
   BlockCholesky fresh;

@@ -1,11 +1,12 @@
-// Facts proved here, on graphs of scattered points large enough to be dissected and shared among threads:
-//   the solution is that of Eigen's dense LLT;
-//   it has the same bits for 1, 2, 3 and 6 threads, and in several threads of a caller at once;
-//   a pivot that fails, in a leaf, in a shared front, in several places at once, is a refusal every time, and what is
-//   factorised afterwards has the bits of a new factor;
-//   a plan shares out subtrees and fronts, and no two updates that may be needed at the same time overlap;
-//   a dissection is a permutation, fills in less than minimum degree from the number of particles on that it is used
-//   for, and is the same whoever dissects at the same time.
+// Properties tested here, for graphs of scattered points large enough to be dissected and shared among threads:
+// - The solution is that of Eigen's dense LLT.
+// - It has the same bits for 1, 2, 3 and 6 threads, and in several threads of a caller at once.
+// - A failing pivot, in a leaf, in a shared front, or in several places at once, is always reported. Later
+//   factorisations have the bits of a new factor.
+// - A plan divides subtrees and fronts among threads, and two updates that may be needed at the same time do not
+//   overlap.
+// - A dissection is a permutation. It has less fill-in than minimum degree for the numbers of particles for which it is
+//   used, and does not depend on simultaneous dissections.
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -30,13 +31,13 @@ Eigen::VectorXd right_side(int n) {
   return normal_vector(6 * n, random);
 }
 
-/// So many threads, also where the machine has fewer cores.
+/// A given number of threads, even if the machine has fewer cores.
 class Team {
  public:
   explicit Team(std::size_t threads)
       : limit_(tbb::global_control::max_allowed_parallelism, threads), arena_(static_cast<int>(threads)) {}
 
-  /// (matrix + safe_shift)⁻¹ b; empty if refused.
+  /// (matrix + safe_shift)⁻¹ b; empty if rejected.
   Eigen::VectorXd solution(const BlockMatrix& matrix, BlockCholesky& factor) {
     bool done = false;
     arena_.execute([&] { done = factor.factorise(matrix, safe_shift); });
@@ -147,7 +148,7 @@ TEST(FactorThreads, UpdatesNeededAtTheSameTimeLieApart) {
       for (int f = 0; f < g; ++f) {
         const Front& early = plan.fronts[f];
         if (early.update_size() == 0 || late.update_size() == 0) continue;
-        // Taken over before the later one is begun: by a front below it, or by an earlier one of the same thread.
+        // Already consumed before the later one begins: by a front below it, or by an earlier one of the same thread.
         const bool gone = parents[f] < g && (is_below(parents[f], g, parents) || range_of[parents[f]] == range_of[g]);
         const bool apart =
             early.update + early.update_size() <= late.update || late.update + late.update_size() <= early.update;

@@ -1,11 +1,13 @@
-// Facts proved here, of packings whose cell gives way:
-//   under pressure control with a free cell the states of an expansion bear the stress −p·1 to 1e-6 of p, at pressures
-//   that fall as asked for, and E ∝ Δφ⁶, p ∝ Δφ⁵ find the same φ_J; in a cube the stress of the same solids is not
-//   hydrostatic; at given density with a free cell the stress is hydrostatic too, and the volume is the one of the
-//   density; the isotropic pressure path leads to the states of the density path from the same start, energy for
-//   energy, and keeps the cell a cube; every minimiser finds the minimum of the enthalpy, not Newton's method alone; a
-//   run that goes on from any of its steps gives the bits of the run that never stopped; a cell that would become too
-//   small for its solids ends the run with that reason, and nothing that is not a number.
+// Properties tested here, for packings in a variable cell:
+// - With pressure control and a free cell the states of an expansion have the stress −p·1 to 1e-6 of p, at the
+//   requested decreasing pressures. E ∝ Δφ⁶ and p ∝ Δφ⁵ give the same φ_J. In a cube the stress of the same solids is
+//   not hydrostatic.
+// - With density control and a free cell shape the stress is hydrostatic too, and the volume is that of the density.
+// - The isotropic pressure path gives the states of the density path from the same start, with the same energies, and
+//   the cell remains a cube.
+// - Every minimiser finds the minimum of the enthalpy, not only Newton's method.
+// - A run that continues from any of its steps gives the bits of an uninterrupted run.
+// - A cell that would become too small for its solids ends the run with that reason, and without NaN.
 
 #include <gtest/gtest.h>
 
@@ -77,7 +79,7 @@ TEST_P(FreeCell, BearsAHydrostaticStressAtEveryPressure) {
   }
   const JamStep& nearest = step_of(result, result.states.size() - 1);
   EXPECT_NEAR(nearest.density - distance_to_jamming(nearest), result.phi_j->density, .002);
-  // A cube holds up what a free cell does not.
+  // A cube supports a stress that a free cell does not.
   const JamResult& cube = jammed(GetParam(), Control::density, CellShape::isotropic);
   EXPECT_GE(step_of(cube, cube.states.size() - 1).deviator, .005);
 }
@@ -102,7 +104,7 @@ TEST_P(FreeCell, TheIsotropicPressurePathIsTheDensityPath) {
   for (std::size_t k = 1; k < by_pressure.states.size(); ++k) {
     const Packing& goal = by_pressure.states[k];
     EXPECT_TRUE(goal.cell.is_cube()) << k;
-    // From the state before to that density, as the density path goes.
+    // From the state before to that density, like the density path.
     Packing packing = by_pressure.states[k - 1];
     PackingEnergy energy;
     const JamOptions options = options_of(Control::density, CellShape::isotropic);
@@ -114,7 +116,7 @@ TEST_P(FreeCell, TheIsotropicPressurePathIsTheDensityPath) {
     std::printf("phi %.6f: E %.9e by pressure, %.9e by density\n", goal.density(), here, there);
     same += std::abs(there - here) <= 1e-6 * here;
   }
-  // Where the packing gives way on the way, either path may take another branch.
+  // After a rearrangement both paths may be on different branches.
   EXPECT_GE(3 * same, static_cast<int>(by_pressure.states.size()) - 1);
   EXPECT_GE(same, 1);
 }
@@ -131,7 +133,7 @@ TEST(FreeCellTest, EveryMinimiserFindsTheMinimumOfTheEnthalpy) {
       options.method = method;
       options.residual = 1e-5;
       options.max_evaluations = 60000;
-      // A little less than it bears, so that everything moves.
+      // Slightly below its pressure, so that everything moves.
       options.control = {cell, .97 * step_of(result, 0).pressure};
       const Enthalpy enthalpy(options.control, packing.cell);
       const MinimiseSummary summary = minimise(packing, energy, options);
@@ -166,7 +168,7 @@ TEST(FreeCellTest, GoesOnFromAnyStepWithTheSameBits) {
 }
 
 TEST(FreeCellTest, ACellThatBecomesTooSmallEndsTheRunWithThatReason) {
-  // So few that the cube at the pressure asked for is smaller than the solids allow.
+  // So few particles that the cube at the requested pressure is smaller than the solids allow.
   Packing packing = start_of(SolidKind::icosahedron, 12);
   MinimiseOptions options;
   options.method = Method::lbfgs;

@@ -1,7 +1,7 @@
-// Facts proved here, for every solid, at random over-compressed and at nearly relaxed packings:
-//   the gradient of PackingEnergy passes a check against central differences of its energy;
-//   the same check rejects a gradient that is wrong: by one per cent, without the factor 1/R of a torque, with torques
-//   about the wrong centre or of the wrong sign, with one component of one particle missing.
+// Properties tested here, for every solid, for random over-compressed packings and nearly relaxed ones:
+// - The gradient of PackingEnergy passes a check against central differences of its energy.
+// - The same check rejects an incorrect gradient: off by one per cent, without the factor 1/R of a torque, with torques
+//   about another centre or with the opposite sign, with one component of one particle missing.
 
 #include "tests/engine/solve/gradient_check.hpp"
 

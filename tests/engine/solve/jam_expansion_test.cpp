@@ -1,11 +1,11 @@
-// Facts proved here, of expansions that meet with what they did not expect:
-//   a step that failed is tried again at half its length, whatever bounded it, until the retries are spent;
-//   where it is asked for, a step in which the packing gives way is halved until it is as short as that;
-//   a step that slides without end is halved once, and then its branch has ended;
-//   a packing that full minimisation takes most of the target energy from is consolidated further;
-//   no two steps of an expansion start from the same state and aim at the same density;
-//   a packing that comes apart in a step is compressed again and expanded on the branch that it is on then, whose
-//   states alone give φ_J; a run goes on from anywhere on that way with the same bits.
+// Properties tested here, for expansions with unexpected events:
+// - A failed step is repeated at half its length, whichever limit determined it, until the retries are spent.
+// - With event_resolution a step with a rearrangement is halved until it is short enough.
+// - A step that slides without finding an equilibrium is halved once; then its branch has ended.
+// - A packing that loses most of the target energy in full minimisation is compressed further.
+// - No two steps of an expansion start from the same state with the same density as goal.
+// - A packing that unjams in a step is compressed again, and expanded on its new branch. Only the states of that branch
+//   give φ_J. A run continues from anywhere in this process with the same bits.
 
 #include <cmath>
 #include <set>
@@ -18,7 +18,7 @@
 namespace isojam {
 namespace {
 
-/// An expansion whose last state says that jamming is `distance` below its density.
+/// An expansion whose last state indicates that jamming is `distance` below its density.
 JamProgress expanding(const Packing& packing, double distance, const JamOptions& options) {
   JamProgress progress = begin_jam(packing, options);
   progress.stage = JamStage::expansion;
@@ -40,8 +40,8 @@ JamResult expanded(JamOptions& options) {
   return jam(start_of(small, 71, options), options);
 }
 
-/// An expansion that goes on from the last state of another, told that jamming is `factor` times as far as it is, in
-/// steps of .4 of that.
+/// An expansion that continues from the last state of another one, with a distance to jamming that is overestimated by
+/// `factor`, in steps of 0.4 of that distance.
 JamProgress misled(const JamResult& before, double factor, JamOptions& options) {
   const JamStep& last = before.path[static_cast<std::size_t>(before.state_steps.back())];
   JamProgress progress = expanding(before.states.back(), factor * distance_to_jamming(last), options);
@@ -89,7 +89,7 @@ TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
   JamOptions options;
   const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
-  const JamProgress progress = misled(before, 4, options);  // and so goes beyond jamming
+  const JamProgress progress = misled(before, 4, options);  // the steps therefore pass the jamming point
   std::vector<JamProgress> along;
   const JamResult result = jam(progress, options, {}, [&](const JamProgress& reached) { along.push_back(reached); });
   for (const JamStep& step : result.path)
@@ -107,7 +107,7 @@ TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
   EXPECT_EQ(along.front().lost, 0);
   EXPECT_EQ(along.back().lost, -1);
   for (std::size_t k = 0; k < result.path.size(); ++k) EXPECT_EQ(result.path[k].lost, k == 1) << "step " << k;
-  // On the way up too a run is the value that it goes on from.
+  // During the recompression too, a run depends only on the progress from which it continues.
   for (const JamProgress& reached : along) {
     const JamResult rest = jam(reached, options);
     ASSERT_EQ(rest.states.size(), result.states.size());
@@ -119,7 +119,7 @@ TEST(JamTest, EventsAreLocatedWhereThatIsAskedFor) {
   JamOptions options;
   const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
-  const JamProgress progress = misled(before, 4, options);  // and so every step but a short one looks like an event
+  const JamProgress progress = misled(before, 4, options);  // so every step except a short one looks like an event
   options.event_resolution = 0.06;
   const JamResult result = jam(progress, options);
   const double from = before.states.back().density(), distance = distance_to_jamming(progress.result.path[0]);
@@ -145,9 +145,9 @@ TEST(JamTest, ASlideIsHalvedOnceAndThenEndsItsBranch) {
   const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
   JamProgress progress = misled(before, 1, options);
-  options.final_distance = 0.001;  // it has farther to go
+  options.final_distance = 0.001;  // a longer expansion
   const JamOptions usual = options;
-  options.minimise.max_evaluations = 3;  // no step is followed to its end
+  options.minimise.max_evaluations = 3;  // no step reaches an equilibrium
   const double from = progress.packing.density();
   advance(progress, options);
   const JamStep first = progress.result.path.back();
@@ -162,7 +162,7 @@ TEST(JamTest, ASlideIsHalvedOnceAndThenEndsItsBranch) {
   EXPECT_EQ(progress.lost, 0);
   EXPECT_EQ(progress.packing.density(), second.density);
   ASSERT_FALSE(progress.ended());
-  // From there it is strained up again.
+  // From there it is compressed again.
   advance(progress, usual);
   EXPECT_GT(progress.result.path.back().density, second.density);
 }
@@ -170,7 +170,7 @@ TEST(JamTest, ASlideIsHalvedOnceAndThenEndsItsBranch) {
 TEST(JamTest, WhatLosesItsEnergyInFullMinimisationIsConsolidatedFurther) {
   const JamOptions options = lax();
   JamProgress progress = begin_jam(start_of(small, 71, options), options);
-  progress.stage = JamStage::expansion;  // as if this loose packing had been taken for one at the target
+  progress.stage = JamStage::expansion;  // as if this loose packing had reached the target energy
   const double from = progress.packing.density();
   JamProgress other = progress;
   advance(progress, options);
@@ -182,7 +182,7 @@ TEST(JamTest, WhatLosesItsEnergyInFullMinimisationIsConsolidatedFurther) {
   EXPECT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
   const JamStep& top = result.path[static_cast<std::size_t>(result.state_steps.front())];
   EXPECT_GE(top.energy_per_particle, options.target_energy / 2);
-  // The other reading ends where there is next to no energy.
+  // With the other interpretation compression ends at almost zero energy.
   JamOptions gentle = options;
   gentle.target_before_relaxation = true;
   advance(other, gentle);
@@ -195,7 +195,7 @@ TEST(JamTest, NoExpansionStepIsMadeTwice) {
   JamProgress progress = begin_jam(start_of(small, 71, options), options);
   while (progress.result.states.size() < 3 && !progress.ended()) advance(progress, options);
   ASSERT_FALSE(progress.ended()) << to_string(progress.result.status);
-  // From here no step reaches its residual, and it is the goal that bounds the first.
+  // From here no step reaches its residual, and the goal limits the first one.
   options.minimise.max_evaluations = 5;
   const JamStep state = progress.result.path.back();
   options.final_distance = 6 * state.energy_per_particle * state.density * state.density / state.pressure / 1.02;
@@ -211,7 +211,7 @@ TEST(JamTest, NoExpansionStepIsMadeTwice) {
     EXPECT_TRUE(targets.insert(step.density).second) << "the same step to φ " << step.density << " again";
   }
   EXPECT_EQ(targets.size(), 5U) << "a step and four retries";
-  // Between two attempts too a run is the value that it goes on from.
+  // Between two attempts too, a run depends only on the progress from which it continues.
   for (const JamProgress& reached : along) {
     const JamResult rest = jam(reached, options);
     EXPECT_EQ(rest.evaluations, result.evaluations);

@@ -11,7 +11,7 @@ struct System {
   int n;
 };
 
-/// Large steps and a lax goal.
+/// Large steps and a coarse goal.
 inline JamOptions lax() {
   JamOptions options;
   options.initial_density = 0.2;

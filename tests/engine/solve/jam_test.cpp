@@ -1,11 +1,13 @@
-// Facts proved here, on dodecahedra (N = 24) and octahedra (N = 48) with large steps and a lax goal:
-//   the run ends jammed; consolidation climbs to the target energy, expansion falls from equilibrium to equilibrium;
-//   every state is in balance by forces summed anew, and its step on the path says what a fresh evaluation says;
-//   φ_J lies below every state, within final_distance of the last by either form, and between .6 and .8;
-//   the same start gives the same bits, another start a packing with other contacts;
-//   a stop requested on the way ends the run with what it has; so do a target beyond reach and too few steps;
-//   with the rule on the energy, states count that it ended, out of balance as they are;
-//   straining only as far as the unrelaxed energy stays below the target ends consolidation nearer to jamming.
+// Properties tested here, for dodecahedra (N = 24) and octahedra (N = 48) with large steps and a coarse goal:
+// - The run ends jammed. Compression reaches the target energy, and decompression proceeds from equilibrium to
+//   equilibrium.
+// - Every state is in equilibrium by forces summed independently, and its step in the path agrees with a new
+//   evaluation.
+// - φ_J is below every state, within final_distance of the last one by either form, and between 0.6 and 0.8.
+// - The same start gives the same bits; another start gives a packing with other contacts.
+// - A stop request ends the run with its present results. So do an unreachable target and too few steps.
+// - With the energy rule, states that it ended count, even if they are not in equilibrium.
+// - If strain is limited by the unrelaxed energy, compression ends nearer to jamming.
 
 #include "engine/solve/jam.hpp"
 
@@ -119,7 +121,7 @@ TEST(JamTest, NamesAreDistinct) {
   EXPECT_EQ(JamResult().status, JamStatus::not_called);
 }
 
-/// Particles of each pair in touch.
+/// Pairs of touching particles.
 std::vector<std::pair<int, int>> touching(const Packing& packing) {
   PackingEnergy energy;
   std::vector<std::pair<int, int>> pairs;
@@ -150,7 +152,7 @@ TEST(JamTest, StartsDecideTheOutcome) {
       if (seeds[k] == seeds[other]) {
         EXPECT_TRUE(same_bits(ends[k], ends[other]));
       } else {
-        // By chance two particles touch in both with the probability that they do in one: some Z/(N − 1).
+        // By chance a pair that touches in one packing touches in the other with a probability of about Z/(N − 1).
         EXPECT_LT(shared.size(), pairs.size() * 3 / 4) << "the same packing twice";
       }
     }
@@ -159,7 +161,7 @@ TEST(JamTest, StartsDecideTheOutcome) {
 
 TEST(JamTest, StopsWhenAskedTo) {
   const JamOptions options = lax();
-  // Interrupted in consolidation, and in expansion with some states at hand.
+  // Interrupted in compression, and in decompression with some states.
   for (const std::size_t wanted_states : {0U, 2U}) {
     std::stop_source source;
     std::size_t expansion_steps = 0, steps = 0;
@@ -255,7 +257,7 @@ TEST(JamTest, TheRuleOnTheEnergyLetsStatesPass) {
     EXPECT_EQ(summary.reason, StopReason::energy_change) << to_string(summary.reason);
     EXPECT_GT(summary.residual, 100 * options.minimise.residual);
   }
-  // Without the rule the same minimiser must balance the forces or give the state up.
+  // Without the rule the same minimiser must balance the forces or reject the state.
   const auto balanced = states_of(0);
   EXPECT_GE(balanced.path.size(), by_energy.state_steps.size());
   EXPECT_NE(balanced.status, JamStatus::not_called);
@@ -266,12 +268,12 @@ TEST(JamTest, TheRuleOnTheEnergyLetsStatesPass) {
 
 TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
   JamOptions options = lax();
-  // "Minimisation no longer removes the energy" must not mean that it ran out of evaluations.
+  // "Minimisation no longer removes the energy" must not be caused by too few evaluations.
   options.consolidation_evaluations = 6000;
   const auto top_of = [](const JamResult& result) {
     return result.path[static_cast<std::size_t>(result.state_steps.front())];
   };
-  // Which starts do not jam by the other reading, relaxing below φ_J, is decided by last bits.
+  // With the other interpretation rounding decides which starts do not jam and relax below φ_J.
   int jammed = 0;
   for (const std::uint64_t seed : {71, 72, 73, 74, 75, 76}) {
     options.target_before_relaxation = false;
@@ -286,7 +288,7 @@ TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
                 top_of(gentle).energy_per_particle, gentle.phi_j->density);
     EXPECT_LT(top_of(gentle).density, top_of(usual).density - options.consolidation_step);
     EXPECT_LT(top_of(gentle).energy_per_particle, options.target_energy / 100);
-    // One strain step beyond the last state that could relax, and φ_J lies above that one.
+    // One strain step beyond the last state that could relax, which is below φ_J.
     EXPECT_LT(top_of(gentle).density - gentle.phi_j->density, 1.5 * options.consolidation_step);
   }
   EXPECT_GE(jammed, 2);

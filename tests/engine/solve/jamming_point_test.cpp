@@ -1,10 +1,12 @@
-// Facts proved here, on synthetic states E/N = c·(φ − φ_J)^x with random c, φ_J and spacing:
-//   x = 6: φ_J and the single-state form to rounding, the free exponent says 6, the error of the fit is rounding;
-//   x = 5.5: the free exponent says 5.5;
-//   scattered densities: the 95 % interval covers φ_J as often as it claims to, the standard error is the spread;
-//   the states used are those within the window of the φ_J found, the two nearest where fewer are;
-//   the order of the states is irrelevant, states without energy are ignored;
-//   fewer than two states give nothing, two give their line without an error.
+// Properties tested here, for synthetic states E/N = c·(φ − φ_J)^x with random c, φ_J and spacing:
+// - For x = 6, φ_J and the single-state form are exact within rounding, the free exponent is 6, and the error of the
+//   fit is rounding.
+// - For x = 5.5 the free exponent is 5.5.
+// - For scattered densities the 95 % confidence interval contains φ_J with the stated probability, and the standard
+//   error is the standard deviation.
+// - The states used are those within the window of the resulting φ_J, or the two nearest ones if fewer are.
+// - The order of the states is irrelevant. States without energy are ignored.
+// - Fewer than two states give no result; two give their line without an error.
 
 #include "engine/solve/jamming_point.hpp"
 
@@ -32,7 +34,7 @@ Law random_law(RandomStream& random, double exponent = 6) {
   return {uniform(random, 0.6, 0.8), decade(random, -2, 4), exponent};
 }
 
-/// n states in order of falling density, from `far` above φ_J down to far·ratio^(n−1).
+/// n states in order of decreasing density, from `far` above φ_J down to far·ratio^(n−1).
 std::vector<EnergyPoint> approach(const Law& law, int n, double far, double ratio) {
   std::vector<EnergyPoint> states;
   for (int k = 0; k < n; ++k) states.push_back(law.at(law.jamming + far * std::pow(ratio, k)));
@@ -49,7 +51,8 @@ TEST(JammingPointTest, RecoversTheSixthPowerLaw) {
     const auto states = approach(law, n, 0.019, ratio);
     const auto point = fit_jamming_point(states, 0.02);
     ASSERT_TRUE(point);
-    // Densities and roots are rounded once each; extrapolating to zero magnifies that by nearest over spread.
+    // Densities and roots are rounded once each; extrapolation to zero amplifies this by the ratio of nearest distance
+    // to range.
     const double rounding = 64 * eps * law.jamming / (1 - std::pow(ratio, n - 1));
     EXPECT_NEAR(point->density, law.jamming, rounding) << "n = " << n << ", ratio " << ratio;
     EXPECT_NEAR(point->single_state, law.jamming, 8 * eps) << "n = " << n;
@@ -75,7 +78,7 @@ TEST(JammingPointTest, LeavesTheExponentFree) {
       const auto point = fit_jamming_point(states, 0.02);
       ASSERT_TRUE(point);
       EXPECT_NEAR(point->exponent, exponent, 1e-5 * exponent);
-      // A line through a curve that is none leaves its mark.
+      // Fitting a line to a curve causes a visible error.
       EXPECT_GT(std::abs(point->density - law.jamming), 1e-6) << "exponent " << exponent;
       EXPECT_GT(point->standard_error, 1e-6) << "exponent " << exponent;
     }
@@ -91,7 +94,7 @@ TEST(JammingPointTest, ErrorCoversScatter) {
     for (int k = 0; k < trials; ++k) {
       const Law law = random_law(random);
       auto states = approach(law, n, 0.018, 0.8);
-      // Far less than the states are apart, so that neither order nor window changes.
+      // Far less than the distance of the states, so that neither order nor window changes.
       for (EnergyPoint& state : states) state.density += 1e-5 * random.normal();
       const auto point = fit_jamming_point(states, 0.02);
       ASSERT_TRUE(point);
@@ -114,7 +117,7 @@ TEST(JammingPointTest, ChoosesItsWindowByItsOwnAnswer) {
   RandomStream random{64};
   std::set<std::size_t> sizes;
   for (int k = 0; k < 400; ++k) {
-    // Far states bend away from the sixth power, so that the window matters.
+    // Far states deviate from the sixth power, so that the window matters.
     const Law law = random_law(random);
     std::vector<EnergyPoint> states;
     const double bend = uniform(random, -2, 4);
@@ -170,7 +173,7 @@ TEST(JammingPointTest, NeedsTwoStates) {
   EXPECT_FALSE(fit_jamming_point(one, 0.02));
   const std::vector<EnergyPoint> one_with_energy{law.at(0.69), {0.67, 0, 0}};
   EXPECT_FALSE(fit_jamming_point(one_with_energy, 0.02));
-  // Both outside the window: used all the same.
+  // Both are outside the window and are still used.
   const std::vector<EnergyPoint> two{law.at(0.75), law.at(0.72)};
   const auto point = fit_jamming_point(two, 0.02);
   ASSERT_TRUE(point);

@@ -1,11 +1,11 @@
-// Facts proved here, over random smooth functions of one variable (quadratics, quartics, cosine mixtures over a bowl,
-// one-sided powers max(0, x)^2 and ^6 as overlaps have them) and starts and first steps over six decades:
-//   the point found satisfies the strong Wolfe conditions, whatever the curvature asked for;
-//   it was evaluated, its value and slope are as returned, and the evaluations are counted;
-//   no step beyond the longest is tried; where the function still falls there, the longest step is the answer;
-//   trials without a finite value or slope are survived, before and behind the minimum;
-//   a found point is never higher than the start by more than the noise, and never is the start itself;
-//   a function without a lower point is answered with found = false and the start.
+// Properties tested here, for random smooth functions of one variable (quadratics, quartics, cosine mixtures over a
+// bowl, one-sided powers max(0, x)^2 and ^6 as for overlaps), with starts and first steps over six decades:
+// - The point found satisfies the strong Wolfe conditions for any curvature parameter.
+// - It was evaluated, its value and slope are as returned, and the evaluations are counted.
+// - No step beyond the longest is tried. If the function still decreases there, the longest step is the result.
+// - Trials without a finite value or slope are handled, before and behind the minimum.
+// - A point found is never higher than the start by more than the noise, and is never the start itself.
+// - A function without a lower point gives found = false and the start.
 
 #include "engine/solve/minimise/line_search.hpp"
 
@@ -36,7 +36,7 @@ Function powers(RandomStream& random, int terms, int power, bool both) {
   std::vector<Term> list;
   for (int k = 0; k < terms; ++k)
     list.push_back({decade(random, -2, 2), uniform(random, 0.1, 3), random.uniform() < 0.7 ? -1.0 : 1.0});
-  list.front().side = -1;  // something pushes away from 0
+  list.front().side = -1;  // at least one term pushes away from 0
   return [list, power, both](double t) {
     LinePoint p{t, 0, 0};
     for (const Term& term : list) {
@@ -66,7 +66,7 @@ Function cosines(RandomStream& random) {
   };
 }
 
-/// Stretched so that its lengths and values span decades.
+/// Scaled so that its lengths and values span decades.
 Function scaled(const Function& f, double length, double height) {
   return [=](double t) {
     const LinePoint p = f(t / length);
@@ -109,7 +109,7 @@ Case random_case(RandomStream& random, int k) {
   return c;
 }
 
-/// What a search saw.
+/// Evaluations of a search.
 struct Trace {
   LineSearchResult result;
   std::vector<LinePoint> points;
@@ -136,7 +136,7 @@ std::string seen(const Trace& trace) {
   return text.str();
 }
 
-/// Rounding of the values, as the search itself takes it to be.
+/// Rounding error of the values, as assumed by the search.
 double rounding(const Trace& trace) { return 4 * std::numeric_limits<double>::epsilon() * std::abs(trace.start.value); }
 
 void expect_honest(const Case& c, const Trace& trace) {
@@ -214,7 +214,7 @@ TEST(LineSearch, RecoversFromTrialsThatAreNotFinite) {
     Case c = random_case(random, k);
     const Trace free = search(c);
     ASSERT_TRUE(free.result.found) << c.name;
-    // Half of the walls stand behind the minimum, half of them in front of it.
+    // Half of the walls are behind the minimum, half of them before it.
     const bool behind = random.uniform() < 0.5;
     const double wall = free.result.point.step * (behind ? uniform(random, 1.01, 2) : uniform(random, 0.2, 0.9));
     const int kind = static_cast<int>(3 * random.uniform());
@@ -232,7 +232,7 @@ TEST(LineSearch, RecoversFromTrialsThatAreNotFinite) {
     expect_honest(c, trace);
     if (HasFatalFailure()) return;
     EXPECT_LE(trace.result.point.step, wall) << c.name << "\n" << seen(trace);
-    // A function with several minima may fall right into the wall, and a search follow it.
+    // A function with several minima may decrease right into the wall, and a search may follow it.
     if (behind && c.convex) expect_strong_wolfe(c, trace);
     walls_met +=
         std::any_of(trace.points.begin(), trace.points.end(), [&](const LinePoint& p) { return p.step > wall; });
@@ -245,7 +245,7 @@ TEST(LineSearch, IsNotMisledByNoise) {
   int found = 0, accepted_by_slope = 0;
   for (int k = 0; k < cases; ++k) {
     Case c = random_case(random, 5 * k);
-    // A bowl that is shallower than the jitter of its values, whose slopes are exact.
+    // A bowl that is shallower than the noise of its values, with exact slopes.
     const double depth = -c.at(0).slope * c.length;
     const double noise = depth * decade(random, -2, 3), level = 1e3 * noise;
     const Function inner = c.at;
@@ -275,13 +275,13 @@ TEST(LineSearch, SaysWhenNothingIsLower) {
   RandomStream random{5};
   for (int k = 0; k < cases; ++k) {
     Case c = random_case(random, k);
-    // The slope at the start is a lie: every step leads up.
+    // The slope at the start is incorrect: every step leads uphill.
     const double slope = c.at(0).slope, level = random.normal();
     c.at = [=](double t) { return LinePoint{t, level * std::abs(slope) - 2 * slope * t, t == 0 ? slope : -2 * slope}; };
     const Trace trace = search(c);
     expect_honest(c, trace);
     if (HasFatalFailure()) return;
-    // A lie is unmasked as far as rounding can tell a rise from none.
+    // An incorrect slope is detected if rounding resolves the increase.
     if (trace.result.found) {
       EXPECT_LE(trace.result.point.value, trace.start.value + rounding(trace)) << c.name << "\n" << seen(trace);
     } else {

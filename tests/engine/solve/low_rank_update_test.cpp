@@ -1,6 +1,6 @@
-// Facts proved here, on shifted Hessians of random packings and updates of 0 … 12 random columns, sparse as those of
-// pairs are, a thousandth to a thousand times as stiff as the matrix:
-//   the solution is that of the dense factors of the sum, as far as the condition number lets two solvers agree.
+// Property tested here, for shifted Hessians of random packings and updates of 0 … 12 random columns, sparse like those
+// of pairs, with stiffnesses from a thousandth to a thousand times that of the matrix: the solution is that of the
+// dense factors of the sum, as far as the condition number permits.
 
 #include "engine/solve/factor/low_rank_update.hpp"
 

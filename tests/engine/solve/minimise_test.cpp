@@ -1,10 +1,11 @@
-// Facts proved here, for each method and solid, from random packings compressed far beyond jamming:
-//   the residual asked for is reached, the energy falls, the cell stays, orientations stay unit quaternions;
-//   the state returned is in balance by forces and torques summed anew from its contacts;
-//   the summary repeats what a fresh evaluation of that state says, and counts every evaluation;
-//   1 thread and 2 give the same bits;
-//   on octahedra expanded towards jamming Newton's method reaches a residual of 1e-8 within evaluations of which ten
-//   times as many do not bring conjugate gradients there.
+// Properties tested here, for each method and solid, from random packings compressed far beyond jamming:
+// - The requested residual is reached, the energy decreases, the cell does not change, and orientations remain unit
+//   quaternions.
+// - The returned state is in equilibrium by forces and torques summed independently from its contacts.
+// - The summary agrees with a new evaluation of that state, and counts every evaluation.
+// - 1 thread and 2 threads give the same bits.
+// - For octahedra expanded towards jamming Newton's method reaches a residual of 1e-8; conjugate gradients do not with
+//   ten times as many evaluations.
 
 #include "engine/solve/minimise/minimise.hpp"
 
@@ -48,8 +49,8 @@ TEST_P(MinimiseWith, ReachesTheResidualAskedFor) {
   PackingEnergy energy;
   MinimiseOptions options;
   options.method = method;
-  // Conjugate gradients creep: an order of magnitude costs them hundreds of evaluations. FIRE starts again from rest
-  // whenever a contact comes or goes.
+  // Conjugate gradients converge slowly: an order of magnitude costs hundreds of evaluations. FIRE restarts from rest
+  // whenever a contact opens or closes.
   if (method == Method::conjugate_gradient) options.residual = 1e-4;
   if (method == Method::fire) options.residual = 0.2;
   const MinimiseSummary summary = minimise(packing, energy, options);
@@ -69,7 +70,7 @@ TEST_P(MinimiseWith, ReachesTheResidualAskedFor) {
 
   EXPECT_GT(summary.iterations, 0);
   EXPECT_LT(summary.iterations, summary.evaluations);
-  // Hessians come from the overlaps of an evaluation.
+  // Hessians use the overlaps of an evaluation.
   EXPECT_EQ(energy.evaluations(), summary.evaluations);
 }
 
@@ -98,7 +99,7 @@ TEST(Minimise, AnswersThreadsWithTheSameBits) {
   }
 }
 
-/// An equilibrium of octahedra followed from .75 down towards jamming, and then strained once more.
+/// An equilibrium of octahedra followed from 0.75 down towards jamming, and then strained once more.
 Packing expanded_octahedra() {
   Packing packing = small_packing(SolidKind::octahedron, 0.75, 43, 40);
   PackingEnergy energy;

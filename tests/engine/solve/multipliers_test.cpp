@@ -1,10 +1,12 @@
-// Facts proved here, of strain steps between equilibria of every solid of the paper, Δφ from .1 to .01:
-//   follow_equilibrium() ends in an equilibrium of the energy, in balance by forces summed anew, at the density asked
-//   for, and of the energy that Newton's method finds where neither has left the branch; it takes fewer factorisations
-//   than Newton's method in all, and a handful for a small step; relax_to_equilibrium() brings a strained state that
-//   has no multipliers to an equilibrium too; a packing strained below jamming is found unjammed; a budget and a stop
-//   request are kept to; 1 thread and 2 give the same bits; local relaxation moves the flagged particles and no other,
-//   and lowers the envelope; near an equilibrium lifted steps converge quadratically.
+// Properties tested here, for strain steps between equilibria of every solid of the paper, Δφ from 0.1 to 0.01:
+// - follow_equilibrium() ends in an equilibrium of the energy, by forces summed independently, at the requested
+//   density. It has the energy that Newton's method finds, unless one of both has left the branch. It takes fewer
+//   factorisations in total, and a handful for a small step.
+// - relax_to_equilibrium() brings a strained state without multipliers to an equilibrium too.
+// - A packing strained below jamming is reported as unjammed.
+// - A budget and a stop request are respected. 1 thread and 2 threads give the same bits.
+// - Local relaxation moves only the flagged particles, and lowers the envelope.
+// - Near an equilibrium lifted steps converge quadratically.
 
 #include "engine/solve/multipliers/multipliers.hpp"
 
@@ -37,7 +39,7 @@ double distance_of(const Packing& packing) {
 
 double energy_of(const Packing& packing) { return PackingEnergy().evaluate(packing, Precision::double_double).energy; }
 
-/// Equilibria by Newton's method on the way from far above jamming to Δφ = .01.
+/// Equilibria by Newton's method from far above jamming down to Δφ = 0.01.
 const std::vector<State>& states(SolidKind kind) {
   static std::map<SolidKind, std::vector<State>> all;
   const auto [place, is_new] = all.try_emplace(kind);
@@ -141,7 +143,7 @@ TEST_P(Multipliers, RelaxNeedsNoEquilibriumToStartFrom) {
 }
 
 TEST_P(Multipliers, FindAPackingUnjammedThatIs) {
-  // The distance is believed to be three times what it is.
+  // The distance is overestimated by a factor of three.
   const State& from = states(GetParam()).back();
   const Followed found = followed({from.packing, 3 * from.distance}, 0.6);
   EXPECT_EQ(found.summary.reason, StopReason::unjammed) << to_string(found.summary.reason);
@@ -172,7 +174,7 @@ TEST_P(Multipliers, AnswerThreadsWithTheSameBits) {
   EXPECT_TRUE(ends[0].summary.work == ends[1].summary.work);
 }
 
-/// An equilibrium with its own multipliers, at the stiffness that following would take.
+/// An equilibrium with its own multipliers, at the stiffness used for following it.
 struct Prepared {
   MinimiseWork work;
   EnvelopeEvaluator evaluator;
@@ -250,7 +252,7 @@ TEST(Rearrangement, TellsWhatMoved) {
   EXPECT_EQ(none.energy_ratio, 1);
   EXPECT_EQ(none.contacts_lost + none.contacts_gained, 0);
   EXPECT_EQ(none.particles_moved, 0);
-  // A single particle that moves.
+  // A single particle moves.
   Packing moved_one = from.packing;
   moved_one.poses[5].position.x() += 0.3;
   const Rearrangement one = rearrangement(from.packing, before, moved_one, after);

@@ -1,9 +1,9 @@
-// Facts proved here, of paths that are made up:
-// - a packing gave way in a step that left it less than half of the energy that a smooth path lets expect, and in one
-//   that ended its branch; in no other;
-// - steps are those from one equilibrium to the next, or to the end of a branch: neither consolidation, nor the first
-//   state, nor steps that failed, nor those by which a packing is strained up again;
-// - means are over the steps that gave way and led to another equilibrium, and absent without one.
+// Properties tested here, for constructed paths:
+// - A step contains a rearrangement if it leaves less than half of the energy expected on a smooth path, or if it ended
+//   its branch.
+// - Steps count from one equilibrium to the next, or to the end of a branch. Compression, the first state, failed steps
+//   and recompression do not count.
+// - Means are over the steps with a rearrangement that led to another equilibrium, and absent without one.
 
 #include "engine/solve/rearrangement.hpp"
 
@@ -47,7 +47,7 @@ TEST(Rearrangements, AreCountedOverTheStepsThatWereFollowed) {
                                   without_state(JamStage::expansion),  // failed
                                   followed(0.7, 11, 1, 20),
                                   without_state(JamStage::expansion, true),
-                                  without_state(JamStage::expansion),  // strained up again
+                                  without_state(JamStage::expansion),  // compressed again
                                   without_state(JamStage::expansion),
                                   followed(0.1, 2, 0, 1.5)};
   const auto found = rearrangements(path);

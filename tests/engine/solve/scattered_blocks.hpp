@@ -8,8 +8,8 @@
 
 namespace isojam {
 
-/// A matrix on the graph of n points scattered in a periodic cube, each coupled to those that are near, some ten,
-/// with random blocks. A shift of `safe_shift` makes it positive definite.
+/// A matrix on the graph of n points scattered in a periodic cube, each coupled to about ten near ones by random
+/// blocks. A shift of `safe_shift` makes it positive definite.
 inline BlockMatrix scattered_blocks(int n, std::uint64_t seed) {
   RandomStream random{seed, static_cast<std::uint64_t>(n)};
   Eigen::Matrix3Xd points(3, n);
@@ -30,7 +30,7 @@ inline BlockMatrix scattered_blocks(int n, std::uint64_t seed) {
   return matrix;
 }
 
-/// Some 60 entries in a row, of variance 1/12, have their eigenvalues between ±5 or little more.
+/// Rows of about 60 entries with variance 1/12 have eigenvalues between about −5 and 5.
 inline constexpr double safe_shift = 10;
 
 }  // namespace isojam

@@ -1,8 +1,8 @@
-// Facts proved here:
-//   for shifts below, between and above the eigenvalues of a Hessian, the operator solves (H − σ·1) y = x, says whether
-//   that matrix is positive definite, and counts the eigenvalues below σ as the dense solver does;
-//   a singular shifted matrix and one that is not a number are refused;
-//   Spectra's shift-invert solver on this operator finds the lowest modes of an equilibrium as the dense solver does.
+// Properties tested here:
+// - For shifts below, between and above the eigenvalues of a Hessian, the operator solves (H − σ·1) y = x, states
+//   whether that matrix is positive definite, and counts the eigenvalues below σ like the dense solver.
+// - A singular shifted matrix and one with NaN are rejected.
+// - Spectra's shift-invert solver with this operator finds the lowest modes of an equilibrium like the dense solver.
 
 #include "engine/solve/factor/shift_invert.hpp"
 
@@ -48,8 +48,8 @@ TEST(ShiftInvert, SolvesAndCountsOnBothSidesOfAnyEigenvalue) {
       operation.set_shift(sigma);
       EXPECT_EQ(operation.negative_pivots(), below) << platonic(kind).name() << " σ " << sigma;
       EXPECT_EQ(operation.positive_definite(), below == 0) << platonic(kind).name() << " σ " << sigma;
-      // Without pivoting, pivots may be small and the error grows by their ratio: not by more than this on matrices
-      // whose eigenvalues keep 1e-6 of the largest away from σ.
+      // Without pivoting, pivots may be small and the error grows by their ratio. This limit applies to matrices whose
+      // eigenvalues differ from σ by at least 1e-6 of the largest one.
       EXPECT_LE(backward_error(operation, matrix, sigma, norm, random), 1e6 * eps) << platonic(kind).name();
     }
   }
@@ -69,7 +69,7 @@ TEST(ShiftInvert, RefusesWhatIsSingular) {
   EXPECT_THROW(operation.set_shift(1), std::domain_error);
 }
 
-/// Largest difference from the dense solver among the `wanted` lowest eigenvalues, relative to the highest.
+/// Largest difference from the dense solver among the `wanted` lowest eigenvalues, relative to the highest one.
 double worst_mode(const BlockMatrix& matrix, int wanted, bool& positive_definite) {
   const Eigen::VectorXd lambda = eigenvalues_of(matrix);
   const double highest = lambda.maxCoeff();
@@ -89,7 +89,7 @@ TEST(ShiftInvert, GivesSpectraTheLowestModesOfAnEquilibrium) {
     bool positive_definite = false;
     const double worst = worst_mode(energy.hessian(packing), 23, positive_definite);
     EXPECT_TRUE(positive_definite) << "translations only cost nothing, and the shift is below them";
-    // Each of both solvers may be wrong by ε of the highest for each of 6N coordinates.
+    // The error of each solver may be ε of the highest eigenvalue for each of 6N coordinates.
     EXPECT_LE(worst, 2 * 6 * packing.size() * eps) << platonic(kind).name();
     std::printf("%s: lowest modes as the dense solver's to %.2g of the highest\n", platonic(kind).name().data(), worst);
   }

@@ -33,7 +33,7 @@ inline Packing small_packing(SolidKind kind, double density, std::uint64_t seed,
   return random_packing(solid, std::max(least, least_particles(solid, density)), density, random);
 }
 
-/// A density at which random packings are jammed beyond doubt. Cubes can order, and then fit at .75.
+/// A density at which random packings are certainly jammed. Cubes can order, and then fit at 0.75.
 inline double over_compressed(SolidKind kind) { return kind == SolidKind::cube ? 0.85 : 0.75; }
 
 inline bool same_bits(const Packing& p, const Packing& q) {
@@ -54,11 +54,10 @@ inline Eigen::MatrixXd dense(const BlockMatrix& matrix) {
   return result;
 }
 
-/// Forces and torques about the centres, summed contact by contact from the definition, and what equilibrium asks of
-/// them.
+/// Forces and torques about the centres, summed over contacts from the definition, and their residuals.
 struct Balance {
   double energy = 0;
-  double residual = 0;  ///< max over particles of |F|, |T|/R over the mean contact force
+  double residual = 0;  ///< max over particles of |F| and |T|/R, divided by the mean contact force
   long contacts = 0;
 };
 
@@ -74,7 +73,7 @@ inline Balance balance_of(const Packing& packing) {
     force.col(contact.pair.a) += on_a;
     force.col(contact.pair.b) -= on_a;
     torque.col(contact.pair.a) += turn_a;
-    // The same line of action seen from B's centre.
+    // The same line of action relative to B's centre.
     torque.col(contact.pair.b) -= turn_a - contact.displacement.cross(on_a);
     balance.energy += contact.overlap.volume * contact.overlap.volume / 4;
     sum_of_forces += on_a.norm();
@@ -87,7 +86,7 @@ inline Balance balance_of(const Packing& packing) {
   return balance;
 }
 
-/// Particles that touch no other.
+/// Particles without contacts.
 inline int without_contacts(const Packing& packing) {
   PackingEnergy fresh;
   std::vector<char> touched(packing.poses.size(), 0);

@@ -1,13 +1,15 @@
-// Facts proved here:
-//   in a state without pairs to come, the step is Newton's: −(H + μ)⁻¹ g with the tilt terms that μ calls for, and the
-//   decrease that of E + g·s + ½ s·H s;
-//   a face pushed across a gap stops where it meets the other: the step of three cubes in a row is that of springs of
-//   their faces' area in one dimension, whatever the first guess; the model without closing pairs runs through;
-//   pairs that a later round adds to the factors give the step that they give from the start;
-//   the pairs found are handed back as the next first guess;
-//   the promised decrease of an anticipated contact is the one that the energy delivers, and without anticipation
-//   the same state promises what it cannot keep;
-//   a step is never longer than allowed; an indefinite matrix is refused until the shift makes it positive.
+// Properties tested here:
+// - In a state without closing pairs the step is Newton's: −(H + μ)⁻¹ g with the tilt terms for μ, and its decrease is
+//   that of E + g·s + ½ s·H s.
+// - A face pushed across a gap stops where it meets the other one. The step of three cubes in a row is that of
+//   one-dimensional springs with their faces' area, for any initial estimate. The model without closing pairs does not
+//   stop.
+// - Pairs that a later round adds to the factors give the same step as pairs in the initial estimate.
+// - The resulting pairs are returned as the next initial estimate.
+// - The predicted decrease of an anticipated contact agrees with the energy. Without anticipation the prediction for
+//   the same state is too large.
+// - A step never exceeds the longest displacement. An indefinite matrix is rejected until the shift makes it positive
+//   definite.
 
 #include "engine/solve/minimise/step_model.hpp"
 
@@ -28,7 +30,7 @@ using Eigen::VectorXd;
 
 constexpr double unlimited = std::numeric_limits<double>::max();
 
-/// Three unit cubes in a row along x: the first two overlap by `depth`, the third stands `gap` away.
+/// Three unit cubes in a row along x: the first two overlap by `depth`, the third one is `gap` away.
 Packing row_of_cubes(double depth, double gap) {
   Packing packing{platonic(SolidKind::cube), PeriodicCell(10), std::vector<Pose>(3)};
   packing.poses[0].position = Vector3d(3, 5, 5);
@@ -54,7 +56,7 @@ TEST(StepModel, IsNewtonsWithoutPairsToCome) {
   for (const SolidKind kind : all_solids) {
     const Case state = case_of(small_packing(kind, 0.8, 31), 0);
     StepModel model(state.second, state.value.gradient, unlimited);
-    double shift = 2 * model.largest_diagonal();  // large: all tilt terms complete, no contact tilts by itself
+    double shift = 2 * model.largest_diagonal();  // large: all tilt terms are complete, no contact tilts separately
     StepFactor factor;
     ActivePairs active;
     std::optional<ModelStep> step;
@@ -75,15 +77,15 @@ TEST(StepModel, IsNewtonsWithoutPairsToCome) {
   }
 }
 
-/// Where (V_01² + V_12²)/4 + shift·s²/2 is least over steps s of the three cubes along the row. Faces have area 1:
-/// V_01 = depth + s_0 − s_1 and V_12 = s_1 − s_2 − gap, whatever their signs, or V_12 = 0 unless they are to `meet`.
+/// Minimum of (V_01² + V_12²)/4 + shift·s²/2 over steps s of the three cubes along the row. Faces have area 1: V_01 =
+/// depth + s_0 − s_1 and V_12 = s_1 − s_2 − gap for any sign, or V_12 = 0 unless they are to `meet`.
 Vector3d balanced_row(double depth, double gap, double shift, bool meet) {
   const Vector3d first(1, -1, 0), second = meet ? Vector3d(0, 1, -1) : Vector3d::Zero();
   const Eigen::Matrix3d matrix = (first * first.transpose() + second * second.transpose()) / 2;
   return (matrix + shift * Eigen::Matrix3d::Identity()).llt().solve((gap * second - depth * first) / 2);
 }
 
-/// The middle cube is pushed away by the first, across the gap, to the third.
+/// The first cube pushes the middle one across the gap to the third.
 TEST(StepModel, StopsWhereFacesMeet) {
   const double depth = 1e-4, gap = 1e-6;
   const Case state = case_of(row_of_cubes(depth, gap), 1e-5);
@@ -120,7 +122,7 @@ TEST(StepModel, StopsWhereFacesMeet) {
   EXPECT_GT(closed.at(blind->displacement, 1, 2), 10 * gap) << "nothing in its way";
 }
 
-/// As a strain step leaves an equilibrium.
+/// The state after a strain step from an equilibrium.
 Packing relaxed_and_strained(SolidKind kind, std::uint64_t seed) {
   Packing packing = small_packing(kind, over_compressed(kind), seed, 48);
   PackingEnergy energy;
@@ -128,7 +130,7 @@ Packing relaxed_and_strained(SolidKind kind, std::uint64_t seed) {
   return strained_to(packing, packing.density() - 0.01);
 }
 
-/// Pairs found in later rounds come in as updates of the factors, those of the first guess with the matrix.
+/// Pairs found in later rounds enter as updates of the factors, those of the initial estimate with the matrix.
 TEST(StepModel, StepsAreTheSameFromEitherGuess) {
   int compared = 0, found_later = 0;
   for (const SolidKind kind : all_solids) {
@@ -156,7 +158,7 @@ TEST(StepModel, StepsAreTheSameFromEitherGuess) {
   EXPECT_GE(found_later, 3);
 }
 
-/// With a shift that keeps the outer cubes in place, the middle one settles between them.
+/// With a shift that keeps the outer cubes in place, the middle one moves to its balance between them.
 TEST(StepModel, PromisesWhatTheEnergyDelivers) {
   const double depth = 1e-4, gap = 1e-6;
   const Packing packing = row_of_cubes(depth, gap);

@@ -1,11 +1,11 @@
-// Facts proved here, for each method:
-//   a summary that nobody filled in says not_called, and every reason has a name of its own;
-//   budget: a few evaluations stop it, with at most one line search or shift more, at the best state seen;
-//   unjammed: a dilute packing ends without energy worth the name, and is no equilibrium;
-//   not_finite: a packing with an orientation that is not a number is returned as it was;
-//   interrupted: a stop requested beforehand leaves the packing as it was;
-//   energy_change: the paper's rule stops conjugate gradients, says so, does not call it an equilibrium, and stops
-//   the sooner the laxer it is.
+// Properties tested here, for each method:
+// - A default summary has the reason not_called, and every reason has its own name.
+// - budget: a few evaluations stop the method, with at most one more line search or shift, at the best state found.
+// - unjammed: a dilute packing ends with negligible energy, and is not an equilibrium.
+// - not_finite: a packing whose orientation contains NaN is returned unchanged.
+// - interrupted: a stop requested beforehand leaves the packing unchanged.
+// - energy_change: the paper's rule stops conjugate gradients with that reason and not as an equilibrium. Larger
+//   tolerances stop earlier.
 
 #include <array>
 #include <limits>
@@ -148,7 +148,7 @@ TEST(StopReasonTest, EnergyChangeIsThePapersRule) {
   }
   EXPECT_LT(summaries[0].evaluations, summaries[1].evaluations);
   EXPECT_GT(summaries[0].energy, summaries[1].energy);
-  // The rule is about relative changes: what is left to gain is a multiple of the last one.
+  // The rule is about relative changes: the remaining decrease is a multiple of the last one.
   MinimiseOptions exact;
   exact.residual = 1e-8;
   Packing packing = start;

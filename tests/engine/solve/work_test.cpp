@@ -1,14 +1,15 @@
-// Facts proved here, of the counters that records carry and of the work that they count:
-//   conjugate gradients and L-BFGS make no Hessian, FIRE one, for its unit of time; none of them factorises;
-//   Newton's method makes at most one Hessian per evaluation and factorises at most once per round of its step model,
-//   near jamming less than once: later rounds update the factor;
-//   a start in balance costs no Hessian, no factorisation and no step; consolidation makes no Hessian; expansion does;
-//   evaluations in double-double are made only where the floor of doubles lies above the residual asked for;
-//   the totals of a run are the sums over its steps;
-//   pairs listed are those whose circumspheres meet, counted one by one, and less than half as many beyond; in an
-//   evaluation that repeats one every listed pair is out of reach, rejected by its axis, or touches: the kernel sees
-//   no pair that is apart;
-//   as many modes are computed as were asked for.
+// Properties tested here, for the counters in records and the work that they count:
+// - Conjugate gradients and L-BFGS compute no Hessian, FIRE one, for its unit of time; none of them factorises.
+// - Newton's method computes at most one Hessian per evaluation and factorises at most once per round of its step
+//   model; near jamming less than once, because later rounds update the factor.
+// - A start in equilibrium needs no Hessian, no factorisation and no step. Compression computes no Hessian;
+//   decompression does.
+// - Evaluations in double-double are used only if the residual floor of doubles is above the requested residual.
+// - The totals of a run are the sums over its steps.
+// - Listed pairs are those whose circumspheres overlap, counted one by one, and fewer than half as many others. In a
+//   repeated evaluation every listed pair is out of reach, rejected by its axis, or touching: the kernel gets no
+//   separated pair.
+// - As many modes are computed as requested.
 
 #include <gtest/gtest.h>
 

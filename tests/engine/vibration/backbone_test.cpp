@@ -1,10 +1,11 @@
-// Facts proved here:
-//   a jammed packing that has no near-rattlers is its own backbone, with the bulk modulus that it has; small solids
-//   that float in its voids, alone or two by two, go and leave what was there, to the bit; of random packings of every
-//   solid, from loose to dense, that is left which is left when particles are named by counting contacts and by all
-//   eigenvectors of a dense matrix summed pair by pair, round after round, and some take several rounds; nothing is
-//   named in what is left; kept and removed are all particles; contacts within a part are the contacts of that part; of
-//   nothing there is nothing.
+// Properties tested here:
+// - A jammed packing without near-rattlers is its own backbone, with the same bulk modulus.
+// - Small solids that float in its voids, alone or in pairs, are removed, and the rest is unchanged to the bit.
+// - In random packings of every solid, from loose to dense, the remaining particles are those of an independent method:
+//   it counts contacts, and uses all eigenvectors of a dense matrix summed pair by pair, round after round. Some
+//   packings need several rounds.
+// - No near-rattler is reported in the rest. Kept and removed particles together are all particles.
+// - Contacts within a part are the contacts of that part. An empty packing has an empty backbone.
 
 #include "engine/vibration/backbone.hpp"
 
@@ -63,11 +64,11 @@ TEST(BackboneTest, OfJammedStatesIsTheWhole) {
 
 constexpr double small = 0.03;
 
-/// The packing with pairs of small solids in its voids, which overlap each other in every second pair and touch nothing
-/// else; they stand between the others.
+/// The packing with pairs of small solids in its voids. They overlap each other in every second pair, touch nothing
+/// else, and are numbered between the other particles.
 struct Floating {
   Packing packing;
-  std::vector<int> old;  ///< the numbers of the old ones
+  std::vector<int> old;  ///< indices of the original particles
 };
 
 Floating with_floating(const Packing& state, int pairs, RandomStream& random) {
@@ -94,7 +95,7 @@ Floating with_floating(const Packing& state, int pairs, RandomStream& random) {
       ++made;
     }
   }
-  // The last ones first: numbers of the whole are not those of the rest.
+  // The last ones come first, so that indices in the whole differ from those in the rest.
   Floating result{{state.solids, state.cell, {}}, {}};
   std::vector<Particle> in_order;
   const int old = state.size(), all = static_cast<int>(poses.size());
@@ -135,7 +136,7 @@ TEST(BackboneTest, LeavesWhatFloatsInVoids) {
   }
 }
 
-/// The rest by the definition, dense: the Hessian is summed over packings of two.
+/// The rest by its definition, with dense matrices: the Hessian is summed over packings of two particles.
 std::vector<int> by_definition(const Packing& packing, int& rounds) {
   constexpr auto precision = Precision::double_double;
   std::vector<int> kept = first_numbers(packing.size());
@@ -185,7 +186,7 @@ std::vector<int> by_definition(const Packing& packing, int& rounds) {
   return kept;
 }
 
-/// Jammed packings of which some particles have gone: neighbours of those are held by fewer, and theirs in turn.
+/// Jammed packings from which some particles were removed: neighbours of these have fewer contacts, and so on.
 std::vector<Packing> thinned_out() {
   RandomStream random{102};
   std::vector<Packing> list;

@@ -1,8 +1,10 @@
-// Facts proved here:
-//   below the depth of contacts the eigenvalues by differences are those of the analytic D, of packings of every solid,
-//   of jammed octahedra, and of cubes of two sizes, whose masses count; three are 0 to rounding, also where small
-//   steps leave more of translations; with steps far beyond the depth of flat contacts modes are negative that are
-//   not so, and more of them the larger the step; what is no step is refused.
+// Properties tested here:
+// - For steps below the depth of contacts the eigenvalues by differences agree with those of the analytic D: for
+//   packings of every solid, for jammed octahedra, and for cubes of two sizes, whose masses matter.
+// - Three eigenvalues are 0 within rounding, even for small steps, where rounding perturbs translations more.
+// - For steps far beyond the depth of flat contacts some modes are incorrectly negative, and more of them for larger
+//   steps.
+// - An invalid step is rejected.
 
 #include "engine/vibration/difference_modes.hpp"
 

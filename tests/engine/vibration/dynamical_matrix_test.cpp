@@ -1,11 +1,11 @@
-// Facts proved here:
-//   sparse and dense forms multiply as the blocks do; norm_bound bounds every eigenvalue;
-//   translations are orthonormal null vectors to rounding, in balance or not, and rounding_bound covers it;
-//   central differences of the gradient reproduce the analytic matrix, by turns of a particle too, in jammed octahedra
-//   where h is below the depth of the flat contacts, and get ever better as h falls;
-//   where h is above it they show negative modes that the packing does not have;
-//   the modes of boxes solve the eigenproblem with the mass of textbooks, those of spherical tops are the Hessian's;
-//   u·Du of a random u is the curvature of the energy along u.
+// Properties tested here:
+// - Sparse and dense forms multiply like the blocks. norm_bound is an upper bound of every eigenvalue.
+// - Translations are orthonormal null vectors within rounding, in equilibrium or not; rounding_bound covers the error.
+// - Central differences of the gradient agree with the analytic matrix, including rotations of a particle, in jammed
+//   octahedra if h is below the depth of the flat contacts. The agreement improves as h decreases.
+// - If h is above that depth, they show negative modes that the packing does not have.
+// - The modes of boxes solve the eigenproblem with the mass from textbooks; those of spherical tops are the Hessian's.
+// - u·Du for a random u is the curvature of the energy along u.
 
 #include "engine/vibration/dynamical_matrix.hpp"
 
@@ -84,7 +84,7 @@ TEST(DynamicalMatrix, DifferencesBelowTheDepthOfFlatContacts) {
                 lambda[3], lowest);
     EXPECT_LE(error, 0.1 * h / depth) << "V'' of a contact changes by a part h/depth of itself at most";
     EXPECT_LT(error, before / 3);
-    // At a tenth of the depth a soft mode may be lost all the same.
+    // Even at a tenth of the depth a soft mode may be lost.
     if (h < depth / 50) {
       EXPECT_NEAR(lambda[3], lowest, lowest / 10);
     }
@@ -129,7 +129,7 @@ TEST(DynamicalMatrix, OfSphericalTopsIsTheHessian) {
   EXPECT_EQ(greatest_inverse_mass(packing), 1);
 }
 
-/// Solves H m = λ M m, M the masses and moments of cubes of two sizes: a³ and a⁵/6.
+/// Solves H m = λ M m, M the masses and moments of inertia of cubes of two sizes: a³ and a⁵/6.
 TEST(DynamicalMatrix, OfMixturesHasTheirMasses) {
   RandomStream random{56};
   std::vector<Particle> particles;
@@ -158,7 +158,7 @@ TEST(DynamicalMatrix, OfMixturesHasTheirMasses) {
   const MatrixXd still = translations(matrix);
   EXPECT_LE((still.transpose() * still - MatrixXd::Identity(3, 3)).norm(), 64 * eps);
   for (int c = 0; c < 3; ++c) EXPECT_LE((matrix * still.col(c)).norm(), rounding_bound(matrix, scale));
-  // Lanczos keeps translations out by the same masses: its ends are those of the dense solver.
+  // The Lanczos method removes translations with the same masses: its ends agree with the dense solver.
   const SpectrumEnds ends = spectrum_ends(matrix);
   const ModeSet dense = dense_modes(matrix);
   EXPECT_NEAR(ends.lambda_max, modes.values.maxCoeff(), 1e-10 * scale);
@@ -167,7 +167,7 @@ TEST(DynamicalMatrix, OfMixturesHasTheirMasses) {
   EXPECT_LE((still.transpose() * ends.lowest.vectors).cwiseAbs().maxCoeff(), 1e5 * eps);
 }
 
-/// Solves H m = λ M m, M the mass of (x, R·θ) from the moments of a box in its own axes.
+/// Solves H m = λ M m, M the mass of (x, R·θ) from the moments of inertia of a box in its principal axes.
 TEST(DynamicalMatrix, OfBoxesHasTheirInertia) {
   RandomStream random{55};
   std::vector<Eigen::Vector3d> vertices;

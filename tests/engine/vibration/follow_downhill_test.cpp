@@ -1,9 +1,9 @@
-// Facts proved here:
-//   octahedra on a cubic lattice, all turned alike, balance by symmetry at a saddle with many negative modes; they are
-//   followed to a minimum of less energy, without negative modes, and the same start gives the same bits;
-//   a minimum stays as it is, bit for bit;
-//   without descents to spend the saddle is reported as one; what falls apart, and what is interrupted, has lost
-//   balance.
+// Properties tested here:
+// - Octahedra on a cubic lattice with equal orientations are in equilibrium by symmetry, at a saddle with many negative
+//   modes. The descent finds a minimum of lower energy without negative modes, and the same start gives the same bits.
+// - A minimum is unchanged, bit for bit.
+// - With max_descents = 0 the saddle is reported as one. A packing that unjams, or a run that is interrupted, ends with
+//   lost_balance.
 
 #include "engine/vibration/follow_downhill.hpp"
 

@@ -1,9 +1,10 @@
-// Facts proved here:
-//   participation is 1/N for a mode of one particle, 1 where all move alike, m/N for m particles, whatever its scale;
-//   mean frequencies are means of √λ, and not defined if a λ is zero or negative;
-//   amplitude shares add up to 1 over a mask and its complement, and full sets of modes do not care about the mask;
-//   a density of states integrates to the share of modes that have a frequency, its cumulative runs up to 1 and counts
-//   what lies below an edge; without two frequencies there is none.
+// Properties tested here:
+// - The participation ratio is 1/N for a mode of one particle, 1 if all move equally, and m/N for m particles, for any
+//   scale.
+// - Mean frequencies are means of √λ, and undefined if some λ is zero or negative.
+// - Amplitude shares of a mask and its complement sum to 1. For complete sets of modes they do not depend on the mask.
+// - A density of states integrates to the fraction of modes that have a frequency. Its cumulative increases to 1 and
+//   counts the modes below an edge. It is undefined without two different frequencies.
 
 #include "engine/vibration/mode_statistics.hpp"
 
@@ -29,7 +30,7 @@ TEST(ModeStatistics, ParticipationCountsParticles) {
       VectorXd mode = VectorXd::Zero(6 * n);
       const double scale = decade(random, -3, 3);
       for (int i = 0; i < moving; ++i)
-        mode.segment<6>(6 * i) = scale * normal_vector(6, random).normalized();  // in any direction of its own
+        mode.segment<6>(6 * i) = scale * normal_vector(6, random).normalized();  // in a random direction
       EXPECT_NEAR(participation_ratio(mode), moving / static_cast<double>(n), 64 * eps) << n << " particles";
     }
   }
@@ -60,7 +61,7 @@ TEST(ModeStatistics, SharesOfAmplitude) {
     ASSERT_TRUE(here && there);
     EXPECT_NEAR(here->amplitude + there->amplitude, 1, 1e3 * eps);
     EXPECT_EQ(here->particles + there->particles, 1);
-    // All modes and the translations make a basis, in which each particle has six.
+    // All modes and the translations form a basis, to which each particle contributes six dimensions.
     EXPECT_NEAR(here->amplitude, here->particles, 3.0 / static_cast<double>(all.size()));
   }
   EXPECT_FALSE(amplitude_share(ModeSet{}, std::vector<char>(n)));

@@ -1,9 +1,11 @@
-// Facts proved here, on jammed octahedra (N = 48) and tetrahedra (N = 64):
-//   K from the Hessian is φ dp/dφ of neighbouring minimised states, in every state; it lies below the affine one;
-//   the affine tensor is the second difference of the energy of the contacts at explicitly strained displacements, and
-//   the relaxed one what is left when the forces that strain brings up, again by differences, are relaxed by a dense
-//   solver; isotropic tensors give their moduli, under pressure too; shear moduli do not depend on the axes; response
-//   is not defined where a particle is loose against others or nothing touches, and is where one touches nothing.
+// Properties tested here, for jammed octahedra (N = 48) and tetrahedra (N = 64):
+// - K from the Hessian is φ dp/dφ of neighbouring minimised states, in every state. It is below the affine one.
+// - The affine tensor is the second difference of the energy of the contacts at explicitly strained displacements.
+// - The relaxed tensor is the rest after a dense solver relaxes the forces caused by strain, which also come from
+//   differences.
+// - Isotropic tensors give their moduli, also under pressure. Shear moduli do not depend on the axes.
+// - The response is undefined if a particle is unconstrained against others or if nothing touches. It is defined if a
+//   particle has no contacts.
 
 #include "engine/vibration/moduli.hpp"
 
@@ -78,7 +80,7 @@ TEST_P(Moduli, BulkModulusIsThePressuresSlope) {
   }
 }
 
-/// Energy, and gradient by the 6N coordinates, of given contacts whose displacements are deformed by F.
+/// Energy, and gradient with respect to the 6N coordinates, of given contacts whose displacements are deformed by F.
 struct Strained {
   double energy = 0;
   VectorXd gradient;
@@ -102,7 +104,7 @@ Strained strained(const Measured& measured, const Matrix3d& deformation) {
   return sum;
 }
 
-/// Unit tensors in the header's order.
+/// Unit tensors in the order of the header.
 Matrix3d basis_tensor(int i) {
   static constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
   Matrix3d tensor = Matrix3d::Zero();
@@ -110,7 +112,7 @@ Matrix3d basis_tensor(int i) {
   return tensor;
 }
 
-/// exp(ε), by its series: ε is small.
+/// exp(ε) by its series, for small ε.
 Matrix3d exponential(const Matrix3d& strain) {
   return Matrix3d::Identity() + strain + strain * strain / 2 + strain * strain * strain / 6;
 }
@@ -138,7 +140,7 @@ Differences by_differences(const Measured& measured, double h) {
 }
 
 TEST_P(Moduli, TensorIsThatOfExplicitStrains) {
-  // Where contacts are deep enough for differences.
+  // Only states whose contacts are deep enough for differences.
   for (const std::size_t s : {std::size_t{0}, std::size_t{2}}) {
     const Measured measured(result.states[s]);
     const double volume = measured.state.cell.volume();
@@ -148,7 +150,7 @@ TEST_P(Moduli, TensorIsThatOfExplicitStrains) {
     const Matrix6d affine = differences.affine / volume;
     const double scale = tensor->affine.norm();
     EXPECT_LE((tensor->affine - affine).norm(), 3e-4 * scale) << tensor->affine - affine;
-    // Pseudo-inverse, which drops translations.
+    // Pseudo-inverse, which ignores translations.
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> dense(dense_matrix(measured.hessian));
     ASSERT_EQ(dense.rank(), 6 * measured.state.size() - 3);
     const Matrix6d relaxed =
@@ -159,7 +161,7 @@ TEST_P(Moduli, TensorIsThatOfExplicitStrains) {
 }
 
 TEST_P(Moduli, ShearModuliDoNotDependOnTheAxes) {
-  // Cyclic exchange of the axes is the turn that a cubic cell allows.
+  // Cyclic exchange of the axes is a rotation that a cubic cell permits.
   Packing turned = result.states.front();
   const Eigen::Quaterniond turn(0.5, 0.5, 0.5, 0.5);
   for (Pose& pose : turned.poses) {
@@ -187,7 +189,7 @@ TEST(ElasticTensor, IsotropicTensorsGiveTheirModuli) {
   EXPECT_NEAR(tensor.affine_bulk_modulus(), 2 * bulk - tensor.pressure, 1e-14);
   EXPECT_NEAR(tensor.mean_shear_modulus(), shear, 1e-14);
   for (const double g : tensor.shear_moduli()) EXPECT_NEAR(g, shear, 1e-14);
-  // Shear in one plane made soft, to below 0.
+  // Shear in one plane with a negative modulus.
   tensor.relaxed(5, 5) = -2;
   EXPECT_NEAR(tensor.shear_moduli()[0], -1, 1e-14);
   EXPECT_NEAR(tensor.shear_moduli()[1], shear, 1e-14);
@@ -202,7 +204,7 @@ TEST_P(Moduli, NotDefinedWhereNothingHolds) {
   Measured loose = measured;
   loose.hessian.diagonal[7](4, 4) = -1;
   EXPECT_FALSE(loose.tensor());
-  // A particle that touches nothing takes no part.
+  // A particle without contacts is ignored.
   Measured more = measured;
   more.state.poses.push_back(Pose{});
   more.hessian.diagonal.push_back(Matrix6d::Zero());

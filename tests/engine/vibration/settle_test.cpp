@@ -1,7 +1,7 @@
-// Facts proved here, of the states of an expansion with a saddle among them:
-//   the saddle becomes a minimum of less energy at the same density, its step says how many saddles it left and carries
-//   the energy and pressure of the new state, and φ_J is fitted to what is there now;
-//   minima keep their bits and their steps.
+// Properties tested here, for the states of an expansion with one saddle:
+// - The saddle becomes a minimum of lower energy at the same density. Its step has the number of saddles and the energy
+//   and pressure of the new state, and φ_J is fitted again.
+// - Minima keep their bits and their steps.
 
 #include "engine/vibration/settle.hpp"
 
@@ -25,7 +25,7 @@ TEST(Settle, TakesSaddlesDownAndLeavesMinima) {
   none.max_descents = 0;
   const DownhillResult saddle = follow_downhill(lattice(SolidKind::octahedron, 4, 0.95, 0), none);
   ASSERT_EQ(saddle.ended, DownhillEnd::still_unstable);
-  // The state nearest jamming gives way to the saddle, at a density where it belongs to no fit.
+  // The state nearest to jamming is replaced by the saddle, at a density outside the fit.
   JamStep& step = result.path[static_cast<std::size_t>(result.state_steps.back())];
   step.density = saddle.packing.density();
   step.energy_per_particle = saddle.summary.energy / saddle.packing.size();

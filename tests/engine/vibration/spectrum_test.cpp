@@ -1,10 +1,12 @@
-// Facts proved here, on jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32), and on cubes:
-//   both ends found by Lanczos are the dense solver's, to 1e-8 of each eigenvalue and 1e-6 for the softest tetrahedra,
-//   and no farther off than relative_error says; vectors are orthonormal, free of translations, and obey D u = λ u; the
-//   same matrix gives the same bits; a matrix with many negative modes has its lowest modes found too; more modes than
-//   Lanczos serves, no contacts at all, and too few restarts end in the dense solver; too many particles for that and
-//   what is not a number fail, and say so; the dense solver's modes are all of D: they rebuild it; u·Du = λ, and λ is
-//   the curvature of the energy along u.
+// Properties tested here, for jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32), and for cubes:
+// - Both ends found by the Lanczos method agree with the dense solver, to 1e-8 of each eigenvalue, and to 1e-6 for the
+//   softest tetrahedra. The errors are at most relative_error.
+// - Vectors are orthonormal, orthogonal to translations, and satisfy D u = λ u. The same matrix gives the same bits.
+// - The lowest modes of a matrix with many negative modes are found.
+// - The dense solver is used for more modes than the Lanczos method can compute, without contacts, and with too few
+//   restarts. Too many particles for it, and NaN, are reported as failures.
+// - The dense solver's modes are those of all of D: they reproduce it. u·Du = λ, and λ is the curvature of the energy
+//   along u.
 
 #include "engine/vibration/spectrum.hpp"
 
@@ -79,7 +81,7 @@ TEST_P(Modes, AgreeWithTheDenseSolver) {
     std::printf("λ %.1e … %.1e: lowest to %.1e, said to be %.1e; highest to %.1e, said %.1e; residual %.1e\n", low[0],
                 high[49], at_low, ends.lowest.relative_error, at_high, ends.highest.relative_error,
                 ends.lowest.residual);
-    // Doubles tell an eigenvalue to what they tell of the largest.
+    // In double an eigenvalue is known to an accuracy relative to the largest one.
     EXPECT_LE(at_low, std::max(allowed, 8 * eps * all.eigenvalues.tail(1)[0] / low[0]));
     EXPECT_LE(at_high, 1e-8);
     EXPECT_LE(at_low, ends.lowest.relative_error + all.relative_error);

@@ -1,10 +1,13 @@
-// Facts proved here:
-//   every state of jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32) has exactly 3 zero modes,
-//   none negative and 6N − 3 positive; counts there and of random packings, full of negative modes, are those of all
-//   6N eigenvalues of a dense solver, with or without modes at hand; a particle without contacts brings six zero modes
-//   and is named; so is one with fewer than four contacts; a negative mode of one particle names that particle, and one
-//   of two the one that carries it; the tolerance grows with the unbalanced torque, and not beyond the softest mode of
-//   a jammed state; what is not a number is undetermined.
+// Properties tested here:
+// - Every state of jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32) has exactly 3 zero modes, no
+//   negative ones and 6N − 3 positive ones.
+// - These counts, and those of random packings with many negative modes, agree with all 6N eigenvalues of a dense
+//   solver, with or without given modes.
+// - A particle without contacts adds six zero modes and is reported. So is one with fewer than four contacts.
+// - A negative mode of one particle reports that particle. A negative mode of two reports the one with more of the
+//   amplitude.
+// - The tolerance increases with the unbalanced torque. It is below the softest mode of a jammed state.
+// - NaN gives `undetermined`.
 
 #include "engine/vibration/stability.hpp"
 
@@ -27,7 +30,7 @@ struct Counts {
   long negative = 0, zero = 0, positive = 0;
 };
 
-/// Of all 6N eigenvalues, translations among them: none is taken to be zero.
+/// Counts from all 6N eigenvalues, including translations: none is assumed to be zero.
 Counts dense_counts(const BlockMatrix& matrix, double tolerance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(matrix), Eigen::EigenvaluesOnly);
   const auto lambda = solver.eigenvalues().array();
@@ -102,7 +105,7 @@ TEST(StabilityTest, NamesWhatHasNoContacts) {
 }
 
 TEST(StabilityTest, NamesWhatItsContactsDoNotHold) {
-  // A particle of a jammed packing that one coordinate pushes off: harmless while others hold it, then not.
+  // A particle of a jammed packing with one repulsive coordinate: first its neighbours stabilise it, then they do not.
   const BlockMatrix matrix = jammed_matrix();
   for (const int particle : {0, 13, 47}) {
     BlockMatrix pushed = matrix;
@@ -125,7 +128,8 @@ TEST(StabilityTest, NamesWhatItsContactsDoNotHold) {
 }
 
 TEST(StabilityTest, NamesWhatCarriesAModeThoughOthersWouldHoldIt) {
-  // Particle 0 is held while particle 1 rests; together they give way, 0 by far the more.
+  // Particle 0 is stable while particle 1 is at rest. Together they are unstable, with most of the amplitude on
+  // particle 0.
   BlockMatrix matrix;
   matrix.diagonal.assign(8, 100 * Matrix6d::Identity());
   matrix.diagonal[0] = Matrix6d::Identity();
@@ -168,7 +172,7 @@ TEST(StabilityTest, ToleranceIsRoundingAndTorque) {
   evaluation.gradient.segment<3>(6) << 100, 0, 0;
   const ConvexSolid& cube = platonic(SolidKind::cube);
   EXPECT_EQ(unbalanced_torque(evaluation, cube), 5 / cube.gyration_radius());
-  // A tolerance that swallows modes calls them zero.
+  // A tolerance above some modes counts them as zero.
   const SpectrumEnds ends = spectrum_ends(matrix);
   const double between = (ends.lowest.eigenvalues[4] + ends.lowest.eigenvalues[5]) / 2;
   const Stability blurred = assess(matrix, ends, between);

@@ -1,10 +1,12 @@
-// Facts proved here, on jammed octahedra and dodecahedra in a cube and in a free cell:
-//   the modes of the bordered Hessian that are counted, and those of its pinned factor, are those of a dense solver;
-//   the softest strain is stationary in the particles, and its stiffness is the least eigenvalue of the Schur
-//   complement; the Schur complement of the six strains is the relaxed elastic tensor, the pressure apart; free states
-//   are hydrostatic and strictly jammed, three zero modes and no negative one in particles and strains together; a cell
-//   that is freed ends so, near where it was, and frees no further; a packing that only its box holds is told from one
-//   that is strictly jammed.
+// Properties tested here, for jammed octahedra and dodecahedra in a cube and in a variable cell:
+// - The counted modes of the bordered Hessian, and those of its pinned factor, agree with a dense solver.
+// - The softest strain is stationary in the particles, and its stiffness is the smallest eigenvalue of the Schur
+//   complement.
+// - The Schur complement of the six strains is the relaxed elastic tensor, apart from the pressure.
+// - States of a variable cell are hydrostatic and strictly jammed: three zero modes and no negative one in particles
+//   and strains together.
+// - Relaxing the cell of a packing leads to such a state nearby, and relaxing it again changes nothing.
+// - A packing that is stable only in its fixed cell is distinguished from one that is strictly jammed.
 
 #include "engine/vibration/strict.hpp"
 
@@ -89,7 +91,7 @@ TEST_P(Strict, TheComplementOfTheStrainsIsTheElasticTensor) {
   const auto softest = softest_strain(matrix);
   ASSERT_TRUE(softest);
   Matrix6d expected = tensor->relaxed;
-  expected.topLeftCorner<3, 3>().array() += here.pressure;           // of p V
+  expected.topLeftCorner<3, 3>().array() += here.pressure;           // contribution of p V
   const double per_strain = packing.cell.volume() / packing.size();  // ℓ² = N
   const double least = per_strain * Eigen::SelfAdjointEigenSolver<Matrix6d>(expected).eigenvalues()[0];
   EXPECT_NEAR(softest->stiffness, least, 1e-6 * per_strain * expected.norm());

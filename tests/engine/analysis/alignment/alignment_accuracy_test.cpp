@@ -1,7 +1,7 @@
-// Facts proved, for every Platonic solid, on pairs in the lab that went through the packing's own contacts:
-//   two faces exactly opposite, or tilted by 1e-16 .. 1e-2 rad, have the θ_ff of the same coordinates in quadruple
-//   precision, and edges of one on the face of the other that θ_ef, to a few 1e-15 rad: hundreds of times nearer than
-//   what is promised, 1e-12.
+// Property tested here, for every Platonic solid, on pairs in the lab frame that pass through the packing's own
+// contacts: two faces exactly opposite, or tilted by 1e-16 .. 1e-2 rad, have the same θ_ff as the same coordinates in
+// quadruple precision. Edges of one solid on the face of the other have the same θ_ef. The errors are a few 1e-15 rad,
+// hundreds of times smaller than the documented 1e-12.
 
 #include <gtest/gtest.h>
 
@@ -22,10 +22,10 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// Angle whose sine and cosine these are, from the quadruple sine: exact to a double where it is small.
+/// Angle with this sine and cosine, from the sine in quadruple precision: exact to a double for small angles.
 double angle(Quad sine, Quad cosine) { return std::atan2(static_cast<double>(sine), static_cast<double>(cosine)); }
 
-/// Both angles over the features in the masks, orientations as the packing has them.
+/// Both angles over the features in the masks, with orientations from the packing.
 Alignment in_quad(const ConvexSolid& solid, const Packing& packing, const Contact& contact) {
   const SolidArrays& arrays = solid.arrays();
   const QuadMatrix a = quad_rotation(packing.poses[contact.pair.a]), b = quad_rotation(packing.poses[contact.pair.b]);
@@ -70,8 +70,8 @@ class AlignmentAccuracyOf : public testing::TestWithParam<SolidKind> {
 
   int any(std::size_t size) { return static_cast<int>(random.uniform() * static_cast<double>(size)); }
 
-  /// Face on face at `depth`, turned about a random axis in the plane by `tilt`, the pair in any orientation in the
-  /// lab.
+  /// Face on face at `depth`, rotated about a random axis in the plane by `tilt`, with a random orientation of the pair
+  /// in the lab frame.
   Packing pair_of_faces(double tilt, double depth) {
     const constructed::Site a = constructed::face_and_edges_site(solid, any(solid.faces().size()));
     const constructed::Site b = constructed::face_and_edges_site(solid, any(solid.faces().size()));
@@ -92,7 +92,7 @@ TEST_P(AlignmentAccuracyOf, NearlyParallelFacesHaveTheAnglesOfQuadruplePrecision
   for (double tilt = 1e-16; tilt < 2e-2; tilt *= 10) tilts.push_back(tilt);
   for (const double tilt : tilts) {
     for (int trial = 0; trial < 10; ++trial) {
-      // Deep enough for the faces to stay in each other over all their width.
+      // So deep that the faces overlap over their whole width.
       const Packing packing = pair_of_faces(tilt, 1e-2 + 2 * tilt);
       PackingEnergy energy;
       const std::vector<Contact> contacts = energy.contacts(packing);
@@ -100,12 +100,12 @@ TEST_P(AlignmentAccuracyOf, NearlyParallelFacesHaveTheAnglesOfQuadruplePrecision
       const Alignment found = alignment(solid, contacts[0]), expected = in_quad(solid, packing, contacts[0]);
       worst_ff = std::max(worst_ff, std::abs(found.face_face - expected.face_face));
       worst_ef = std::max(worst_ef, std::abs(found.edge_face - expected.edge_face));
-      // The construction itself is rounded, the oracle sees it as it is.
+      // The construction itself is rounded, which the oracle takes into account.
       EXPECT_NEAR(found.face_face, tilt, 1e-14) << "tilt " << tilt;
     }
   }
   std::printf("%s: θ_ff wrong by %.1e, θ_ef by %.1e at most\n", solid.name().c_str(), worst_ff, worst_ef);
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // a dozen of unit vectors
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // a dozen unit vectors
   EXPECT_LT(worst_ff, rounding);
   EXPECT_LT(worst_ef, rounding);
 }

@@ -1,10 +1,10 @@
-// Facts proved, for every Platonic solid:
-//   1. two faces tilted by 1e-12 .. 1 rad give that θ_ff, an edge raised by as much gives that θ_ef, to rounding;
-//   2. vertex-face, edge-edge (any crossing angle) and edge-face contacts give their closed forms;
-//   3. overlap() finds exactly the faces and edges of a constructed contact;
-//   4. exchange of A and B and rotation of both change neither angle;
-//   5. the angles are the least over the masks, by another formula, and belong to the features reported;
-//   6. without an edge θ_ef = π/2, without a face θ_ff = π; features outside the masks do not count.
+// Properties tested here, for every Platonic solid:
+// 1. Two faces tilted by 1e-12 .. 1 rad have this θ_ff, and an edge raised by as much has this θ_ef, within rounding.
+// 2. Vertex-face, edge-edge (any crossing angle) and edge-face contacts have the angles of their closed forms.
+// 3. overlap() finds exactly the faces and edges of a constructed contact.
+// 4. Exchange of A and B and rotation of both change neither angle.
+// 5. The angles are the smallest ones over the masks, by another formula, and belong to the reported features.
+// 6. Without an edge θ_ef = π/2, without a face θ_ff = π. Features outside the masks do not count.
 
 #include "engine/analysis/alignment/alignment.hpp"
 
@@ -33,7 +33,7 @@ using constructed::vertex_site;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-// A dozen roundings of unit vectors separate the pose from an angle.
+// An angle follows from the pose after about a dozen roundings of unit vectors.
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double depth = 1e-3;
 
@@ -46,7 +46,7 @@ double dihedral(const ConvexSolid& solid) {
   return pi - std::acos(solid.faces()[edge.left].normal.dot(solid.faces()[edge.right].normal));
 }
 
-/// Angle of two unit vectors by half chords (Kahan), accurate over [0, π].
+/// Angle of two unit vectors by half chords (Kahan), accurate on [0, π].
 double chord_angle(const Vector3d& u, const Vector3d& v) { return 2 * std::atan2((u - v).norm(), (u + v).norm()); }
 
 Vector3d normal_in_a(const ConvexSolid& solid, const Contact& c, int face) {
@@ -146,7 +146,7 @@ TEST_P(AlignmentOf, CrossedEdgesGiveTheClosedFormAtAnyAngle) {
     const Alignment found = alignment(solid, c);
     EXPECT_NEAR(std::cos(found.face_face), sine * sine + cosine * cosine * std::abs(std::cos(crossing)), rounding);
     EXPECT_NEAR(std::sin(found.edge_face), cosine * std::sin(crossing), rounding);
-    // Edges that cross at a small angle run out of the body before they separate.
+    // Edges that cross at a small angle leave the body before they separate.
     if (std::sin(crossing) > 0.2) expect_masks_of_sites(c);
   }
 }
@@ -185,7 +185,7 @@ TEST_P(AlignmentOf, ExchangeOfTheBodiesChangesNothing) {
     const Alignment there = alignment(solid, c), back = alignment(solid, constructed::exchanged(c));
     EXPECT_NEAR(there.face_face, back.face_face, rounding);
     EXPECT_NEAR(there.edge_face, back.edge_face, rounding);
-    // The kernel itself, run from B, finds the same contact.
+    // The kernel itself finds the same contact from B's side.
     const Alignment again = alignment(solid, overlapped(solid, constructed::exchanged(c)));
     EXPECT_NEAR(there.face_face, again.face_face, rounding);
     EXPECT_NEAR(there.edge_face, again.edge_face, rounding);

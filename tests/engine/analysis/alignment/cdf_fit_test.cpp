@@ -1,14 +1,13 @@
-// Facts proved:
-//   1. the fit is the minimum: its error is the integral computed another way, no change of a coefficient and no other
-//      α (each with its own independent least-squares solution) has less, and α is an angle or stationary;
-//   2. angles drawn as a jump and a cubic give back that cubic, the closer the more angles;
-//   3. a fraction f of face-face angles beside uniform ones is recovered within the standard error that the fit gives,
-//      and the angles below the cut-off are the fraction a_0 to within half an angle;
-//   4. a CDF without a jump and a jump worth one angle are called collapsed, a real jump is not; fewer angles than
-//      parameters are too few; a_0 never exceeds what c reaches in the window;
-//      two jumps in the window are bimodal, one jump in its upper half is out of range;
-//   5. neither the order of the angles nor the unit matters, bit by bit, nor counting every angle twice;
-//   6. equal angles at the jump, also at 0, fall below the cut-off; angles that are none are refused.
+// Properties tested here:
+// 1. The fit is the minimum. Its error equals the integral computed by another method. No change of a coefficient and
+//    no other α (each with its own least-squares solution) has a smaller error. α is an angle or a stationary point.
+// 2. Angles drawn from a jump and a cubic give this cubic, more accurately for more angles.
+// 3. A fraction f of face-face angles among uniform ones is found within the standard error of the fit. The angles
+//    below the cut-off are the fraction a_0 within half an angle.
+// 4. A CDF without a jump, or with a jump of one angle, is collapsed; a larger jump is not. Two jumps in the window are
+//    bimodal, one in its upper half is out of range. Fewer angles than parameters are too_few. a_0 never exceeds c.
+// 5. Results do not depend on the order or the unit of the angles, bit by bit, nor on counting every angle twice.
+// 6. Equal angles at the jump, also at 0, are below the cut-off. Invalid angles are rejected.
 
 #include "engine/analysis/alignment/cdf_fit.hpp"
 
@@ -31,7 +30,7 @@ using Vector4l = Eigen::Matrix<long double, 4, 1>;
 
 constexpr double upper = 0.3;
 
-/// n angles: a fraction f spread over decades up to 1e-3, the rest uniform up to `top`.
+/// n angles: a fraction f is spread over decades up to 1e-3, the rest is uniform up to `top`.
 std::vector<double> mixture(int n, double f, double top, RandomStream& random) {
   std::vector<double> angles;
   const int ultra_low = static_cast<int>(std::lround(f * n));
@@ -41,7 +40,7 @@ std::vector<double> mixture(int n, double f, double top, RandomStream& random) {
   return angles;
 }
 
-/// Angle sets unlike each other: few and many, with and without a jump, bent, in clumps, with a gap.
+/// Different kinds of sets of angles: few and many, with and without a jump, curved, in clumps, with a gap.
 std::vector<std::vector<double>> families(RandomStream& random) {
   std::vector<std::vector<double>> sets;
   for (const int n : {8, 40, 300}) {
@@ -127,7 +126,7 @@ TEST(CdfFit, NoOtherAlphaIsBetter) {
       others.push_back(fit.alpha + step);
     }
     for (const double alpha : others) {
-      if (alpha < 0 || alpha > 0.99 * upper) continue;  // the oracle's powers are ill-conditioned on short stretches
+      if (alpha < 0 || alpha > 0.99 * upper) continue;  // the oracle's powers are ill-conditioned on short intervals
       const Oracle oracle(angles, alpha);
       const double error = static_cast<double>(oracle.error(oracle.best()));
       ASSERT_GE(error, fit.error * (1 - 1e-9))
@@ -172,7 +171,7 @@ TEST(CdfFit, CubicBehindTheAnglesComesBack) {
     }
     const CdfFit fit = fit_cdf(angles, upper);
     ASSERT_EQ(fit.verdict, FitVerdict::fitted);
-    // c is within half a step of the cubic, and a_n goes with its n-th derivative over the window.
+    // c is within half a step of the cubic, and a_n scales with its n-th derivative over the window.
     const double step = 0.5 / n;
     EXPECT_NEAR(fit.alpha, alpha, std::numeric_limits<double>::epsilon());
     EXPECT_NEAR(fit.a[0], a0, step) << n;
@@ -225,7 +224,7 @@ TEST(CdfFit, RandomUniformAnglesMostlyCollapse) {
     RandomStream random{18, seed};
     collapsed += fit_cdf(mixture(n, 0, 1, random), upper).verdict == FitVerdict::collapsed;
   }
-  // α is chosen to fit the noise too, hence more false jumps than the 2.3 % of 2 standard errors.
+  // α is also fitted to the noise, which causes more false jumps than the 2.3 % of 2 standard errors.
   EXPECT_GT(collapsed, 0.7 * seeds) << collapsed << " of " << seeds;
 }
 
@@ -321,7 +320,7 @@ TEST(CdfFit, OrderUnitAndRepetitionDoNotMatter) {
     std::vector<double> shuffled = angles;
     for (std::size_t k = shuffled.size(); k > 1; --k) std::swap(shuffled[k - 1], shuffled[random.bits() % k]);
     const CdfFit same = fit_cdf(shuffled, upper);
-    for (double& angle : shuffled) angle *= 4;  // a power of two leaves every rounding as it was
+    for (double& angle : shuffled) angle *= 4;  // a power of two does not change any rounding
     const CdfFit scaled = fit_cdf(shuffled, 4 * upper);
     EXPECT_EQ(fit.verdict, same.verdict);
     EXPECT_EQ(fit.verdict, scaled.verdict);
@@ -344,7 +343,7 @@ TEST(CdfFit, EqualAnglesAtTheJumpFallBelowTheCutoff) {
   for (const double at : {0.0, 1e-9, 0.01}) {
     std::vector<double> angles(60, at);
     for (int k = 0; k < 240; ++k) angles.push_back(0.02 + (k + 0.5) / 240);
-    for (const double beyond : {0.0, 1.0}) {  // the second time nothing but the jump is left in the window
+    for (const double beyond : {0.0, 1.0}) {  // the second time only the jump is left in the window
       for (std::size_t k = 60; k < angles.size(); ++k) angles[k] += beyond;
       const CdfFit fit = fit_cdf(angles, upper);
       ASSERT_EQ(fit.verdict, FitVerdict::fitted) << "at " << at << ", a_0 " << fit.a[0];
@@ -358,7 +357,7 @@ TEST(CdfFit, EqualAnglesAtTheJumpFallBelowTheCutoff) {
 TEST(CdfFit, HeightOfTheJumpIsBetweenOneAngleAndTheCdf) {
   RandomStream random{21};
   for (int trial = 0; trial < 10000; ++trial) {
-    // Angles crowd at the end of the window or at its start, or both.
+    // Angles are dense at the end of the window, at its start, or at both.
     const double crowding = 4 * random.uniform(), share = random.uniform();
     const int inside = 5 + static_cast<int>(20 * random.uniform());
     std::vector<double> angles(7, 1.0);

@@ -1,12 +1,12 @@
-// Facts proved:
-//   1. the angles of the tetrahedron, octahedron, dodecahedron and icosahedron are those of Table II of Smith, Fisher
-//      and Alam (2011), to its last printed digit; those of the cube are 35.3, 45, 54.7, 60 and 45 degrees;
-//   2. they are the closed forms of the Schläfli symbol {p, q}, and obey the duality of the solids;
-//   3. they are extremal: no orientation of a contact of that topology has larger angles, and a search over
-//      orientations climbs up to them;
-//   4. contacts that overlap() finds at random stay below the critical angles of their topology;
-//   5. the cones of normals give them for these solids too; for others, the least over the vertices of what a search
-//      over orientations climbs to.
+// Properties tested here:
+// 1. The angles of the tetrahedron, octahedron, dodecahedron and icosahedron agree with Table II of Smith, Fisher and
+//    Alam (2011) to its last printed digit. For the cube they are 35.3, 45, 54.7, 60 and 45 degrees.
+// 2. They agree with the closed forms for the Schläfli symbol {p, q}, and obey the duality of the solids.
+// 3. They are extremal: no orientation of a contact of that topology has larger angles, and a search over orientations
+//    reaches them.
+// 4. Contacts that overlap() finds at random are below the critical angles of their topology.
+// 5. The normal cones give the same angles for these solids. For other solids they give the smallest value over the
+//    vertices of the maxima that a search over orientations reaches.
 
 #include "engine/analysis/alignment/critical_angles.hpp"
 
@@ -71,7 +71,7 @@ Schlafli schlafli(const ConvexSolid& solid) {
 TEST(CriticalAngles, AreTheClosedFormsOfTheSchlafliSymbol) {
   for (const SolidKind kind : all_solids) {
     const auto [p, q] = schlafli(platonic(kind));
-    const double sine = std::cos(pi / q) / std::sin(pi / p);  // of δ/2
+    const double sine = std::cos(pi / q) / std::sin(pi / p);  // sine of δ/2
     const double cosine = std::sqrt(1 - sine * sine);
     const CriticalAngles c = critical_angles(platonic(kind));
     EXPECT_NEAR(std::cos(c.ef_vertex_face), std::cos(pi / p) / std::sin(pi / q), rounding) << to_string(kind);
@@ -98,7 +98,7 @@ using Parameters = std::vector<double>;  // each in [0, 1]
 using Pose = std::function<Contact(const Parameters&)>;
 using Angle = double Alignment::*;
 
-/// Largest angle over the poses: the best of many at random, then a search in ever smaller boxes about it.
+/// Largest angle over the poses: the best of many random poses, followed by a search in ever smaller boxes around it.
 double largest_angle(const ConvexSolid& solid, const Pose& pose, std::size_t dimensions, Angle angle,
                      RandomStream& random) {
   Parameters best(dimensions, 0.5), trial(dimensions);
@@ -124,7 +124,7 @@ class CriticalAnglesOf : public testing::TestWithParam<SolidKind> {
   const CriticalAngles critical = critical_angles(solid);
   RandomStream random{12, static_cast<std::uint64_t>(GetParam())};
 
-  /// Every direction in which the vertex is the outermost point: a convex combination of the normals about it.
+  /// Every direction in which the vertex is the outermost point: a convex combination of the normals around it.
   Pose vertex_on_face() const {
     return [this](const Parameters& t) {
       Site site = constructed::vertex_site(solid, 0);
@@ -133,14 +133,14 @@ class CriticalAnglesOf : public testing::TestWithParam<SolidKind> {
       for (std::uint64_t mask = site.faces; mask != 0; mask &= mask - 1) {
         site.outward += t[k++] * solid.faces()[std::countr_zero(mask)].normal;
       }
-      // All weights 0 is no direction.
+      // If all weights are 0, there is no direction.
       if (site.outward.norm() == 0) site.outward = solid.vertices()[0];
       site.outward.normalize();
       return constructed::contact(site, constructed::face_site(solid, 0), 0, Vector3d::Zero(), 0);
     };
   }
 
-  /// The edge with every outward direction between its two normals, at the fraction t.
+  /// The edge with the outward direction between its two normals at the fraction t.
   Site leaning_edge(double t) const {
     Site site = constructed::edge_site(solid, 0);
     const Vector3d& left = solid.faces()[solid.edges()[0].left].normal;
@@ -164,7 +164,7 @@ class CriticalAnglesOf : public testing::TestWithParam<SolidKind> {
   void expect_extremal(const Pose& pose, std::size_t dimensions, Angle angle, double claimed, const char* what) {
     const double found = largest_angle(solid, pose, dimensions, angle, random);
     EXPECT_LE(found, claimed + rounding) << what;
-    EXPECT_GE(found, claimed * (1 - 1e-3)) << what;  // a random search stalls at kinks
+    EXPECT_GE(found, claimed * (1 - 1e-3)) << what;  // a random search stops at kinks
   }
 };
 
@@ -217,12 +217,13 @@ TEST(CriticalAngles, OfUnlikeVerticesAreTheLeast) {
   std::vector<Vector3d> box, pyramid{{0, 0, 1}};
   for (int k = 0; k < 8; ++k) box.emplace_back(k & 1 ? 1 : -1, k & 2 ? 2 : -2, k & 4 ? 3 : -3);
   for (int k = 0; k < 4; ++k) pyramid.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, 0);
-  // The cones and edges of any box are a cube's.
+  // The cones and edges of any box are those of a cube.
   const auto cube = as_array(critical_angles(platonic(SolidKind::cube)));
   const auto of_box = as_array(critical_angles(ConvexSolid("box", box)));
   for (std::size_t k = 0; k < cube.size(); ++k) EXPECT_NEAR(of_box[k], cube[k], rounding) << k;
-  // Four faces at 45° around the apex, 120° between neighbours, whose normals are 45° from the axis: there a circle of
-  // 45° holds the corners, the edges rise by 35.26°; at the base three faces meet, and a search finds less.
+  // At the apex four faces have an angle of 45° to the base, 120° between neighbours. Their normals are 45° from the
+  // axis, so that the corners lie on a circle of 45°, and the edges rise by 35.26°. At the base three faces meet, and a
+  // search finds smaller angles.
   const CriticalAngles of_pyramid = critical_angles(ConvexSolid("pyramid", pyramid));
   EXPECT_NEAR(of_pyramid.ff_edge_face, pi / 6, rounding) << "of the widest dihedral angle, 120°";
   EXPECT_LE(of_pyramid.ff_vertex_face, pi / 4 + rounding);
@@ -230,14 +231,14 @@ TEST(CriticalAngles, OfUnlikeVerticesAreTheLeast) {
 }
 
 TEST(CriticalAngles, OfAFlatVertexAreThoseOfItsTwoLowestEdges) {
-  // Its four edges rise by 0.1 over 1 and over 2: the circle in the cone of normals touches two sides across from each
-  // other and reaches no third.
+  // Its four edges rise by 0.1 over lengths of 1 and 2. The inscribed circle of the normal cone touches two opposite
+  // sides and no third one.
   const std::vector<Vector3d> vertices{{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, .1}, {0, 0, -.1}};
   const ConvexSolid flat("flat", vertices);
   EXPECT_NEAR(critical_angles(flat).ef_vertex_face, std::atan(.1 / 2), 20 * rounding);
 }
 
-/// The greatest of the least angles over directions of the cone of each vertex, by brute force: from below.
+/// The largest of the smallest angles over directions of the cone of each vertex, by brute force: a lower bound.
 CriticalAngles searched(const ConvexSolid& solid, RandomStream& random) {
   std::vector<double> ef(solid.vertices().size(), 0), ff(solid.vertices().size(), 0);
   for (int k = 0; k < 400000; ++k) {
@@ -269,8 +270,8 @@ TEST(CriticalAngles, OfOtherSolidsAreWhatASearchClimbsTo) {
   RandomStream random{63};
   std::vector<Vector3d> rock;
   for (int k = 0; k < 9; ++k) rock.push_back(Vector3d(random.normal(), random.normal(), random.normal()).normalized());
-  // Three faces meet in the origin whose normals are a triangle that does not hold the centre of its circumcircle: the
-  // angles between edges there are 110°, 110° and 30°.
+  // In the origin three faces meet whose normals form a triangle that does not contain its circumcentre. The angles
+  // between edges there are 110°, 110° and 30°.
   const double half = pi / 12, down = std::cos(11 * pi / 18) / std::cos(half);
   const std::vector<Vector3d> leaning{{0, 0, 0},
                                       {std::cos(half), std::sin(half), 0},

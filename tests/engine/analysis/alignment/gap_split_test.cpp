@@ -1,11 +1,11 @@
-// Facts proved:
-//   1. the split has the greatest variance between groups, by a search over all splits in another form, and the cut-off
-//      lies between two neighbouring angles, at the middle of their logarithms;
-//   2. angles by a power law of any exponent have η near .648, angles spread evenly over decades near 3/4, with the
-//      scatter that the critical value is made of; neither is taken for a gap more often than it says;
-//   3. two groups decades apart are separated, however unequal, and every angle falls on its side;
-//   4. a group far below the window's end is all alike, at 0 too; few angles are too few;
-//   5. order and unit of the angles do not matter; angles beyond the window do not count; bad input is refused.
+// Properties tested here:
+// 1. The split has the largest variance between groups, by a search over all splits in another form. The cut-off is at
+//    the middle of two neighbouring angles' logarithms.
+// 2. Angles from a power law with any exponent have η near 0.648, and angles spread evenly over decades near 3/4, with
+//    the scatter assumed in the critical value. Neither is classified as a gap more often than expected.
+// 3. Two groups that are decades apart are separated, for any ratio of their sizes, and every angle is on its side.
+// 4. A group far below the end of the window is all_alike, also at 0. Few angles are too_few.
+// 5. Order and unit of the angles do not matter. Angles beyond the window do not count. Invalid input is rejected.
 
 #include "engine/analysis/alignment/gap_split.hpp"
 
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double upper = 0.3;
 
-/// n angles from upper·10^−decades to upper, evenly in the logarithm.
+/// n angles from upper·10^−decades to upper, uniform in the logarithm.
 std::vector<double> log_uniform(int n, double decades, RandomStream& random) {
   std::vector<double> angles;
   for (int k = 0; k < n; ++k) angles.push_back(upper * std::pow(10, -decades * (1 - random.uniform())));
@@ -37,7 +37,7 @@ std::vector<double> power_law(int n, double exponent, RandomStream& random) {
   return angles;
 }
 
-/// A few angles at ultra-low values, the rest uniform up to twice the window.
+/// A few very small angles, the rest uniform up to twice the window.
 std::vector<double> two_groups(int low, int high, RandomStream& random) {
   std::vector<double> angles;
   for (int k = 0; k < low; ++k) angles.push_back(std::pow(10, -8 + 3 * random.uniform()));
@@ -66,7 +66,7 @@ TEST(GapSplit, IsTheBestOfAllSplits) {
     const std::vector<double> angles = trial % 3 == 0   ? log_uniform(n, 4, random)
                                        : trial % 3 == 1 ? power_law(n, 1, random)
                                                         : two_groups(n, n, random);
-    const GapSplit split = split_at_gap(angles, upper, {.quantile = -100});  // whatever η: always separated
+    const GapSplit split = split_at_gap(angles, upper, {.quantile = -100});  // always separated, for any η
     ASSERT_EQ(split.verdict, GapVerdict::separated);
     std::vector<double> x;
     for (const double angle : angles) {
@@ -115,7 +115,7 @@ TEST(GapSplit, WithoutAGapSeparationIsKnown) {
     const Scatter s = scatter(sets, [&] { return log_uniform(n, 5, random); });
     std::printf("n %4d, even over decades: η %.4f ± %.4f (%.4f expected), separated %.3f\n", n, s.mean, s.sd,
                 std::sqrt(0.075 / n), s.separated / static_cast<double>(sets));
-    // The best of many splits is a little above the one at the middle: by the order of 1/n.
+    // The best of many splits exceeds the one at the middle by the order of 1/n.
     EXPECT_NEAR(s.mean, 0.75, 5 * std::sqrt(0.075 / n / sets) + 0.5 / n) << n;
     EXPECT_NEAR(s.sd / std::sqrt(0.075 / n), 1, 0.1) << n;
     EXPECT_LE(s.separated, 0.1 * sets) << n;

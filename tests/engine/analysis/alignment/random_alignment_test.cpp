@@ -1,15 +1,16 @@
-// Facts proved, for every Platonic solid:
-//   1. a million random orientations follow the closed form of θ_ff, and of θ_ef, and a million turns about an edge
-//      that of θ_ff under the constraint, by Kolmogorov and Smirnov's test; with a solid turned into another they would
-//      not;
-//   2. the closed forms rise from 0 to 1 without a step, and at small angles are the paper's: p(θ_ff) ∝ sin θ_ff over
-//      all of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint;
-//   3. the angles sampled are those that alignment() finds where the solid is pressed on a face;
-//   4. contacts drawn at random count as random in all but the share of the level, those with more or fewer small
-//      angles as hyper-random or sub-random; probabilities are the binomial sums;
-//   5. an empirical CDF is a count, its distance the greatest of a dense search, its probability the tabulated one;
-//   6. a stratified sample is the closed form to six times n^(-3/4), and for other solids what is drawn at random;
-//   7. what is no number or no fraction is refused.
+// Properties tested here, for every Platonic solid:
+// 1. A million random orientations follow the closed forms of θ_ff and θ_ef, and a million rotations about an edge
+//    follow that of θ_ff under the constraint, by the Kolmogorov–Smirnov test. The test would fail for a different
+//    solid.
+// 2. The closed forms increase from 0 to 1 continuously. At small angles they are the paper's: p(θ_ff) ∝ sin θ_ff on
+//    all of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint.
+// 3. The sampled angles are those that alignment() finds if the solid is pressed on a face.
+// 4. Contacts drawn at random are classified as random, except for the fraction given by the level. Those with more or
+//    fewer small angles are hyper-random or sub-random. Probabilities are the binomial sums.
+// 5. An empirical CDF is a count, its distance is the largest one of a dense search, and its probability agrees with
+//    tables.
+// 6. A stratified sample agrees with the closed form to six times n^(-3/4), and for other solids with random samples.
+// 7. NaN and invalid fractions are rejected.
 
 #include "engine/analysis/alignment/random_alignment.hpp"
 
@@ -53,7 +54,7 @@ std::vector<double> column(const std::vector<AlignmentAngles>& sample, Angle ang
   return values;
 }
 
-/// P of Kolmogorov and Smirnov's test.
+/// P-value of the Kolmogorov–Smirnov test.
 double agreement(const EmpiricalCdf& drawn, const std::function<double(double)>& distribution) {
   return kolmogorov_probability(kolmogorov_distance(drawn, distribution), million);
 }
@@ -74,7 +75,7 @@ TEST_P(RandomAlignmentOf, AMillionOrientationsFollowTheClosedForms) {
   std::printf("%s: P %.3f for θ_ff, %.3f for θ_ef\n", solid.name().c_str(), ff, ef);
   EXPECT_GT(ff, 1e-3);
   EXPECT_GT(ef, 1e-3);
-  // So many orientations see an error of a hundredth.
+  // This number of orientations reveals an error of one per cent.
   EXPECT_LT(agreement(face_face, [&](double theta) { return ideal.face_face(1.01 * theta); }), 1e-6);
   EXPECT_LT(agreement(edge_face, [&](double theta) { return ideal.edge_face(1.01 * theta); }), 1e-6);
 }
@@ -118,7 +119,7 @@ TEST_P(RandomAlignmentOf, SmallAnglesFollowThePaper) {
   for (double theta = 1e-3; theta < critical_angles(solid).ff_edge_face; theta *= 1.1) {
     EXPECT_NEAR(ideal.face_face(theta), faces * (1 - std::cos(theta)) / 2, 1e-12) << "∫ sin over the caps";
   }
-  // The strip along a side of the polygon: its length over the area of all polygons, two sides to an edge.
+  // The strip along a side of the polygon: its length over the area of all polygons, two sides per edge.
   const double arc = pi - std::acos(-std::cos(2 * ideal.constrained_ff_max()));
   const double slope = 2 * static_cast<double>(solid.edges().size()) * arc / (4 * pi);
   for (const double theta : {1e-3, 1e-4, 1e-5})
@@ -126,7 +127,7 @@ TEST_P(RandomAlignmentOf, SmallAnglesFollowThePaper) {
 }
 
 TEST_P(RandomAlignmentOf, SamplesAreWhatAlignmentFindsOnAFace) {
-  // Two streams alike: both draw the direction from which the face is pressed on the solid.
+  // Two equal streams: both draw the direction from which the face is pressed on the solid.
   RandomStream fresh{52, static_cast<std::uint64_t>(GetParam())}, twin = fresh;
   for (const AlignmentAngles& expected : sample_unconstrained(solid, 300, fresh)) {
     const double z = 2 * twin.uniform() - 1, azimuth = 2 * pi * twin.uniform(), r = std::sqrt(1 - z * z);
@@ -232,7 +233,7 @@ TEST(EmpiricalCdf, DistanceIsTheGreatest) {
     std::vector<double> values;
     for (int k = 0; k < n; ++k) values.push_back(random.uniform());
     const EmpiricalCdf cdf = empirical_cdf(values);
-    // One that lies below the values, one above.
+    // One distribution is below the values, one above.
     for (const auto& distribution : {+square, +root}) {
       double greatest = 0;
       for (int k = 0; k <= 100000; ++k) greatest = std::max(greatest, std::abs(cdf(k * 1e-5) - distribution(k * 1e-5)));
@@ -243,7 +244,7 @@ TEST(EmpiricalCdf, DistanceIsTheGreatest) {
 }
 
 TEST(EmpiricalCdf, ProbabilityIsKolmogorovs) {
-  // Median and percentage points of the limit.
+  // Median and percentage points of the limiting distribution.
   EXPECT_NEAR(kolmogorov_probability(0.82757 / 1e4, 100000000), 0.5, 1e-4);
   EXPECT_NEAR(kolmogorov_probability(0.5 / 1e4, 100000000), 0.96394, 1e-4);
   EXPECT_NEAR(kolmogorov_probability(1.3581 / 1e4, 100000000), 0.05, 1e-4);
@@ -277,7 +278,7 @@ TEST(RandomAlignment, OfOtherSolidsFollowsWhatIsDrawn) {
   std::vector<Solid> solids;
   for (const char* name : {"truncated_tetrahedron", "cuboctahedron", "rhombic_dodecahedron", "prism6", "antiprism5"})
     solids.push_back(*Solid::named(name));
-  // Another from above than from below.
+  // The solid looks different from above and from below.
   const std::vector<Eigen::Vector3d> pyramid{{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, 2}};
   solids.push_back(Solid::made_of("pyramid", pyramid));
   for (const Solid& each : solids) {

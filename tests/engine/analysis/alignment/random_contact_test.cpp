@@ -1,14 +1,15 @@
-// Facts proved:
-//   1. of random contacts 60 % of tetrahedra, 56 % of octahedra, 52 % of dodecahedra and of icosahedra are of two
-//      edges; surface and mean curvature of cubes and boxes are the known ones, in any size; shares sum to 1 and follow
-//      the order of the solids;
-//   2. drawn over turns of one solid, all parallelograms of the Minkowski sum have the mean area M_A M_B/2π, and their
-//      angles, by area, the distributions given, for every Platonic solid, for two different ones and for solids whose
-//      edges differ; by number instead of area they would not;
-//   3. the angles drawn are those that alignment() finds where the edges touch;
-//   4. distributions rise from 0 to 1 without a step, reach 1 at the critical angles of two edges, are 4 θ²/α² and
-//      16 θ/(πα) near 0, and have the same bits twice;
-//   5. that of all contacts is the sum of both kinds by their shares.
+// Properties tested here:
+// 1. The edge-edge fraction of random contacts is 60 % for tetrahedra, 56 % for octahedra, 52 % for dodecahedra and
+// icosahedra.
+//    Surface and mean curvature of cubes and boxes are correct for any size. Fractions sum to 1 and follow the order of
+//    the solids.
+// 2. The parallelograms of the Minkowski sum over random rotations of one solid have the mean total area M_A M_B/2π.
+//    Their angles, weighted by area, follow the given distributions: for every Platonic solid, for two different ones
+//    and for solids with different edges. Unweighted they would not.
+// 3. The drawn angles are those that alignment() finds if the edges touch.
+// 4. Distributions increase from 0 to 1 continuously and reach 1 at the critical angles of two edges. Near 0 they are 4
+//    θ²/α² and 16 θ/(πα). Two computations give the same bits.
+// 5. The distribution for all contacts is the sum of both kinds weighted by their fractions.
 
 #include "engine/analysis/alignment/random_contact.hpp"
 
@@ -57,7 +58,7 @@ struct Drawn {
   double area, face_face, edge_face;
 };
 
-/// Where the arc from left to right and the one from −left to −right of the other cross, if they do.
+/// Intersection of the arc from left to right with the arc from −left to −right of the other edge, if there is one.
 bool crosses(const Side& a, const Side& b, Vector3d& at) {
   const Vector3d across_a = a.left.cross(a.right), across_b = b.left.cross(b.right);
   at = across_a.cross(across_b).normalized();
@@ -70,7 +71,7 @@ bool crosses(const Side& a, const Side& b, Vector3d& at) {
   return false;
 }
 
-/// All parallelograms of A + (−B turned).
+/// All parallelograms of A + (−B), with B rotated.
 void draw(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Quaterniond& turn, std::vector<Drawn>& list) {
   for (std::size_t i = 0; i < a.edges().size(); ++i) {
     const Side one = side_of(a, i);
@@ -93,7 +94,7 @@ void draw(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Quaterniond& 
   }
 }
 
-/// Greatest distance of the CDF of weighted values from a distribution.
+/// Largest distance of the CDF of weighted values from a distribution.
 double distance(std::vector<std::pair<double, double>> values, const std::function<double(double)>& distribution) {
   std::sort(values.begin(), values.end());
   double sum = 0, cumulative = 0, greatest = 0;
@@ -126,7 +127,7 @@ TEST(ContactShares, AreTheKnownOnes) {
   EXPECT_EQ(shares.edge_edge, exchanged.edge_edge);
 }
 
-/// What is drawn against what is given.
+/// Compares drawn angles with the given distributions.
 void expect_followed(const ConvexSolid& a, const ConvexSolid& b, int turns, RandomStream& random) {
   std::vector<Drawn> drawn;
   for (int k = 0; k < turns; ++k) draw(a, b, constructed::random_orientation(random), drawn);
@@ -146,7 +147,8 @@ void expect_followed(const ConvexSolid& a, const ConvexSolid& b, int turns, Rand
   const double other = distance(by_number, [&](double theta) { return ideal.edge_face(theta); });
   std::printf("%s and %s: %zu parallelograms, area %.4f of %.4f, distances %.4f and %.4f, by number %.4f\n",
               a.name().c_str(), b.name().c_str(), drawn.size(), area, expected, ff, ef, other);
-  // Those of one turn are not independent: twice the 1 % level of as many, beside what fixed points leave.
+  // Angles of one rotation are not independent: the tolerance is twice the 1 % level, plus the error of the fixed
+  // points.
   const double allowed = 2 * 1.63 / std::sqrt(static_cast<double>(drawn.size())) + 2e-3;
   EXPECT_LE(ff, allowed);
   EXPECT_LE(ef, allowed);
@@ -178,7 +180,7 @@ TEST(RandomEdgeContact, AnglesDrawnAreWhatAlignmentFinds) {
                           b = constructed::edge_site(solid, static_cast<int>(drawn[i].edge_b));
         a.outward = drawn[i].normal;
         b.outward = turn.conjugate() * -drawn[i].normal;
-        // The spin that turns B's edge to where it points.
+        // The spin that rotates B's edge into its direction.
         const Vector3d along = constructed::direction(solid, static_cast<int>(drawn[i].edge_b));
         const Vector3d wanted = turn * along;
         const Vector3d found = constructed::contact(a, b, 0, Vector3d::Zero(), 1e-9).pose.rotation * along;

@@ -1,9 +1,9 @@
-// Facts proved here, for all pairs of solids, over contacts with volumes of five decades and pairs that just miss:
-//   every edge and every face of the intersection, as clipping finds it, is among the parts that the slab keeps, and
-//     where the slab is empty the solids are apart;
-//   what it keeps is the least that its definition allows: a part is left out exactly if all its vertices are outside
-//     of the slab by more than rounding;
-//   the distances of kept vertices from kept planes are those of the whole table, and a plane is there once at least.
+// Properties tested here, for all pairs of solids, with contact volumes over five decades and pairs that almost touch:
+// - The parts kept by the slab contain every edge and every face of the intersection found by clipping. If the slab is
+//   empty, the solids are separated.
+// - The slab keeps no more than its definition requires: a part is omitted exactly if all its vertices are outside the
+//   slab by more than rounding.
+// - The distances of kept vertices from kept planes equal those of the full table, and at least one plane is kept.
 
 #include "engine/geometry/overlap/distances.hpp"
 
@@ -32,7 +32,8 @@ struct Placed {
         r(pair.displacement()) {}
 };
 
-/// Half of them contacts with volumes between 1e-6 and .1, half pairs whose circumspheres overlap or nearly do.
+/// Half of the pairs are contacts with volumes between 1e-6 and 0.1; the others have circumspheres that overlap or
+/// almost overlap.
 template <class Check>
 void for_many_pairs(int cases, const Check& check) {
   RandomStream random{19, 3};
@@ -68,7 +69,7 @@ TEST(Slab, KeepsWhatBoundsTheIntersection) {
   EXPECT_GT(left_out, 1000) << "nothing would be saved";
 }
 
-/// Vertices of a solid at `centre` whose place along u is above `bound`, below if `sign` is −1.
+/// Vertices of a solid at `centre` whose coordinate along u is above `bound`, or below it if `sign` is −1.
 std::uint64_t beyond(const PlacedSolid& solid, const Vector3d& centre, const Vector3d& u, double sign, double bound) {
   std::uint64_t found = 0;
   for (int v = 0; v < solid.vertices(); ++v)
@@ -76,7 +77,7 @@ std::uint64_t beyond(const PlacedSolid& solid, const Vector3d& centre, const Vec
   return found;
 }
 
-/// Parts with one of the vertices.
+/// Parts that contain one of the vertices.
 Parts parts_with(const ConvexSolid& solid, std::uint64_t vertices) {
   Parts parts;
   const auto has = [&](int v) { return (vertices >> v & 1) != 0; };

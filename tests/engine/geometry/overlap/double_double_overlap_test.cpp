@@ -1,14 +1,17 @@
-// Facts proved here, of overlap() in double-double against clipping in quadruple precision, for every solid, over
-// face-face contacts of depth 1e-4 … 1e-13, tilted by as much as they are deep, in any orientation:
-//   V, S and M are right to 1e-14, by the loop and not by the slow path, with the right faces and edges;
-//   and so they are, to 1e-12 and in half of all pairs to 1e-15 below V 1e-8, where a corner lies in a face or edges
-//   cross, for V 1e-4 … 1e-16 and every pair of solids;
-//   without the low parts of positions, of orientations or of the solid they are wrong by 1e-8 and more at depth 1e-10,
-//   and so they are in plain double: every part is needed;
-//   exchange, common translation and common rotation change nothing beyond that;
-//   the cross and own Hessians are the differences of S and M taken in quadruple precision, to 1e-9, of these contacts
-//   too; pairs of all depths agree with plain double where it suffices, depths of 1e-20 are resolved, and pairs that
-//   coincide to their last bits take the slow path. A table of errors against depth goes to standard output.
+// Properties of overlap() in double-double tested here, with clipping in quadruple precision as reference. The pairs
+// are face-face contacts of every solid, in any orientation, with depths of 1e-4 … 1e-13 and tilts as large as the
+// depth:
+// - V, S and M have relative errors of at most 1e-14. The loop computes them, not the slow path, and its faces and
+//   edges are correct.
+// - Where a corner lies in a face or edges cross, errors are at most 1e-12. For V < 1e-8 half of the pairs have errors
+//   of at most 1e-15. This holds for V = 1e-4 … 1e-16 and every pair of solids.
+// - Every low part is needed: without those of positions, of orientations or of the solid, errors are 1e-8 or more at a
+//   depth of 1e-10. They are as large in plain double.
+// - Exchange, common translation and common rotation change nothing beyond these errors.
+// - Cross and own Hessians agree with differences of S and M in quadruple precision to 1e-9 for these contacts too.
+// - Pairs of all depths agree with plain double where that is accurate, depths of 1e-20 are resolved, and pairs that
+//   coincide to their last bits use the slow path.
+// A table of errors against depth is printed to standard output.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +67,7 @@ Overlap in_double(const Pair& pair) {
   return overlap(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), pair.displacement(), axis);
 }
 
-/// Largest relative error of V, S and M (M relative to the greater of |M| and h |S|, h the inradius).
+/// Largest relative error of V, S and M (M relative to the larger of |M| and h |S|, h the inradius).
 double error(const Overlap& measured, const QuadOverlap& exact, double inradius) {
   const auto part = [](const Vector3d& value, const Quad3& right, Quad scale) {
     return static_cast<double>(norm(Quad3{value.x(), value.y(), value.z()} - right) / scale);
@@ -79,8 +82,8 @@ double error(const Overlap& measured, const QuadOverlap& exact, const Pair& pair
   return error(measured, exact, pair.solid_a().inradius());
 }
 
-/// Face of B on a face of A, turned at random about the normal, displaced along it, tilted by up to `depth`; the
-/// deepest vertex of B lies `depth` behind A's plane.
+/// A face of B on a face of A, rotated at random about the normal, shifted along the face, and tilted by up to `depth`.
+/// The deepest vertex of B is `depth` behind A's plane.
 Pair face_contact(RandomStream& random, SolidKind kind, double depth) {
   const ConvexSolid& solid = platonic(kind);
   Pair pair{kind, kind, {}, {}};
@@ -136,7 +139,7 @@ TEST_P(DoubleDoubleOverlap, IsRightAtEveryDepth) {
   }
 }
 
-/// A contact in a random orientation, drawn apart until V is between a third and thrice the given.
+/// A contact in a random orientation, moved apart until V is between a third and three times `volume`.
 Pair pointed_contact(RandomStream& random, SolidKind a, SolidKind b, double volume) {
   const Pair deep = random_contact(random, a, b, 1e-4, 1e-2);
   double near = 0, far = deep.displacement().norm();
@@ -189,7 +192,7 @@ TEST_P(DoubleDoubleOverlap, NeedsEveryLowPart) {
   }
   EXPECT_GE(position, 1e-8);
   EXPECT_GE(orientation, 1e-8);
-  // Vertices that are multiples of integers get their low parts back when the solid is scaled to unit volume.
+  // Vertices that are multiples of integers recover their low parts when the solid is scaled to unit volume.
   const bool recovered = GetParam() != SolidKind::dodecahedron && GetParam() != SolidKind::icosahedron;
   if (recovered) {
     EXPECT_LE(solid, limit);
@@ -198,7 +201,7 @@ TEST_P(DoubleDoubleOverlap, NeedsEveryLowPart) {
   }
 }
 
-/// The pose as seen after turning everything about the origin by the orientation of `frame`.
+/// The pose after rotating everything about the origin by the orientation of `frame`.
 Pose turned(const Pose& pose, const Pose& frame) {
   const auto quaternion = [](const Pose& p) {
     return std::array<Quad, 4>{widened(p.component(0)), widened(p.component(1)), widened(p.component(2)),
@@ -251,7 +254,7 @@ TEST_P(DoubleDoubleOverlap, IsInvariant) {
   }
 }
 
-/// ∂(S_A, M_A) per unit of a step of one body (x, θ), in quadruple precision.
+/// ∂(S_A, M_A) per unit step of one body (x, θ), in quadruple precision.
 Matrix6d differences(const Pair& pair, bool of_a, double h) {
   Matrix6d result;
   for (int k = 0; k < 6; ++k) {
@@ -267,14 +270,14 @@ Matrix6d differences(const Pair& pair, bool of_a, double h) {
   return result;
 }
 
-/// `h`: the step of differences, far less than the contact is deep.
+/// `h` is the step of the differences; it must be far below the depth of the contact.
 void expect_hessians_are_differences(const Pair& pair, double h) {
   SeparatingAxis unused;
   OverlapHessian hessian;
   const DoubleDoubleVector r = displacement_double_double(pair);
   overlap_with_hessian(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r, unused, hessian);
-  // Turns do not commute: the derivative of M by turns of its own body has an antisymmetric part, which is no
-  // curvature of V.
+  // Rotations do not commute: the derivative of M with respect to rotations of its own body has an antisymmetric part,
+  // which is no curvature of V.
   const Matrix6d by_b = differences(pair, false, h), by_a = differences(pair, true, h);
   EXPECT_LE((hessian.ab - by_b).norm(), 1e-9 * by_b.norm()) << "step " << h << ": " << describe(pair);
   EXPECT_LE((hessian.aa - (by_a + by_a.transpose()) / 2).norm(), 1e-9 * by_a.norm())
@@ -304,7 +307,7 @@ TEST_P(DoubleDoubleOverlap, AgreesWithDoubleWhereItSuffices) {
   RandomStream random{68, static_cast<std::uint64_t>(GetParam())};
   for (int k = 0; k < 5 * cases; ++k) {
     const Pair pair = random_contact(random, GetParam(), GetParam(), 1e-5, 3e-2);
-    // Sums over a small contact lose against coordinates of order 1.
+    // Sums over a small contact lose digits relative to coordinates of order 1.
     EXPECT_LE(error(in_double_double(pair), exact(pair), pair), 1e-11) << describe(pair);
     EXPECT_LE(error(in_double(pair), exact(pair), pair), 1e-10) << describe(pair);
   }
@@ -316,8 +319,8 @@ TEST(DoubleDoubleOverlapTest, ResolvesDepthsBelowTheRoundingOfDoubles) {
     pair.b.position = Vector3d(.25, .125, 1);
     pair.b = moved(pair.b, Vector3d(0, 0, -depth), Vector3d::Zero());
     const Overlap touching = in_double_double(pair);
-    // The loop cannot tell the ends of an edge so short: the slow path answers. The state itself is rounded to u² of a
-    // length.
+    // The loop cannot distinguish the ends of such a short edge, so the slow path computes the result. The state itself
+    // is rounded to u² of a length.
     EXPECT_NEAR(touching.volume, .75 * .875 * depth, 4 * epsilon * (depth + epsilon));
     EXPECT_NEAR(touching.area.z(), .75 * .875, 4 * epsilon);
     pair.b = moved(pair.b, Vector3d(0, 0, 2 * depth), Vector3d::Zero());

@@ -33,7 +33,7 @@ Vector3d middle_of(const ConvexSolid& solid, const Face& face) {
   return middle;
 }
 
-/// Least distance of an edge from the middle.
+/// Smallest distance of an edge from the middle of the face.
 double radius_of(const ConvexSolid& solid, const Face& face) {
   const Vector3d middle = middle_of(solid, face);
   double least = std::numeric_limits<double>::infinity();
@@ -45,7 +45,8 @@ double radius_of(const ConvexSolid& solid, const Face& face) {
   return least;
 }
 
-/// B with its point `of_b`, seen along `outward` in its own frame, facing `on` of A, which faces along `up`.
+/// B with its point `of_b`, seen along `outward` in its own frame, opposite the point `on` of A, whose outward
+/// direction there is `up`.
 Approach facing(const ConvexSolid& a, const ConvexSolid& b, const Vector3d& on, const Vector3d& up,
                 const Vector3d& of_b, const Vector3d& outward, RandomStream& random) {
   Approach result{{a, b, {}, {}}, {}, {}};
@@ -152,7 +153,7 @@ Approach edge_over_edge(const ConvexSolid& a, const ConvexSolid& b, RandomStream
 
 std::optional<PosedPair> at_volume(Approach approach, double volume) {
   PosedPair& pair = approach.pair;
-  // At `from`, or deeper by the lesser solid, there is more.
+  // At `from`, or deeper by the size of the smaller solid, V is larger than `volume`.
   double far = pair.a.circumradius() + pair.b.circumradius();
   double near = -std::min(approach.from.norm(), std::min(pair.a.inradius(), pair.b.inradius()));
   for (int k = 0; k < 90; ++k) {

@@ -1,6 +1,8 @@
-// Facts proved here, on random numbers of both signs and all magnitudes: every operation on four lanes is that of its
-// comment, lane by lane, sums and products to rounding and the rest to the bit; a tag survives an extreme and costs at
-// most 64 ulp; equal_unions() finds the edges whose ends lie inside all planes together.
+// Properties tested here, with random numbers of both signs and all magnitudes:
+// - Every operation on four lanes does what its comment states, lane by lane; sums and products within rounding, the
+//   others exactly.
+// - A tag survives taking an extreme and costs at most 64 ulp.
+// - equal_unions() finds the edges whose two ends together are inside all planes.
 
 #include "engine/geometry/overlap/lanes.hpp"
 
@@ -34,7 +36,7 @@ Four stored(Lanes a) {
 
 Lanes loaded(const Four& x) { return Lanes::load(x.data()); }
 
-/// What each lane should be, and how far it may be off.
+/// Expected value of each lane, and its tolerance.
 template <class Expected>
 void expect_lanes(Lanes found, const Expected& expected, double tolerance = 0) {
   const Four x = stored(found);

@@ -1,10 +1,10 @@
-// Facts proved here, of overlap() in double-double against clipping in quadruple precision, over all pairs of solids
-// that are not Platonic, and of each with a cube:
-//   V, S and M of faces in contact, depth 1e-4 … 1e-12 and tilted by as much, are right to 1e-13, half of
-//   them to 1e-15, by the loop;
-//   of corners in faces and crossed edges, V 1e-3 … 1e-15, to 1e-12;
-//   the Hessian is the difference of S and M in quadruple precision, to 1e-8 of the block of translations;
-//   pairs that coincide, and faces that lie in each other to the last bit, are right to 1e-14 by whichever path.
+// Properties of overlap() in double-double tested here, with clipping in quadruple precision as reference. The pairs
+// are all pairs of solids that are not Platonic, and each of these with a cube:
+// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
+//   half of them at most 1e-15; the loop computes them.
+// - For corners in faces and crossed edges with V = 1e-3 … 1e-15, errors are at most 1e-12.
+// - The Hessian agrees with differences of S and M in quadruple precision to 1e-8 of its translational block.
+// - For pairs that coincide, and faces that lie exactly in each other, errors are at most 1e-14, on either path.
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ namespace {
 using namespace testing_pairs;
 using Eigen::Vector3d;
 
-/// Boxes, prisms, a pyramid with as many vertices as a cube and more edges, what the program knows by name, and ten
-/// points on a sphere.
+/// Boxes, prisms, a pyramid with as many vertices as a cube but more edges, the built-in solids, and ten points on a
+/// sphere.
 const std::vector<Solid>& others() {
   static const std::vector<Solid> solids = [] {
     std::vector<Vector3d> brick, pyramid{{0, 0, 1}};
@@ -85,7 +85,8 @@ TEST(OtherSolids, AreRightWhereTheyCoincide) {
   for (const Solid& solid : others()) {
     PosedPair same{*solid, *solid, {}, {}};
     EXPECT_NEAR(found(same).volume, 1, 1e-14) << to_string(solid);
-    // Along an edge, faces slide in themselves; by twice the distance of a face, they touch without a depth.
+    // Faces shifted along an edge remain in the same plane; shifted by twice the distance of a face they touch without
+    // depth.
     const Edge& edge = solid->edges().front();
     same.at_b.position = .3 * (solid->vertices()[edge.head] - solid->vertices()[edge.tail]);
     const double here = error(same);

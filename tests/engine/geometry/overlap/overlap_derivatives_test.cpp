@@ -1,9 +1,12 @@
-// Facts proved here, against central differences of V and of (S, M) on random contacts of all pairs of solids:
-//   (S_A, M_A, −S_A, −M_A + r×S_A) is the gradient of V; slips of sign in M, S or the lever of B, and a wrong volume,
-//   are refused by the same check on tetrahedra, which have no inversion symmetry to hide them; H_AB is the derivative
-//   of each body's gradient by the other's position and turn; H_AA and H_BB are the symmetric part of the derivative by
-//   the body's own, and what is missing is ½ θ×M; moving both bodies rigidly changes nothing, so H has the six null
-//   vectors it must have, up to turning the gradient.
+// Properties tested here for random contacts of all pairs of solids, with central differences of V and of (S, M) as
+// reference:
+// - (S_A, M_A, −S_A, −M_A + r×S_A) is the gradient of V. The same check rejects wrong signs in M, in S or in the lever
+//   arm of B, and a wrong volume. It uses tetrahedra, whose missing inversion symmetry cannot hide such errors.
+// - H_AB is the derivative of each body's gradient with respect to position and rotation of the other body. H_AA and
+//   H_BB are the symmetric part of the derivative with respect to those of the same body; the antisymmetric part is ½
+//   θ×M.
+// - Moving both bodies rigidly changes nothing, so that H has the six required null vectors, up to the rotation of the
+//   gradient.
 
 #include <gtest/gtest.h>
 
@@ -40,14 +43,14 @@ Pair moved_by(const Pair& pair, const Vector12d& step) {
 
 Vector12d unit(int k) { return Vector12d::Unit(k); }
 
-/// What a pair's V and its derivatives by (x_A, θ_A, x_B, θ_B), lab frame, are said to be.
+/// Values to be checked of V and its derivatives with respect to (x_A, θ_A, x_B, θ_B), lab frame.
 struct Claim {
   double volume = 0;
   Vector12d gradient;
 };
 using Claimant = std::function<Claim(const Pair&)>;
 
-/// Signs are 1, or −1 for a slip: of S, of M, of the lever of B.
+/// Signs are 1, or −1 for an intended error: of S, of M, of the lever arm of B.
 Claim claim_with(const Pair& pair, double area_sign, double moment_sign, double lever_sign) {
   const Overlap result = overlap(pair);
   const Vector3d s = pair.a.orientation * result.area, m = pair.a.orientation * result.moment;
@@ -62,16 +65,16 @@ Claim claim_with(const Pair& pair, double area_sign, double moment_sign, double 
 
 Claim claim(const Pair& pair) { return claim_with(pair, 1, 1, 1); }
 
-/// What is wrong with the gradient claimed, compared with central differences of V; empty if nothing.
+/// Description of the differences between the gradient and central differences of V; empty if they agree.
 std::string gradient_disagreement(const Pair& pair, const Claimant& claimant) {
-  // Depths are at least some 0.05, so the step is small beside every feature of the contact.
+  // Depths are at least about 0.05, so that the step is small compared with every feature of the contact.
   const double h = 1e-5;
   const Claim here = claimant(pair);
   Vector12d differences;
   for (int k = 0; k < 12; ++k)
     differences[k] =
         (claimant(moved_by(pair, h * unit(k))).volume - claimant(moved_by(pair, -h * unit(k))).volume) / (2 * h);
-  // Third derivatives of V are of the order of the levers: h² and the rounding ε/h both stay far below this.
+  // Third derivatives of V are of the order of the lever arms: h² and the rounding ε/h both stay far below this.
   const double limit = 1e-7 * differences.norm();
   const double error = (differences - here.gradient).cwiseAbs().maxCoeff();
   if (error <= limit) return "";
@@ -117,7 +120,13 @@ TEST(OverlapDerivativesTest, WrongGradientsAreRefused) {
   }
 }
 
-/// The 12×12 Hessian of V as the engine has it, lab frame.
+Matrix3d skew(const Vector3d& v) {
+  Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// The 12×12 Hessian of V from the engine, lab frame.
 Matrix12d hessian(const Pair& pair) {
   const RelativePose pose = pair.relative();
   const Overlap result = overlap(pair);
@@ -143,14 +152,14 @@ TEST(OverlapDerivativesTest, HessianIsTheDerivativeOfTheGradient) {
   for_each_contact(3, [](const Pair& pair) {
     const Matrix12d analytic = hessian(pair), differences = gradient_differences(pair);
     Matrix12d expected = analytic;
-    // Turns do not commute: of two of them the first is turned by half of the second.
+    // Rotations do not commute: the first of two rotations is rotated by half of the second.
     const Vector12d g = claim(pair).gradient;
     expected.block<3, 3>(3, 3) -= skew(g.segment<3>(3)) / 2;
     expected.block<3, 3>(9, 9) -= skew(g.segment<3>(9)) / 2;
     const double limit = 1e-6 * analytic.norm();
     EXPECT_LE((expected - differences).cwiseAbs().maxCoeff(), limit) << describe(pair) << "\nminus differences\n"
                                                                      << expected - differences;
-    // Without the asymmetric part it must not pass: the contact is not in equilibrium.
+    // Without the asymmetric part the comparison must fail, because the contact is not in equilibrium.
     EXPECT_GT((analytic - differences).cwiseAbs().maxCoeff(), limit) << describe(pair);
   });
 }
@@ -175,7 +184,7 @@ TEST(OverlapDerivativesTest, RigidMotionOfBothBodiesLeavesTheGradientOrTurnsIt) 
       turn.segment<3>(3) = turn.segment<3>(9) = axis;
       turn.segment<3>(6) = axis.cross(pair.displacement());  // about A's centre
       for (int k = 0; k < 12; k += 3) turned.segment<3>(k) = axis.cross(g.segment<3>(k));
-      // Near-parallel faces make entries of H that are much larger than the sum they cancel to.
+      // For nearly parallel faces some entries of H are much larger than their sum.
       const double limit = 1e-9 * (h.norm() + g.norm());
       EXPECT_LE((h * shift).norm(), limit) << describe(pair);
       EXPECT_LE((h * turn - turned).norm(), limit) << describe(pair);

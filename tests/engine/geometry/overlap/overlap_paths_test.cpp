@@ -1,8 +1,8 @@
-// Facts proved here:
-//   on mixed random pairs the contact loop is taken and agrees with clipping: V, S, M and the features;
-//   a check that accepts the loop's volume refuses one that is off by 1e-9 of itself;
-//   the loop is refused where it cannot be trusted (coincident solids, equal orientation with common face planes) and
-//   the answer is right there: V = 1, or the box that two cubes share.
+// Properties tested here:
+// - On mixed random pairs the contact loop is used, and agrees with clipping: V, S, M and the features.
+// - A check that accepts the loop's volume rejects a volume with a relative error of 1e-9.
+// - The loop is rejected where it is unreliable (coincident solids, equal orientation with common face planes), and the
+//   result is correct there: V = 1, or the common box of two cubes.
 
 #include <gtest/gtest.h>
 
@@ -22,9 +22,9 @@ using Eigen::Vector3d;
 
 constexpr int cases = 30;
 
-/// What is wrong with `result` in view of `reference`; empty if nothing.
+/// Description of the differences between `result` and `reference`; empty if there are none.
 std::string disagreement(const Pair& pair, const Overlap& result, const Overlap& reference) {
-  // A coordinate is off by some ulp of the reach, on a depth of V/|S|.
+  // The error of a coordinate is a few ulp of the reach, compared with a depth of V/|S|.
   const double scale = reference.area.norm();
   const double limit = 64 * epsilon * pair.reach() * scale / reference.volume;
   const double volume = std::abs(result.volume - reference.volume) / reference.volume;
@@ -80,7 +80,7 @@ TEST(OverlapPathsTest, CoincidentSolidsAreClipped) {
       pair.a.orientation = pair.b.orientation = k == 0 ? Eigen::Quaterniond::Identity() : random_orientation(random);
       const Overlap result = overlap(pair);
       EXPECT_EQ(result.path, OverlapPath::clip) << describe(pair);
-      // The pose is orthonormal to some ulp, and the unit volume has a surface of 5 to 7.
+      // The pose is orthonormal within a few ulp, and the surface of the unit volume is 5 to 7.
       EXPECT_NEAR(result.volume, 1, 64 * epsilon) << describe(pair);
     }
   }
@@ -106,7 +106,7 @@ TEST(OverlapPathsTest, CubesOfEqualOrientationShareABox) {
     Pair pair{SolidKind::cube, SolidKind::cube, {}, {}};
     double box = 1;
     for (int c = 0; c < 3; ++c) {
-      // Some coordinates zero: common face planes.
+      // Some coordinates are zero: common face planes.
       pair.b.position[c] = random.uniform() < .3 ? 0 : 2 * random.uniform() - 1;
       box *= 1 - std::abs(pair.b.position[c]);
     }

@@ -1,9 +1,10 @@
-// Facts proved here:
-//   overlap is the same seen from B: V, S_B = −S_A and M_B = −M_A + r×S_A; and for the pair turned as a whole;
-//   contacts built face on vertex and edge on edge have V ∝ δ³ (E ∝ δ⁶), edge on face V ∝ δ² (E ∝ δ⁴) and face on
-//   face V ∝ δ (E ∝ δ²), δ the depth;
-//   S_A of a face contact is normal to the face and dV/dδ in length;
-//   the features reported are those of the contact built.
+// Properties tested here:
+// - The overlap is the same seen from B: V, S_B = −S_A and M_B = −M_A + r×S_A. It is also the same if the whole pair is
+//   rotated.
+// - For constructed contacts of depth δ: V ∝ δ³ (E ∝ δ⁶) for a face on a vertex and an edge on an edge, V ∝ δ² (E ∝ δ⁴)
+//   for an edge on a face, and V ∝ δ (E ∝ δ²) for a face on a face.
+// - S_A of a face contact is normal to the face, and its length is dV/dδ.
+// - The reported features are those of the constructed contact.
 
 #include "engine/geometry/overlap/overlap.hpp"
 #include "engine/geometry/overlap/clipped_overlap.hpp"
@@ -24,8 +25,8 @@ using Eigen::Vector3d;
 
 constexpr int cases = 20;
 
-/// Relative rounding of V, and of S and M on the scales |S| and |S|·reach, of a contact of depth ~ V/|S|: a coordinate
-/// is off by some ulp of the reach.
+/// Relative rounding error of V, and of S and M in units of |S| and |S|·reach, for a contact of depth ~ V/|S|. The
+/// error of a coordinate is a few ulp of the reach.
 double rounding(const Pair& pair, const Overlap& contact) {
   return 64 * epsilon * pair.reach() * contact.area.norm() / contact.volume;
 }
@@ -72,7 +73,7 @@ TEST(OverlapTest, IsTheSameForThePairTurned) {
   });
 }
 
-/// B's orientation and where its feature meets A's, in A's frame; B then sinks in by δ along −normal.
+/// B's orientation and the point where its feature meets A's, in A's frame. B then moves into A by δ along −normal.
 struct Contact {
   SolidKind kind;
   Quaterniond orientation;
@@ -90,8 +91,8 @@ Vector3d middle(const ConvexSolid& solid, const Edge& edge) {
   return (solid.vertices()[edge.tail] + solid.vertices()[edge.head]) / 2;
 }
 
-/// B with `feature` (a point of its surface, seen from its centre along `outward`) upon the point `on` of A, facing
-/// along −normal and turned about it.
+/// B with `feature` (a point of its surface, seen from its centre along `outward`) on the point `on` of A, facing along
+/// −normal and rotated about it.
 Contact facing(SolidKind kind, const Vector3d& on, const Vector3d& normal, const Vector3d& feature,
                const Vector3d& outward, double spin) {
   const Quaterniond q = turn_about(normal, spin) * Quaterniond::FromTwoVectors(outward, -normal);
@@ -130,7 +131,7 @@ Contact edge_on_edge(SolidKind kind, double crossing_angle) {
   const Edge& edge = solid.edges()[0];
   const Vector3d m = middle(solid, edge), normal = m.normalized();
   Contact contact = edge_on(kind, m, normal, 0);
-  // Turn until the edges cross at the angle asked for.
+  // Rotate until the edges cross at the given angle.
   const Vector3d p = (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
   const Edge& other = solid.edges()[1];
   const Vector3d q = contact.orientation * (solid.vertices()[other.head] - solid.vertices()[other.tail]).normalized();
@@ -161,7 +162,7 @@ double exponent(const Contact& contact, double depth) {
 class OverlapOfBuiltContacts : public testing::TestWithParam<SolidKind> {
  protected:
   double size() const { return platonic(GetParam()).inradius(); }
-  /// Spins at which no feature of one solid lines up with one of the other.
+  /// Rotation angles for which no feature of one solid is aligned with one of the other.
   static constexpr double spins[] = {.13, .29, 1.07};
 };
 
@@ -182,7 +183,7 @@ TEST_P(OverlapOfBuiltContacts, VertexOnFaceAndEdgeOnEdgeAreCubic) {
 TEST_P(OverlapOfBuiltContacts, EdgeOnFaceIsQuadraticAndFaceOnFaceLinear) {
   for (const double spin : spins) {
     for (const double depth : {1e-3 * size(), 1e-5 * size()}) {
-      // What the ends of the edge and the rim of the face add is smaller by one order of depth/size.
+      // Contributions of the ends of the edge and the rim of the face are smaller by one order of depth/size.
       const double limit = 8 * depth / size();
       EXPECT_NEAR(exponent(edge_on_face(GetParam(), spin), depth), 2, limit) << "spin " << spin << ", δ " << depth;
       EXPECT_NEAR(exponent(face_on_face(GetParam(), spin), depth), 1, limit) << "spin " << spin << ", δ " << depth;
@@ -196,7 +197,7 @@ TEST_P(OverlapOfBuiltContacts, AreaIsNormalToTheFaceAndTheSlopeOfTheVolume) {
     const Contact contact = vertex_on_face(GetParam(), spin);
     const Overlap there = overlap(contact.at(depth));
     const double slope = (contact.volume(depth + h) - contact.volume(depth - h)) / (2 * h);
-    // V = cδ³: the central difference is off by ch² against 3cδ².
+    // V = cδ³: the error of the central difference is ch², compared with 3cδ².
     EXPECT_NEAR(there.area.dot(contact.normal), slope, (h * h / (depth * depth) + 1e-9) * slope) << "spin " << spin;
     EXPECT_LE(there.area.cross(contact.normal).norm(), 1e-12 * there.area.norm()) << "spin " << spin;
   }
@@ -209,7 +210,7 @@ TEST_P(OverlapOfBuiltContacts, FeaturesAreThoseBuilt) {
          {vertex_on_face(GetParam(), spin), edge_on_edge(GetParam(), spin + .5), edge_on_face(GetParam(), spin)}) {
       const Overlap seen = overlap(contact.at(depth));
       const Overlap clipped = clipped_overlap(platonic(GetParam()), platonic(GetParam()), contact.at(depth).relative());
-      // The ends of an edge that lies in a face bring the faces and edges at its ends along.
+      // If the ends of an edge lie in a face, the faces and edges at its ends are included.
       const bool ends = contact.edges_a == 0 && std::popcount(contact.edges_b) == 1;
       for (const Overlap& result : {seen, clipped}) {
         EXPECT_EQ(result.faces_a & contact.faces_a, contact.faces_a) << "spin " << spin;

@@ -1,6 +1,5 @@
-// Fact proved here: for random H_AB, S and r, of both signs and many magnitudes, zeros among them, set_own_hessians()
-// sets H_AA and H_BB to the rounding of the plain formula, H_AB stays as it was, and so does what lies behind the
-// blocks.
+// Property tested here, for random H_AB, S and r of both signs and many magnitudes, including zeros: set_own_hessians()
+// sets H_AA and H_BB to the same bits as set_own_hessian(). It changes neither H_AB nor the memory behind the blocks.
 
 #include "engine/geometry/overlap/own_hessians.hpp"
 
@@ -27,7 +26,7 @@ struct Guarded {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Sums of the sizes of what is added up in each entry of −H_AB·Tr − [S]×, symmetrised.
+/// Sums of the absolute values of the terms in each entry of −H_AB·Tr − [S]×, symmetrised.
 Matrix6d summands(const Matrix6d& ab, const Eigen::Vector3d& area, const Eigen::Vector3d& r) {
   const auto skew = [](const Eigen::Vector3d& v) {
     Eigen::Matrix3d m;

@@ -9,17 +9,17 @@
 
 #include "tests/engine/geometry/overlap/exact_pairs.hpp"
 
-// What is asked of overlap() for every family of solids. A family is a function that visits its pairs of solids.
+// Requirements on overlap() for every family of solids. A family is a function that visits its pairs of solids.
 
 namespace isojam::testing_pairs {
 
-/// "cube (1) and rock (0.1)", sizes in brackets.
+/// Text such as "cube (1) and rock (0.1)", with sizes in brackets.
 inline std::string names(const ConvexSolid& a, const ConvexSolid& b) {
   return a.name() + " (" + std::to_string(a.scale()) + ") and " + b.name() + " (" + std::to_string(b.scale()) + ")";
 }
 
-/// V, S and M of faces in contact, depth 1e-4 … 1e-12 and tilted by as much, right to 1e-13 and half of them to 1e-15;
-/// by the loop, but for one in fifty.
+/// For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13, half
+/// of them at most 1e-15. All but one in fifty pairs use the loop.
 template <class Family>
 void expect_flat_contacts_right(const Family& for_each_pair, RandomStream& random) {
   std::vector<double> errors;
@@ -41,7 +41,7 @@ void expect_flat_contacts_right(const Family& for_each_pair, RandomStream& rando
   EXPECT_LT(clipped, static_cast<int>(errors.size()) / 50);
 }
 
-/// Slopes of S are those of differences in quadruple precision, to 1e-8, in more than `least` pairs.
+/// Derivatives of S agree with differences in quadruple precision to 1e-8, in more than `least` pairs.
 template <class Family>
 void expect_hessians_of_differences(const Family& for_each_pair, RandomStream& random, int least) {
   double worst = 0;

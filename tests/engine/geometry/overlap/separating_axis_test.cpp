@@ -1,9 +1,9 @@
-// Facts proved here, on random pairs of all solids about to touch:
-//   a gap above the tolerance, along any axis, means that both ways to compute the overlap find none;
-//   a negative gap along every axis means that the solids overlap: best_axis decides it, whichever solid is A;
-//   its gap is the largest, and is what the projections of the vertices say;
-//   pairs separated by a face of A, by a face of B and by edges only all occur;
-//   the axis that overlap() hands back separates; no axis has gap −infinity.
+// Properties tested here, for random pairs of all solids that almost touch:
+// - If the gap along any axis exceeds the tolerance, both methods to compute the overlap find none.
+// - If the gap is negative along every axis, the solids overlap. best_axis decides this, whichever solid is A.
+// - The gap of best_axis is the largest one, and equals the gap of the projected vertices.
+// - Pairs separated by a face of A, by a face of B and only by edges all occur.
+// - The axis that overlap() returns separates the solids. Kind::none has gap −infinity.
 
 #include "engine/geometry/overlap/separating_axis.hpp"
 
@@ -26,7 +26,7 @@ using Kind = SeparatingAxis::Kind;
 
 constexpr int cases = 24;  // per pair of solids
 
-/// Distances from overlap to clear separation.
+/// A pair with a random distance, from overlap to clear separation.
 Pair near_pair(RandomStream& random, SolidKind a, SolidKind b) {
   const double nearest = platonic(a).inradius() + platonic(b).inradius();
   const double farthest = platonic(a).circumradius() + platonic(b).circumradius();
@@ -48,7 +48,7 @@ double best_gap(const Pair& pair) {
   return gap(pair.solid_a(), pair.solid_b(), pose, best_axis(pair.solid_a(), pair.solid_b(), pose));
 }
 
-/// The unit vector of an axis, A's frame, from A towards B.
+/// The unit vector of an axis in A's frame, from A towards B.
 Vector3d direction(const Pair& pair, const SeparatingAxis& axis) {
   const RelativePose pose = pair.relative();
   const auto along = [](const ConvexSolid& solid, int edge) -> Vector3d {

@@ -1,11 +1,14 @@
-// Facts proved here, of solids of unlike sizes, 1 : 1.4, 1 : 3 and 1 : 10, narrow and wide ones, the smaller of unit
-// volume and either of them A, overlap() in double-double against clipping in quadruple precision:
-//   V, S and M of faces in contact, depth 1e-4 … 1e-12 and tilted by as much, are right to 1e-13, half of them to
-//   1e-15; of corners over faces and edges over edges, V 1e-3 … 1e-15, to 1e-12; the Hessian is the difference of S in
-//   quadruple precision, to 1e-8 of the block of translations; of a solid inside another V is its volume, to 1e-14, and
-//   S and M are 0, to 1e-14 of its area and of that times the distance;
-// and of pairs made larger or smaller as a whole, s times: that V, S, M and the Hessian are what they were times their
-// powers of s, to the last bit for powers of two, and to 1e-12 for others.
+// Properties tested here for solids of different sizes, with ratios 1 : 1.4, 1 : 3 and 1 : 10, narrow and wide ones.
+// The smaller solid has unit volume, and either of them is A. overlap() in double-double is compared with clipping in
+// quadruple precision:
+// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
+//   half of them at most 1e-15.
+// - For corners over faces and edges over edges with V = 1e-3 … 1e-15, errors are at most 1e-12.
+// - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
+// - If one solid is inside the other, V is its volume to 1e-14. S is 0 to 1e-14 of its area, and M to 1e-14 of that
+//   times the distance.
+// If a whole pair is scaled by a factor s, then V, S, M and the Hessian change by their powers of s. This is exact for
+// powers of two, and accurate to 1e-12 for other factors.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +42,7 @@ const std::vector<Solid>& unit_solids() {
   return solids;
 }
 
-/// Every pair of kinds at every ratio, A the larger one in every other.
+/// Every pair of kinds at every ratio; A is the larger one in half of them.
 template <class Visit>
 void for_each_pair(const Visit& visit) {
   bool a_is_large = false;
@@ -108,7 +111,8 @@ TEST(UnlikeSizes, AreRightWhereOneHoldsTheOther) {
   EXPECT_GT(inside, 200);
 }
 
-/// Largest difference of what `larger` has from what `pair` has, in powers of s, over |V|, |S|, |M| and |H|.
+/// Largest difference between the results for `larger` and those for `pair` times powers of s, over |V|, |S|, |M| and
+/// |H|.
 double difference(const PosedPair& pair, const PosedPair& larger, double s) {
   OverlapHessian h, scaled_h;
   const Overlap one = found(pair, h), other = found(larger, scaled_h);

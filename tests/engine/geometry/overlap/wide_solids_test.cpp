@@ -1,12 +1,12 @@
-// Facts proved here, of solids with 33 to 64 edges, each with itself, with each other, and with an octahedron and a
-// cube on either side, overlap() in double-double against clipping in quadruple precision:
-//   V, S and M of faces in contact, depth 1e-4 … 1e-12 and tilted by as much, are right to 1e-13, half of them to
-//   1e-15, by the loop; of corners over faces, edges over edges and random orientations, V 1e-3 … 1e-15, to 1e-12; the
-//   Hessian is the difference of S in quadruple precision, to 1e-8 of the block of translations; pairs that coincide,
-//   and faces that lie in each other to the last bit, are right to 1e-14 by whichever path; the features reported are
-//   those that clipping finds, and among them are such as have a number beyond 31;
-// and of pairs of narrow solids, Platonic and others, that the loop with room for 64 edges is that with room for 32, to
-// the last bit.
+// Properties tested here for solids with 33 to 64 edges: each with itself, with each other, and with an octahedron and
+// a cube on either side. overlap() in double-double is compared with clipping in quadruple precision:
+// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
+//   half of them at most 1e-15; the loop computes them.
+// - For corners over faces, edges over edges and random orientations with V = 1e-3 … 1e-15, errors are at most 1e-12.
+// - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
+// - For pairs that coincide, and faces that lie exactly in each other, errors are at most 1e-14, on either path.
+// - The reported features are those that clipping finds. Some of them have numbers above 31.
+// For pairs of narrow solids, Platonic and others, the loop for 64 edges gives exactly the same as the loop for 32.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,8 @@ namespace {
 
 using namespace testing_pairs;
 
-/// Its vertices are the planes of the other, and the other way round: many vertices where that has many faces.
+/// The dual solid: its vertices are the planes of the other, and the reverse. A solid with many faces gives one with
+/// many vertices.
 ConvexSolid dual(const std::string& name, const ConvexSolid& solid) {
   std::vector<Quad3> points;
   for (int f = 0; f < solid.arrays().faces; ++f)
@@ -36,7 +37,7 @@ ConvexSolid dual(const std::string& name, const ConvexSolid& solid) {
   return ConvexSolid(name, points);
 }
 
-/// What there is by name, the most faces and the most vertices that 64 edges allow, and as many edges.
+/// The wide built-in solids, and those with the most faces, vertices and edges that the limit of 64 edges allows.
 const std::vector<const ConvexSolid*>& wide_solids() {
   static const ConvexSolid stone("stone of 22", points_on_sphere(22, 81));
   static const ConvexSolid most_faces("stone of 23", points_on_sphere(23, 82));
@@ -121,7 +122,7 @@ TEST(WideSolids, AreRightWhereTheyCoincide) {
   for (const ConvexSolid* solid : wide_solids()) {
     PosedPair same{*solid, *solid, {}, {}};
     EXPECT_NEAR(found(same).volume, 1, 1e-14) << solid->name();
-    // Along an edge, faces slide in themselves.
+    // Faces shifted along an edge remain in the same plane.
     const Edge& edge = solid->edges().front();
     same.at_b.position = .3 * (solid->vertices()[edge.head] - solid->vertices()[edge.tail]);
     const double here = error(same);
@@ -131,7 +132,7 @@ TEST(WideSolids, AreRightWhereTheyCoincide) {
   std::printf("faces in each other: %.1e at worst\n", worst);
 }
 
-/// What of a loop must not depend on the room for edges, but for the numbers of the edges themselves.
+/// Members of a loop that must not depend on the room for edges, except for the numbers of the edges themselves.
 void expect_same(const ContactLoop& narrow, const ContactLoop& wide, const std::string& what) {
   ASSERT_EQ(narrow.verdict, wide.verdict) << what;
   if (narrow.verdict != LoopVerdict::closed) return;

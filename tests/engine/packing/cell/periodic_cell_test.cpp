@@ -1,13 +1,16 @@
-// Facts proved here:
-//   the nearest image lies in [−L/2, L/2) along each axis, is a whole number of sides away, is the shortest of all
-//   images, and does not depend on the image it is taken of;
-//   a cell has a finite positive side;
-//   of cells of any shape: translations, fractional coordinates, heights and volume are those of the lattice vectors,
-//   in double-double too; reduction keeps the lattice, in double-double, its handedness and what is reduced already,
-//   and makes no vector shorter that can be found among a thousand; the shortest translation and the nearest image are
-//   those of an exhaustive search; collapsed and left-handed cells are refused, and reduction of the most skew one
-//   ends; cells are legal above the least translation, whatever their shape; side_at gives the density; least_side is
-//   two diameters; least_particles is the least number whose cell is larger.
+// Properties tested here, for cubes:
+// - The nearest image is in [−L/2, L/2) along each axis, an integer number of sides away, and the shortest of all
+//   images. It does not depend on the image from which it is computed.
+// - The side of a cell must be finite and positive.
+// For cells of any shape:
+// - Translations, fractional coordinates, heights and volume are those of the lattice vectors, also in double-double.
+// - Reduction preserves the lattice in double-double and its handedness, and does not change a reduced cell. None of a
+//   thousand other vectors is shorter. It terminates for the most skew cell.
+// - The shortest translation and the nearest image agree with an exhaustive search.
+// - Collapsed and left-handed cells are rejected. Cells of any shape are legal if the shortest translation exceeds the
+//   limit.
+// - side_at gives the density, least_side is two diameters, and least_particles is the smallest number whose cell is
+//   larger.
 
 #include "engine/packing/cell/periodic_cell.hpp"
 
@@ -76,7 +79,7 @@ DoubleDoubleMatrix random_vectors(RandomStream& random, double skewness) {
   return vectors;
 }
 
-/// The same lattice by vectors that are farther from each other's shortest.
+/// The same lattice with vectors that are farther from the shortest ones.
 DoubleDoubleMatrix more_skew(DoubleDoubleMatrix vectors, RandomStream& random) {
   for (int k = 0; k < 6; ++k) {
     const int to = k % 3, from = (to + 1 + k / 3) % 3;
@@ -124,7 +127,7 @@ TEST(PeriodicCellTest, ReductionKeepsTheLatticeAndFindsItsShortestVectors) {
   RandomStream random{6, 4};
   for (int k = 0; k < 200; ++k) {
     const PeriodicCell skew(more_skew(random_vectors(random, 1.2), random)), reduced = skew.reduced();
-    // Integers of determinant 1 lead from one to the other, in all digits.
+    // An integer matrix of determinant 1 transforms one into the other, in all digits.
     const Eigen::Matrix3d integers = skew.vectors().high.inverse() * reduced.vectors().high;
     const Eigen::Matrix3d rounded = integers.array().round();
     EXPECT_LE((integers - rounded).norm(), 1e-9) << k;
@@ -144,7 +147,7 @@ TEST(PeriodicCellTest, ReductionKeepsTheLatticeAndFindsItsShortestVectors) {
     EXPECT_NEAR(lengths[0], shortest, 1e-12) << k;
     EXPECT_NEAR(skew.shortest_translation(), shortest, 1e-9) << k;
     EXPECT_TRUE(reduced.reduced() == reduced) << k;
-    // Minkowski: no combination with a coefficient ±1 of a vector is shorter than it.
+    // Minkowski reduction: no combination that contains a vector with coefficient ±1 is shorter than this vector.
     for (int image = 0; image < 27; ++image) {
       const Vector3i at(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1);
       for (int c = 0; c < 3; ++c) {
@@ -192,7 +195,7 @@ TEST(PeriodicCellTest, IsLegalAboveTheLeastTranslationInAnyShape) {
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);
     const double least = least_side(solid);
-    // Wide but for one lattice vector, which runs askew.
+    // A wide cell, except for one skew lattice vector.
     for (const double factor : {.999, 1.001}) {
       DoubleDoubleMatrix vectors;
       const double length = factor * least;

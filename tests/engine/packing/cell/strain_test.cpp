@@ -1,11 +1,12 @@
-// Facts proved here:
-//   components and tensor are each other's inverse and keep inner products; the antisymmetric part of a tensor is left
-//   out;
-//   strained(r)·ε is ε r;
-//   the bases of strains are orthonormal, the traceless one is, and they are told from their number;
-//   exp(ε) is right to 1e-31 of it, by exp(ε)² = exp(2ε), exp(ε) exp(−ε) = 1 and det exp(ε) = exp(tr ε) in quadruple
-//   precision, and to 1e-12 of ε for strains far below the spacing of doubles at 1; an isotropic strain leaves a cube a
-//   cube.
+// Properties tested here:
+// - Conversions between components and tensor are inverse to each other and preserve inner products. The antisymmetric
+//   part of a tensor is ignored.
+// - strained(r)·ε is ε r.
+// - The bases of strains are orthonormal, and the traceless one is traceless. The number of strains determines the
+//   basis.
+// - exp(ε) has a relative error of at most 1e-31: exp(ε)² = exp(2ε), exp(ε) exp(−ε) = 1 and det exp(ε) = exp(tr ε) in
+//   quadruple precision. Strains far below the spacing of doubles at 1 are kept to 1e-12 of ε.
+// - An isotropic strain of a cube gives a cube.
 
 #include "engine/packing/cell/strain.hpp"
 
