@@ -17,11 +17,9 @@ class Enthalpy {
 
   const CellControl& control() const { return control_; }  ///< freedom and load of the cell
 
-  /// p (V − V₀) − V₀ τ:(F − 1).
-  double work(const PeriodicCell& cell) const;
-  /// The evaluation with work() in its energy, and with derivatives with respect to the free strains after those of the
-  /// particles. The residual becomes that of the stress if that is larger: the largest entry of σ + p·1 − τ, projected
-  /// on the free strains, divided by p. If no pressure is prescribed, it is divided by the packing's own.
+  /// The evaluation with p (V − V₀) in its energy, and with derivatives with respect to the free strains after those of
+  /// the particles. The residual becomes that of the stress if that is larger: the largest entry of σ + p·1 − τ,
+  /// projected on the free strains, divided by p. If no pressure is prescribed, it is divided by the packing's own.
   Evaluation of(Evaluation evaluation, const Packing& packing) const;
   /// The same for an envelope instead of the energy.
   EnvelopeEvaluation of(EnvelopeEvaluation evaluation, const Packing& packing) const;

@@ -42,7 +42,4 @@ struct RigidityOptions {
 /// force residual. N = 400 takes about a second.
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 
-/// All singular values of the rows, descending: the test oracle. Dense and even slower; for N ≤ 100.
-Eigen::VectorXd singular_values(const RigidityMatrix& matrix);
-
 }  // namespace isojam

@@ -71,8 +71,6 @@ class Follower {
     result_.summary = minimise(result_.packing, energy_, options_.minimise, stop_);
   }
 
-  double enthalpy() { return result_.summary.energy + enthalpy_.work(result_.packing.cell); }
-
   /// Sets the stability. If it is unstable, returns the direction of descent: the lowest mode of the particles, or, if
   /// the particles alone are stable, the softest strain.
   std::optional<Eigen::VectorXd> assess_here() {

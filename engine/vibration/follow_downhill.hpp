@@ -41,12 +41,8 @@ struct DownhillResult {
   DownhillEnd ended = DownhillEnd::not_called;  ///< reason for its end
   Packing packing;                              ///< final state
   MinimiseSummary summary{};                    ///< summary of the last minimisation
-  Stability stability{};   ///< stability of `packing`; not called if the last minimisation found no equilibrium
-  int descents = 0;        ///< number of saddles that were relaxed
-  double energy_drop = 0;  ///< decrease of the enthalpy from the first equilibrium to the last
-
-  /// True if the initial equilibrium is known to be a saddle.
-  bool was_unstable() const { return descents > 0 || stability.negative > 0; }
+  Stability stability{};                        ///< stability of `packing`; not called if no equilibrium was found last
+  int descents = 0;                             ///< number of saddles that were relaxed
 };
 
 /// Relaxes an unstable equilibrium along its lowest mode to a minimum, on the side where the energy decreases more.

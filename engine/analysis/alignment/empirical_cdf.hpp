@@ -18,11 +18,4 @@ struct EmpiricalCdf {
 /// Distribution function of values in any order. Throws std::invalid_argument if one is NaN.
 EmpiricalCdf empirical_cdf(std::span<const double> values);
 
-/// Kolmogorov distance sup |c − F| over the real line; F is a continuous distribution function. 0 without values.
-double kolmogorov_distance(const EmpiricalCdf& empirical, const std::function<double(double)>& distribution);
-
-/// Probability P(sup |c − F| > distance) for n independent values drawn from F: Kolmogorov's 2 Σ_k (−1)^(k−1)
-/// exp(−2k²λ²), with Stephens' λ = (√n + 0.12 + 0.11/√n)·distance; accurate to about 1e-3 for n ≥ 8.
-double kolmogorov_probability(double distance, long n);
-
 }  // namespace isojam

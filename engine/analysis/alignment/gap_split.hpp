@@ -41,8 +41,7 @@ struct GapSplit {
   /// sqrt(0.075/n), n angles below `upper` (first order in the influence of each angle, (4u − 3u² − 1)·3/4 with u
   /// uniform on [0, 1]).
   double critical = 0;
-  double gap_from = 0, gap_to = 0;  ///< neighbouring angles on both sides of the cut-off, or the last angle and `upper`
-  int below = 0;                    ///< number of angles below the cut-off
+  int below = 0;  ///< number of angles below the cut-off
 };
 
 /// Splits angles at a gap: near jamming the angles of face-face contacts are decades below the others. No form of c is

@@ -28,11 +28,6 @@ Vector3d direction_at(double z, double azimuth) {
   return {r * nearest::cos(azimuth), r * nearest::sin(azimuth), z};
 }
 
-Vector3d random_direction(RandomStream& random) {
-  const double z = 2 * random.uniform() - 1, azimuth = 2 * pi * random.uniform();
-  return direction_at(z, azimuth);
-}
-
 /// Fraction of ascending values below x, linear between them and starting from 0 at 0.
 double share_below(const std::vector<double>& values, double x) {
   const auto above = std::lower_bound(values.begin(), values.end(), x);
@@ -64,8 +59,6 @@ class Features {
     for (const Edge& edge : solid.edges())
       edges_.push_back((solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized());
   }
-
-  const Vector3d& edge(std::size_t e) const { return edges_[e]; }
 
   /// The direction at the fraction `part` of the rotation from one face normal at the edge to the other. An edge in a
   /// face can rotate only within this range.

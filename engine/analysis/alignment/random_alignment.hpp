@@ -44,11 +44,9 @@ class RandomAlignment {
   double ef_max() const { return ef_max_; }                          ///< angle where edge_face reaches 1
   double constrained_ff_max() const { return constrained_ff_max_; }  ///< angle where constrained_face_face reaches 1
 
-  /// True if the solid is not regular, so that its distributions come from a sample.
+  /// True if the solid is not regular, so that its distributions come from a sample: n = 65 536 directions, one in each
+  /// of n cells of a sphere. The standard deviation of a distribution function is then n^(-3/4) up to a factor near 1.
   bool is_sampled() const { return !face_face_.empty(); }
-  /// Standard deviation of a distribution function due to sampling: n^(-3/4) for n points, one in each of n cells of a
-  /// sphere, up to a factor near 1. 0 in closed form.
-  double sampling_error() const;
 
  private:
   double cone_beyond(double theta) const;
@@ -60,17 +58,6 @@ class RandomAlignment {
   double caps_apart_ = 0;                                    ///< half the smallest angle between two face normals
   std::vector<double> face_face_, edge_face_, constrained_;  ///< ascending; empty in closed form
 };
-
-/// The angles of one contact.
-struct AlignmentAngles {
-  double face_face = 0, edge_face = 0;  ///< θ_ff and θ_ef
-};
-
-/// Samples n random orientations and computes the angles from the features of the solid: the test oracle of the
-/// unconstrained distributions, for any convex solid.
-std::vector<AlignmentAngles> sample_unconstrained(const ConvexSolid& solid, int n, RandomStream& random);
-/// Samples n rotations about a random edge that lies in the face.
-std::vector<AlignmentAngles> sample_edge_constrained(const ConvexSolid& solid, int n, RandomStream& random);
 
 /// Result of comparing angles with random ones.
 enum class RandomnessVerdict {

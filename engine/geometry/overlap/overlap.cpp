@@ -149,22 +149,4 @@ Overlap relative_overlap(const ConvexSolid& a, const ConvexSolid& b, const Relat
   return relative_overlap(a, b, pose, unused);
 }
 
-Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
-  SeparatingAxis unused;
-  OverlapHessian hessian;
-  overlap_with_hessian(LonePlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())),
-                       LonePlacedSolid(b, pose.rotation), pose.displacement, unused, hessian);
-  return hessian.ab;
-}
-
-void set_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r, Matrix6d& own) {
-  own = -cross;
-  // θ×r = −[r]×θ: a rotation of A about its centre also moves B.
-  own.rightCols<3>().noalias() += cross.leftCols<3>() * skew(r);
-  own.topRightCorner<3, 3>() -= skew(area);
-  for (int c = 0; c < 6; ++c) {
-    for (int row = 0; row <= c; ++row) own(row, c) = own(c, row) = (own(row, c) + own(c, row)) / 2;
-  }
-}
-
 }  // namespace isojam

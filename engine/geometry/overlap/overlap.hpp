@@ -75,7 +75,10 @@ inline Vector6d joined(const Eigen::Vector3d& translation, const Eigen::Vector3d
 ///   H_AB = ab = Σ_C ∫ u_A u_Bᵀ dl / |n_i×n_j|
 ///   u_A = (n_i, (y−x_A)×n_i)
 ///   u_B = (n_j, (y−x_B)×n_j)
-/// The other blocks follow from H_AB by rigid motion of both bodies, see set_own_hessian().
+/// The other blocks follow from H_AB by rigid motion of both bodies:
+///   H_AA = −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised
+///   Tr: (a, θ) → (a + θ×r, θ), r = x_B − x_A
+/// For H_BB exchange the bodies: H_BAᵀ, S_B = −S_A, −r.
 struct OverlapHessian {
   Matrix6d aa, ab, bb;  ///< with respect to (A, A), (A, B) and (B, B)
 };
@@ -86,12 +89,5 @@ Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const E
                              OverlapHessian& hessian);
 Overlap overlap_with_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
                              SeparatingAxis& axis, OverlapHessian& hessian);
-
-/// H_AB only, in A's body frame.
-Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose);
-
-/// Sets `own` to ∂²V/∂(x_A, θ_A)² from H_AB: −H_AB·Tr − [S_A]× in the (x,θ) block, symmetrised, with Tr:
-/// (a, θ) → (a + θ×r, θ) and r = x_B − x_A. For B exchange the bodies: H_BAᵀ, S_B = −S_A, −r.
-void set_own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r, Matrix6d& own);
 
 }  // namespace isojam

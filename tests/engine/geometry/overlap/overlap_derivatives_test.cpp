@@ -120,12 +120,6 @@ TEST(OverlapDerivativesTest, WrongGradientsAreRefused) {
   }
 }
 
-Matrix3d skew(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 /// The 12×12 Hessian of V from the engine, lab frame.
 Matrix12d hessian(const Pair& pair) {
   const RelativePose pose = pair.relative();
