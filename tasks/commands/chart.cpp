@@ -4,6 +4,7 @@
 #include "tasks/chart/results/data.hpp"
 #include "tasks/chart/run_chart.hpp"
 #include "tasks/commands/pages.hpp"
+#include "tasks/commands/shared.hpp"
 #include "tasks/page/page.hpp"
 #include "tasks/system/atomic_file.hpp"
 #include "tasks/system/file.hpp"
@@ -41,6 +42,7 @@ ExitCode chart(const ChartArguments& arguments, Console& console) {
   const std::filesystem::path directory = arguments.directory;
   make_directory(directory);
   const InterruptWatcher watcher;
+  warn_about_kernels(console);
   // Also between its parts, for who does not end in time after a signal is ended without another word.
   const auto result = run_chart(config, watcher.token(), console,
                                 [&](const ChartResult& so_far) { written(config, so_far, directory); });

@@ -90,6 +90,7 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const auto found = arguments.only.empty() ? all : additions(arguments.directory, plan, names);
   for (const auto& [name, why] : found.impossible)
     console.warn(fmt::format("{}; isojam run makes {} again", why, name));
+  warn_about_kernels(console);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   console.info(fmt::format("{}: measures to add to {}", manifest.name,
                            counted(found.measured.size() + found.failed.size(), "record")));

@@ -41,6 +41,7 @@ void compare(const std::optional<RecordSummary>& before, const RecordSummary& no
 
 ExitCode redo(const Arguments& arguments, const Store& store, const ReplicateSpec& spec, Console& console) {
   const InterruptWatcher watcher;
+  warn_about_kernels(console);
   const auto before = store.recorded(spec);
 
   GraphOptions options{arguments.threads, 1, watcher.token(), [&](const ReplicateSpec& which, const Checkpoint& step) {

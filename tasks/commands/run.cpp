@@ -165,6 +165,7 @@ ExitCode run(const RunArguments& arguments, Console& console) {
     return dry_run(manifest, plan, directory, arguments);
   }
 
+  warn_about_kernels(console);
   const Store store(directory, manifest, warn);
   const auto lock = DirectoryLock::take(directory, DirectoryLock::Kind::shared);
   if (!lock)

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 
+#include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/json/place.hpp"
 #include "tasks/manifest/warnings.hpp"
 #include "tasks/store/store.hpp"
@@ -15,6 +16,12 @@ namespace isojam {
 
 void warn_about(const Manifest& manifest, const std::string& file, Console& console) {
   for (const auto& warning : warnings_of(manifest)) console.warn(fmt::format("{}: {}", file, warning));
+}
+
+void warn_about_kernels(Console& console) {
+  if (!uses_avx2())
+    console.warn("this processor or this build has no AVX2 and FMA: the portable kernels run, with the same results, "
+                 "about five times slower");
 }
 
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {

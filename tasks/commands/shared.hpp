@@ -12,6 +12,9 @@ namespace isojam {
 /// Says which settings of a manifest cannot give a good result.
 void warn_about(const Manifest& manifest, const std::string& file, Console& console);
 
+/// Warns that the engine computes without AVX2 and FMA, if it does.
+void warn_about_kernels(Console& console);
+
 /// One line about the last step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);
 

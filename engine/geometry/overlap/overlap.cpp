@@ -121,6 +121,14 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
 
 }  // namespace
 
+bool uses_avx2() {
+#ifdef ISOJAM_AVX2
+  return true;
+#else
+  return false;
+#endif
+}
+
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
   return overlap_at(a, b, r, axis, nullptr);
 }

@@ -10,6 +10,12 @@
 
 namespace isojam {
 
+/// True if this variant of the engine computes with AVX2 and FMA. Without them results have the same bits and take about
+/// five times longer.
+bool uses_avx2();
+// Variants for other processors have the same headers, so the layout of Eigen's types may not depend on the processor.
+static_assert(EIGEN_MAX_ALIGN_BYTES == 0, "compile with EIGEN_DONT_VECTORIZE, as isojam::engine asks for");
+
 /// Algorithm that computed an overlap. `clip` is the slow, more exact path for degenerate pairs, clipped_overlap().
 enum class OverlapPath : std::uint8_t { separated, loop, clip };
 
