@@ -1,6 +1,6 @@
 # Verbs: run test build bench bench-against equilibria paper rigidity reproducibility docs test-asan fuzz test-slurm
-# test-debian12 test-debian13 lint format packages clean. On Debian 12 and 13 each verb first installs the packages that it
-# needs and that are missing.
+# test-debian12 test-debian13 package test-packages lint format packages clean. On Debian 12 and 13 each verb first installs
+# the packages that it needs and that are missing.
 #   make lint LINT='engine/solve/jam.cpp'
 #   make run BUILD=/tmp/isojam/build OUTPUT=/tmp/isojam/results     # from a source folder that cannot be written
 BUILD ?= build
@@ -30,6 +30,7 @@ CLANG            ?= $(shell . /etc/os-release 2>/dev/null; [ "$$VERSION_ID" = 12
 CLANG_PACKAGES   := clang-$(CLANG)
 FUZZ_PACKAGES    := $(PROGRAM_PACKAGES) $(CLANG_PACKAGES) libclang-rt-$(CLANG)-dev llvm-$(CLANG)
 BENCH_PACKAGES   := $(TEST_PACKAGES) libbenchmark-dev libsuitesparse-dev libopenblas-serial-dev
+PACKAGE_PACKAGES := dpkg-dev python3-build python3-setuptools python3-wheel
 SLURM_PACKAGES   := slurm-wlm munge python3
 DOCS_PACKAGES    := mkdocs doxygen python3
 
@@ -190,6 +191,38 @@ test-debian12 test-debian13:
 	tests/debian/root.sh run $(BUILD)-$(SUITE) make test
 	tests/debian/root.sh remove $(BUILD)-$(SUITE)
 
+# Packages of HEAD, in $(BUILD)-package. They are built from its source archive, so that what is not committed is not in
+# them, and from nothing, since an archive of an older commit has older files.
+VERSION  = $(shell sed -n 's/^project.isojam VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+ARCHIVE  = isojam-$(VERSION)
+PACKAGES = $(BUILD)-package
+.PHONY: package
+package:
+	$(call install,$(PROGRAM_PACKAGES) $(PACKAGE_PACKAGES))
+	rm -rf $(PACKAGES) && mkdir -p $(PACKAGES)/wheel
+	git archive --prefix=$(ARCHIVE)/ HEAD | gzip -9n >$(PACKAGES)/$(ARCHIVE).tar.gz
+	cd $(PACKAGES) && sha256sum $(ARCHIVE).tar.gz >$(ARCHIVE).tar.gz.sha256 && tar -xzf $(ARCHIVE).tar.gz
+	cmake -S $(PACKAGES)/$(ARCHIVE) -B $(PACKAGES)/build -G Ninja -DISOJAM_PORTABLE=ON -DISOJAM_TESTS=OFF \
+	  -DISOJAM_PYTHON_DIR=lib/python3/dist-packages $(OPTIONS)
+	cmake --build $(PACKAGES)/build -j $(JOBS)
+	cpack --config $(PACKAGES)/build/CPackConfig.cmake -B $(PACKAGES)
+	cd $(PACKAGES)/$(ARCHIVE) && cp -r LICENSE docs/packaging/wheel/pyproject.toml tasks/python/isojam ../wheel
+	cp $(PACKAGES)/build/tasks/python/installed/facts.json $(PACKAGES)/wheel/isojam
+	$(PYTHON) -m build --wheel --no-isolation --outdir $(PACKAGES) $(PACKAGES)/wheel
+	@ls -sh $(PACKAGES)/isojam[_-]*.*
+
+# The packages in copies of clean roots, as root. ROOTS names roots that exist; the others are made.
+ROOTS ?= $(BUILD)-bookworm $(BUILD)-trixie
+.PHONY: test-packages
+test-packages: $(ROOTS)
+	$(call install,lintian)
+	lintian --fail-on error $(PACKAGES)/*.deb
+	tests/packages/test.sh $(PACKAGES) $(ROOTS)
+
+$(BUILD)-bookworm $(BUILD)-trixie:
+	$(call install,debootstrap)
+	tests/debian/root.sh make $@ $(@:$(BUILD)-%=%)
+
 # As root. Not a part of `test`: it starts daemons.
 test-slurm: build
 	$(call install,$(SLURM_PACKAGES))
@@ -239,7 +272,7 @@ fuzz:
 
 clean:
 	rm -rf --one-file-system $(BUILD) $(BUILD)-asan $(BUILD)-clang $(BUILD)-clang-portable $(BUILD)-portable $(BUILD)-before \
-	  $(BUILD)-fuzz $(BUILD)-lint $(BUILD)-trixie $(BUILD)-bookworm
+	  $(BUILD)-package $(BUILD)-fuzz $(BUILD)-lint $(BUILD)-trixie $(BUILD)-bookworm
 
 # ---- Style ---------------------------------------------------------------------------------------------------
 # tests/house/bad holds files that must fail: the tests see to those.
