@@ -4,15 +4,18 @@
 - CITATION.cff is YAML with the keys that version 1.2.0 of its form asks for, names the version of CMakeLists.txt, the
   licence of LICENSE, and the paper by the address that README.md gives it;
 - CHANGELOG.md has the headings of its form;
+- the files of docs/packaging name the version of CMakeLists.txt and are YAML, TOML and Python;
 - every verb of make that a page shows is one of the Makefile's, and the page on developing has all that a person types;
 - docs/install.md has the packages, minimum versions and names that CMake prints;
 - a citation without a key, or of another version, is refused.
 """
 
+import ast
 import copy
 import pathlib
 import re
 import sys
+import tomllib
 import unittest
 
 import yaml
@@ -90,6 +93,21 @@ class Project(unittest.TestCase):
         self.assertEqual(len(minimum), 8)
         for package, version in minimum.items():
             self.assertEqual(rows[package], [version, *names[package]], package)
+
+    def test_packages(self):
+        version = re.search(r"project\(isojam VERSION (\S+)", text_of("CMakeLists.txt"))[1]
+        folder = "docs/packaging"
+        # The recipe of conda-forge is YAML once the version is set in it.
+        recipe = re.sub(r"\{%.*?%\}", "", text_of(f"{folder}/conda/meta.yaml")).replace("{{ version }}", version)
+        recipe = yaml.safe_load(re.sub(r"\{\{ (\w+)\((.*?)\) \}\}", r"\1", recipe))
+        self.assertEqual(recipe["package"], {"name": "isojam", "version": version})
+        self.assertIn(f'set version = "{version}"', text_of(f"{folder}/conda/meta.yaml"))
+        spack = text_of(f"{folder}/spack/package.py")
+        ast.parse(spack)
+        self.assertIn(f'version("{version}"', spack)
+        wheel = tomllib.loads(text_of(f"{folder}/wheel/pyproject.toml"))
+        self.assertEqual(wheel["project"]["version"], version)
+        self.assertTrue(text_of(f"{folder}/debian/changelog").startswith(f"isojam ({version}-1) "))
 
     def test_verbs(self):
         verbs = verbs_of(text_of("Makefile"))
