@@ -10,28 +10,6 @@
 #include "tasks/run/graph.hpp"
 
 namespace isojam {
-namespace {
-
-/// True if the record has now what was measured.
-bool add_one(const Store& store, const Outcome& outcome, Console& console) {
-  const auto name = replicate_name(outcome.spec);
-  if (outcome.failure) {
-    console.warn(fmt::format("{} failed in {}: {}; its record is as it was", name, outcome.failure->where,
-                             outcome.failure->why));
-    return false;
-  }
-  try {
-    const auto before = read_record(store.directory(), name);
-    store.write_added(outcome, before, has_moved(outcome.jam, before));
-    return true;
-  } catch (const InputError& error) {
-    console.warn(fmt::format("{}; its record is as it was", error.what()));
-    return false;
-  }
-}
-
-}  // namespace
-
 AddingTally add_measures(const Store& store, const Additions& additions, int threads, double memory_bytes,
                          const std::stop_token& stop, Console& console) {
   AddingTally tally;
@@ -51,11 +29,13 @@ AddingTally add_measures(const Store& store, const Additions& additions, int thr
     return at < count ? std::optional(additions.measured[at++]) : std::nullopt;
   };
   const GraphOptions options{threads, replicates_in_flight(threads, largest, memory_bytes), stop, {}};
-  run_graph(next, adding_stages(store.directory()), options, [&](const Outcome& outcome) {
+  Adder adder(store, additions.measured);
+  run_graph(next, adder.stages(), options, [&](const Outcome& outcome) {
     if (outcome.interrupted) return;
-    const bool added = add_one(store, outcome, console);
-    ++(added ? tally.added : tally.left);
-    console.finished(estimated_cost(outcome.spec, false).cpu_seconds, !added);
+    const auto problem = adder.finish(outcome);
+    if (problem) console.warn(fmt::format("{}; its record is as it was", *problem));
+    ++(problem ? tally.left : tally.added);
+    console.finished(estimated_cost(outcome.spec, false).cpu_seconds, problem.has_value());
     console.tick(replicate_name(outcome.spec));
   });
   console.end();

@@ -56,6 +56,14 @@ void refuse_impossible(const std::vector<Additions::Impossible>& impossible, con
                     "a directory all of whose replicates kept their expansions", ""});
 }
 
+/// Leaves out all replicates but one.
+void keep_only(Additions& additions, const std::string& name) {
+  const auto is_other = [&](const ReplicateSpec& spec) { return replicate_name(spec) != name; };
+  std::erase_if(additions.measured, is_other);
+  std::erase_if(additions.failed, is_other);
+  std::erase_if(additions.impossible, [&](const auto& each) { return each.name != name; });
+}
+
 /// The table as it is now.
 void write_table(const Store& store, Console& console) {
   const auto table = table_of(
@@ -76,18 +84,19 @@ DirectoryLock hold(const std::string& directory) {
 /// Measures stored packings: what is asked for, and what an interrupted call has left.
 ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  const auto names = arguments.only.empty() ? recorded_names(arguments.directory)
-                                            : std::vector{recorded_name(arguments.directory, arguments.only)};
+  // Both throw: they report a wrong directory or name before anything is locked.
+  recorded_names(arguments.directory);
+  if (!arguments.only.empty()) recorded_name(arguments.directory, arguments.only);
   const auto lock = hold(arguments.directory);
   const auto before = own_manifest(arguments.directory);
   const auto manifest = with_measures(before, arguments.add);
   const Plan plan(manifest);
   // Refused before anything is written.
-  const auto all = additions(arguments.directory, plan, recorded_names(arguments.directory));
-  if (manifest.measures != before.measures) refuse_impossible(all.impossible, arguments.directory);
+  auto found = additions(arguments.directory, plan, recorded_names(arguments.directory));
+  if (manifest.measures != before.measures) refuse_impossible(found.impossible, arguments.directory);
   extend_manifest(arguments.directory, arguments.add);
   const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
-  const auto found = arguments.only.empty() ? all : additions(arguments.directory, plan, names);
+  if (!arguments.only.empty()) keep_only(found, arguments.only);
   for (const auto& [name, why] : found.impossible)
     console.warn(fmt::format("{}; isojam run makes {} again", why, name));
   warn_about_kernels(console);

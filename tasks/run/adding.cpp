@@ -9,6 +9,7 @@
 #include "engine/vibration/settle.hpp"
 #include "tasks/json/input_error.hpp"
 #include "tasks/json/place.hpp"
+#include "tasks/json/sealed.hpp"
 #include "tasks/measure/recorded_measurement.hpp"
 #include "tasks/packings/packing_json.hpp"
 #include "tasks/replicate/restored.hpp"
@@ -30,7 +31,7 @@ bool has(const std::vector<Measure>& measures, Measure what) {
   return std::find(measures.begin(), measures.end(), what) != measures.end();
 }
 
-/// Whether a replicate failed on the way to its states, and not when they were measured.
+/// True if a replicate failed before its states were measured.
 bool failed_before_measures(const RecordedReplicate& held) {
   return !from_string<Measure>(held.record.at("failure").at("where").get_ref<const std::string&>());
 }
@@ -56,6 +57,16 @@ std::vector<Packing> packings_of(const fs::path& directory, const RecordedReplic
   for (std::size_t k = 0; k < count; ++k) packings.push_back(read_packing(states.at(k)));
   if (packings.empty()) states.refuse("the expansion has no states");
   return packings;
+}
+
+/// True if following the states to minima has changed one of them.
+bool has_moved(const JamResult& jam, const RecordedReplicate& held) {
+  const auto& states = held.record.at("states");
+  for (std::size_t k = 0; k < jam.state_steps.size(); ++k) {
+    const auto& step = jam.path[static_cast<std::size_t>(jam.state_steps[k])];
+    if (states.at(k).at("descents") != step.descents) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -85,38 +96,49 @@ Additions additions(const fs::path& directory, const Plan& plan, const std::vect
   return result;
 }
 
-bool has_moved(const JamResult& jam, const RecordedReplicate& held) {
-  const auto& states = held.record.at("states");
-  for (std::size_t k = 0; k < jam.state_steps.size(); ++k) {
-    const auto& step = jam.path[static_cast<std::size_t>(jam.state_steps[k])];
-    if (states.at(k).at("descents") != step.descents) return true;
-  }
-  return false;
+Adder::Adder(const Store& store, const std::vector<ReplicateSpec>& replicates) : store_(store) {
+  // Replicates run at the same time: each finds its own place, and none makes one.
+  for (const auto& spec : replicates) records_[replicate_name(spec)];
 }
 
-Stages adding_stages(const fs::path& directory) {
+Stages Adder::stages() {
   Stages stages;
-  stages.begin = [directory](const ReplicateSpec& spec) -> Checkpoint {
-    const auto held = read_record(directory, replicate_name(spec));
-    const JsonPlace record(held.record, file_of(directory, "records", held.name));
-    auto jam = restored_jam(record, packings_of(directory, held), spec);
+  stages.begin = [this](const ReplicateSpec& spec) -> Checkpoint {
+    const auto& directory = store_.directory();
+    auto& held = records_.at(replicate_name(spec));
+    held = read_record(directory, replicate_name(spec));
+    auto jam = restored_jam({held->record, store_.record_path(spec).string()}, packings_of(directory, *held), spec);
     auto progress = begin_expansion(jam.states.back(), spec.options);
     progress.result = std::move(jam);
     return {std::move(progress), {}};
   };
-  stages.jam = [directory](const ReplicateSpec& spec, JamProgress from, const std::stop_token& stop,
-                           const OnProgress&) {
+  stages.jam = [this](const ReplicateSpec& spec, JamProgress from, const std::stop_token& stop, const OnProgress&) {
     auto result = std::move(from.result);
-    const auto held = read_record(directory, replicate_name(spec));
-    if (needs_minima(spec.measures) && !needs_minima(held.summary.measures)) settle(result, spec.options, stop);
+    const auto& had = records_.at(replicate_name(spec))->summary.measures;
+    if (needs_minima(spec.measures) && !needs_minima(had)) settle(result, spec.options, stop);
     return result;
   };
-  stages.measure = [directory](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
-    const auto held = read_record(directory, replicate_name(spec));
+  stages.measure = [this](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
+    const auto& held = *records_.at(replicate_name(spec));
     if (has(held.summary.measures, what) && !has_moved(jam, held)) return recorded_measurement(what, held.record);
     return measure(what, jam, spec.measuring);
   };
   return stages;
+}
+
+std::optional<std::string> Adder::finish(const Outcome& outcome) {
+  const auto name = replicate_name(outcome.spec);
+  const auto held = std::exchange(records_.at(name), std::nullopt);
+  if (outcome.failure) return fmt::format("{} failed in {}: {}", name, outcome.failure->where, outcome.failure->why);
+  try {
+    const auto file = store_.record_path(outcome.spec).string();
+    if (read_sealed(file) != held->record)
+      throw InputError({file, "", "has changed since it was read; repeat the command", "", ""});
+    store_.write_added(outcome, *held, has_moved(outcome.jam, *held));
+    return std::nullopt;
+  } catch (const InputError& error) {
+    return error.what();
+  }
 }
 
 }  // namespace isojam

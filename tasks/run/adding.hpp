@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,11 +11,11 @@
 
 namespace isojam {
 
-/// What there is to add to the records of a directory for them to have all measures of a manifest.
+/// The measures that the records of a directory lack, compared with a manifest.
 struct Additions {
-  std::vector<ReplicateSpec> measured;  ///< from their paths
-  std::vector<ReplicateSpec> failed;    ///< before anything was measured: their records say what else they have not
-  /// Those of which nothing is kept that could be measured, and why: only a run makes them again.
+  std::vector<ReplicateSpec> measured;  ///< replicates whose stored paths can be measured
+  std::vector<ReplicateSpec> failed;    ///< replicates that failed before their states were measured
+  /// A replicate whose states are not stored, and the reason. Only a run makes it again.
   struct Impossible {
     std::string name, why;
   };
@@ -24,12 +26,24 @@ struct Additions {
 /// plan, FileError for what cannot be read now.
 Additions additions(const std::filesystem::path& directory, const Plan& plan, const std::vector<std::string>& names);
 
-/// The stages by which a replicate gets what its record lacks: its run is read back from record and path, states are
-/// followed to minima if that is needed for the first time, and what was measured before is taken from the record
-/// unless that moved a state.
-Stages adding_stages(const std::filesystem::path& directory);
+/// Adds measures to the records of a store. A record is read and checked when its replicate begins. Before it is replaced
+/// it is read once more, since another process may have changed it.
+class Adder {
+ public:
+  /// `replicates`: those that the stages will be given, each once.
+  Adder(const Store& store, const std::vector<ReplicateSpec>& replicates);
 
-/// Whether states of a result are others than those of the record it was read from.
-bool has_moved(const JamResult& jam, const RecordedReplicate& held);
+  /// The run is restored from record and path. States are followed to minima if a measure needs that for the first time.
+  /// Earlier measures are taken from the record unless a state has moved. The stages use this object.
+  Stages stages();
+
+  /// Replaces the record by one with all measures; returns the reason if it cannot. The record then stays as it is.
+  /// Throws FileError if the record cannot be read or written now.
+  std::optional<std::string> finish(const Outcome& outcome);
+
+ private:
+  const Store& store_;
+  std::map<std::string, std::optional<RecordedReplicate>> records_;  // those in flight have a value
+};
 
 }  // namespace isojam

@@ -1,7 +1,7 @@
-// Why a graph and not a parallel_for over replicates: the stages differ in memory and cost, measurements that do not
-// depend on each other run side by side, and writing to disk is serial. The limiter holds back what is in flight,
-// since each replicate keeps all packings of its expansion until it is stored. When fewer replicates are left than
-// threads, the pair loop inside a stage takes the idle ones.
+// Why a graph and not a parallel_for over replicates: stages differ in memory and cost, and writing to disk is serial.
+// The limiter bounds the number of replicates in flight, since each keeps all packings of its expansion until it is
+// stored. The measures of a replicate are tasks of one node, and no thread waits for another to finish one. When fewer
+// replicates are left than threads, the pair loop inside a stage takes the idle ones.
 
 #include "tasks/run/graph.hpp"
 
@@ -10,16 +10,15 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
-#include <array>
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <tuple>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "tasks/system/shortage.hpp"
@@ -30,21 +29,40 @@ namespace {
 
 namespace flow = tbb::flow;
 
-/// What a stage passes on: its value, or the failure of this stage or an earlier one.
+/// Result of a stage: a value or a failure. It has neither if the run was stopped.
 template <class T>
-struct Passed {
-  std::size_t index = 0;  ///< the order in which replicates were begun, by which results of one meet
-  ReplicateSpec spec;
+struct StageResult {
   std::optional<T> value;
   std::optional<Failure> failure;
   Timing timing;
 };
 
-struct Begun {};
-using Input = Passed<Begun>;
-using Placed = Passed<Checkpoint>;
-using Jammed = Passed<JamResult>;
-using Measured = Passed<Measurement>;  ///< neither value nor failure: not asked for, or stopped
+struct Begun {
+  ReplicateSpec spec;
+  StageResult<Checkpoint> start;
+};
+
+struct Jammed {
+  ReplicateSpec spec;
+  StageResult<JamResult> jam;  ///< its timing includes `begin` and earlier runs
+};
+
+/// A replicate whose measures are under way. They share the jammed result, and each writes into its own slot.
+struct Measuring {
+  std::shared_ptr<const Jammed> jammed;
+  std::vector<StageResult<Measurement>> results;  ///< a slot for each of spec.measures; none without a result of jam
+  std::atomic<std::size_t> tasks_left = 0;
+};
+
+struct MeasureTask {
+  std::shared_ptr<Measuring> replicate;
+  std::size_t slot = 0;
+};
+
+template <class T>
+bool is_missing(const StageResult<T>& result) {
+  return !result.value && !result.failure;
+}
 
 /// Wall clock and this thread's since it was made.
 class Stopwatch {
@@ -72,62 +90,63 @@ class Run {
           stop_.request_stop();
         }) {}
 
-  Input next(tbb::flow_control& control) {
+  ReplicateSpec next(tbb::flow_control& control) {
     std::optional<ReplicateSpec> spec;
     if (!stop_.stop_requested()) {
       sheltered([&] { spec = next_(); });
     }
-    if (spec) return {begun_++, *spec, Begun{}, {}, {}};
+    if (spec) return *std::move(spec);
     control.stop();
     return {};
   }
 
-  Placed begin(const Input& input) {
-    return guarded<Checkpoint>(input, "begin", [&] { return stages_.begin(input.spec); });
+  std::shared_ptr<const Begun> begin(const ReplicateSpec& spec) {
+    return std::make_shared<Begun>(Begun{spec, guarded<Checkpoint>("begin", [&] { return stages_.begin(spec); })});
   }
 
-  Jammed jam(const Placed& placed) {
-    if (!placed.value) return {placed.index, placed.spec, std::nullopt, placed.failure, placed.timing};
-    const auto before = placed.timing + placed.value->spent;
+  std::shared_ptr<const Jammed> jam(const Begun& begun) {
+    const auto& start = begun.start;
+    if (!start.value) return std::make_shared<Jammed>(Jammed{begun.spec, {{}, start.failure, start.timing}});
+    const auto before = start.timing + start.value->spent;
     const Stopwatch watch;
     const OnProgress on_progress = [&](const JamProgress& progress) {
       if (!options_.on_step) return;
-      sheltered([&] { options_.on_step(placed.spec, {progress, before + watch.elapsed()}); });
+      sheltered([&] { options_.on_step(begun.spec, {progress, before + watch.elapsed()}); });
     };
-    auto jammed = guarded<JamResult>(placed, "jam", [&] {
-      return stages_.jam(placed.spec, placed.value->progress, stop_.get_token(), on_progress);
-    });
-    if (jammed.value && jammed.value->status != JamStatus::interrupted) jammed.failure = failure_of(*jammed.value);
-    jammed.timing = jammed.timing + before;
-    return jammed;
+    auto jam = guarded<JamResult>(
+        "jam", [&] { return stages_.jam(begun.spec, start.value->progress, stop_.get_token(), on_progress); });
+    if (jam.value && jam.value->status != JamStatus::interrupted) jam.failure = failure_of(*jam.value);
+    jam.timing = jam.timing + before;
+    return std::make_shared<Jammed>(Jammed{begun.spec, std::move(jam)});
   }
 
-  Measured measure(Measure what, const Jammed& jammed) {
-    if (!asked(what, jammed) || stop_.stop_requested()) return {jammed.index, {}, {}, {}, {}};
-    return guarded<Measurement>(jammed, to_string(what),
-                                [&] { return stages_.measure(jammed.spec, what, *jammed.value); });
+  void measure(const MeasureTask& task) {
+    const Jammed& jammed = *task.replicate->jammed;
+    auto& results = task.replicate->results;
+    if (task.slot == results.size() || stop_.stop_requested()) return;
+    const auto what = jammed.spec.measures[task.slot];
+    results[task.slot] =
+        guarded<Measurement>(to_string(what), [&] { return stages_.measure(jammed.spec, what, *jammed.jam.value); });
   }
 
-  /// `measured[k]` is that of all_measures[k].
-  void store(const Jammed& jammed, const std::array<const Measured*, all_measures.size()>& measured) {
+  void store(const Measuring& measuring) {
+    const auto& [spec, jam] = *measuring.jammed;
     Outcome outcome;
-    outcome.spec = jammed.spec;
-    outcome.failure = jammed.failure;
-    outcome.timing = jammed.timing;
-    outcome.stage_seconds["jam"] = jammed.timing.cpu_seconds;
-    if (jammed.value) outcome.jam = *jammed.value;
-    // Without result or failure it was the machine that could not go on.
-    outcome.interrupted = outcome.jam.status == JamStatus::interrupted || (!jammed.value && !jammed.failure);
-    for (std::size_t k = 0; k < measured.size(); ++k) {
-      const Measured& one = *measured[k];
-      outcome.timing = outcome.timing + one.timing;
-      if (one.value) {
-        outcome.measured[all_measures[k]] = *one.value;
-        outcome.stage_seconds[std::string(to_string(all_measures[k]))] = one.timing.cpu_seconds;
+    outcome.spec = spec;
+    outcome.failure = jam.failure;
+    outcome.timing = jam.timing;
+    outcome.stage_seconds["jam"] = jam.timing.cpu_seconds;
+    if (jam.value) outcome.jam = *jam.value;
+    outcome.interrupted = outcome.jam.status == JamStatus::interrupted || is_missing(jam);
+    for (std::size_t k = 0; k < measuring.results.size(); ++k) {
+      const auto& result = measuring.results[k];
+      outcome.timing = outcome.timing + result.timing;
+      if (result.value) {
+        outcome.measured[spec.measures[k]] = *result.value;
+        outcome.stage_seconds[std::string(to_string(spec.measures[k]))] = result.timing.cpu_seconds;
       }
-      if (one.failure && !outcome.failure) outcome.failure = one.failure;
-      // Left out because of a stop request.
-      outcome.interrupted |= asked(all_measures[k], jammed) && !one.value && !one.failure;
+      if (!outcome.failure) outcome.failure = result.failure;
+      outcome.interrupted |= is_missing(result);
     }
     sheltered([&] { on_outcome_(outcome); });
   }
@@ -138,33 +157,28 @@ class Run {
   }
 
  private:
-  bool asked(Measure what, const Jammed& jammed) const {
-    const auto& measures = jammed.spec.measures;
-    return jammed.value && std::find(measures.begin(), measures.end(), what) != measures.end();
-  }
-
-  /// Runs a stage of a replicate: measures its time and turns what it throws into a failure. What the machine lacks is
-  /// none of the replicate's: it ends the run, and leaves neither value nor failure.
-  template <class T, class From, class Stage>
-  Passed<T> guarded(const From& from, std::string_view where, const Stage& stage) {
-    Passed<T> passed{from.index, from.spec, {}, {}, {}};
+  /// Runs a stage of a replicate, measures its time and turns an exception into a failure. A resource failure is no
+  /// failure of the replicate: it ends the run and leaves the result without value and failure.
+  template <class T, class Stage>
+  StageResult<T> guarded(std::string_view where, const Stage& stage) {
+    StageResult<T> result;
     const Stopwatch watch;
     try {
-      passed.value = stage();
+      result.value = stage();
     } catch (const std::exception& error) {
       if (is_shortage(error)) {
         keep(std::current_exception());
       } else {
-        passed.failure = Failure{std::string(where), error.what()};
+        result.failure = Failure{std::string(where), error.what()};
       }
     } catch (...) {
-      passed.failure = Failure{std::string(where), "an exception of unknown type"};
+      result.failure = Failure{std::string(where), "an exception of unknown type"};
     }
-    passed.timing = watch.elapsed();
-    return passed;
+    result.timing = watch.elapsed();
+    return result;
   }
 
-  /// What the caller's functions throw must not cross the graph.
+  /// Exceptions of the caller's functions must not cross the graph.
   void sheltered(const std::function<void()>& call) {
     try {
       call();
@@ -186,44 +200,8 @@ class Run {
   const std::function<void(const Outcome&)>& on_outcome_;
   std::stop_source stop_;
   std::stop_callback<std::function<void()>> forward_stop_;
-  std::size_t begun_ = 0;  // touched by the input node alone
   std::mutex error_mutex_;
   std::exception_ptr error_;
-};
-
-/// The result of one stage of a replicate, on its way to where all of them meet.
-struct Part {
-  std::size_t index = 0;
-  std::size_t place = 0;  ///< 0: of jam; k + 1: of all_measures[k]
-  std::variant<Jammed, Measured> result;
-};
-
-/// What has come in of the replicates under way. (A join_node of oneTBB has ten ports, fewer than there are measures.)
-class Meeting {
- public:
-  /// Stores the replicate of which this is the last part; whether it is.
-  bool add(const Part& part, Run& run) {
-    Replicate& replicate = under_way_[part.index];
-    if (part.place == 0) {
-      replicate.jammed = std::get<Jammed>(part.result);
-    } else {
-      replicate.measured[part.place - 1] = std::get<Measured>(part.result);
-    }
-    if (++replicate.parts <= all_measures.size()) return false;
-    std::array<const Measured*, all_measures.size()> measured{};
-    for (std::size_t k = 0; k < measured.size(); ++k) measured[k] = &replicate.measured[k];
-    run.store(replicate.jammed, measured);
-    under_way_.erase(part.index);
-    return true;
-  }
-
- private:
-  struct Replicate {
-    Jammed jammed;
-    std::array<Measured, all_measures.size()> measured;
-    std::size_t parts = 0;
-  };
-  std::map<std::size_t, Replicate> under_way_;
 };
 
 /// Ends what an exception has left: the nodes go before the graph does, and none of its tasks may still find them.
@@ -242,36 +220,44 @@ void drain(flow::graph& graph) {
   }
 }
 
+/// A task for each measure of the replicate; one without a measure if there is none.
+std::vector<MeasureTask> measure_tasks(std::shared_ptr<const Jammed> jammed) {
+  const auto replicate = std::make_shared<Measuring>();
+  replicate->results.resize(jammed->jam.value ? jammed->spec.measures.size() : 0);
+  replicate->tasks_left = std::max<std::size_t>(replicate->results.size(), 1);
+  replicate->jammed = std::move(jammed);
+  std::vector<MeasureTask> tasks;
+  for (std::size_t slot = 0; slot < replicate->tasks_left; ++slot) tasks.push_back({replicate, slot});
+  return tasks;
+}
+
 void build_and_wait(Run& run, int in_flight) {
-  using PartNode = flow::function_node<Jammed, Part>;
-  using MeetingNode = flow::multifunction_node<Part, std::tuple<flow::continue_msg>>;
+  using JamNode = flow::multifunction_node<std::shared_ptr<const Begun>, std::tuple<MeasureTask>>;
+  using MeasureNode = flow::multifunction_node<MeasureTask, std::tuple<std::shared_ptr<const Measuring>>>;
   flow::graph graph;
-  flow::input_node<Input> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
-  flow::limiter_node<Input> limiter(graph, static_cast<std::size_t>(in_flight));
-  flow::function_node<Input, Placed> begin(graph, flow::unlimited, [&](const Input& i) { return run.begin(i); });
-  flow::function_node<Placed, Jammed> jam(graph, flow::unlimited, [&](const Placed& p) { return run.jam(p); });
-  Meeting meeting;
-  MeetingNode store(graph, flow::serial, [&](const Part& part, MeetingNode::output_ports_type& ports) {
-    if (meeting.add(part, run)) std::get<0>(ports).try_put(flow::continue_msg());
+  flow::input_node<ReplicateSpec> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
+  flow::limiter_node<ReplicateSpec> limiter(graph, static_cast<std::size_t>(in_flight));
+  flow::function_node<ReplicateSpec, std::shared_ptr<const Begun>> begin(
+      graph, flow::unlimited, [&](const ReplicateSpec& spec) { return run.begin(spec); });
+  JamNode jam(graph, flow::unlimited, [&](const auto& begun, JamNode::output_ports_type& ports) {
+    for (const auto& task : measure_tasks(run.jam(*begun))) std::get<0>(ports).try_put(task);
   });
-  std::vector<std::unique_ptr<PartNode>> parts;
-  parts.push_back(std::make_unique<PartNode>(graph, flow::unlimited, [](const Jammed& j) {
-    return Part{j.index, 0, j};
-  }));
-  for (std::size_t k = 0; k < all_measures.size(); ++k) {
-    parts.push_back(std::make_unique<PartNode>(graph, flow::unlimited, [&run, k](const Jammed& j) {
-      return Part{j.index, k + 1, run.measure(all_measures[k], j)};
-    }));
-  }
+  MeasureNode measure(graph, flow::unlimited, [&](const MeasureTask& task, MeasureNode::output_ports_type& ports) {
+    run.measure(task);
+    // The last task of a replicate passes all its results on.
+    if (--task.replicate->tasks_left == 0) std::get<0>(ports).try_put(task.replicate);
+  });
+  flow::function_node<std::shared_ptr<const Measuring>> store(graph, flow::serial, [&](const auto& measuring) {
+    run.store(*measuring);
+    return flow::continue_msg();
+  });
 
   flow::make_edge(input, limiter);
   flow::make_edge(limiter, begin);
   flow::make_edge(begin, jam);
-  for (const auto& part : parts) {
-    flow::make_edge(jam, *part);
-    flow::make_edge(*part, store);
-  }
-  flow::make_edge(flow::output_port<0>(store), limiter.decrementer());
+  flow::make_edge(flow::output_port<0>(jam), measure);
+  flow::make_edge(flow::output_port<0>(measure), store);
+  flow::make_edge(store, limiter.decrementer());
   try {
     input.activate();
     graph.wait_for_all();

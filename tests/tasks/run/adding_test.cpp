@@ -9,9 +9,13 @@
 //   what it cannot add to, for a path that is gone or was written by a process killed before the record, a run makes
 //   again, and it keeps what is measured beyond its manifest;
 // - it takes the directory for itself: beside another one, or a run, it refuses, and a run beside it;
+// - a record is opened once before anything is written, twice to add to it, and once for the table, whatever is added;
+//   one that another process changes in between stays as that process wrote it;
 // - one replicate alone can be measured; one that failed on its way says what else it has not;
 // - refused before anything is written: a measure that is none, a replicate that is not there, expansions that were not
 //   kept, with the key that keeps them, and a damaged or foreign record.
+
+#include "tasks/run/adding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,9 +26,11 @@
 
 #include "tasks/json/parse.hpp"
 #include "tasks/json/sealed.hpp"
+#include "tasks/run/graph.hpp"
 #include "tasks/store/store.hpp"
 #include "tasks/system/directory_lock.hpp"
 #include "tasks/system/file.hpp"
+#include "tests/tasks/run/failing.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -243,6 +249,46 @@ TEST_F(Adding, ARunMakesAgainWhatLacksSomething) {
   EXPECT_EQ(files_below(here_ / "few" / "records"), before);
   EXPECT_EQ(measure({"--add", rest}).exit_code, 0);
   EXPECT_EQ(files_below(here_ / "few" / "records"), before);
+}
+
+TEST_F(Adding, OpensARecordFourTimes) {
+  if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
+  const auto name = names().front();
+  const test::Failing count("open count 0 records/" + name + ".json");
+  for (const std::vector<std::string> arguments :
+       {std::vector<std::string>{"--add", "order"}, {"--add", "clusters,rigidity"}, {"--add", "gaps", "--only", name}}) {
+    const auto done = measure(arguments);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(test::calls_counted(done.err, "open"), 4) << arguments[1] << ": " << done.err;
+  }
+}
+
+TEST_F(Adding, LeavesARecordThatAnotherProcessChanged) {
+  const auto manifest = with_measures(own_manifest(here_ / "few"), {Measure::order});
+  extend_manifest(here_ / "few", {Measure::order});
+  const Store store(here_ / "few", manifest, test::unheard);
+  const auto found = additions(here_ / "few", Plan(manifest), names());
+  ASSERT_EQ(found.measured.size(), names().size());
+  Adder adder(store, found.measured);
+  const auto changed = names().front();
+  const NextReplicate next = [&, at = std::size_t{0}]() mutable {
+    return at < found.measured.size() ? std::optional(found.measured[at++]) : std::nullopt;
+  };
+  run_graph(next, adder.stages(), {1, 0, {}, {}}, [&](const Outcome& outcome) {
+    const auto file = store.record_path(outcome.spec);
+    const bool is_changed = replicate_name(outcome.spec) == changed;
+    auto other = read_sealed(file.string());
+    other.at("timing").at("cpu_seconds") = 3600.0;
+    other.erase("checksum");
+    const auto text = sealed(other);
+    if (is_changed) test::write_text(file, text);
+    const auto problem = adder.finish(outcome);
+    EXPECT_EQ(problem.value_or("").find("has changed since it was read") != std::string::npos, is_changed);
+    EXPECT_EQ(read_file(file) == text, is_changed);
+  });
+  const auto lacking = additions(here_ / "few", Plan(manifest), names()).measured;
+  ASSERT_EQ(lacking.size(), 1U);
+  EXPECT_EQ(replicate_name(lacking.front()), changed);
 }
 
 TEST_F(Adding, HasTheDirectoryForItself) {

@@ -4,6 +4,7 @@
 // - outcomes are handed over one at a time, and no more replicates are in flight than threads;
 // - outcomes do not depend on the number of threads;
 // - after a stop request nothing new starts, and what was under way is handed over as interrupted;
+// - a resource failure in a stage stops the run and comes out of it, and is no failure of the replicate;
 // - an exception of the caller's functions stops the run and comes out of it;
 // - fewer replicates are in flight where memory asks for it, and a plan is asked for no faster than it is run;
 // - time spent before a checkpoint is counted.
@@ -15,43 +16,22 @@
 #include <atomic>
 #include <chrono>
 #include <map>
-#include <mutex>
+#include <new>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 #include "tasks/replicate/record.hpp"
-#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/run/quiet_stages.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::vector<ReplicateSpec> plan_of(int replicates) {
-  auto manifest = test::good_manifest();
-  manifest["replicates"] = replicates;
-  return test::make_plan(parse_manifest(manifest.dump(), "m"));
-}
-
-/// Gives the specifications one after the other.
-NextReplicate one_by_one(std::vector<ReplicateSpec> specs) {
-  return [specs = std::move(specs), at = std::size_t{0}]() mutable {
-    return at < specs.size() ? std::optional(specs[at++]) : std::nullopt;
-  };
-}
-
-Stages quiet_stages() {
-  return {[](const ReplicateSpec& spec) {
-            return Checkpoint{begin_jam(test::made_up_outcome(spec).jam.states.front(), spec.options), {}};
-          },
-          [](const ReplicateSpec& spec, const JamProgress&, std::stop_token, const OnProgress&) {
-            return test::made_up_outcome(spec).jam;
-          },
-          [](const ReplicateSpec& spec, Measure what, const JamResult&) {
-            return test::made_up_outcome(spec).measured.at(what);
-          }};
-}
+using test::one_by_one;
+using test::plan_of;
+using test::quiet_stages;
 
 /// What the made-up stages do to a replicate.
 enum class Fate { good, begin_throws, jam_throws, jam_ends_early, contacts_throw, contacts_throw_int };
@@ -109,44 +89,6 @@ TEST(Graph, EveryReplicateYieldsOneOutcome) {
     EXPECT_EQ(seen.size(), plan.size());
     for (const auto& [name, times] : seen) EXPECT_EQ(times, 1) << name;
     EXPECT_EQ(fates.size(), 6U) << "the plan must meet every fate";
-  }
-}
-
-TEST(Graph, NoMeasurementWhereNoneIsAsked) {
-  auto plan = plan_of(3);
-  for (auto& spec : plan) spec.measures.clear();
-  auto stages = quiet_stages();
-  stages.measure = [](const ReplicateSpec&, Measure, const JamResult&) -> Measurement {
-    throw std::logic_error("not asked for");
-  };
-  int outcomes = 0;
-  run_graph(one_by_one(plan), stages, {2, 0, {}, {}}, [&](const Outcome& outcome) {
-    ++outcomes;
-    EXPECT_FALSE(outcome.failure);
-    EXPECT_FALSE(outcome.interrupted);
-    EXPECT_TRUE(outcome.measured.empty());
-  });
-  EXPECT_EQ(outcomes, 3);
-}
-
-TEST(Graph, NoMeasurementBesideThoseNamed) {
-  for (const Measure named : all_measures) {
-    auto plan = plan_of(3);
-    for (auto& spec : plan) spec.measures = {named};
-    auto stages = quiet_stages();
-    std::mutex mutex;
-    std::vector<Measure> made;
-    stages.measure = [&](const ReplicateSpec&, Measure what, const JamResult&) {
-      const std::lock_guard lock(mutex);
-      made.push_back(what);
-      return Measurement{};
-    };
-    run_graph(one_by_one(plan), stages, {2, 0, {}, {}}, [&](const Outcome& outcome) {
-      EXPECT_EQ(outcome.measured.size(), 1U);
-      EXPECT_EQ(outcome.stage_seconds.size(), 2U) << "jam, and " << to_string(named);
-      EXPECT_TRUE(outcome.stage_seconds.contains(std::string(to_string(named))));
-    });
-    EXPECT_EQ(made, std::vector(3, named));
   }
 }
 
@@ -221,6 +163,33 @@ TEST(Graph, NothingStartsAfterAStop) {
   run_graph(one_by_one(plan_of(10)), quiet_stages(), {2, 0, source.get_token(), {}},
             [&](const Outcome&) { ++outcomes; });
   EXPECT_EQ(outcomes, 0);
+}
+
+TEST(Graph, AResourceFailureIsNoneOfTheReplicate) {
+  for (const auto* where : {"begin", "jam", "measure"}) {
+    auto stages = quiet_stages();
+    const auto lacking = [&](const char* stage) {
+      if (std::string_view(stage) == where) throw std::bad_alloc();
+    };
+    stages.begin = [&, begin = stages.begin](const ReplicateSpec& spec) { return lacking("begin"), begin(spec); };
+    stages.jam = [&, jam = stages.jam](const ReplicateSpec& spec, JamProgress from, std::stop_token stop,
+                                       const OnProgress& on_progress) {
+      return lacking("jam"), jam(spec, std::move(from), std::move(stop), on_progress);
+    };
+    stages.measure = [&, measure = stages.measure](const ReplicateSpec& spec, Measure what, const JamResult& jam) {
+      return lacking("measure"), measure(spec, what, jam);
+    };
+    int outcomes = 0;
+    EXPECT_THROW(run_graph(one_by_one(plan_of(1000)), stages, {2, 0, {}, {}},
+                           [&](const Outcome& outcome) {
+                             ++outcomes;
+                             EXPECT_TRUE(outcome.interrupted) << where;
+                             EXPECT_FALSE(outcome.failure) << where;
+                           }),
+                 std::bad_alloc);
+    EXPECT_GE(outcomes, 1) << where;
+    EXPECT_LT(outcomes, 100) << where;
+  }
 }
 
 TEST(Graph, FewerInFlightThanThreadsWhereMemoryAsks) {

@@ -9,38 +9,18 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 
 #include "tasks/json/sealed.hpp"
 #include "tasks/store/recorded.hpp"
+#include "tests/tasks/run/failing.hpp"
 #include "tests/tasks/support/support.hpp"
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool with_sanitizer = true;
-#else
-constexpr bool with_sanitizer = false;
-#endif
 
 namespace isojam {
 namespace {
 
 namespace fs = std::filesystem;
+using test::Failing;
 using test::isojam;
-
-/// While it lives, processes that are started lose this call: see failing_calls.cpp.
-class Failing {
- public:
-  explicit Failing(const std::string& order) {
-    setenv("ISOJAM_FAIL", order.c_str(), 1);
-    setenv("LD_PRELOAD", ISOJAM_FAILING_CALLS, 1);
-  }
-  ~Failing() {
-    unsetenv("LD_PRELOAD");
-    unsetenv("ISOJAM_FAIL");
-  }
-  Failing(const Failing&) = delete;
-  Failing& operator=(const Failing&) = delete;
-};
 
 class Shortage : public testing::Test {
  protected:
@@ -54,7 +34,7 @@ class Shortage : public testing::Test {
   static void TearDownTestSuite() { shared_.reset(); }
 
   void SetUp() override {
-    if (with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
+    if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
     ASSERT_EQ(finished_.exit_code, 0) << finished_.err;
     fs::copy_file(*shared_ / "m.json", here_ / "m.json");
   }
@@ -67,9 +47,7 @@ class Shortage : public testing::Test {
   }
   long count_of(const std::string& call) const {
     const Failing count(call + " count");
-    const auto said = run().err;
-    const std::string before = call + " calls: ";
-    return std::atol(said.substr(said.find(before) + before.size()).c_str());
+    return test::calls_counted(run().err, call);
   }
   /// About so many of the calls, the first and the last among them.
   template <class Work>

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdlib>
+#include <string>
+
+namespace isojam::test {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool with_sanitizer = true;  ///< which has the calls of the preloaded library for itself
+#else
+inline constexpr bool with_sanitizer = false;
+#endif
+
+/// While it lives, processes that are started lose this call: see failing_calls.cpp.
+class Failing {
+ public:
+  explicit Failing(const std::string& order) {
+    setenv("ISOJAM_FAIL", order.c_str(), 1);
+    setenv("LD_PRELOAD", ISOJAM_FAILING_CALLS, 1);
+  }
+  ~Failing() {
+    unsetenv("LD_PRELOAD");
+    unsetenv("ISOJAM_FAIL");
+  }
+  Failing(const Failing&) = delete;
+  Failing& operator=(const Failing&) = delete;
+};
+
+/// The number of calls that a process counted, from what it wrote to stderr.
+inline long calls_counted(const std::string& err, const std::string& call) {
+  const std::string before = call + " calls: ";
+  return std::atol(err.substr(err.find(before) + before.size()).c_str());
+}
+
+}  // namespace isojam::test
