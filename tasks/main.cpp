@@ -21,7 +21,13 @@ ExitCode parse_and_run(int argc, char** argv) {
   try {
     return session.work(console);
   } catch (const InputError& error) {
-    for (const auto& each : error.all()) console.error(one_line(each));
+    for (const auto& each : error.all()) {
+      console.error(one_line(each), {{"file", each.file},
+                                     {"pointer", each.pointer},
+                                     {"problem", each.problem},
+                                     {"allowed", each.allowed},
+                                     {"suggestion", each.suggestion}});
+    }
     return ExitCode::bad_input;
   } catch (const FileError& error) {
     console.error(error.what());

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tasks/commands/command.hpp"
+#include "tasks/commands/shared.hpp"
 #include "tasks/json/place.hpp"
 #include "tasks/system/standard_streams.hpp"
 #include "tasks/system/version.hpp"
@@ -25,6 +26,7 @@ void add_console_options(Options options, ConsoleOptions& console) {
   options.flag("--quiet", console.quiet, "Errors only on stderr");
   options.flag("-v,--verbose", console.verbose, "A line for each replicate");
   options.choice("--color", console.colour, "Colour on stderr");
+  options.choice("--messages", console.form, "Form of messages on stderr; json: one object a line");
 }
 
 void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
@@ -177,7 +179,7 @@ std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& sessi
   CLI::App app("isojam: jammed packings of soft frictionless convex solids, in batches", "isojam");
   app.require_subcommand(1);
   app.fallthrough();
-  app.set_version_flag("--version", "isojam " + std::string(version()) + " (" + std::string(git_hash()) + ")");
+  app.set_version_flag("--version", version_text());
   app.footer(exit_codes);
   add_console_options(Options(app), session.console);
   for (const AddCommand add : all_commands) add(app, session);

@@ -9,8 +9,11 @@
 #include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/json/place.hpp"
 #include "tasks/manifest/warnings.hpp"
+#include "tasks/replicate/record.hpp"
 #include "tasks/store/store.hpp"
 #include "tasks/system/file.hpp"
+#include "tasks/system/version.hpp"
+#include "tasks/tables/tables.hpp"
 
 namespace isojam {
 
@@ -44,6 +47,11 @@ std::string recorded_name(const std::string& directory, const std::string& name)
   throw FileError(fmt::format("{}: holds no replicate \"{}\"{}", directory, name,
                               near.empty() ? fmt::format("; there are {}, \"{}\" the first", names.size(), names[0])
                                            : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+std::string version_text() {
+  return fmt::format("isojam {} ({})\nschemas: {} {} {} {}", version(), git_hash(), record_schema, packing_schema,
+                     path_schema, table_schema);
 }
 
 std::string counted(std::size_t number, std::string_view noun) {

@@ -23,6 +23,9 @@ std::vector<std::string> recorded_names(const std::string& directory);
 /// The name, if a record has it: no other ever becomes part of a path. Throws FileError with the nearest one if not.
 std::string recorded_name(const std::string& directory, const std::string& name);
 
+/// Version and commit; on a second line the schemas of the files that results are read from.
+std::string version_text();
+
 /// "1 thread", "2 threads".
 std::string counted(std::size_t number, std::string_view noun);
 

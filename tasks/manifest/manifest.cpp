@@ -321,7 +321,9 @@ Manifest parse_manifest(std::string_view text, const std::string& file) {
   return manifest;
 }
 
-Manifest read_manifest(const std::string& file) { return parse_manifest(read_text(file), file); }
+Manifest read_manifest(const std::string& file) {
+  return parse_manifest(read_text(file == "-" ? "/dev/stdin" : file), file);
+}
 
 Json to_json(const Manifest& manifest) {
   Json json;

@@ -67,7 +67,7 @@ std::vector<OptionSet> option_sets(const Manifest& manifest);
 /// Reads a manifest strictly: throws InputError for anything not understood, all of it at once, and for particles too
 /// few for their cell.
 Manifest parse_manifest(std::string_view text, const std::string& file);
-/// Throws FileError if the file cannot be read.
+/// "-" is standard input. Throws FileError if the file cannot be read.
 Manifest read_manifest(const std::string& file);
 
 /// Canonical form: every value spelt out, lists in order. parse_manifest(to_json(m)) gives m.

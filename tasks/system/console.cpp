@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "tasks/system/standard_streams.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr auto bar_interval = std::chrono::milliseconds(100);
 constexpr auto line_interval = std::chrono::seconds(5);
 constexpr int bar_width = 24;
-constexpr std::string_view red = "\033[1;31m", yellow = "\033[1;33m", plain;
+constexpr std::string_view red = "\033[1;31m", yellow = "\033[1;33m", plain, info_kind = "info";
 
 /// Characters in a line; what a terminal of unknown size surely has.
 std::size_t terminal_width() {
@@ -38,6 +39,11 @@ void put(std::string_view text) {
   std::fflush(stderr);
 }
 
+/// Names of files may be no UTF-8, which JSON requires.
+void put_object(const nlohmann::ordered_json& message) {
+  put(message.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+}
+
 }  // namespace
 
 Console::Console(const ConsoleOptions& options)
@@ -45,15 +51,15 @@ Console::Console(const ConsoleOptions& options)
 
 Console::~Console() { clear_bar(); }
 
-void Console::error(std::string_view message) { line("error: ", red, message); }
+void Console::error(std::string_view message, const MessageParts& parts) { line("error", red, message, parts); }
 void Console::warn(std::string_view message) {
-  if (!options_.quiet) line("warning: ", yellow, message);
+  if (!options_.quiet) line("warning", yellow, message);
 }
 void Console::info(std::string_view message) {
-  if (!options_.quiet) line("", plain, message);
+  if (!options_.quiet) line(info_kind, plain, message);
 }
 void Console::detail(std::string_view message) {
-  if (options_.verbose && !options_.quiet) line("", plain, message);
+  if (options_.verbose && !options_.quiet) line(info_kind, plain, message);
 }
 
 void Console::begin(int total, double work) {
@@ -63,6 +69,7 @@ void Console::begin(int total, double work) {
   work_total_ = work;
   work_done_ = 0;
   begun_ = shown_ = Clock::now();
+  if (options_.form == MessageForm::json && !options_.quiet) put_progress(status());
 }
 
 void Console::finished(double work, bool failed) {
@@ -76,14 +83,25 @@ void Console::tick(std::string_view what) {
   if (options_.quiet) return;
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
-  if (now - shown_ < (terminal_ ? Clock::duration(bar_interval) : Clock::duration(line_interval))) return;
+  const bool often = terminal_ || options_.form == MessageForm::json;
+  if (now - shown_ < (often ? Clock::duration(bar_interval) : Clock::duration(line_interval))) return;
   shown_ = now;
-  if (!terminal_) {
-    put(total_ ? fmt::format("isojam: {}; {}\n", status(), printable(what))
-               : fmt::format("isojam: {}\n", printable(what)));
-    return;
+  const auto text = total_ ? fmt::format("{}; {}", status(), what) : std::string(what);
+  if (options_.form == MessageForm::json) {
+    put_progress(text);
+  } else if (terminal_) {
+    show_bar(what);
+  } else {
+    put(fmt::format("isojam: {}\n", printable(text)));
   }
-  show_bar(what);
+}
+
+void Console::put_progress(std::string_view text) {
+  nlohmann::ordered_json message;
+  message["kind"] = "progress";
+  if (total_ > 0) message.update({{"done", done_}, {"total", total_}, {"failed", failed_}});
+  message["text"] = text;
+  put_object(message);
 }
 
 void Console::show_bar(std::string_view what) {
@@ -102,12 +120,22 @@ void Console::show_bar(std::string_view what) {
 void Console::end() {
   const std::lock_guard lock(mutex_);
   clear_bar();
+  if (options_.form == MessageForm::json && !options_.quiet && total_ > 0) put_progress(status());
 }
 
-void Console::line(std::string_view label, std::string_view style, std::string_view message) {
+void Console::line(std::string_view kind, std::string_view style, std::string_view message, const MessageParts& parts) {
   const std::lock_guard lock(mutex_);
+  if (options_.form == MessageForm::json) {
+    nlohmann::ordered_json whole;
+    whole["kind"] = kind;
+    whole["text"] = message;
+    for (const auto& [name, part] : parts) whole[std::string(name)] = part;
+    put_object(whole);
+    return;
+  }
   clear_bar();
   const bool styled = colour_ && !style.empty();
+  const auto label = kind == info_kind ? "" : fmt::format("{}: ", kind);
   put(fmt::format("isojam: {}{}{}{}\n", styled ? style : plain, label, styled ? "\033[0m" : "", printable(message)));
 }
 

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "engine/names/enum_names.hpp"
 
@@ -15,13 +17,24 @@ template <>
 inline constexpr std::array enum_names<Colour>{EnumName{Colour::automatic, "auto"}, EnumName{Colour::always, "always"},
                                                EnumName{Colour::never, "never"}};
 
+enum class MessageForm { text, json };
+template <>
+inline constexpr std::array enum_names<MessageForm>{EnumName{MessageForm::text, "text"},
+                                                    EnumName{MessageForm::json, "json"}};
+
 struct ConsoleOptions {
   bool quiet = false;    ///< errors only
   bool verbose = false;  ///< a line for each replicate
   Colour colour = Colour::automatic;
+  MessageForm form = MessageForm::text;
 };
 
+/// Parts of a message by name.
+using MessageParts = std::vector<std::pair<std::string_view, std::string_view>>;
+
 /// What people read while a command works: messages and progress, all on stderr. Safe to use from several threads.
+/// For programs each message is a JSON object on its own line: "kind", "text", and the parts of an error or the counts
+/// of progress.
 class Console {
  public:
   explicit Console(const ConsoleOptions& options);
@@ -29,7 +42,7 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  void error(std::string_view message);
+  void error(std::string_view message, const MessageParts& parts = {});
   void warn(std::string_view message);
   void info(std::string_view message);
   void detail(std::string_view message);  ///< shown with -v
@@ -38,14 +51,15 @@ class Console {
   void begin(int total, double work);
   void finished(double work, bool failed);
   /// Redraws the bar on a terminal, no wider than it is, prints a line every few seconds elsewhere; without begin()
-  /// only what is under way.
+  /// only what is under way. In JSON, begin() and end() report as well.
   void tick(std::string_view what);
   void end();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void line(std::string_view label, std::string_view style, std::string_view message);
+  void line(std::string_view kind, std::string_view style, std::string_view message, const MessageParts& parts = {});
+  void put_progress(std::string_view text);
   void clear_bar();
   void show_bar(std::string_view what);
   std::string status() const;

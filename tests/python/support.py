@@ -66,11 +66,25 @@ class Case(unittest.TestCase):
             self.assertIn(word, str(caught.exception))
         return caught.exception
 
-    def copy(self, directory):
-        """A results directory of one's own."""
+    def folder(self):
+        """A directory that is removed when the test has ended."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        return pathlib.Path(shutil.copytree(directory, pathlib.Path(folder.name, "copy")))
+        return folder.name
+
+    def copy(self, directory):
+        """A copy of a results directory."""
+        return pathlib.Path(shutil.copytree(directory, pathlib.Path(self.folder(), "copy")))
+
+    def stub(self, body, version=None):
+        """A program in place of isojam: lines of a shell. It has the version of the module, or the text of a file."""
+        facts = isojam.facts
+        own = f"isojam {facts.version} (stub)\nschemas: {' '.join(facts.schemas.values())}\n"
+        file = pathlib.Path(self.folder(), "isojam")
+        file.write_text("#!/bin/sh\n[ \"$1\" != --version ] || { "
+                        + (f"cat {version}" if version else f"echo '{own}'") + "; exit; }\n" + body)
+        file.chmod(0o755)
+        return file
 
 
 def main():

@@ -10,8 +10,6 @@
 import io
 import json
 import os
-import pathlib
-import stat
 import subprocess
 import tempfile
 
@@ -126,17 +124,9 @@ class Tables(support.Case):
 
 
 class Program(support.Case):
-    def stub(self, body):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        file = pathlib.Path(folder.name, "isojam")
-        file.write_text("#!/bin/sh\n" + body)
-        file.chmod(file.stat().st_mode | stat.S_IXUSR)
-        return file
-
     def test_the_words(self):
         name = support.done(CUBES)[0]
-        expected = f"export {CUBES} {{}} --format contacts"
+        expected = f"--messages json export {CUBES} {{}} --format contacts"
         lines = "\n".join([HEAD, *LINES])
         for arguments, words in (((), expected.format("all")), ((name,), expected.format(name)),
                                  ((name, True), expected.format(name) + " --path")):

@@ -1,23 +1,43 @@
-"""What can go wrong, with where and what is allowed."""
+"""Exceptions of the module. Each states where the error is, why it is one, and what is allowed."""
+
+import os
+from collections.abc import Iterable, Sequence
 
 
 class InputError(ValueError):
-    """A file that is not as it should be, or something asked for that is not there.
+    """A file or a request that is refused.
 
-    file: its path; place: a JSON pointer, a line or a column, "" for the whole; why: what is wrong; allowed: what would
-    have been right, "" if that is plain."""
+    file     path of the file
+    place    a JSON pointer, a line or a column; "" for the whole file
+    why      what is wrong
+    allowed  what would be right; "" if that is plain"""
 
-    def __init__(self, file, place, why, allowed=""):
+    def __init__(self, file: str | os.PathLike[str], place: str, why: str, allowed: str = "") -> None:
         self.file, self.place, self.why, self.allowed = str(file), place, why, allowed
         text = f"{self.file}: {place}: {why}" if place else f"{self.file}: {why}"
         super().__init__(text + (f"; allowed: {allowed}" if allowed else ""))
 
 
+class ManifestError(InputError):
+    """A manifest that the program refuses.
+
+    errors   all errors of the manifest, each an InputError whose place is a JSON pointer
+
+    file, place, why and allowed are those of the first error."""
+
+    def __init__(self, errors: Sequence[InputError]) -> None:
+        self.errors = tuple(errors)
+        first = self.errors[0]
+        super().__init__(first.file, first.place, first.why, first.allowed)
+        self.args = ("\n".join(map(str, self.errors)),)
+
+
 class ProgramError(RuntimeError):
     """The program isojam was not found, or ended with an error.
 
-    command: as a list of words; message: what it said on stderr."""
+    command  the command line, a list of words
+    message  the error that the program reported"""
 
-    def __init__(self, command, message):
+    def __init__(self, command: Iterable[object], message: str) -> None:
         self.command, self.message = [str(word) for word in command], message
-        super().__init__(f"{' '.join(self.command)}: {message}" if command else message)
+        super().__init__(f"{' '.join(self.command)}: {message}" if self.command else message)

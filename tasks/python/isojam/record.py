@@ -1,6 +1,9 @@
 """Records as rows: numbers and texts of a record by the names that tables have for them."""
 
 import functools
+import os
+from collections.abc import Collection, Iterator
+from typing import Any
 
 from . import facts
 from .errors import InputError
@@ -17,12 +20,12 @@ _ORIGIN = ("version", "git", "compiler", "manifest_digest", "seed")
 _FIGURES = {"step", "phi", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual", "residual_floor",
             "stopped", "descents"}
 #: Names of quantities by their paths, in a record and in a state.
-_NAMES = {of: facts.names(of) for of in ("replicate", "state")}
+_NAMES: dict[str, dict[tuple[str, ...], str]] = {of: facts.names(of) for of in ("replicate", "state")}
 _QUANTITIES = {name for names in _NAMES.values() for name in names.values()} - _FIGURES
 
 
 @functools.lru_cache(maxsize=None)
-def _names_of(path, of):
+def _names_of(path: tuple[str, ...], of: str) -> list[str]:
     """The name that tables have for it, or those of what is below it; else the path with dots, after "state." if it
     is another quantity's name."""
     known = [name for place, name in _NAMES[of].items() if place[:len(path)] == path]
@@ -32,12 +35,13 @@ def _names_of(path, of):
     return [f"{of}.{dotted}" if dotted in _QUANTITIES else dotted]
 
 
-def flat(document, of, apart=()):
+def flat(document: dict[str, Any], of: str, apart: Collection[str] = ()) -> tuple[dict[str, Any], dict[str, str]]:
     """Numbers, texts and nulls of a record or a state by column name, and the reasons of nulls by column name. Lists are
     left out, and the keys in `apart`."""
-    values, reasons = {}, {}
+    values: dict[str, Any] = {}
+    reasons: dict[str, str] = {}
 
-    def visit(node, path):
+    def visit(node: dict[str, Any], path: tuple[str, ...]) -> None:
         for key, value in node.items():
             if isinstance(value, dict):
                 visit(value, (*path, key))
@@ -53,14 +57,14 @@ def flat(document, of, apart=()):
     return values, reasons
 
 
-def _parameters(spec):
+def _parameters(spec: dict[str, Any]) -> Iterator[tuple[str, Any]]:
     """Swept values by the names that tables have for them: `residual` is a column of its own."""
     for name, value in spec["parameters"].items():
         group = next((group for group in ("protocol", "minimiser") if name in spec[group]), "parameters")
         yield (f"{group}.{name}" if name == "residual" else name), value
 
 
-def head_of(name, record, excluding):
+def head_of(name: str, record: dict[str, Any], excluding: Collection[str]) -> dict[str, Any]:
     """What a row of a replicate or of one of its states begins with. `excluding`: flags whose replicates count nowhere."""
     spec, flags = record["spec"], tuple(record.get("flags") or ())
     head = {"replicate": name, "solid": spec["solid"], "particles": spec["particles"], **dict(_parameters(spec))}
@@ -68,7 +72,7 @@ def head_of(name, record, excluding):
             "excluded": any(flag in excluding for flag in flags)}
 
 
-def replicate_row(head, record):
+def replicate_row(head: dict[str, Any], record: dict[str, Any]) -> dict[str, Any]:
     """One row of everything that is one number per replicate, the state nearest jamming among it."""
     failure, provenance = record.get("failure") or {}, record["provenance"]
     values, reasons = flat(record, "replicate", _APART.union(_COST, ("timing",)))
@@ -82,13 +86,13 @@ def replicate_row(head, record):
             "reasons": {**reasons, **near_reasons}}
 
 
-def _index_of_nearest(record):
+def _index_of_nearest(record: dict[str, Any]) -> int | None:
     """Of the state nearest jamming among all states, which has its strain step; None of a replicate that failed."""
     step = (record.get("nearest") or {}).get("step")
     return next((k for k, state in enumerate(record["states"]) if state["step"] == step), None)
 
 
-def state_rows(head, record):
+def state_rows(head: dict[str, Any], record: dict[str, Any]) -> list[dict[str, Any]]:
     """One row for each state of the expansion, `state` its number in it; `nearest` is true for the one nearest jamming.
     None of a replicate that failed."""
     if record["status"] == "failed":
@@ -100,7 +104,8 @@ def state_rows(head, record):
     return rows
 
 
-def read_rows(name, record, file, excluding):
+def read_rows(name: str, record: dict[str, Any], file: str | os.PathLike[str],
+              excluding: Collection[str]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
     """The row of a replicate and those of its states. Raises InputError if the record lacks what every record has."""
     try:
         head = head_of(name, record, excluding)
@@ -110,7 +115,7 @@ def read_rows(name, record, file, excluding):
                          "a record of schema " + facts.schemas["record"]) from None
 
 
-def as_columns(rows):
+def as_columns(rows: list[dict[str, Any]]) -> Rows:
     """Rows of dicts, in which null and missing are the same; columns in the order of the rows that have most of them,
     reasons last."""
     fullest = sorted(rows, key=len, reverse=True)

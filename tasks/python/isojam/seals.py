@@ -9,9 +9,12 @@ in turn, h = (h xor b)·p modulo 2^64. That chain can be taken apart exactly, so
   b and by what the bits below k carry over; given those, bit k of all low bytes is a running xor, and so bit by bit."""
 
 import json
+import os
 import pathlib
+from typing import Any
 
 import numpy
+from numpy.typing import NDArray
 
 from .errors import InputError
 
@@ -26,7 +29,7 @@ _FARTHEST = 200
 _WHOLE = "a file as isojam wrote it, whole"
 
 
-def _powers():
+def _powers() -> NDArray[numpy.uint64]:
     """p^BLOCK … p^2, p."""
     return numpy.multiply.accumulate(numpy.full(BLOCK, PRIME, dtype=numpy.uint64))[::-1].copy()
 
@@ -34,7 +37,7 @@ def _powers():
 _POWERS = _powers()
 
 
-def _running_xor(flips):
+def _running_xor(flips: NDArray[numpy.uint8]) -> None:
     """Of bytes, in place; a multiple of eight of them."""
     words = flips.view(_WORD)
     for shift in (8, 16, 32):
@@ -43,7 +46,7 @@ def _running_xor(flips):
     words[1:] ^= ends[:-1] * _WORD.type(0x0101010101010101)
 
 
-def _mixed_low_bytes(data, low):
+def _mixed_low_bytes(data: NDArray[numpy.uint8], low: int) -> NDArray[numpy.uint8]:
     """l xor b for every byte b, where l is the low byte of the hash before it; `low` before the first."""
     mixed = numpy.zeros_like(data)
     flips = numpy.empty_like(data)
@@ -60,7 +63,7 @@ def _mixed_low_bytes(data, low):
     return mixed
 
 
-def fnv1a(data):
+def fnv1a(data: bytes) -> int:
     """The 64-bit FNV-1a of bytes, as an int."""
     everything = numpy.frombuffer(data, dtype=numpy.uint8)
     value = BASIS
@@ -75,7 +78,7 @@ def fnv1a(data):
     return value
 
 
-def check_seal(data, file):
+def check_seal(data: bytes, file: str | os.PathLike[str]) -> None:
     """Raises InputError unless the bytes of the file have the checksum that they state."""
     at = data.find(_BEFORE, 0, _FARTHEST)
     if at < 0 or len(data) < at + len(_BEFORE) + len(_BLANK):
@@ -86,7 +89,7 @@ def check_seal(data, file):
         raise InputError(file, "/checksum", "the file is damaged: its content has another checksum", _WHOLE)
 
 
-def read_sealed(file, schema=None, check=True):
+def read_sealed(file: str | os.PathLike[str], schema: str | None = None, check: bool = True) -> dict[str, Any]:
     """The document in a file of isojam's, a dict. Raises InputError if it is not there, damaged, or of another schema; the
     checksum is looked at if `check`."""
     try:
@@ -106,7 +109,7 @@ def read_sealed(file, schema=None, check=True):
     return document
 
 
-def check_owner(document, file, name, record):
+def check_owner(document: dict[str, Any], file: str | os.PathLike[str], name: str, record: dict[str, Any]) -> None:
     """Raises InputError unless a packing or path says in its head that it is of this record."""
     provenance = record["provenance"]
     now = {"manifest_digest": provenance["manifest_digest"], "result_digest": record["result_digest"]}

@@ -1,9 +1,11 @@
 """Solids as the program writes them."""
 
 import dataclasses
+import os
 import pathlib
 
 import numpy
+from numpy.typing import NDArray
 
 from .errors import InputError
 
@@ -15,16 +17,18 @@ class Solid:
     vertices: (V, 3); faces: lists of indices of vertices, counter-clockwise seen from outside."""
 
     name: str
-    vertices: numpy.ndarray
-    faces: list
+    vertices: NDArray[numpy.float64]
+    faces: list[list[int]]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<{self.name}: {len(self.vertices)} vertices, {len(self.faces)} faces>"
 
 
-def read_obj(file):
+def read_obj(file: str | os.PathLike[str]) -> Solid:
     """The solid in a Wavefront OBJ file of `isojam export --format xyz`."""
-    name, vertices, faces = "", [], []
+    name = ""
+    vertices: list[list[float]] = []
+    faces: list[list[int]] = []
     for number, line in enumerate(pathlib.Path(file).read_text().splitlines(), 1):
         what, *words = line.split() or ["#"]
         try:

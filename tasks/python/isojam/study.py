@@ -3,32 +3,39 @@
 import difflib
 import pathlib
 import warnings
+from typing import Any
 
 from . import facts, program
 from .errors import InputError
 from .packing import Packing
+from .program import Path
 from .record import as_columns, read_rows
+from .rows import Rows
 from .seals import check_owner, read_sealed
+from .solid import Solid
 
 
-def load(directory, program=None, check=True):
-    """The results in a directory, as a Study. `program` is the path of isojam, which is asked for contacts and solids; by
-    default it is looked for. With `check` every file that is read must have the checksum that it states.
+def load(directory: Path, program: Path | None = None, check: bool = True) -> "Study":
+    """The results in a directory, as a Study.
+
+    program  path of the program, which computes contacts, solids and the table; by default the module looks for it
+    check    require of every file that it has the checksum that it states
 
     Raises InputError if there is no such directory or it holds no records."""
     return Study(directory, program, check)
 
 
 class Study:
-    """Results of `isojam run`; files are read when what they hold is first asked for.
+    """Results of `isojam run`. A file is read when its content is first needed.
 
     directory   a pathlib.Path
-    names       of the replicates recorded, in order
+    names       names of the recorded replicates, in order
     manifest    a dict, or None
-    replicates  Rows, one of each replicate
-    states      Rows, one of each state of each replicate"""
+    replicates  Rows, one for each replicate
+    states      Rows, one for each state of each replicate
+    table       Rows, one for each row of the table"""
 
-    def __init__(self, directory, program=None, check=True):
+    def __init__(self, directory: Path, program: Path | None = None, check: bool = True, table: Rows | None = None) -> None:
         self.directory, self._program, self._check = pathlib.Path(directory), program, check
         if not self.directory.is_dir():
             raise InputError(directory, "", "there is no such directory", "a directory that isojam run has made")
@@ -37,25 +44,34 @@ class Study:
             raise InputError(directory, "", "holds no records", "a directory that isojam run has made")
         manifest = self.directory / "manifest.json"
         self.manifest = read_sealed(manifest, check=check) if manifest.exists() else None
-        self._rows, self._solids = None, {}
+        self._rows: tuple[Rows, Rows] | None = None
+        self._solids: dict[str, Solid] = {}
+        self._table = table
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<{self.directory}: {len(self.names)} replicates>"
 
     @property
-    def excluding(self):
+    def excluding(self) -> tuple[str, ...]:
         """Flags whose replicates count in no mean, as the manifest says."""
         return tuple((self.manifest or {}).get("exclude", facts.usual_exclusions))
 
     @property
-    def replicates(self):
+    def replicates(self) -> Rows:
         return self._read()[0]
 
     @property
-    def states(self):
+    def states(self) -> Rows:
         return self._read()[1]
 
-    def record(self, name):
+    @property
+    def table(self) -> Rows:
+        """The table, as the program computes it when it is first needed; its warnings become warnings."""
+        if self._table is None:
+            self._table = program.table(self._program, ["aggregate", self.directory, "--format", "csv"])
+        return self._table
+
+    def record(self, name: str) -> dict[str, Any]:
         """The whole record of a replicate, a dict as schemas/replicate.schema.json has it."""
         file = self._file("records", name)
         record = read_sealed(file, facts.schemas["record"], self._check)
@@ -65,33 +81,34 @@ class Study:
             raise InputError(file, "/spec", "is not the replicate that the name of the file says", "")
         return record
 
-    def packing(self, name):
+    def packing(self, name: str) -> Packing:
         """The state of a replicate nearest jamming. Raises InputError for a replicate that failed."""
         file, record, document = self._companion("packings", "packing", name)
         return Packing(name, document, file, "", record["nearest"]["delta_phi"], lambda: self._shapes(name, record))
 
-    def path(self, name):
+    def path(self, name: str) -> list[Packing]:
         """All states of a replicate, in order of expansion: a list of Packings. Raises InputError for one that failed, and
         where expansions were not kept ("keep_path" in the manifest)."""
         file, record, document = self._companion("paths", "path", name)
         return [Packing(name, state, file, f"/states/{k}", state["delta_phi"], lambda: self._shapes(name, record))
                 for k, state in enumerate(document["states"])]
 
-    def contacts(self, name=None, path=False):
-        """Rows, one of each contact: of the states nearest jamming of one or all replicates, or with `path` of all states.
-        Asked of the program; what it warns of, such as replicates that failed, becomes a warning."""
+    def contacts(self, name: str | None = None, path: bool = False) -> Rows:
+        """Rows, one for each contact of one or all replicates: of the states nearest jamming, or with `path` of all states.
+        The program computes them; its warnings, for example of failed replicates, become warnings."""
         if name is not None:
             self._whole(name)
-        return program.contacts(self._program, self.directory, "all" if name is None else name, path)
+        words: list[Path] = ["export", self.directory, "all" if name is None else name, "--format", "contacts"]
+        return program.table(self._program, words + (["--path"] if path else []))
 
-    def _file(self, folder, name):
+    def _file(self, folder: str, name: str) -> pathlib.Path:
         if name not in self.names:
             near = difflib.get_close_matches(str(name), self.names, 1)
             hint = f', such as "{near[0]}"' if near else ""
             raise InputError(self.directory, "", f'holds no replicate "{name}"', "one of its `names`" + hint)
         return self.directory / folder / f"{name}.json"
 
-    def _whole(self, name):
+    def _whole(self, name: str) -> dict[str, Any]:
         """The record of a replicate that did not fail."""
         record = self.record(name)
         if record["status"] == "failed":
@@ -100,7 +117,7 @@ class Study:
                              f"failed in {failure['where']}: {failure['why']}; it has no packing", "a replicate that is done")
         return record
 
-    def _companion(self, folder, kind, name):
+    def _companion(self, folder: str, kind: str, name: str) -> tuple[pathlib.Path, dict[str, Any], dict[str, Any]]:
         """File, record and document of a packing or path, which is known to be its own."""
         record, file = self._whole(name), self._file(folder, name)
         if folder == "paths" and not file.exists():
@@ -109,7 +126,7 @@ class Study:
         check_owner(document, file, name, record)
         return file, record, document
 
-    def _shapes(self, name, record):
+    def _shapes(self, name: str, record: dict[str, Any]) -> dict[str, Solid]:
         """Solids by name. Those of a name are the same in the whole directory: its manifest defines them."""
         spec = record["spec"]
         wanted = {kind["solid"] for kind in spec.get("mixture", [spec])}
@@ -117,9 +134,12 @@ class Study:
             self._solids.update(program.solids(self._program, self.directory, name))
         return self._solids
 
-    def _read(self):
+    def _read(self) -> tuple[Rows, Rows]:
         if self._rows is None:
-            replicates, states, digests, earlier = [], [], set(), set()
+            replicates: list[dict[str, Any]] = []
+            states: list[dict[str, Any]] = []
+            digests: set[str] = set()
+            earlier: set[str] = set()
             for name in self.names:
                 record = self.record(name)
                 row, own = read_rows(name, record, self._file("records", name), self.excluding)

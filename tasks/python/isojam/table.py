@@ -2,13 +2,16 @@
 
 import csv
 import json
+import os
 import pathlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import IO, Any
 
 import numpy
 
 from . import facts
 from .errors import InputError
-from .rows import Rows, column_of
+from .rows import Array, Rows, column_of
 
 #: What a column is of, where its values alone would not tell: 0 may stand for 0., and nothing for any null.
 _TEXT = {"replicate", "solid", "class", "kind", "solid_a", "solid_b", "status", "stopped", "failed_in", "failure"}
@@ -23,13 +26,13 @@ _BETWEEN = "; "
 _TRUTH = {"true": True, "false": False}
 
 
-def read_table(file, name=None):
+def read_table(file: str | os.PathLike[str] | IO[str], name: str | None = None) -> Rows:
     """The table in a file of `isojam export --format contacts`, `replicates` or `states`, or in an open text file; Rows.
 
     Columns NAME_x, NAME_y, NAME_z become one of shape (rows, 3). Null is NaN among numbers and "" among text. Raises
     InputError, with file and line, for what is no such table; `name` is what messages call an open file."""
-    if hasattr(file, "read"):
-        return _read(file, name or getattr(file, "name", "the table"))
+    if not isinstance(file, (str, os.PathLike)):
+        return _read(file, name or str(getattr(file, "name", "the table")))
     try:
         with pathlib.Path(file).open(newline="", encoding="utf-8") as opened:
             return _read(opened, name or file)
@@ -39,7 +42,7 @@ def read_table(file, name=None):
         raise InputError(file, "", f"is no text: {error.reason}", "UTF-8") from None
 
 
-def _read(opened, file):
+def _read(opened: Iterable[str], file: str | os.PathLike[str]) -> Rows:
     lines = iter(opened)
     first = next(lines, "")
     if not first.strip():
@@ -52,10 +55,11 @@ def _read(opened, file):
     return Rows(_with_vectors(columns))
 
 
-def _reasons(names):
+def _reasons(names: set[str]) -> Callable[[str], Any]:
     """What takes "Z_ff: no cut-off; S: …" apart into a dict by these names; a reason may hold what divides them."""
-    def take(text):
-        found, name = {}, None
+    def take(text: str) -> dict[str, str]:
+        found: dict[str, str] = {}
+        name = None
         for part in text.split(_BETWEEN):
             head, colon, rest = part.partition(": ")
             if colon and head in names:
@@ -67,7 +71,7 @@ def _reasons(names):
     return take
 
 
-def _csv_columns(lines, file):
+def _csv_columns(lines: Iterable[str], file: str | os.PathLike[str]) -> dict[str, Array]:
     reader = csv.reader(lines, strict=True)
     try:
         names = next(reader)
@@ -84,14 +88,14 @@ def _csv_columns(lines, file):
     return {name: _parsed(name, column, file) for name, column in zip(names, columns)}
 
 
-def _parsed(name, texts, file):
+def _parsed(name: str, texts: Sequence[str], file: str | os.PathLike[str]) -> Array:
     """The array of a column's texts."""
     plain = _plain(name)
     if plain in _TEXT | _LISTS:
         return numpy.array(texts, dtype=str)
     if texts and _TRUTH.keys() >= set(texts):
         return numpy.array([_TRUTH[text] for text in texts])
-    kinds = [int] if plain in _INTEGER and "" not in texts else [float] if plain in _FLOAT else [int, float]
+    kinds: list[type] = [int] if plain in _INTEGER and "" not in texts else [float] if plain in _FLOAT else [int, float]
     for kind in kinds:
         try:
             return numpy.array([kind(text) if text else numpy.nan for text in texts], dtype=kind)
@@ -104,12 +108,12 @@ def _parsed(name, texts, file):
     return numpy.array(texts, dtype=str)
 
 
-def _plain(name):
+def _plain(name: str) -> str:
     """Without the axis, as which a vector's type is known."""
     return name[:-2] if name.endswith(_AXES) else name
 
 
-def _is(kind, text):
+def _is(kind: Callable[[str], object], text: str) -> bool:
     try:
         kind(text)
     except ValueError:
@@ -117,7 +121,7 @@ def _is(kind, text):
     return True
 
 
-def _json_columns(lines, file):
+def _json_columns(lines: Iterable[str], file: str | os.PathLike[str]) -> dict[str, Array]:
     rows = []
     for number, line in enumerate(lines, 1):
         if not line.strip():
@@ -133,7 +137,7 @@ def _json_columns(lines, file):
     return {name: _gathered(name, [row.get(name) for row in rows]) for name in names}
 
 
-def _gathered(name, values):
+def _gathered(name: str, values: list[Any]) -> Array:
     """The array of a column's JSON values."""
     if name in _TEXT | _LISTS and all(value is None for value in values):
         return numpy.array([""] * len(values))
@@ -142,7 +146,7 @@ def _gathered(name, values):
     return column_of(values)
 
 
-def _with_vectors(columns):
+def _with_vectors(columns: Mapping[str, Array]) -> dict[str, Array]:
     """One column for every three of which the names end with _x, _y and _z."""
     merged = {}
     for name, values in columns.items():

@@ -1,0 +1,115 @@
+"""Commands of the program: each call ends with the results directory as a Study."""
+
+import json
+import os
+import pathlib
+import tempfile
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+from . import program as _program
+from .errors import InputError, ManifestError
+from .program import Ended, Path
+from .progress import shown
+from .study import Study
+
+_SOME_FAILED, _BAD_INPUT, _INTERRUPTED = 1, 65, 75
+#: What the program calls a manifest on standard input.
+_STANDARD_INPUT = "-"
+
+
+def run(manifest: Mapping[str, Any] | Path, directory: Path, threads: int = 2, progress: bool = True, *,
+        program: Path | None = None) -> Study:
+    """Runs what a manifest plans and the directory does not hold yet.
+
+    manifest   a dict, whose relative paths start from the current directory, or the path of a file
+    directory  the results directory; it is made if it is not there
+    threads    how many threads compute
+    progress   show progress: a bar if tqdm is installed, else text on stderr
+    program    path of the program; by default the module looks for it
+
+    Warns if replicates failed. Raises ManifestError for a manifest that is refused and ProgramError for other failures.
+    After KeyboardInterrupt the same call resumes."""
+    words: list[Path] = ["-o", directory, "-j", str(threads)]
+    if not isinstance(manifest, Mapping):
+        file = os.fspath(manifest)
+        with shown(progress) as show:
+            ended = _program.call(program, ["run", file, *words], show=show)
+    else:
+        file = _STANDARD_INPUT
+        with tempfile.TemporaryFile("w+", encoding="utf-8") as stdin, shown(progress) as show:
+            stdin.write(_text(manifest))
+            stdin.seek(0)
+            ended = _program.call(program, ["run", file, *words], stdin=stdin, show=show)
+    _refuse_manifest(ended, file)
+    return _study(ended, directory, program)
+
+
+def measure(directory: Path, *measures: str, threads: int = 2, progress: bool = True,
+            program: Path | None = None) -> Study:
+    """Adds measures to the records of a directory whose manifest has "keep_path": true.
+
+    measures   names as in "measure" of a manifest; without any, those that an interrupted call left
+
+    The other arguments, warnings and errors are those of `run`."""
+    words: list[Path] = ["measure", directory, "-j", str(threads), *(["--add", ",".join(measures)] if measures else [])]
+    with shown(progress) as show:
+        ended = _program.call(program, words, show=show)
+    return _study(ended, directory, program)
+
+
+def aggregate(directory: Path, *, program: Path | None = None) -> Study:
+    """Writes the tables of a directory anew, to its tables.json; the `table` of the Study is the same table.
+
+    A run does so itself, but shards do not."""
+    tables = pathlib.Path(directory, "tables.json")
+    table = _program.table(program, ["aggregate", directory, "--format", "csv", "-o", tables])
+    return Study(directory, program, table=table)
+
+
+def _text(manifest: Mapping[str, Any]) -> str:
+    try:
+        return json.dumps(manifest, default=_plain, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise ManifestError([InputError("manifest", "", f"is no JSON: {error}",
+                                        "dicts, lists, text, finite numbers, arrays, True, False and None")]) from None
+
+
+def _plain(value: object) -> Any:
+    """Arrays and numbers of numpy as JSON has them, paths as text."""
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Mapping):
+        return dict(value)
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"{value!r} has type {type(value).__name__}")
+
+
+def _refuse_manifest(ended: Ended, file: str) -> None:
+    """Raises ManifestError if all errors are of the manifest; "file:line:column" is where one is no JSON."""
+    errors = ended.errors if ended.code == _BAD_INPUT else []
+    own = [error for error in errors if f"{error.get('file')}:".startswith(f"{file}:")]
+    if own and own == errors:
+        raise ManifestError([_input_error(error) for error in own]) from None
+
+
+def _input_error(error: Mapping[str, str]) -> InputError:
+    file = "manifest" if error["file"] == _STANDARD_INPUT else error["file"]
+    allowed, near = error["allowed"], error["suggestion"]
+    if near:
+        allowed = f'{allowed}; did you mean "{near}"?' if allowed else f'"{near}"'
+    return InputError(file, error["pointer"], error["problem"], allowed)
+
+
+def _study(ended: Ended, directory: Path, program: Path | None) -> Study:
+    """The results. Warnings name the line from which the caller was called."""
+    ended.warn(stacklevel=3)
+    if ended.code == _INTERRUPTED:
+        raise KeyboardInterrupt(f"{directory}: the program was interrupted; the same call resumes")
+    if ended.code == _SOME_FAILED and not ended.errors:
+        warnings.warn(f'{directory}: some replicates failed; the column "failure" of `replicates` says why', stacklevel=3)
+    elif ended.code != 0:
+        raise ended.error()
+    return Study(directory, program)

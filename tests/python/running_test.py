@@ -1,0 +1,217 @@
+"""Facts proved here, of studies that are run from Python:
+
+- a manifest in memory or in a file gives a Study, and the bytes that the program gives by itself;
+- numbers and arrays of numpy and paths in a manifest are what they are in Python; relative paths start from the current
+  directory;
+- measures are added to a directory, and its table is written anew, with the numbers of tables.json;
+- all errors of a manifest come with JSON pointer, reason and remedy, and nothing is written;
+- failed replicates are a warning, and other failures of the program a ProgramError;
+- an interrupted run leaves a directory that the same call completes to the bytes of an undisturbed run."""
+
+import contextlib
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import types
+import warnings
+from unittest import mock
+
+import numpy
+
+import support
+from support import isojam
+
+from isojam import program
+
+MANIFEST = {
+    "name": "octahedra", "seed": 3,
+    "sweep": {"solid": ["octahedron"], "particles": [16]},
+    "replicates": 2,
+    "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
+                 "step_fraction": 0.4, "final_distance": 0.03, "fit_window": 0.1, "consolidation_residual": 0.1,
+                 "max_density": 0.75},
+    "minimiser": {"residual": 1e-3, "max_evaluations": 2000, "unjammed_energy": 1e-14},
+    "measure": ["contacts"],
+    "keep_path": True,
+}
+
+
+def contents(directory):
+    """What may not differ between two runs, by file: in records all but the time they took."""
+    found = {}
+    for file in sorted(pathlib.Path(directory).rglob("*.json")):
+        document = json.loads(file.read_text())
+        document.pop("checksum", None)
+        if file.parent.name == "records":
+            document.pop("timing")
+        found[str(file.relative_to(directory))] = document
+    return found
+
+
+class Case(support.Case):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.here = pathlib.Path(folder.name)
+        before = os.getcwd()
+        self.addCleanup(os.chdir, before)
+        os.chdir(self.here)
+
+    def run_quietly(self, *arguments, **options):
+        """A run of which every warning is an error."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            return isojam.run(*arguments, progress=False, **options)
+
+
+class Runs(Case):
+    def test_a_run_from_python_gives_the_bytes_of_the_program(self):
+        pathlib.Path("m.json").write_text(json.dumps(MANIFEST))
+        subprocess.run([program.find(), "--quiet", "run", "m.json", "-o", "program"], check=True, capture_output=True)
+        expected = contents("program")
+        self.assertEqual(len([name for name in expected if name.startswith("records/")]), 2)
+        in_memory = self.run_quietly(MANIFEST, "memory", threads=1)
+        in_file = self.run_quietly(pathlib.Path("m.json"), pathlib.Path("file"))
+        for study in (in_memory, in_file):
+            self.assertIsInstance(study, isojam.Study)
+            self.assertEqual(contents(study.directory), expected)
+            self.assertEqual(list(study.replicates["status"]), ["done", "done"])
+        # What is recorded is not run again.
+        records = {file: file.stat().st_mtime_ns for file in pathlib.Path("memory/records").iterdir()}
+        self.run_quietly(MANIFEST, "memory")
+        self.assertEqual({file: file.stat().st_mtime_ns for file in pathlib.Path("memory/records").iterdir()}, records)
+
+    def test_a_manifest_may_hold_arrays_of_numpy_and_paths(self):
+        pathlib.Path("solids").mkdir()
+        pathlib.Path("solids/block.off").write_text("OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
+        manifest = {**MANIFEST, "seed": numpy.int64(3), "replicates": 1,
+                    "solids": {"block": {"file": pathlib.Path("solids/block.off")}},
+                    "sweep": types.MappingProxyType({"solid": ("block",), "particles": numpy.array([16])})}
+        study = self.run_quietly(manifest, "r")
+        self.assertEqual(study.names, ["block-N16-r0000"])
+        self.assertEqual(study.manifest["solids"]["block"]["vertices"][0][0].__class__, float)
+
+    def test_the_number_of_threads_reaches_the_program(self):
+        with mock.patch.object(program, "call", side_effect=KeyError) as call:
+            for threads in (1, 7):
+                for start in (lambda: isojam.run("m.json", "r", threads), lambda: isojam.measure("r", threads=threads)):
+                    self.assertRaises(KeyError, start)
+                    words = list(map(str, call.call_args.args[1]))
+                    self.assertEqual(words[words.index("-j") + 1], str(threads))
+
+    def test_measures_are_added_and_the_table_is_written_anew(self):
+        study = self.run_quietly(MANIFEST, "r")
+        self.assertNotIn("Q6", study.replicates)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            study = isojam.measure("r", "order", "clusters", progress=False)
+        self.assertFalse(numpy.isnan(study.replicates["Q6"]).any())
+        self.assertEqual(study.manifest["measure"], ["contacts", "order", "clusters"])
+
+        written = pathlib.Path("r/tables.json").read_bytes()
+        pathlib.Path("r/tables.json").unlink()
+        table = isojam.aggregate("r").table
+        self.assertEqual(pathlib.Path("r/tables.json").read_bytes(), written)
+        row, = json.loads(written)["rows"]
+        self.assertEqual(list(table["phi_j_mean"]), [row["phi_j"]["mean"]])
+        self.assertEqual(list(table["Q6_n"]), [2])
+        # A Study that was loaded asks the program for its table.
+        self.assertEqual(list(isojam.load("r").table["phi_j_mean"]), [row["phi_j"]["mean"]])
+
+
+class Failures(Case):
+    def test_all_errors_of_a_manifest_come_with_pointer_reason_and_remedy(self):
+        manifest = {**MANIFEST, "seed": -1, "protocol": {"target_energi": 1e-5}}
+        pathlib.Path("m.json").write_text(json.dumps(manifest))
+        for given, name in ((manifest, "manifest"), ("m.json", "m.json")):
+            with self.assertRaises(isojam.ManifestError) as caught:
+                isojam.run(given, "r")
+            self.assertIsInstance(caught.exception, isojam.InputError)
+            seed, unknown = caught.exception.errors
+            self.assertEqual([seed.place, unknown.place], ["/seed", "/protocol/target_energi"])
+            self.assertEqual((caught.exception.place, caught.exception.why), (seed.place, seed.why))
+            for error in (seed, unknown):
+                self.assertEqual(error.file, name)
+                self.assertTrue(error.why and error.allowed, error)
+            self.assertIn("target_energy", unknown.allowed)
+            self.assertEqual(str(caught.exception), f"{seed}\n{unknown}")
+            self.assertFalse(pathlib.Path("r").exists())
+
+    def test_a_manifest_that_is_no_json_is_refused(self):
+        pathlib.Path("m.json").write_text('{"name": "x",\n}')
+        with self.assertRaises(isojam.ManifestError) as caught:
+            isojam.run("m.json", "r")
+        self.assertEqual(caught.exception.file, "m.json:2:1")
+        for value in (float("nan"), {1, 2}, object()):
+            self.assertRaises(isojam.ManifestError, isojam.run, {**MANIFEST, "seed": value}, "r")
+
+    def test_failed_replicates_are_a_warning(self):
+        with self.assertWarnsRegex(UserWarning, "some replicates failed") as warned:
+            study = isojam.run({**MANIFEST, "minimiser": {"max_evaluations": 1}}, "r", progress=False)
+        self.assertEqual(os.path.basename(warned.filename), "running_test.py")
+        self.assertEqual(set(study.replicates["status"]), {"failed"})
+        texts = [str(warning.message) for warning in warned.warnings]
+        for name in study.names:
+            self.assertEqual(len([text for text in texts if text.startswith(f"{name} failed in ")]), 1, texts)
+
+    def test_other_failures_are_errors_of_the_program(self):
+        self.run_quietly(MANIFEST, "r")
+        pathlib.Path("file").touch()
+        for start, says in ((lambda: isojam.run({**MANIFEST, "seed": 4}, "r"), "another manifest"),
+                            (lambda: isojam.run(MANIFEST, "file/r"), "file"),
+                            (lambda: isojam.run("none.json", "r"), "none.json"),
+                            (lambda: isojam.measure("r", "colour"), 'no measure "colour"'),
+                            (lambda: isojam.measure("none", "order"), "none"),
+                            (lambda: isojam.aggregate("none"), "none")):
+            with self.assertRaisesRegex(isojam.ProgramError, says) as caught:
+                start()
+            self.assertIn("isojam", caught.exception.command[0])
+        with mock.patch.dict(os.environ, ISOJAM="/no/such"):
+            self.assertRaisesRegex(isojam.ProgramError, "/no/such", isojam.run, MANIFEST, "r")
+
+
+class Interruption(Case):
+    REPLICATES = 12
+
+    def interrupt(self, manifest):
+        """Runs until the first replicate is recorded, then gets SIGINT, as Python does from Ctrl-C."""
+        def tqdm(total, **_):
+            bar = mock.Mock(total=total, n=0)
+
+            def update(done):
+                bar.n += done
+                if bar.n > 0:
+                    os.kill(os.getpid(), signal.SIGINT)
+
+            bar.update = update
+            return bar
+
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        try:
+            with mock.patch.dict(sys.modules, {"tqdm": types.ModuleType("tqdm"),
+                                               "tqdm.auto": types.SimpleNamespace(tqdm=tqdm)}):
+                self.assertRaises(KeyboardInterrupt, isojam.run, manifest, "r", 1)
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+    def test_an_interrupted_run_is_resumed_to_the_bytes_of_an_undisturbed_one(self):
+        manifest = {**MANIFEST, "replicates": self.REPLICATES}
+        expected = contents(self.run_quietly(manifest, "undisturbed").directory)
+        self.interrupt(manifest)
+        recorded = len(list(pathlib.Path("r/records").glob("*.json")))
+        self.assertTrue(0 < recorded < self.REPLICATES, recorded)
+        # The program has ended: nothing holds the directory any more, and no temporary file is left.
+        shutil.copytree("r", "copy")
+        self.assertEqual([file for file in pathlib.Path("r").rglob("*") if "tmp" in file.name], [])
+        self.assertEqual(contents(self.run_quietly(manifest, "r").directory), expected)
+        self.assertEqual(contents(self.run_quietly(manifest, "copy").directory), expected)
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(KeyboardInterrupt):
+        support.main()

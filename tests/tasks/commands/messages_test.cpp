@@ -1,0 +1,127 @@
+// Facts proved here, through the executable:
+// - with --messages json every line on stderr is a JSON object with "kind" and "text";
+// - the errors of a manifest have file, pointer, problem, allowed and suggestion, and the text that people read;
+// - progress counts from 0 to the number of replicates, and what goes to stdout and to files is as without the option;
+// - --quiet leaves errors alone;
+// - the manifest "-" is standard input, and its paths start from the current directory.
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using test::shell;
+
+std::vector<Json> objects(const std::string& text) {
+  std::vector<Json> list;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    list.push_back(parsed(line));
+    EXPECT_TRUE(list.back().at("kind").is_string() && list.back().at("text").is_string()) << line;
+  }
+  return list;
+}
+
+Json small_manifest() {
+  auto manifest = test::tiny_manifest();
+  manifest["measure"] = {"contacts"};
+  manifest["sweep"]["particles"] = {24};
+  manifest["replicates"] = 2;
+  return manifest;
+}
+
+TEST(Messages, EveryErrorOfAManifestHasItsPartsInJson) {
+  const test::TemporaryDirectory here;
+  auto manifest = small_manifest();
+  manifest["seed"] = -1;
+  manifest["protocol"] = {{"target_energi", 1e-5}};
+  test::write_text(here / "m.json", manifest.dump());
+  const auto text = shell("$ISOJAM validate m.json", here.path());
+  const auto json = shell("$ISOJAM --messages json validate m.json", here.path());
+  EXPECT_EQ(json.exit_code, 65);
+  const auto errors = objects(json.err);
+  ASSERT_EQ(errors.size(), 2U) << json.err;
+  std::string lines;
+  for (const auto& error : errors) {
+    EXPECT_EQ(error.at("kind"), "error");
+    EXPECT_EQ(error.at("file"), "m.json");
+    EXPECT_FALSE(error.at("problem").get<std::string>().empty());
+    lines += "isojam: error: " + error.at("text").get<std::string>() + '\n';
+  }
+  EXPECT_EQ(lines, text.err);
+  EXPECT_EQ(errors[0].at("pointer"), "/seed");
+  EXPECT_NE(errors[0].at("allowed"), "");
+  EXPECT_EQ(errors[1].at("pointer"), "/protocol/target_energi");
+  EXPECT_EQ(errors[1].at("suggestion"), "target_energy");
+}
+
+TEST(Messages, ProgressCountsFromNoneToAllReplicates) {
+  const test::TemporaryDirectory here;
+  test::write_text(here / "m.json", small_manifest().dump());
+  const auto text = shell("$ISOJAM run m.json -o text", here.path());
+  const auto json = shell("$ISOJAM run m.json -o json --messages json", here.path());
+  EXPECT_EQ(json.exit_code, 0) << json.err;
+  EXPECT_EQ(json.out, text.out);
+  EXPECT_EQ(test::results_below(here / "json"), test::results_below(here / "text"));
+  std::vector<Json> progress;
+  for (const auto& message : objects(json.err)) {
+    if (message.at("kind") == "progress") progress.push_back(message);
+  }
+  ASSERT_GE(progress.size(), 2U) << json.err;
+  for (const auto& message : progress) {
+    EXPECT_EQ(message.at("total"), 2);
+    EXPECT_EQ(message.at("failed"), 0);
+  }
+  EXPECT_EQ(progress.front().at("done"), 0);
+  EXPECT_EQ(progress.back().at("done"), 2);
+  EXPECT_EQ(progress.back().at("text"), "2 of 2 replicates");
+}
+
+TEST(Messages, WarningsAreObjectsAndQuietLeavesErrorsAlone) {
+  const test::TemporaryDirectory here;
+  auto manifest = small_manifest();
+  manifest["protocol"] = {{"max_density", 0.5}};
+  test::write_text(here / "m.json", manifest.dump());
+  const auto warned = objects(shell("$ISOJAM validate m.json --messages json", here.path()).err);
+  ASSERT_EQ(warned.size(), 1U);
+  EXPECT_EQ(warned[0].at("kind"), "warning");
+  EXPECT_NE(warned[0].at("text").get<std::string>().find("/protocol/max_density"), std::string::npos);
+  EXPECT_EQ(shell("$ISOJAM run m.json -o r --messages json --quiet", here.path()).err, "");
+  const auto missing = objects(shell("$ISOJAM validate none.json --messages json --quiet", here.path()).err);
+  ASSERT_EQ(missing.size(), 1U);
+  EXPECT_EQ(missing[0].at("kind"), "error");
+}
+
+TEST(Messages, ANameThatIsNotUtf8IsStillReported) {
+  const test::TemporaryDirectory here;
+  const auto ended = shell("$ISOJAM --messages json validate \"$(printf 'no\\377ne.json')\"", here.path());
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_EQ(objects(ended.err).size(), 1U) << ended.err;
+}
+
+TEST(Messages, AManifestOnStandardInputHasItsPathsFromTheCurrentDirectory) {
+  const test::TemporaryDirectory here;
+  auto manifest = small_manifest();
+  manifest["solids"]["block"]["file"] = "block.off";
+  manifest["sweep"]["solid"] = {"block"};
+  test::write_text(here / "block.off", "OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
+  test::write_text(here / "m.json", manifest.dump());
+  const auto file = shell("$ISOJAM validate m.json", here.path());
+  for (const std::string line : {"$ISOJAM validate - <m.json", "cat m.json | $ISOJAM validate -"}) {
+    const auto ended = shell(line, here.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(ended.out, file.out);
+  }
+  manifest["seed"] = -1;
+  test::write_text(here / "m.json", manifest.dump());
+  const auto refused = shell("$ISOJAM run - <m.json", here.path());
+  EXPECT_EQ(refused.exit_code, 65);
+  EXPECT_EQ(refused.err.rfind("isojam: error: -: /seed: ", 0), 0U) << refused.err;
+}
+
+}  // namespace
+}  // namespace isojam
