@@ -84,7 +84,7 @@ class ChartRun {
   void measure_atlas() {
     AtlasOptions options;
     options.stop = measuring_.stop;
-    options.progress = [this](const std::string& part) { measuring_.console.tick("stability atlas, " + part); };
+    options.progress = [this](const std::string& part) { measuring_.progress("stability atlas, " + part); };
     result_.atlas->rows = stability_atlas(options);
   }
 
@@ -107,7 +107,7 @@ class ChartRun {
 
 ChartResult run_chart(const ChartConfig& config, std::stop_token stop, Console& console, const PublishChart& publish) {
   const Deadline deadline(config.total_seconds, stop);
-  const Measuring measuring{config, deadline.token(), console};
+  const Measuring measuring{config, deadline.token(), [&console](const std::string& next) { console.tick(next); }};
   ChartResult result;
   with_threads(1, [&] { result = ChartRun(measuring, stop, publish).run(); });
   return result;

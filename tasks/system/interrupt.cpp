@@ -29,7 +29,8 @@ bool is_ignored(int signal) {
 
 }  // namespace
 
-InterruptWatcher::InterruptWatcher() {
+InterruptWatcher::InterruptWatcher(std::chrono::milliseconds patience)
+    : patience_{patience.count() / 1000, patience.count() % 1000 * 1'000'000} {
   sigemptyset(&signals_);
   // A blocked signal would be waited for although it is ignored.
   for (const int signal : {SIGINT, SIGTERM}) {
@@ -57,8 +58,7 @@ void InterruptWatcher::watch() {
   }
   source_.request_stop();
   // What is under way is asked first. A measurement of a large packing does not listen: it is left.
-  const timespec patience{1, 500'000'000};
-  if (sigtimedwait(&signals_, nullptr, &patience) >= 0 && finished_) return;
+  if (sigtimedwait(&signals_, nullptr, &patience_) >= 0 && finished_) return;
   say("\nisojam: warning: interrupted; what was recorded is kept, and the same command continues\n");
   std::_Exit(static_cast<int>(ExitCode::interrupted));
 }

@@ -22,14 +22,12 @@ import unittest
 
 import browser as browsers
 
-browsers.demand()
-
-from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402  known to be there only now
+from selenium.webdriver.common.action_chains import ActionChains
 
 EXECUTABLE = pathlib.Path(sys.argv.pop(1)).resolve()
 CONFIG = {"compare": ["equilibrium", "overlap", "atlas", "phi_j", "growth"], "solids": ["dodecahedron"], "particles": 24, "packings": 1,
           "distances": [0.08, 0.05], "fit_window": 0.1, "tolerances": [1e-2, 1e-6], "pairs": 3, "repetitions": 1,
-          "max_evaluations": 100, "rule_evaluations": 200, "total_seconds": 60,
+          "max_evaluations": 100, "rule_evaluations": 200, "point_seconds": 1e5, "total_seconds": 1e6,
           "phi_j": {"solid": "dodecahedron", "replicates": 2, "particles": [24, 30], "consolidation_step": [0.04],
                     "target_energy": [1e-5], "fit_window": [0.05, 0.1], "residual": [1e-6, 1e-3]},
           "growth": {"solids": ["dodecahedron"], "particles": [24, 32], "replicates": 1, "distances": [0.05]}}

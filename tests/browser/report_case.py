@@ -31,15 +31,39 @@ for (let k = 0; k < data.length; k += 4) {
 }
 return {drawn, hash, all: data.length / 4};"""
 
-# Frames per second while the view is turned by keys as fast as it is drawn.
-RATE = """
-const done = arguments[arguments.length - 1], canvas = document.getElementById('packing');
-const begun = performance.now(), first = Number(canvas.dataset.frames);
+# Counts, from here on, the frames that the page asks for, and the corners of triangles and ends of lines that it draws.
+COUNT = """
+Object.assign(window, {asked: 0, drawn: {lines: 0, corners: 0}, frame: window.requestAnimationFrame.bind(window)});
+window.requestAnimationFrame = (work) => { asked += 1; return frame(work); };
+const context = WebGL2RenderingContext.prototype;
+for (const [name, count, instances] of [['drawArrays', 2], ['drawElements', 1], ['drawArraysInstanced', 2, 3],
+                                        ['drawElementsInstanced', 1, 4]]) {
+  const draw = context[name];
+  context[name] = function (...values) {
+    drawn[values[0] === context.LINES ? 'lines' : 'corners'] += values[count] * (instances ? values[instances] : 1);
+    return draw.apply(this, values);
+  };
+}"""
+
+# Done when the page has asked for no frame while thirty went by.
+REST = """
+const done = arguments[arguments.length - 1];
+let quiet = 0, before = asked;
+const look = () => {
+  quiet = asked === before ? quiet + 1 : 0;
+  before = asked;
+  return quiet === 30 ? done(true) : frame(look);
+};
+look();"""
+
+# Presses a key for each of twenty frames; done with the counts of each frame.
+TURNS = """
+const done = arguments[arguments.length - 1], canvas = document.getElementById('packing'), frames = [];
 const turn = () => {
-  const seconds = (performance.now() - begun) / 1000;
-  if (seconds > 2) return done((Number(canvas.dataset.frames) - first) / seconds);
+  if (frames.length === 20) return done(frames);
+  Object.assign(drawn, {lines: 0, corners: 0});
   canvas.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight', bubbles: true, cancelable: true}));
-  requestAnimationFrame(turn);
+  frame(() => { frames.push({...drawn}); turn(); });
 };
 turn();"""
 
@@ -98,7 +122,7 @@ class Case(unittest.TestCase):
 
     def saved(self, names):
         """The files, once all of them are there."""
-        for _ in range(200):
+        for _ in range(2000):
             paths = [self.browser.downloads / name for name in names]
             if all(path.exists() for path in paths):
                 return paths

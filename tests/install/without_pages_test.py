@@ -1,6 +1,7 @@
 """Facts proved here: without_pages_test.py CMAKE SOURCE PROGRAM
 
-- without Vega and three.js, configuring warns with the names of their packages and goes on;
+- without Vega, three.js, CGAL and valijson, configuring names their packages and goes on; the tests of the engine are
+  built, and those that need one of them are not;
 - the program that is built then has every command; `report` and `chart` end with exit 2, name the packages and say how to
   configure; the others work.
 """
@@ -20,14 +21,17 @@ def run(*words):
 class WithoutPages(unittest.TestCase):
     def test_configures(self):
         with tempfile.TemporaryDirectory() as here:
-            ended = run(CMAKE, "-S", SOURCE, "-B", here, "-G", "Ninja", "-DISOJAM_TESTS=OFF",
-                        "-DISOJAM_JAVASCRIPT=/nowhere")
+            ended = run(CMAKE, "-S", SOURCE, "-B", here, "-G", "Ninja", "-DISOJAM_JAVASCRIPT=/nowhere",
+                        "-DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_valijson=ON")
             self.assertEqual(ended.returncode, 0, ended.stderr)
-            for word in ("libjs-vega", "libjs-three", "/nowhere"):
-                self.assertIn(word, ended.stderr)
+            for words in ("libjs-vega", "libjs-three", "/nowhere", "\n  overlaps against exact arithmetic: ", "\n  files checked against schemas/: ",
+                          "\n  report and chart in a browser: "):
+                self.assertIn(words, ended.stderr)
             targets = run("ninja", "-C", here, "-t", "targets", "all").stdout
-            self.assertIn("\nisojam: ", targets)
-            self.assertNotIn("isojam_chart", targets)
+            for built in ("isojam", "solve_tests", "quad_packing_tests", "tasks_tests"):
+                self.assertIn(f"\n{built}: ", targets)
+            for left_out in ("isojam_chart", "isojam_oracle", "isojam_schema_check", "atlas_tests"):
+                self.assertNotIn(left_out, targets)
 
     def test_says_what_it_lacks(self):
         for words in (["report", "results"], ["chart", "-o", "x"], ["chart", "--full", "-o", "x"]):

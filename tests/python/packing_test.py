@@ -13,6 +13,7 @@ import pathlib
 import subprocess
 import tempfile
 
+import gsd.hoomd
 import numpy
 
 import support
@@ -53,10 +54,6 @@ class Exported(support.Case):
                 self.near(packing.corners(i) - packing.positions[i], vertices @ turns[i].T, 64 * results.DOUBLE, "corners")
 
     def test_gsd(self):
-        try:
-            import gsd.hoomd
-        except ImportError:
-            self.skipTest("NO GSD HERE: its package is python3-gsd")
         for name in support.done(CUBES):
             packings = support.study(CUBES).path(name)
             with gsd.hoomd.open(str(EXPORTED / "exported/path" / (name + ".gsd")), "rb") as trajectory:
@@ -110,10 +107,6 @@ class Solids(support.Case):
         self.near(edges, numpy.array([1, 1.5, 2]) / 3 ** (1 / 3), 1e-14, "edges")
 
     def test_mixtures(self):
-        try:
-            import gsd.hoomd
-        except ImportError:
-            self.skipTest("NO GSD HERE: its package is python3-gsd")
         name = next(name for name in support.done(MIXED) if name.startswith("cubes_and"))
         packing = support.study(MIXED).packing(name)
         self.assertEqual(packing.solid_names, ("cube", "tetrahedron"))

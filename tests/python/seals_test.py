@@ -8,7 +8,6 @@
 - a file that is missing, cut short, of another schema, or no file is refused with its name."""
 
 import re
-import time
 
 import support
 from support import CUBES, isojam, numpy
@@ -32,12 +31,6 @@ class Seals(support.Case):
             self.assertEqual(seals.fnv1a(data[:n]), byte_by_byte(data[:n]), f"{n} bytes")
         for byte in (0, 0x7F, 0x80, 0xFF):
             self.assertEqual(seals.fnv1a(bytes([byte]) * 1000), byte_by_byte(bytes([byte]) * 1000), f"bytes {byte}")
-
-    def test_speed(self):
-        data = numpy.random.default_rng(2).integers(32, 127, 4_000_000, dtype=numpy.uint8).tobytes()
-        start = time.perf_counter()
-        seals.fnv1a(data)
-        print(f"{len(data) / 1e6 / (time.perf_counter() - start):.0f} MB/s")
 
     def test_every_file_is_whole(self):
         files = [file for directory in support.ALL for file in directory.rglob("*.json")]

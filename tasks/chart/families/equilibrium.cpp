@@ -189,7 +189,7 @@ class Minimisers {
         if (std::find(missed.begin(), missed.end(), distance) != missed.end()) continue;
         const auto start = start_at(jammed, distance);
         if (!start) continue;
-        measuring_.console.tick(fmt::format("{}, {}, {}", task_name(solid, distance), variant.method, variant.setting));
+        measuring_.progress(fmt::format("{}, {}, {}", task_name(solid, distance), variant.method, variant.setting));
         EndState state = minimised(*start, variant.options, measuring_);
         if (!measuring_.over()) states.emplace(std::pair(jammed.number, distance), std::move(state));
       }

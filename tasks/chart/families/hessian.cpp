@@ -58,7 +58,7 @@ class Hessians {
     std::map<double, Samples> differences;
     for (const Packing& packing : task.packings) {
       if (measuring_.over()) break;
-      measuring_.console.tick("Hessians, " + task.task);
+      measuring_.progress("Hessians, " + task.task);
       compare(packing, analytic, differences);
     }
     // Stopped in the middle, what was measured counts: n says of how many packings it is.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -8,7 +9,6 @@
 #include "tasks/chart/config/config.hpp"
 #include "tasks/chart/config/deadline.hpp"
 #include "tasks/chart/results/point.hpp"
-#include "tasks/system/console.hpp"
 #include "tasks/system/thread_clock.hpp"
 
 namespace isojam {
@@ -16,8 +16,8 @@ namespace isojam {
 /// What all measurements of a chart share.
 struct Measuring {
   const ChartConfig& config;
-  std::stop_token stop;  ///< time over, or a signal
-  Console& console;
+  std::stop_token stop;                                   ///< time over, or a signal
+  std::function<void(const std::string& next)> progress;  ///< called before each part of a measurement
 
   bool over() const { return stop.stop_requested(); }
 };

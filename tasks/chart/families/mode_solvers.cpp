@@ -156,7 +156,7 @@ void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measu
     TaskPoints points;
     for (const Packing& packing : task.packings) {
       if (measuring.over()) break;
-      measuring.console.tick("modes, " + task.task);
+      measuring.progress("modes, " + task.task);
       compare(packing, measuring, points);
     }
     points.append_to(family.points, task.task);

@@ -136,7 +136,7 @@ void compare_overlaps(const Measuring& measuring, ChartFamily& family) {
     for (const PairClass pair_class : classes) {
       const auto task = fmt::format("{}, {}", to_string(solid), to_string(pair_class));
       if (measuring.over()) return;
-      measuring.console.tick("overlaps, " + task);
+      measuring.progress("overlaps, " + task);
       std::vector<PreparedPair> pairs;
       for (const PairCase& pair : oracle::pair_cases(solid, solid, pair_class, measuring.config.pairs)) {
         if (measuring.over()) return;

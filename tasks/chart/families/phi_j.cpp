@@ -65,7 +65,7 @@ Replicated replicated(const ProtocolSetting& setting, const Measuring& measuring
   const PhiJConfig& config = measuring.config.phi_j;
   Replicated result;
   for (int k = 0; k < config.replicates && !measuring.over(); ++k) {
-    measuring.console.tick(fmt::format("jamming density, {}, replicate {}", setting.name, k + 1));
+    measuring.progress(fmt::format("jamming density, {}, replicate {}", setting.name, k + 1));
     RandomStream random{measuring.config.seed, static_cast<std::uint64_t>(config.solid),
                         static_cast<std::uint64_t>(setting.particles), static_cast<std::uint64_t>(k)};
     const double before = thread_cpu_seconds();

@@ -17,7 +17,7 @@ std::vector<JammedSolid> jam_all(const Measuring& measuring) {
   std::vector<JammedSolid> all;
   for (const SolidKind solid : config.solids) {
     for (int k = 0; k < config.packings && !measuring.over(); ++k) {
-      measuring.console.tick(fmt::format("jamming {} {}s", config.particles, to_string(solid)));
+      measuring.progress(fmt::format("jamming {} {}s", config.particles, to_string(solid)));
       RandomStream random{config.seed, static_cast<std::uint64_t>(solid), static_cast<std::uint64_t>(k)};
       Packing placed = random_packing(platonic(solid), config.particles, options.initial_density, random);
       JamResult result = jam(std::move(placed), options, measuring.stop);
@@ -55,7 +55,7 @@ std::vector<TaskEquilibria> all_equilibria(std::span<const JammedSolid> jammed, 
       TaskEquilibria& task = all.emplace_back(TaskEquilibria{task_name(solid, distance), {}});
       for (const JammedSolid& each : jammed) {
         if (each.solid != solid || measuring.over()) continue;
-        measuring.console.tick("equilibria, " + task.task);
+        measuring.progress("equilibria, " + task.task);
         if (auto packing = equilibrium_at(each, distance, measuring)) task.packings.push_back(std::move(*packing));
       }
     }

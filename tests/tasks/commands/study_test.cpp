@@ -95,7 +95,7 @@ TEST(Study, OfANewUser) {
 
   write(study(16));
   const auto stopped = isojam({"run", "m.json", "-o", "again"}, here.path(), [&](int process) {
-    for (int k = 0; k < 20000 && names_in(here / "again/records").size() < 5; ++k)
+    for (int k = 0; k < 200000 && names_in(here / "again/records").size() < 5; ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     kill(process, SIGINT);
   });

@@ -61,7 +61,7 @@ void expect_choices(const Json& state, const Packing& packing) {
   EXPECT_NEAR(state.at("C_s").get<double>() * packing.size() / 2, contacts + tilts, 1e-9 * contacts);
 }
 
-TEST(PrestressMeasure, CountsConstraintsAndModes) {
+TEST(HoldingMeasure, PrestressCountsConstraintsAndModes) {
   const auto states = states_of(Measure::prestress, "prestress");
   for (std::size_t k = 0; k < states.size(); ++k) {
     const Json& state = states[k];
@@ -101,7 +101,7 @@ TEST(PrestressMeasure, CountsConstraintsAndModes) {
   EXPECT_EQ(states.back().at("s_normal").size(), PackingEnergy().contacts(octahedra().states.back()).size());
 }
 
-TEST(PrestressMeasure, CountsModesByWhatContactsHold) {
+TEST(HoldingMeasure, PrestressCountsModesByWhatContactsHold) {
   const Packing& packing = octahedra().states[1];
   PackingEnergy energy;
   const auto contacts = energy.contacts(packing);
@@ -138,7 +138,7 @@ TEST(PrestressMeasure, CountsModesByWhatContactsHold) {
   EXPECT_NE(by_threshold.begin()->second, by_threshold.rbegin()->second);
 }
 
-TEST(RigidityMeasure, TriesOtherCutoffs) {
+TEST(HoldingMeasure, RigidityTriesOtherCutoffs) {
   const auto states = states_of(Measure::rigidity, "rigidity");
   int told = 0;
   for (const Json& state : states) {
@@ -157,7 +157,7 @@ TEST(RigidityMeasure, TriesOtherCutoffs) {
   EXPECT_GT(told, 0);
 }
 
-TEST(GapsMeasure, CountsAll) {
+TEST(HoldingMeasure, GapsCountsAll) {
   const auto states = states_of(Measure::gaps, "gaps");
   const auto sum = [](const Json& bins) {
     const auto counts = bins.at("counts").get<std::vector<long>>();
@@ -175,7 +175,7 @@ TEST(GapsMeasure, CountsAll) {
   EXPECT_LT(states.back().at("within_distance").get<double>(), 1);
 }
 
-TEST(GapsMeasure, SaysWhyThereIsNothing) {
+TEST(HoldingMeasure, GapsSaysWhyThereIsNothing) {
   RandomStream random{7};
   JamResult without_phi_j;
   without_phi_j.states = {random_packing(platonic(SolidKind::dodecahedron), 50, .75, random)};

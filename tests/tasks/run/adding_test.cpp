@@ -191,7 +191,7 @@ TEST_F(Adding, GoesOnAfterAKill) {
   const auto original = record("few", names().front()).at("result_digest");
   measure({"--add", "rigidity,modes", "-j", "1"}, [&](int process) {
     // As soon as the first record was replaced.
-    for (int k = 0; k < 20000 && record("few", names().front()).at("result_digest") == original; ++k)
+    for (int k = 0; k < 200000 && record("few", names().front()).at("result_digest") == original; ++k)
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     ::kill(process, SIGKILL);
   });

@@ -56,7 +56,7 @@ TEST_F(Crash, WhatGoesMeanwhileIsMissed) {
   for (const std::string folder : {"records", "packings", "paths"}) {
     fs::remove_all(here_ / "results");
     const auto incomplete = run([&](int) {
-      for (int i = 0; i < 20000 && names_in(here_ / "results" / "records").empty(); ++i)
+      for (int i = 0; i < 200000 && names_in(here_ / "results" / "records").empty(); ++i)
         std::this_thread::sleep_for(500us);
       const auto name = names_in(here_ / "results" / "records").at(0);
       fs::remove(here_ / "results" / folder / (name + ".json"));
@@ -79,7 +79,7 @@ TEST_F(Crash, TheTableIsOfTheManifestThatWasRun) {
   ASSERT_EQ(isojam({"run", "other.json", "-o", "other"}, here_.path()).exit_code, 0);
   // Another's manifest and a record of its come in while records are made.
   const auto foreign = run([&](int) {
-    for (int i = 0; i < 20000 && names_in(here_ / "results" / "records").empty(); ++i)
+    for (int i = 0; i < 200000 && names_in(here_ / "results" / "records").empty(); ++i)
       std::this_thread::sleep_for(500us);
     const auto name = "records/" + names_in(here_ / "results" / "records").at(0) + ".json";
     fs::copy_file(here_ / "other" / name, here_ / "results" / name, fs::copy_options::overwrite_existing);

@@ -105,29 +105,44 @@ TEST(Graph, ThreadsChangeNoOutcome) {
   EXPECT_EQ(records.at(1), records.at(3));
 }
 
-TEST(Graph, AsManyInFlightAsThreadsAndOneConsumer) {
-  for (const int threads : {1, 3}) {
-    std::atomic<int> in_flight{0}, most{0}, consuming{0};
+/// Counts replicates in flight.
+class InFlight {
+ public:
+  /// Made-up stages that wait until `company` replicates were in flight together. After many seconds in vain they wait
+  /// no more.
+  Stages stages(int company) {
     auto stages = quiet_stages();
-    // Waits for company as long as it takes to be sure that none will come.
-    stages.jam = [&, jam = stages.jam](const ReplicateSpec& spec, JamProgress from, std::stop_token stop,
-                                       const OnProgress& on_step) {
-      for (int i = 0; i < 2000 && most < threads; ++i) std::this_thread::sleep_for(1ms);
-      return jam(spec, std::move(from), std::move(stop), on_step);
-    };
-    stages.begin = [&, begin = stages.begin](const ReplicateSpec& spec) {
-      const int now = ++in_flight;
-      for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
+    stages.begin = [this, begin = stages.begin](const ReplicateSpec& spec) {
+      const int now = ++now_;
+      for (int before = most_; now > before && !most_.compare_exchange_weak(before, now);) {
       }
       return begin(spec);
     };
-    run_graph(one_by_one(plan_of(30)), stages, {threads, 0, {}, {}}, [&](const Outcome&) {
+    stages.jam = [this, company, jam = stages.jam](const ReplicateSpec& spec, JamProgress from, std::stop_token stop,
+                                                   const OnProgress& on_step) {
+      while (most_ < company && patience_-- > 0) std::this_thread::sleep_for(1ms);
+      return jam(spec, std::move(from), std::move(stop), on_step);
+    };
+    return stages;
+  }
+  void leave() { --now_; }
+  int most() const { return most_; }
+
+ private:
+  std::atomic<int> now_{0}, most_{0}, patience_{30000};
+};
+
+TEST(Graph, AsManyInFlightAsThreadsAndOneConsumer) {
+  for (const int threads : {1, 3}) {
+    InFlight in_flight;
+    std::atomic<int> consuming{0};
+    run_graph(one_by_one(plan_of(30)), in_flight.stages(threads), {threads, 0, {}, {}}, [&](const Outcome&) {
       EXPECT_EQ(++consuming, 1);
       std::this_thread::sleep_for(5ms);
       --consuming;
-      --in_flight;
+      in_flight.leave();
     });
-    EXPECT_EQ(most, threads);
+    EXPECT_EQ(in_flight.most(), threads);
   }
 }
 
@@ -139,7 +154,7 @@ TEST(Graph, StopsPromptly) {
     ++started;
     if (spec.replicate < 3) return test::made_up_outcome(spec).jam;
     source.request_stop();
-    for (int i = 0; i < 5000 && !stop.stop_requested(); ++i) std::this_thread::sleep_for(1ms);
+    for (int i = 0; i < 30000 && !stop.stop_requested(); ++i) std::this_thread::sleep_for(1ms);
     EXPECT_TRUE(stop.stop_requested());
     JamResult result;
     result.status = JamStatus::interrupted;
@@ -193,17 +208,12 @@ TEST(Graph, AResourceFailureIsNoneOfTheReplicate) {
 }
 
 TEST(Graph, FewerInFlightThanThreadsWhereMemoryAsks) {
-  std::atomic<int> in_flight{0}, most{0};
-  auto stages = quiet_stages();
-  stages.begin = [&, begin = stages.begin](const ReplicateSpec& spec) {
-    const int now = ++in_flight;
-    for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
-    }
+  InFlight in_flight;
+  run_graph(one_by_one(plan_of(30)), in_flight.stages(2), {4, 2, {}, {}}, [&](const Outcome&) {
     std::this_thread::sleep_for(2ms);
-    return begin(spec);
-  };
-  run_graph(one_by_one(plan_of(30)), stages, {4, 2, {}, {}}, [&](const Outcome&) { --in_flight; });
-  EXPECT_EQ(most, 2);
+    in_flight.leave();
+  });
+  EXPECT_EQ(in_flight.most(), 2);
 }
 
 TEST(Graph, APlanIsAskedForNoFasterThanItIsRun) {

@@ -44,7 +44,7 @@ TEST(Console, CountsEveryRoundFromNoneOnATerminal) {
   const std::vector<std::string> expected{"1 of 6", "2 of 6", "3 of 6", "4 of 6", "5 of 6", "6 of 6",
                                           "1 of 2", "2 of 2", "1 of 3", "2 of 3", "3 of 3"};
   EXPECT_EQ(counts, expected) << text;
-  EXPECT_NE(text.find("1 of 2 replicates, less than 1 s left"), std::string::npos) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("1 of 2 replicates, [^\r]+ left"))) << text;
   EXPECT_TRUE(text.ends_with("\r\033[K")) << text;
 }
 

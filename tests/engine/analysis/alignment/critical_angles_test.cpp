@@ -241,24 +241,25 @@ TEST(CriticalAngles, OfAFlatVertexAreThoseOfItsTwoLowestEdges) {
 /// The largest of the smallest angles over directions of the cone of each vertex, by brute force: a lower bound.
 CriticalAngles searched(const ConvexSolid& solid, RandomStream& random) {
   std::vector<double> ef(solid.vertices().size(), 0), ff(solid.vertices().size(), 0);
+  std::vector<std::vector<Vector3d>> normals(ff.size()), along(ff.size());
+  for (const Face& face : solid.faces()) {
+    for (const int v : face.vertices) normals[v].push_back(face.normal);
+  }
+  for (const Edge& edge : solid.edges()) {
+    const Vector3d direction = (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
+    along[edge.head].push_back(direction), along[edge.tail].push_back(direction);
+  }
   for (int k = 0; k < 400000; ++k) {
     const Vector3d d = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
     std::size_t outermost = 0;
     for (std::size_t v = 1; v < solid.vertices().size(); ++v) {
       if (solid.vertices()[v].dot(d) > solid.vertices()[outermost].dot(d)) outermost = v;
     }
-    double face = pi, edge = pi;
-    for (const Face& each : solid.faces()) {
-      if (std::find(each.vertices.begin(), each.vertices.end(), static_cast<int>(outermost)) != each.vertices.end())
-        face = std::min(face, std::acos(std::min(1.0, each.normal.dot(d))));
-    }
-    for (const Edge& each : solid.edges()) {
-      if (each.tail != static_cast<int>(outermost) && each.head != static_cast<int>(outermost)) continue;
-      const Vector3d along = (solid.vertices()[each.head] - solid.vertices()[each.tail]).normalized();
-      edge = std::min(edge, std::asin(std::min(1.0, std::abs(along.dot(d)))));
-    }
-    ff[outermost] = std::max(ff[outermost], face);
-    ef[outermost] = std::max(ef[outermost], edge);
+    double cosine = -1, sine = 1;
+    for (const Vector3d& normal : normals[outermost]) cosine = std::max(cosine, normal.dot(d));
+    for (const Vector3d& direction : along[outermost]) sine = std::min(sine, std::abs(direction.dot(d)));
+    ff[outermost] = std::max(ff[outermost], std::acos(std::min(1.0, cosine)));
+    ef[outermost] = std::max(ef[outermost], std::asin(sine));
   }
   CriticalAngles least;
   least.ef_vertex_face = *std::min_element(ef.begin(), ef.end());
