@@ -1,8 +1,8 @@
-"""Benchmarks of two trees in turn: python3 against.py BEFORE NOW [--filter REGEX] [--rounds N]
+"""Compares benchmarks of two trees: python3 against.py BEFORE NOW [--filter REGEX] [--rounds N]
 
-BEFORE and NOW are two isojam_bench. Each round runs both, the one that comes first changing from round to round, so that
-what else the machine does falls on both alike. Prints, for every benchmark that both have, the medians over the rounds
-and the median of the rounds' ratios, before over now, with its range: above 1, now is faster.
+BEFORE and NOW are two isojam_bench programs. Each round runs both, in alternating order, so that other load on the
+machine affects both equally. For every benchmark in both programs it prints the medians over the rounds, and the median
+and range of the rounds' ratios, before over now: NOW is faster if the ratio is above 1.
 """
 
 import argparse
@@ -14,7 +14,7 @@ import tempfile
 
 
 def medians(binary, pattern):
-    """Times of one run in ns by name; what a benchmark counts beside its time is left out."""
+    """Times of one run in ns by name, without the other counters of a benchmark."""
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
         words = [binary, "--benchmark_filter=" + pattern, "--benchmark_repetitions=3", "--ratios", file.name]
         subprocess.run(words, check=True, stdout=subprocess.DEVNULL)

@@ -1,8 +1,8 @@
-"""Facts proved here, of against.py with two programs that stand for isojam_bench and say what they are told to:
-- the ratio printed is the median of the rounds' ratios, before over now, with its range, beside both medians;
-- which program comes first changes from round to round;
-- a benchmark that one of them lacks is left out, and what is counted beside times too; where nothing is left the end is
-  one line that names the filter; where a program fails, so does the comparison.
+"""Properties of against.py tested here, with two programs that replace isojam_bench and print prescribed results:
+- The printed ratio is the median of the rounds' ratios, before over now, with its range, next to both medians.
+- The order of the programs alternates from round to round.
+- A benchmark that only one of them has is skipped, and so are counters other than times. If none is left, the output is
+  one line that names the filter. If a program fails, so does the comparison.
 usage: against_test.py
 """
 

@@ -1,12 +1,12 @@
-// What it costs to follow equilibria towards jamming, printed as tables:
+// Cost of following equilibria towards jamming, printed as tables:
 //
 //   isojam_equilibria states N SEEDS [newton]
-//     every expansion step of 35 % and one of 3 % from the same state, of the four solids of the paper; with `newton`
-//     by Newton's method too, and whether the energies agree
+//     Every expansion step of 35 % and one of 3 % from the same state, for the four solids of the paper. With `newton`
+//     also by Newton's method, and whether the energies agree.
 //   isojam_equilibria law N...
-//     whole replicates of octahedra to Δφ = .005: the law of cost against N
+//     Whole replicates of octahedra to Δφ = 0.005: cost as a function of N.
 //
-// One thread, from φ = .05; seeds 1 … SEEDS; seconds of the processor.
+// One thread, from φ = 0.05; seeds 1 … SEEDS; times are CPU seconds.
 
 #include <oneapi/tbb/global_control.h>
 #include <sys/resource.h>
@@ -29,7 +29,7 @@ namespace {
 
 constexpr double final_distance = 0.005, large_step = 0.35, small_step = 0.03;
 
-/// Seconds of the processor: the same beside other programs, but for caches.
+/// CPU seconds: independent of other programs, except through caches.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double median(std::vector<double> values) {
@@ -48,7 +48,7 @@ Packing placed(SolidKind kind, int n, int seed, const JamOptions& options) {
   return random_packing(platonic(kind), n, options.initial_density, random);
 }
 
-/// Costs of the steps of one kind, one entry for each.
+/// Costs of the steps of one kind, one entry per step.
 struct Costs {
   std::vector<double> factorisations, local, envelopes, overlaps, seconds;
   int failed = 0;
@@ -113,7 +113,7 @@ void compare(const Packing& state, bool with_newton, Comparison& found) {
   found.same += std::abs(followed.energy / summary.energy - 1) < 1e-6;
 }
 
-/// Expands by the default protocol to Δφ < .13 and on, and tries every state on the way.
+/// Expands with the default protocol to Δφ < 0.13 and further, and tries every state in between.
 void states_of(SolidKind kind, int n, int seed, bool with_newton, Comparison& found) {
   JamOptions options;
   options.final_distance = final_distance;
@@ -189,7 +189,7 @@ void law(const std::vector<int>& sizes) {
   }
 }
 
-/// A number of particles or seeds; 0 if it is none.
+/// A number of particles or seeds; 0 if the text is not a number.
 int number(const std::string& text) {
   const int value = std::atoi(text.c_str());
   return std::to_string(value) == text ? value : 0;

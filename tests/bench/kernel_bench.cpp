@@ -1,7 +1,7 @@
-// Time of one pair: the contact loop on touching pairs, with and without second derivatives, beside the slow clip and
-// the peers on the same pairs; on the pairs of packings, in their order; the cached axis on near misses. Solids are
-// placed beforehand for all alike, as a packing places them once per evaluation and not once per pair. Before a peer is
-// timed its volumes are compared.
+// Time of one pair: the contact loop on touching pairs, with and without second derivatives, compared with the slow
+// clip and the peers on the same pairs; on the pairs of packings, in their order; and the cached axis on pairs that
+// almost touch. Solids are placed beforehand for all methods, because a packing places them once per evaluation and not
+// once per pair. The volumes of a peer are compared before it is timed.
 
 #include <benchmark/benchmark.h>
 
@@ -18,7 +18,7 @@
 namespace isojam::bench {
 namespace {
 
-/// Times `work(k)` over all pairs in turn, the first `pairs` of them if it is slow.
+/// Times `work(k)` over all pairs in turn, or over the first `pairs` of them if it is slow.
 template <class Work>
 void time_pairs(benchmark::State& state, std::size_t pairs, const Work& work) {
   std::size_t k = 0;
@@ -28,7 +28,7 @@ void time_pairs(benchmark::State& state, std::size_t pairs, const Work& work) {
   }
 }
 
-/// A comparison with something that computes something else would be worthless.
+/// A comparison is meaningful only if both compute the same.
 template <class Volume>
 void require_equal_volumes(std::string_view peer, const PairSet& set, std::size_t pairs, double tolerance,
                            const Volume& volume) {

@@ -1,6 +1,6 @@
 // isojam_bench [--ratios FILE] [Google Benchmark's options]
-// Runs the benchmarks in random order, repetition by repetition, so that what else the machine does falls on all of
-// them alike; prints medians and the table of ratios, and writes both as JSON where a file is named.
+// Runs the benchmarks in random order, repetition by repetition, so that other load on the machine affects all of them
+// equally. Prints medians and the table of ratios, and writes both as JSON if a file is given.
 
 #include <algorithm>
 #include <cstring>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Removes `--ratios FILE`, if it is there; empty if it is not.
+/// Removes `--ratios FILE` and returns the file; empty if the option is absent.
 std::string take_ratios_path(std::vector<char*>& arguments) {
   const auto flag = std::find_if(arguments.begin(), arguments.end(),
                                  [](const char* text) { return std::strcmp(text, "--ratios") == 0; });
@@ -23,7 +23,7 @@ std::string take_ratios_path(std::vector<char*>& arguments) {
 }
 
 int run(int argc, char** argv) {
-  // Options of the command line come later and win.
+  // Options of the command line come later and override these.
   std::string defaults[] = {"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=9",
                             "--benchmark_min_time=0.03"};
   std::vector<char*> arguments{argv[0]};

@@ -1,5 +1,5 @@
-// Of one packing: evaluation on one core and on two, and as N grows, with the memory it holds; Hessian; factorisation
-// beside Eigen's SimplicialLDLT and CHOLMOD, and on two cores.
+// Benchmarks of one packing: evaluation on one core and on two, and as a function of N, with the memory used; Hessian;
+// factorisation compared with Eigen's SimplicialLDLT and CHOLMOD, and on two cores.
 
 #include <benchmark/benchmark.h>
 #include <malloc.h>
@@ -22,8 +22,8 @@ double bytes_in_use() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-/// As many packings in turn as make 10⁴ particles, so that branch predictors and caches learn no more of small ones
-/// than of large.
+/// Uses in turn as many packings as contain 10⁴ particles, so that branch predictors and caches learn as little about
+/// small packings as about large ones.
 class Turns {
  public:
   explicit Turns(int n) : packings_(relaxed(SolidKind::octahedron, n, 10000 / n)), energies_(packings_.size()) {}
@@ -39,8 +39,8 @@ class Turns {
   std::size_t turn_ = 0;
 };
 
-/// Of packings that were evaluated before, one after the other. Memory is what an evaluator holds, the Hessian's
-/// scratch included.
+/// Evaluates packings that were evaluated before, one after the other. Memory is that of an evaluator, including the
+/// Hessian's working memory.
 void evaluate(benchmark::State& state, int n, std::size_t threads, Precision precision) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
   Turns turns(n);
@@ -53,7 +53,7 @@ void evaluate(benchmark::State& state, int n, std::size_t threads, Precision pre
   }
 }
 
-/// With a new neighbour list.
+/// Evaluates with a new neighbour list.
 void evaluate_afresh(benchmark::State& state, int n) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   Turns turns(n);
@@ -72,7 +72,7 @@ void hessian(benchmark::State& state, int n) {
   }
 }
 
-/// A Hessian and a shift that makes it safely positive definite.
+/// A Hessian, and a shift that makes it safely positive definite.
 struct System {
   BlockMatrix matrix;
   double shift = 0;
@@ -94,7 +94,7 @@ void block_cholesky(benchmark::State& state, int n, std::size_t threads) {
   if (!done) state.SkipWithError("not positive definite");
 }
 
-/// As a minimiser meets it whose contacts come and go: the symbolic part is done every time.
+/// Factorisation for a minimiser whose contacts open and close: it includes the symbolic part every time.
 void block_cholesky_afresh(benchmark::State& state, int n) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   const System system = system_of(n);
@@ -103,7 +103,7 @@ void block_cholesky_afresh(benchmark::State& state, int n) {
   if (!done) state.SkipWithError("not positive definite");
 }
 
-/// The peer: approximate minimum degree, lower half, its symbolic part kept; only the numbers are timed.
+/// The peer: approximate minimum degree, lower half, symbolic part kept; only the numerical part is timed.
 void simplicial_ldlt(benchmark::State& state, int n) {
   const System system = system_of(n);
   const Eigen::SparseMatrix<double> matrix = lower_half(system.matrix, system.shift);
@@ -113,7 +113,7 @@ void simplicial_ldlt(benchmark::State& state, int n) {
   if (factor.info() != Eigen::Success) state.SkipWithError("failed");
 }
 
-/// Another peer, in the order it likes best, its symbolic part kept; one core. The label says on which BLAS.
+/// Another peer, with its preferred order and its symbolic part kept; one core. The label states the BLAS.
 void cholmod(benchmark::State& state, int n) {
   const System system = system_of(n);
   CholmodFactor factor(lower_half(system.matrix, system.shift));
@@ -169,7 +169,7 @@ bool register_all() {
     add("factorise/block_cholesky_afresh" + case_of(n), block_cholesky_afresh, n);
     add("factor_solve/block_cholesky" + case_of(n), block_cholesky_solve, n);
   }
-  // By the clock: the ratio of the two is what a second core brings.
+  // Wall-clock time: the ratio of the two is the gain by a second core.
   for (const int n : {400, 1000, 4000}) {
     for (const std::size_t threads : {1, 2})
       add("factorise/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads") + case_of(n), block_cholesky,

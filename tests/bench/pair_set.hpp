@@ -23,15 +23,15 @@ struct PairSet {
   const Eigen::Vector3d& r(std::size_t k) const { return pairs[k].r; }
 };
 
-/// Random orientations and directions, V/V_p in 1e-5 … 3e-2. So many different pairs that no branch predictor can
-/// learn them. Kept from one call to the next.
+/// Random orientations and directions, V/V_p in 1e-5 … 3e-2. There are too many different pairs for a branch predictor
+/// to learn. Kept from one call to the next.
 const PairSet& touching_pairs(SolidKind kind);
 
-/// Those pairs of compressed packings of N particles that overlap by as much, packing after packing, in the order in
-/// which each evaluates them; 10⁴ particles in all.
+/// The pairs of compressed packings of N particles with this overlap, packing after packing, in the order in which each
+/// evaluates them; 10⁴ particles in total.
 const PairSet& packing_pairs(SolidKind kind, int n);
 
-/// The same apart, though their circumspheres meet.
+/// The same for separated pairs whose circumspheres overlap.
 const PairSet& separated_pairs(SolidKind kind);
 
 }  // namespace isojam::bench

@@ -26,7 +26,7 @@ CholmodFactor::CholmodFactor(const Eigen::SparseMatrix<double>& lower_half)
   cholmod_sparse& matrix = workspace_->matrix;
   matrix.nrow = matrix.ncol = static_cast<std::size_t>(lower_half_.rows());
   matrix.nzmax = static_cast<std::size_t>(lower_half_.nonZeros());
-  // CHOLMOD only reads them.
+  // CHOLMOD only reads these arrays.
   matrix.p = lower_half_.outerIndexPtr();
   matrix.i = lower_half_.innerIndexPtr();
   matrix.x = lower_half_.valuePtr();
@@ -45,7 +45,7 @@ CholmodFactor::~CholmodFactor() {
 }
 
 bool CholmodFactor::factorise() {
-  // It asks OpenMP for four threads, whatever it was told of their number, but where there may be no more.
+  // CHOLMOD requests four threads from OpenMP, whatever number is set; this limits it.
   omp_set_max_active_levels(0);
   const int done = cholmod_factorize(&workspace_->matrix, workspace_->factor, &workspace_->common);
   return done != 0 && workspace_->common.status == CHOLMOD_OK;

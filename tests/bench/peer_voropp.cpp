@@ -14,7 +14,7 @@ struct VoroCells::Cells {
 
 namespace {
 
-/// Removes n·y > d. voro++ states a plane by a point at twice its distance, p·y = |p|²/2.
+/// Removes n·y > d. voro++ describes a plane by a point at twice its distance, p·y = |p|²/2.
 bool cut(voro::voronoicell_neighbor& cell, const Eigen::Vector3d& n, double d, int id) {
   return cell.nplane(n.x(), n.y(), n.z(), 2 * d, id);
 }

@@ -10,10 +10,10 @@
 
 namespace isojam::bench {
 
-// What a user could take instead of the contact loop, and of the block factorisation.
+// Alternatives that a user could choose instead of the contact loop and the block factorisation.
 
-/// voro++: A's cell, cut once per particle, is copied and cut by B's planes; then volume, centroid, neighbours and,
-/// from its areas of faces, S_A.
+/// voro++: A's cell, cut once per particle, is copied and cut by B's planes. The results are volume, centroid,
+/// neighbours and, from its face areas, S_A.
 class VoroCells {
  public:
   explicit VoroCells(const PairSet& set);
@@ -21,9 +21,9 @@ class VoroCells {
   VoroCells(const VoroCells&) = delete;
   VoroCells& operator=(const VoroCells&) = delete;
 
-  /// Volume of A ∩ B of pair k.
+  /// Volume of A ∩ B for pair k.
   double overlap(std::size_t k);
-  /// S_A of the pair that overlap() was asked for last.
+  /// S_A of the pair in the last call of overlap().
   const Eigen::Vector3d& area() const { return area_; }
 
  private:
@@ -33,11 +33,10 @@ class VoroCells {
   std::unique_ptr<Cells> cells_;
 };
 
-/// CGAL: intersection of the half-spaces of both, predicates exact and constructions in double.
+/// CGAL: intersection of the half-spaces of both solids, with exact predicates and constructions in double.
 double cgal_overlap(const PairSet& set, std::size_t k);
 
-/// CHOLMOD: supernodal, in the order that it finds best of minimum degree and METIS's, its symbolic part kept; one
-/// thread.
+/// CHOLMOD: supernodal, with the better order of minimum degree and METIS, its symbolic part kept; one thread.
 class CholmodFactor {
  public:
   explicit CholmodFactor(const Eigen::SparseMatrix<double>& lower_half);
@@ -45,7 +44,7 @@ class CholmodFactor {
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 
-  /// False if the matrix is not positive definite.
+  /// Returns false if the matrix is not positive definite.
   bool factorise();
   Eigen::VectorXd solve(const Eigen::VectorXd& b);
 
@@ -55,10 +54,10 @@ class CholmodFactor {
   std::unique_ptr<Workspace> workspace_;
 };
 
-/// The BLAS under CHOLMOD: its version, the kernels that it chose for this machine, its threads.
+/// The BLAS used by CHOLMOD: its version, its kernels for this machine, and its threads.
 std::string blas_in_use();
 
-/// The greatest difference of a peer's volumes from the contact loop's over the first `pairs` pairs, relative.
+/// Largest relative difference between a peer's volumes and the contact loop's over the first `pairs` pairs.
 template <class Volume>
 double worst_difference(const PairSet& set, std::size_t pairs, const Volume& volume) {
   double worst = 0;
@@ -66,12 +65,12 @@ double worst_difference(const PairSet& set, std::size_t pairs, const Volume& vol
     SeparatingAxis unused;
     const double ours = overlap(set.a(k), set.b(k), set.r(k), unused).volume;
     const double difference = std::abs(volume(k) - ours) / ours;
-    if (!(difference <= worst)) worst = difference;  // a NaN stays
+    if (!(difference <= worst)) worst = difference;  // keeps a NaN
   }
   return worst;
 }
 
-/// The same of S_A, over |S_A| of the contact loop, of all pairs.
+/// The same for S_A of all pairs, relative to |S_A| of the contact loop.
 template <class Area>
 double worst_area_difference(const PairSet& set, const Area& area) {
   double worst = 0;

@@ -1,8 +1,8 @@
-// Facts proved here:
-//   the median of random lists is the middle of the sorted list, or the mean of the two in the middle;
-//   a claim holds exactly on one side of its bound, whichever way it counts, after division by its units; a bound of 0
-//   asks nothing; a claim one side of which was not measured is left out;
-//   what is claimed names two different quantities of one family, as `family/method/case`.
+// Properties tested here:
+// - The median of random lists is the middle of the sorted list, or the mean of the two in the middle.
+// - A claim holds exactly on one side of its bound, in either direction, after division by its units. A bound of 0
+//   requires nothing. A claim without measurements of both sides is ignored.
+// - A claim refers to two different quantities of one family, named `family/method/case`.
 
 #include "tests/bench/ratios.hpp"
 

@@ -26,7 +26,7 @@ std::string compiler() {
 #endif
 }
 
-/// Three significant digits, with the unit that fits.
+/// Three significant digits, with a suitable unit.
 std::string readable(double value, bool is_time) {
   char text[32];
   if (!is_time) {
@@ -87,7 +87,7 @@ void MedianReporter::ReportRuns(const std::vector<Run>& runs) {
       continue;
     }
     const double unit = benchmark::GetTimeUnitMultiplier(run.time_unit) / 1e9;
-    // What runs on one thread is measured in its own CPU time: another process on the machine then hardly shows.
+    // Benchmarks on one thread use their own CPU time, so that other processes hardly matter.
     const bool wall_clock = run.run_name.time_type == "real_time";
     samples_[name].push_back((wall_clock ? run.GetAdjustedRealTime() : run.GetAdjustedCPUTime()) / unit);
     if (!run.report_label.empty()) labels_[name] = run.report_label;

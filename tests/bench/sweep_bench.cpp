@@ -1,5 +1,5 @@
-// Throughput of a sweep of small replicates through the task graph, records and checkpoints written, on one and on two
-// cores. Wall-clock time: what a user waits for.
+// Throughput of a sweep of small replicates through the task graph, with records and checkpoints written, on one and on
+// two cores. Wall-clock time, because that is what a user waits for.
 
 #include <benchmark/benchmark.h>
 

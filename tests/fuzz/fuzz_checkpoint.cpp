@@ -1,5 +1,5 @@
-// Any document is refused by an InputError or is a checkpoint that can be written again. It is made to be of this build
-// and of this replicate, so that what comes after is reached.
+// Any document is either rejected with an InputError or is a checkpoint that can be written again. The document is
+// given the build and the replicate of this program, so that later checks are reached.
 
 #include <cstdint>
 #include <cstdlib>

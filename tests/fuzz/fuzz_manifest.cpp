@@ -1,4 +1,4 @@
-// Any text is refused by an InputError or is a manifest whose canonical form reads back as itself.
+// Any text is either rejected with an InputError or is a manifest whose canonical form reads back as itself.
 
 #include <cstdint>
 #include <cstdlib>

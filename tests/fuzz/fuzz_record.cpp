@@ -1,5 +1,5 @@
-// Any document is refused by an InputError or gives a table. Seals are checked on the raw text, and left aside for the
-// rest, since no fuzzer would ever find the checksum of what it changed.
+// Any document is either rejected with an InputError or gives a table. Checksums are tested on the raw text and skipped
+// for the rest, because a fuzzer would never find the checksum of its changes.
 
 #include <cstdint>
 #include <cstdlib>

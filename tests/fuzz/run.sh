@@ -1,6 +1,6 @@
 #!/bin/bash
-# Runs every fuzzer of a build directory for some seconds each and says how many inputs it tried and what they covered.
-# Ends with 1 if one of them found something.
+# Runs every fuzzer of a build directory for some seconds each, and prints the number of inputs tried and their coverage.
+# Exits with 1 if one of them found something.
 set -u
 build=$1 seconds=$2
 here=$(cd "$(dirname "$0")" && pwd)

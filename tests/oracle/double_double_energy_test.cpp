@@ -1,11 +1,12 @@
-// Facts proved here, of evaluations in double-double, judged in quadruple precision:
-//   a few Newton steps bring jammed states, down to where double stops at 1e-8, to residual 1e-9 and far below; the
-//   same steps in plain double do not, and the state loses it without the low parts of positions or of orientations; a
-//   residual differs from the true one by less than residual_floor, which is not more than some hundred times larger
-//   than the difference;
-//   energy and its differences are right to energy_noise;
-//   the Hessian agrees with differences of the gradient in quadruple precision to 1e-9, far from jamming and near it;
-//   of mixtures of shapes and sizes, energy, gradient, stress and Hessian agree as well.
+// Properties of evaluations in double-double tested here, with quadruple precision as reference:
+// - A few Newton steps bring jammed states, including those where double stops at 1e-8, to a residual of 1e-9 and far
+//   below. The same steps in plain double do not. The state loses this accuracy without the low parts of positions or
+//   of orientations.
+// - A residual differs from the true one by less than residual_floor, which is at most a few hundred times that
+//   difference.
+// - Energy and its differences are correct to energy_noise.
+// - The Hessian agrees with differences of the gradient in quadruple precision to 1e-9, far from jamming and near it.
+// - Energy, gradient, stress and Hessian of mixtures of shapes and sizes agree as well.
 
 #include <gtest/gtest.h>
 
@@ -58,7 +59,7 @@ std::vector<Packing> jammed(double least_energy) {
   return states;
 }
 
-/// The state of least residual, as evaluated, in a few Newton steps.
+/// The state with the smallest evaluated residual within a few Newton steps.
 Packing polished(Packing packing, Precision precision) {
   PackingEnergy energy;
   Packing best = packing;
@@ -100,7 +101,7 @@ TEST(DoubleDoubleEnergy, ReachesResidualsThatDoubleDoesNot) {
     EXPECT_LE(reached, 1e-10);
     EXPECT_LE(here.residual_floor, 1e-9);
     if (here.energy > 1e-11 * start.size()) continue;
-    // Near jamming every part is needed.
+    // Near jamming every low part is needed.
     near = true;
     EXPECT_GE(by_double, 1e-9);
     EXPECT_GE(without_position, 1e-9);
@@ -120,7 +121,7 @@ TEST(DoubleDoubleEnergy, FloorAndNoiseBoundTheErrors) {
   RandomStream random{70, 2};
   for (const Packing& start : states()) {
     const Packing rest = polished(start, Precision::double_double);
-    // What is left there is rounding; a floor far above it would say nothing.
+    // The remaining residual is rounding. A floor far above it would be useless.
     EXPECT_GE(true_residual(rest), 1e-3 * PackingEnergy().evaluate(rest, Precision::double_double).residual_floor);
     for (const double kick : {0.0, 1e-16, 1e-13, 1e-10, 1e-7}) {
       const Packing packing = moved(rest, kick * random_direction(random));
@@ -128,7 +129,7 @@ TEST(DoubleDoubleEnergy, FloorAndNoiseBoundTheErrors) {
       const QuadEvaluation right = evaluate_in_quad(packing);
       EXPECT_EQ(here.contacts, right.contacts);
       EXPECT_LE(std::abs(static_cast<double>(Quad(here.energy) - right.energy)), here.energy_noise);
-      // Of large residuals the rounding of the residual itself.
+      // For large residuals this is the rounding error of the residual itself.
       const double error = std::abs(static_cast<double>(Quad(here.residual) - right.residual));
       EXPECT_LE(error, here.residual_floor + 1e-12 * here.residual)
           << "density " << start.density() << ", kick " << kick << ", residual " << here.residual;
@@ -136,7 +137,7 @@ TEST(DoubleDoubleEnergy, FloorAndNoiseBoundTheErrors) {
   }
 }
 
-/// The derivative of the gradient by turns, less its symmetric part: ½ θ×T.
+/// The derivative of the gradient with respect to rotations, minus its symmetric part: ½ θ×T.
 VectorXd turned_gradient(const Packing& packing, const VectorXd& gradient, const VectorXd& direction) {
   VectorXd result = VectorXd::Zero(direction.size());
   for (int i = 0; i < packing.size(); ++i) {
@@ -167,7 +168,7 @@ TEST(DoubleDoubleEnergy, HessianIsTheDifferenceOfGradientsInQuadruplePrecision) 
   std::printf("Hessian against differences in quadruple precision: largest relative error %.1e\n", worst);
 }
 
-/// Three shapes in four sizes, the largest seven times the least.
+/// Three shapes in four sizes, the largest seven times the smallest.
 Packing mixed_packing() {
   RandomStream random{70, 5};
   std::vector<Particle> list;

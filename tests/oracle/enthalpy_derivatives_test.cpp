@@ -1,7 +1,6 @@
-// Facts proved here, by differences in quadruple precision, in cells of every shape, of all five solids, in either
-// precision:
-//   gradient of the enthalpy by particles and by every freedom of the cell, border and corner of its second
-//   derivatives, each to 1e-9 of its size.
+// Property tested here, by differences in quadruple precision, in cells of every shape, for all five solids and both
+// precisions: the gradient of the enthalpy with respect to particles and to every freedom of the cell, and border and
+// corner of its second derivatives, have relative errors of at most 1e-9.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr int particles = 70;
 
-/// A random packing in a cell sheared and stretched at random, legal still.
+/// A random packing in a cell sheared and stretched at random that is still legal.
 Packing skewed(SolidKind kind, std::uint64_t seed) {
   RandomStream random{81, seed, static_cast<std::uint64_t>(kind)};
   const Packing packing = random_packing(platonic(kind), particles, .55, random);
@@ -62,13 +61,14 @@ Quad quad_enthalpy(const Case& at, const Packing& packing) {
   return evaluate_in_quad(packing).energy + Quad(at.enthalpy.control().pressure) * volume;
 }
 
-/// The gradient of H in quadruple precision, as moved() takes steps.
+/// The gradient of H in quadruple precision, in the coordinates of moved().
 std::vector<Quad> quad_gradient(const Case& at, const Packing& packing) {
   return gradient_of(evaluate_in_quad(packing), packing, at.enthalpy.control());
 }
 
-/// What the derivative of the gradient along moved() has beside the Hessian: ½ θ×T, since turns do not commute, and for
-/// the strains what forces and antisymmetric stress do along the step. All of it vanishes in balance.
+/// Terms of the derivative of the gradient along moved() that the Hessian does not contain: ½ θ×T, because rotations do
+/// not commute, and for the strains the work of forces and antisymmetric stress along the step. All of them vanish in
+/// equilibrium.
 VectorXd out_of_balance(const Case& at, const Evaluation& here) {
   const Packing& packing = at.packing;
   VectorXd result = VectorXd::Zero(at.along.size());

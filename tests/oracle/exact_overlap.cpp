@@ -24,14 +24,14 @@ using Point = Kernel::Point_3;
 using Plane = Kernel::Plane_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-/// A solid as CGAL objects, beside the exact numbers that they were made from.
+/// A solid as CGAL objects, with the exact numbers from which they were made.
 struct Body {
   ExactSolid solid;
   std::vector<Point> vertices;
   std::vector<Plane> planes;  ///< positive side: outside
 };
 
-/// Planes of A and of B that a point lies on.
+/// Planes of A and of B that contain a point.
 struct Incidence {
   std::uint32_t a = 0, b = 0;
 };
@@ -49,7 +49,7 @@ Body make_body(ExactSolid solid) {
   return body;
 }
 
-/// Planes of `body` that the point lies on; nothing if it is outside.
+/// Planes of `body` that contain the point; nullopt if it is outside.
 std::optional<std::uint32_t> incident_planes(const Body& body, const Point& point) {
   std::uint32_t incident = 0;
   for (std::size_t i = 0; i < body.planes.size(); ++i) {
@@ -61,7 +61,7 @@ std::optional<std::uint32_t> incident_planes(const Body& body, const Point& poin
 }
 
 void add(Candidates& candidates, const Point& point, const Incidence& incidence) {
-  CGAL::exact(point);  // a tight interval now spares every later predicate an exact evaluation
+  CGAL::exact(point);  // a tight interval now saves exact evaluations in later predicates
   Incidence& known = candidates[point];
   known.a |= incidence.a;
   known.b |= incidence.b;
@@ -195,7 +195,7 @@ class HullSums {
     return result;
   }
 
-  /// Part of a triangle of one body that lies within `shift` of a face plane of the other.
+  /// Area of the part of a triangle of one body that is within `shift` of a face plane of the other.
   double contested_area(Mesh::Face_index f, const Heights& heights, double shift) const {
     const auto [i, j, k] = corners_of(f);
     const RealVector &p = corners_[i], &q = corners_[j], &r = corners_[k];
@@ -204,7 +204,8 @@ class HullSums {
     for (int plane = 0; plane < heights.rows(); ++plane) {
       const double nearest = -std::max({heights(plane, i), heights(plane, j), heights(plane, k)});
       const double farthest = -std::min({heights(plane, i), heights(plane, j), heights(plane, k)});
-      // The height is linear: at most 2 shift/farthest of a triangle that reaches the plane lies that near to it.
+      // The height is linear: in a triangle that reaches the plane, at most the fraction 2 shift/farthest is that near
+      // to it.
       if (nearest <= shift) contested += farthest <= 2 * shift ? area : area * 2 * shift / farthest;
     }
     return contested;
@@ -214,7 +215,7 @@ class HullSums {
   const Body& a_;
   const Body& b_;
   std::vector<RealVector> corners_;
-  std::vector<Incidence> faces_;  ///< the planes that a whole triangle lies on
+  std::vector<Incidence> faces_;  ///< the planes that contain a whole triangle
 };
 
 RationalVector rational_displacement(const ExactPose& pose) {

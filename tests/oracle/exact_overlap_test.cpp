@@ -1,12 +1,12 @@
-// Facts proved here, of the oracle alone (no algorithm of the engine is run):
-// - the five solids have unit volume to 1e-55, alone and coincident in every exact symmetry;
-// - cubes, tetrahedra and wedges give the closed forms of V, S and M to 1e-50;
-// - V grows as the third power of the depth near first contact in a random orientation;
-// - V from the hull equals V from successive cuts, in every class of pairs, degenerate ones included;
-// - exchanging the solids gives the same V, −S, and −M + r×S;
-// - S = ∂V/∂x_A and M = ∂V/∂θ_A by central differences of V at steps of 1e-12;
-// - shared faces are reported as not single-valued, clean contacts as single-valued;
-// - disjoint and touching pairs have V = 0.
+// Properties of the oracle alone tested here (no algorithm of the engine is run):
+// - The five solids have unit volume to 1e-55, alone and coincident in every exact symmetry.
+// - Cubes, tetrahedra and wedges agree with the closed forms of V, S and M to 1e-50.
+// - V increases as the third power of the depth near first contact in a random orientation.
+// - V from the hull equals V from successive cuts, in every class of pairs, including degenerate ones.
+// - Exchanging the solids gives the same V, −S, and −M + r×S.
+// - S = ∂V/∂x_A and M = ∂V/∂θ_A by central differences of V with steps of 1e-12.
+// - Shared faces are reported as not single-valued, clean contacts as single-valued.
+// - Disjoint and touching pairs have V = 0.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ double relative(const RealVector& found, const RealVector& right) {
   return static_cast<double>(Real((found - right).norm() / right.norm()));
 }
 
-/// A turned by the rotation of q about its own centre, B left where it is: as seen from A.
+/// The pose of B seen from A after rotating A by q about its own centre.
 ExactPose a_turned(const ExactPose& pose, const RealQuaternion& q) {
   const ExactPose frame = inverse({q, RealVector(-pose.displacement)});
   return {RealQuaternion(frame.quaternion * pose.quaternion), frame.displacement};
@@ -80,13 +80,14 @@ TEST(ExactOverlap, VertexInAFaceOfATetrahedronHasItsClosedForm) {
 }
 
 TEST(ExactOverlap, WedgeInAFaceGrowsAsTheSquareOfTheDepth) {
-  const RealQuaternion q(2, 0, 0, 1);  // turns by the angle of cosine 3/5 and sine 4/5 about z
+  const RealQuaternion q(2, 0, 0, 1);  // rotates about z by the angle with cosine 3/5 and sine 4/5
   for (const double depth : {1e-15, 1e-7, .01}) {
     const ExactPose pose = pose_of(q, Real(1) / 2 + Real(7) / 10 - depth, 0, 0);
     const ExactOverlap overlap = exact_overlap(SolidKind::cube, SolidKind::cube, pose);
     const Real expected = Real(25) / 24 * depth * depth;
     EXPECT_LT(relative(overlap.volume, expected), 1e-40) << depth;
-    // The top and bottom of the two cubes are coplanar: their shares of S cancel by symmetry, but belong to no one.
+    // The tops and bottoms of the two cubes are coplanar: their contributions to S cancel by symmetry, but belong to
+    // neither.
     EXPECT_FALSE(overlap.single_valued);
     const ExactOverlap lifted =
         exact_overlap(SolidKind::cube, SolidKind::cube, {q, pose.displacement + RealVector(0, 0, .25)});
@@ -111,7 +112,7 @@ TEST(ExactOverlap, FirstContactInARandomOrientationIsOfThirdOrder) {
         return cbrt(exact_overlap(kind, kind, {pose.quaternion, pose.displacement + (low - depth) * direction}).volume);
       };
       const Real step = 1e-9;
-      // V^(1/3) is a straight line in the depth exactly while the touching features stay the same.
+      // V^(1/3) is exactly linear in the depth while the touching features stay the same.
       const Real first = root(step), second = root(2 * step), third = root(3 * step);
       EXPECT_LT(relative(first + third, 2 * second), 1e-30) << describe(pair);
       EXPECT_GT(first, 0) << describe(pair);
@@ -162,7 +163,7 @@ TEST(ExactOverlap, AreaAndMomentAreTheGradientOfTheVolume) {
           return ExactPose{pose.quaternion, pose.displacement - step * axis};  // A moves by +step
         };
         const auto turned = [&](const Real& step) {
-          const RealVector v = step / 2 * axis;  // tan(θ/2) = θ/2 to the order that matters
+          const RealVector v = step / 2 * axis;  // tan(θ/2) = θ/2 to sufficient order
           return a_turned(pose, RealQuaternion(1, v[0], v[1], v[2]));
         };
         area[k] = (volume(moved(h)) - volume(moved(-h))) / (2 * h);

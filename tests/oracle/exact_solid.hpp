@@ -31,25 +31,26 @@ RationalVector operator*(const RationalMatrix& m, const RationalVector& v);
 /// Rotation by q/|q|: quadratic in q over |q|², hence rational.
 RationalMatrix rotation_matrix(const RealQuaternion& q);
 
-/// normal·y ≤ offset inside. The normal is not of unit length.
+/// normal·y ≤ offset inside. The normal is not normalised.
 struct RationalPlane {
   RationalVector normal;
   Rational offset;
 };
 
-/// A Platonic solid with rational vertices whose faces are planar without error. Features numbered as in the engine.
+/// A Platonic solid with rational vertices whose faces are exactly planar. Features have the same indices as in the
+/// engine.
 struct ExactSolid {
   std::vector<RationalVector> vertices;
   std::vector<RationalPlane> planes;
-  std::vector<std::vector<int>> faces;  ///< vertices counter-clockwise from outside
+  std::vector<std::vector<int>> faces;  ///< vertices counter-clockwise seen from outside
   std::vector<Edge> edges;
   std::vector<std::uint32_t> vertex_planes;  ///< bit i: the vertex lies on face i
 };
 
-/// The shared instance; see exact_overlap() for what it throws.
+/// The shared instance; throws like exact_overlap().
 const ExactSolid& exact_solid(SolidKind kind);
 
-/// The solid moved by y ↦ rotation·y + displacement.
+/// The solid after y ↦ rotation·y + displacement.
 ExactSolid moved(const ExactSolid& solid, const RationalMatrix& rotation, const RationalVector& displacement);
 
 }  // namespace isojam::oracle

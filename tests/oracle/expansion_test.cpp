@@ -1,6 +1,6 @@
-// Facts proved here, of whole replicates of N = 100, compressed, jammed and expanded to Δφ ≤ .004 (tetrahedra .01):
-//   asked for 1e-9, every state that is kept is an equilibrium to 1e-9, by a quadruple-precision evaluation of the
-//   state as it is stored. The table goes to standard output.
+// Property tested here, for whole replicates of N = 100, compressed, jammed and expanded to Δφ ≤ 0.004 (tetrahedra
+// 0.01): with a requested residual of 1e-9, every kept state is an equilibrium to 1e-9, by an evaluation of the stored
+// state in quadruple precision. The table is printed to standard output.
 
 #include <gtest/gtest.h>
 

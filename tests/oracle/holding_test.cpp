@@ -1,10 +1,13 @@
-// Facts proved here, of what holds jammed octahedra, tetrahedra and icosahedra, judged in quadruple precision:
-//   shares of random motions, of the softest modes and of floppy motions add up to uᵀ(∂²E)u by differences of
-//   gradients, to 1e-7 of that energy itself and to the rounding of the second terms, where the Hessian in double is
-//   far off; the share of the normals is ½ Σ (∇V·u)², also where nothing but the rounding of u is left of it;
-//   rows of normals are ∇V/|∇V|, rows of tilt span the turns of edge and face, and what the forces leave unbalanced is
-//   as stated; both kinds of rows have the rank and the states of self-stress that Gaussian elimination with complete
-//   pivoting finds, and pivots that count are far above those that do not.
+// Properties of the stiffness of jammed octahedra, tetrahedra and icosahedra tested here, with quadruple precision as
+// reference:
+// - The contributions to the energy of random motions, of the softest modes and of floppy motions sum to uᵀ(∂²E)u. The
+//   reference is differences of gradients, to 1e-7 of that energy and to the rounding of the second terms; the Hessian
+//   in double is far off there. The contribution of the normals is ½ Σ (∇V·u)², even if only the rounding of u is left
+//   of it.
+// - Rows of normals are ∇V/|∇V|, rows of tilt span the rotations of edge and face, and the force residual is as
+//   reported.
+// - Both kinds of rows have the rank and the states of self-stress that Gaussian elimination with complete pivoting
+//   finds. Nonzero pivots are far above the others.
 
 #include <gtest/gtest.h>
 
@@ -36,15 +39,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-/// Of the bound that rounding has: what it does not use.
+/// Fraction of the rounding bound that is likely to be reached.
 constexpr double likely = .25;
 
 Quad size_of(Quad x) { return x < 0 ? -x : x; }
 
-/// One contact: V, |S|, and ∇V by {x_A, R·θ_A, x_B, R·θ_B}, lab frame.
+/// One contact: V, |S|, and ∇V with respect to {x_A, R·θ_A, x_B, R·θ_B}, lab frame.
 struct QuadContact {
   Quad volume = 0, area = 0;
-  double rounding = 0;  ///< ρ of Evaluation::residual_floor: relative, of V and ∇V in double
+  double rounding = 0;  ///< ρ of Evaluation::residual_floor: relative error of V and ∇V in double
   std::array<Quad, 12> slope{};
 
   Quad slope_size() const {
@@ -60,7 +63,7 @@ QuadContact in_quad(const Packing& packing, const NeighbourPair& pair) {
   const QuadOverlap overlap = clipped_overlap(packing.solids[pair.a], packing.solids[pair.b], relative_pose(a, b, r));
   const QuadMatrix q = quad_rotation(a);
   const Quad3 area = q * overlap.area, turn_a = q * overlap.moment;
-  // V stays as it is where the pair turns as a whole about A's centre.
+  // V does not change if the pair rotates as a whole about A's centre.
   const Quad3 turn_b = cross(r, area) - turn_a;
   const Quad radius_a = packing.solids[pair.a].gyration_radius(), radius_b = packing.solids[pair.b].gyration_radius();
   QuadContact contact{overlap.volume, norm(area), 0, {}};
@@ -76,7 +79,7 @@ QuadContact in_quad(const Packing& packing, const NeighbourPair& pair) {
   return contact;
 }
 
-/// A jammed state with all that the engine says of it.
+/// A jammed state with all results of the engine for it.
 struct Held {
   Held(std::string its_name, const JamResult& jam)
       : name(std::move(its_name)),
@@ -124,7 +127,7 @@ const std::vector<Held>& states() {
   return made;
 }
 
-/// ½ Σ (∇V·u)², and what rounding may make of it.
+/// ½ Σ (∇V·u)², and its rounding error.
 std::pair<Quad, Quad> normal_energy(const Held& held, const VectorXd& u) {
   Quad energy = 0, rounding = 0;
   for (std::size_t c = 0; c < held.contacts.size(); ++c) {
@@ -142,7 +145,7 @@ std::pair<Quad, Quad> normal_energy(const Held& held, const VectorXd& u) {
   return {energy, rounding};
 }
 
-/// What rounding may make of the second terms.
+/// Rounding error of the second terms.
 double second_rounding(const Held& held, const VectorXd& u) {
   double sum = 0;
   for (std::size_t c = 0; c < held.contacts.size(); ++c) {
@@ -153,14 +156,14 @@ double second_rounding(const Held& held, const VectorXd& u) {
   return eps * sum;
 }
 
-/// Largest errors: of the total itself, and of what rounding may make of it and of the normals.
+/// Largest errors: of the total, and relative to the rounding errors of the total and of the normals.
 struct Worst {
   double total = 0, of_rounding = 0, normal_of_rounding = 0;
 };
 
 void check_shares(const Held& held, const VectorXd& u, Worst& worst) {
   const auto shares = stiffness_shares(held.contacts, held.pairs, 10, u);
-  // Far below every depth: what the next order leaves is the square of that.
+  // Far below every depth: the next order contributes the square of that.
   const double step = 1e-8 * held.least_depth / u.cwiseAbs().maxCoeff();
   const double whole = u.dot(difference_of_gradients(held.packing, u, step));
   const auto [normal, rounding] = normal_energy(held, u);
@@ -174,7 +177,7 @@ void check_shares(const Held& held, const VectorXd& u, Worst& worst) {
   worst.normal_of_rounding = std::max(worst.normal_of_rounding, normal_off);
 }
 
-/// Two random motions, and the three softest modes that the Hessian knows to some digits.
+/// Two random motions, and the three softest modes for which the Hessian is accurate to some digits.
 MatrixXd some_motions(const Held& held, RandomStream& random) {
   const ModeSet modes = dense_modes(held.hessian);
   const double known = 1e3 * eps * modes.eigenvalues.tail(1)[0];
@@ -203,7 +206,7 @@ TEST(HoldingTest, SharesAddUpToTheEnergyOfAMotion) {
 
 using QuadRow = std::vector<Quad>;
 
-/// A row of unit length of a contact.
+/// A row of unit length for a contact.
 QuadRow unit_row(const Packing& packing, const NeighbourPair& pair, const std::array<Quad, 12>& entries) {
   Quad square = 0;
   for (const Quad x : entries) square += x * x;
@@ -215,7 +218,7 @@ QuadRow unit_row(const Packing& packing, const NeighbourPair& pair, const std::a
   return row;
 }
 
-/// The turn of A less that of B about an axis in the lab frame.
+/// The rotation of A minus that of B about an axis in the lab frame.
 QuadRow tilt_row(const Packing& packing, const NeighbourPair& pair, const Quad3& axis) {
   const Quad radius_a = packing.solids[pair.a].gyration_radius(), radius_b = packing.solids[pair.b].gyration_radius();
   std::array<Quad, 12> entries{};
@@ -223,7 +226,8 @@ QuadRow tilt_row(const Packing& packing, const NeighbourPair& pair, const Quad3&
   return unit_row(packing, pair, entries);
 }
 
-/// Axes of the turns that a contact of that class opposes: two in the plane of the faces; edge × normal of the face.
+/// Axes of the rotations that a contact of that class opposes: two in the plane of the faces; edge × normal of the
+/// face.
 std::vector<Quad3> tilt_axes(const Packing& packing, const NeighbourPair& pair, const Alignment& angle,
                              ContactClass its_class) {
   if (its_class == ContactClass::lower_order) return {};
@@ -272,7 +276,7 @@ std::vector<double> pivots_of(std::vector<QuadRow> rows) {
   return pivots;
 }
 
-/// The rows of a state, and of which contact each is.
+/// The rows of a state, and the contact of each.
 struct QuadRows {
   QuadRows(const Held& held, const std::vector<Alignment>& angles, const std::vector<ContactClass>& classes) {
     std::vector<Quad> unbalanced(6 * held.packing.poses.size());
@@ -301,7 +305,7 @@ struct QuadRows {
   }
 
   std::vector<QuadRow> rows;
-  std::vector<Index> first;  ///< of every contact, and how many there are
+  std::vector<Index> first;  ///< first row of every contact, and the number of rows
   double imbalance = 0;
 };
 
@@ -313,7 +317,7 @@ void check_rows(const Held& held, const RigidityMatrix& matrix, const QuadRows& 
     const Index row = exact.first[c], tilts = exact.first[c + 1] - row - 1;
     const double off = (found.row(row) - right.row(row)).norm();
     worst_normal = std::max(worst_normal, off / held.exact[c].rounding);
-    // Two axes in a plane may be any two.
+    // Any two axes in the plane are equivalent.
     const auto of_found = found.middleRows(row + 1, tilts), of_right = right.middleRows(row + 1, tilts);
     worst_tilt = std::max(worst_tilt, (of_found.transpose() * of_found - of_right.transpose() * of_right).norm());
   }
@@ -325,7 +329,7 @@ void check_rows(const Held& held, const RigidityMatrix& matrix, const QuadRows& 
 void check_rank(const char* what, const Held& held, const RigidityMatrix& matrix, const QuadRows& exact) {
   check_rows(held, matrix, exact);
   const Rigidity rigidity = analyse_rigidity(matrix);
-  // The forces are a state of self-stress but for what they leave unbalanced.
+  // The forces are a state of self-stress apart from the force residual.
   EXPECT_NEAR(matrix.imbalance, exact.imbalance, .01 * exact.imbalance);
   const double zero = RigidityOptions{}.margin * exact.imbalance;
   const std::vector<double> pivots = pivots_of(exact.rows);

@@ -1,13 +1,17 @@
-// Facts proved here, of overlap() against exact rational arithmetic, for every solid and every class of pairs:
-// - random contacts, V/V_p in 1e-5..3e-2: relative error of V has a median of at most 1e-14 and a maximum of 5e-12;
-// - near-parallel faces, edges in faces, parallel edges, vertex on vertex: at most 1e-10;
-// - equal orientation, coplanar faces, coincidence and near-coincidence: no V wrong by more than 1e-6;
-// - S and M are right to 1e-10 in every contact, and elsewhere wherever a pose in double determines them to that;
-// - clipped_overlap() obeys the same limits, though most of these pairs would not reach it through overlap();
-// - the masks of faces and edges of random contacts are the exact ones;
-// - pairs of different solids obey the same limits;
-// - the checks reject a volume wrong by 1e-9, a force or torque of the wrong sign, a torque about the wrong centre, and
-//   NaN. A table of errors and of the path taken goes to standard output.
+// Properties of overlap() tested here, with exact rational arithmetic as reference, for every solid and every class of
+// pairs:
+// - For random contacts with V/V_p in 1e-5..3e-2 the relative error of V has a median of at most 1e-14 and a maximum of
+//   5e-12.
+// - For near-parallel faces, edges in faces, parallel edges and vertex on vertex it is at most 1e-10.
+// - For equal orientation, coplanar faces, coincidence and near-coincidence the error of V is at most 1e-6.
+// - The errors of S and M are at most 1e-10 in every contact, and elsewhere if a pose in double determines them to that
+//   accuracy.
+// - clipped_overlap() meets the same limits, although overlap() would not use it for most of these pairs.
+// - The masks of faces and edges of random contacts are exact.
+// - Pairs of different solids meet the same limits.
+// - The checks reject a volume with an error of 1e-9, a force or torque with the opposite sign, a torque about another
+//   centre, and NaN.
+// A table of errors and of the path used is printed to standard output.
 
 #include <gtest/gtest.h>
 
@@ -41,10 +45,10 @@ double greatest(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
 
-/// What one class of pairs showed.
+/// Results for one class of pairs.
 struct Survey {
   std::vector<double> volume, area,
-      moment;  ///< relative errors; S and M only where the pose fixes them to the tolerance
+      moment;  ///< relative errors; S and M only if the pose determines them to the tolerance
   int loop = 0, clip = 0, separated = 0;
 };
 
@@ -61,7 +65,7 @@ void print(const std::string& solid, PairClass pair_class, const Survey& survey)
   std::fflush(stdout);
 }
 
-/// Checks each pair as it goes and collects the errors.
+/// Checks each pair and collects the errors.
 Survey survey_pairs(const std::vector<PairCase>& pairs, PairClass pair_class) {
   Survey survey;
   for (const PairCase& pair : pairs) {
@@ -137,7 +141,7 @@ TEST(OverlapAccuracyMixed, DifferentSolidsAgreeWithExactArithmetic) {
   }
 }
 
-/// Wrong answers, each of a kind that a slip in the algorithm would give.
+/// Incorrect results, each typical of an error in the algorithm.
 TEST(OverlapChecks, RejectWrongAnswers) {
   for (const SolidKind kind : all_solids) {
     for (const PairCase& pair : pair_cases(kind, kind, PairClass::random_contact, 20)) {

@@ -13,7 +13,7 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   return m;
 }
 
-/// H_AB alone, in A's body frame.
+/// H_AB only, in A's body frame.
 inline Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis unused;
   OverlapHessian hessian;

@@ -1,9 +1,9 @@
-// Facts proved here, of the pairs that the accuracy tests run on:
-// - they are a function of their arguments alone, and no two of a class are equal, coincident pairs apart;
-// - contacts have V/V_p in 1e-5..3e-2 and spread over that range;
-// - each class has the geometry in its name: tilts, parallel edges, facing vertices, symmetric orientations,
-//   displacements in a face plane or of 1e-16..1e-8;
-// - quaternions of random contacts are not of unit length.
+// Properties tested here, for the pairs used by the accuracy tests:
+// - They depend only on their arguments, and no two of a class are equal, except coincident pairs.
+// - Contacts have V/V_p in 1e-5..3e-2, spread over that range.
+// - Each class has the geometry in its name: tilts, parallel edges, facing vertices, symmetric orientations,
+//   displacements in a face plane or of 1e-16..1e-8.
+// - Quaternions of random contacts are not normalised.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Directions of unit vectors are good to a few ulp.
+/// The error of directions of unit vectors is a few ulp.
 constexpr double direction_error = 32 * std::numeric_limits<double>::epsilon();
 
 constexpr std::array contact_classes{PairClass::random_contact, PairClass::near_parallel_faces, PairClass::edge_in_face,
@@ -35,7 +35,7 @@ Vector3d edge_direction(const ConvexSolid& solid, const Edge& edge) {
   return (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
 }
 
-/// Least angle between a face of A and a face of B that look at each other.
+/// Smallest angle between a face of A and a face of B that face each other.
 double face_tilt(const PairCase& pair) {
   const Matrix3d turn = rotation(pair);
   double least = 1;
@@ -45,7 +45,7 @@ double face_tilt(const PairCase& pair) {
   return least;
 }
 
-/// Least sine of the angle between an edge of A and a face of B.
+/// Smallest sine of the angle between an edge of A and a face of B.
 double edge_tilt(const PairCase& pair) {
   const Matrix3d turn = rotation(pair);
   double least = 1;
@@ -56,7 +56,7 @@ double edge_tilt(const PairCase& pair) {
   return least;
 }
 
-/// Least sine of the angle between an edge of A and an edge of B.
+/// Smallest sine of the angle between an edge of A and an edge of B.
 double edge_angle(const PairCase& pair) {
   const Matrix3d turn = rotation(pair);
   double least = 1;
@@ -69,7 +69,7 @@ double edge_angle(const PairCase& pair) {
   return least;
 }
 
-/// Least sine of the angle of the displacement with a vertex of A and, reversed, with one of B.
+/// Smallest sine of the angle of the displacement with a vertex of A and, reversed, with one of B.
 double vertex_angle(const PairCase& pair) {
   const auto least = [](const ConvexSolid& solid, const Vector3d& direction) {
     double sine = 1;
@@ -82,7 +82,7 @@ double vertex_angle(const PairCase& pair) {
   return std::max(least(platonic(pair.a), pair.displacement), least(platonic(pair.b), from_b));
 }
 
-/// Greatest distance of a turned vertex of B from the nearest vertex of A: 0 for a symmetry.
+/// Largest distance of a rotated vertex of B from the nearest vertex of A: 0 for a symmetry.
 double asymmetry(const PairCase& pair) {
   const Matrix3d turn = rotation(pair);
   double greatest = 0;
@@ -94,7 +94,7 @@ double asymmetry(const PairCase& pair) {
   return greatest;
 }
 
-/// Least height of the displacement over a plane parallel to a face.
+/// Smallest height of the displacement over a plane parallel to a face.
 double out_of_plane(const PairCase& pair) {
   double least = std::numeric_limits<double>::infinity();
   for (const Face& f : platonic(pair.a).faces()) least = std::min(least, std::abs(f.normal.dot(pair.displacement)));

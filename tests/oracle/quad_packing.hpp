@@ -10,7 +10,7 @@
 
 namespace isojam::oracle {
 
-/// What Evaluation holds, in quadruple precision, from the low parts of positions, orientations and solid too.
+/// The members of Evaluation in quadruple precision, with the low parts of positions, orientations and solid.
 struct QuadEvaluation {
   Quad energy = 0;
   std::vector<Quad3> force, torque;  ///< per particle, lab frame
@@ -20,15 +20,15 @@ struct QuadEvaluation {
   long contacts = 0;
 };
 
-/// Every pair by clipped_overlap, from all pairs of particles: slow.
+/// Computes every pair by clipped_overlap, from all pairs of particles: slow.
 QuadEvaluation evaluate_in_quad(const Packing& packing);
 
-/// ∂E/∂(x, R·θ), 6N, in the order of Evaluation::gradient.
+/// ∂E/∂(x, R·θ), 6N entries, in the order of Evaluation::gradient.
 std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing);
-/// The same of E + p V, with the derivatives by the strains ℓ·ε that are free behind them.
+/// The same for E + p V, followed by the derivatives with respect to the free strains ℓ·ε.
 std::vector<Quad> gradient_of(const QuadEvaluation& evaluation, const Packing& packing, const CellControl& control);
 
-/// (gradient(packing + h·direction) − gradient(packing − h·direction))/2h, each gradient in quadruple precision, so
+/// (gradient(packing + h·direction) − gradient(packing − h·direction))/2h, with gradients in quadruple precision, so
 /// that h may be far below the depth of every contact.
 Eigen::VectorXd difference_of_gradients(const Packing& packing, const Eigen::VectorXd& direction, double h);
 

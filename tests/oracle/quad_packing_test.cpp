@@ -1,7 +1,7 @@
-// Facts proved here, of the evaluation in quadruple precision that judges all others:
-//   forces and torques are the slopes of its energy, by central differences, to 1e-12;
-//   forces sum to zero to the last bits of quadruple precision;
-//   it agrees with PackingEnergy where doubles suffice, contact for contact.
+// Properties tested here, for the evaluation in quadruple precision, which is the reference of all others:
+// - Forces and torques are the derivatives of its energy, by central differences, to 1e-12.
+// - Forces sum to zero to the last bits of quadruple precision.
+// - It agrees with PackingEnergy where double is accurate enough, contact by contact.
 
 #include "tests/oracle/quad_packing.hpp"
 
@@ -41,7 +41,7 @@ TEST_P(QuadPacking, ForcesAreTheSlopesOfTheEnergy) {
   RandomStream random{63, 2};
   for (int k = 0; k < 3; ++k) {
     const VectorXd direction = random_direction(random);
-    // Truncation goes with h², rounding with 1e-33/h.
+    // Truncation is proportional to h², rounding to 1e-33/h.
     const double h = 1e-10;
     const Quad rise = evaluate_in_quad(moved(packing, h * direction)).energy -
                       evaluate_in_quad(moved(packing, -h * direction)).energy;

@@ -1,6 +1,5 @@
-// Fact proved here:
-// - volumes and area vectors in 50 digits are those of exact rational arithmetic, for pairs whose faces do not
-//   coincide.
+// Property tested here: volumes and area vectors in 50 digits agree with exact rational arithmetic, for pairs whose
+// faces do not coincide.
 
 #include "tasks/chart/pairs/reference_overlap.hpp"
 

@@ -4,7 +4,8 @@
 
 #include "engine/geometry/overlap/lanes.hpp"
 
-// The computation of set_own_hessian() in blocks of 3×3, one column per register, without a loop over 36 numbers.
+// The formula of OverlapHessian in blocks of 3×3, one column per register, without a loop over 36 numbers. It has the
+// same bits as the plain formula in matrices.
 
 namespace isojam {
 

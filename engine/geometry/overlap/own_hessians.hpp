@@ -6,7 +6,7 @@
 
 namespace isojam {
 
-/// Sets aa and bb from ab, S and r = x_B − x_A like set_own_hessian(), with the same bits.
+/// Sets aa and bb from ab, S and r = x_B − x_A by the formula of OverlapHessian.
 void set_own_hessians(const Eigen::Vector3d& area, const Eigen::Vector3d& r, OverlapHessian& hessian);
 
 }  // namespace isojam

@@ -5,8 +5,8 @@
 // 2. The closed forms increase from 0 to 1 continuously. At small angles they are the paper's: p(θ_ff) ∝ sin θ_ff on
 //    all of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint.
 // 3. The sampled angles are those that alignment() finds if the solid is pressed on a face.
-// 4. Contacts drawn at random are classified as random, except for the fraction given by the level. Those with more or
-//    fewer small angles are hyper-random or sub-random. Probabilities are the binomial sums.
+// 4. Contacts drawn at random are classified as random, except for the fraction given by the level. With more or fewer
+//    small angles they are hyper-random or sub-random. Probabilities are the binomial sums.
 // 5. An empirical CDF is a count, its distance is the largest one of a dense search, and its probability agrees with
 //    tables.
 // 6. A stratified sample agrees with the closed form to six times n^(-3/4), and for other solids with random samples.
