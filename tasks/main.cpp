@@ -35,7 +35,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   }
 }
 
-/// What the machine lacks ends the program wherever it is missed, also where nothing may be thrown.
+/// Ends the program after a resource failure, also in code that must not throw.
 [[noreturn]] void end_for_want(const char* what) {
   std::fprintf(stderr, "isojam: error: %s; what was recorded is kept, and the same command continues\n", what);
   std::_Exit(static_cast<int>(ExitCode::some_failed));
@@ -60,9 +60,9 @@ ExitCode parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
   isojam::open_standard_streams();
   std::set_terminate(isojam::terminated);
-  // At the first allocation that fails, before anything is unwound: not all that would be can bear it.
+  // Called at the first failed allocation, before unwinding, because not all code on the stack survives it.
   std::set_new_handler([] { isojam::end_for_want("the machine has no more memory to give"); });
-  // A file that may not grow is a failed write like any other, not the end.
+  // A file that must not grow is then an ordinary failed write.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     const auto code = isojam::parse_and_run(argc, argv);

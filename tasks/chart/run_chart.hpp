@@ -9,13 +9,13 @@
 
 namespace isojam {
 
-/// Called with what there is after each part of a chart, until it is to stop; what is still to come stands in it as
+/// Called with the results so far after each part of a chart, until a stop. Parts not yet measured are marked as
 /// interrupted and empty.
 using PublishChart = std::function<void(const ChartResult& so_far)>;
 
-/// Runs every comparison asked for, on the calling thread alone, in the order of Comparison. A family in which the
-/// total time ran out, or that a stop request ended, says so and holds the points measured until then; so does the
-/// atlas. All but the times, and what ends by time, is a function of the configuration.
+/// Runs every requested comparison on the calling thread, in the order of Comparison. A family or atlas that was cut by
+/// the time limit or a stop request is marked and keeps the points measured so far. Everything except times, and the
+/// effects of time limits, is a function of the configuration.
 ChartResult run_chart(const ChartConfig& config, std::stop_token stop, Console& console,
                       const PublishChart& publish = {});
 

@@ -26,9 +26,9 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> directories;
-  std::string output;  ///< tables.json to write; empty: none
+  std::string output;  ///< path of tables.json to write; empty: none
   TableFormat format = TableFormat::text;
-  bool series = false;  ///< quantities against Δφ instead of those nearest jamming; JSON has both
+  bool series = false;  ///< quantities against Δφ instead of at the state nearest jamming; JSON has both
   TableChoices choices;
 };
 
@@ -43,7 +43,7 @@ std::string formatted(const Table& table, TableFormat format, View view) {
   return to_text(table, view);
 }
 
-/// Takes in "none" or names of flags between commas, or says what is wrong.
+/// Parses "none" or comma-separated names of flags; returns an error text if this fails.
 std::optional<std::string> read_exclude(const std::string& text, std::optional<std::vector<Flag>>& exclude) {
   std::vector<Flag> flags;
   for (std::size_t from = 0; text != "none" && from <= text.size();) {
@@ -64,11 +64,12 @@ std::optional<std::string> read_exclude(const std::string& text, std::optional<s
   return std::nullopt;
 }
 
-/// Reads only, but for the output asked for.
+/// Writes no file except the requested output.
 ExitCode aggregate_directories(const Arguments& arguments, Console& console) {
   const Warn warn = [&](const std::string& message) { console.warn(message); };
   const auto table = table_of(arguments.directories, warn, arguments.choices);
-  // A base of the command line that no row has is a typing error; a manifest's may be of rows that are yet to come.
+  // A base of the command line that matches no row is a typing error. A base of the manifest may match rows that have
+  // not run yet.
   if (const auto problem = arguments.choices.base ? misplaced_base(table) : std::nullopt) {
     console.error(*problem);
     return ExitCode::usage;

@@ -43,7 +43,7 @@ ExitCode chart(const ChartArguments& arguments, Console& console) {
   make_directory(directory);
   const InterruptWatcher watcher;
   warn_about_kernels(console);
-  // Also between its parts, for who does not end in time after a signal is ended without another word.
+  // The token is checked between parts as well: the watcher ends a process that does not stop in time.
   const auto result = run_chart(config, watcher.token(), console,
                                 [&](const ChartResult& so_far) { written(config, so_far, directory); });
   console.end();

@@ -12,7 +12,7 @@
 #include "tasks/system/console.hpp"
 #include "tasks/system/exit_codes.hpp"
 
-// CLI11 takes long to compile wherever it is included: it is seen by command_line.cpp alone.
+// CLI11 takes long to compile, so only command_line.cpp includes it.
 // NOLINTNEXTLINE(readability-identifier-naming): CLI11 is called so
 namespace CLI {
 class App;
@@ -20,39 +20,39 @@ class App;
 
 namespace isojam {
 
-/// What a command line asks for: how to talk, and the work of the command that was given.
+/// The parsed command line: verbosity, and the work of the chosen command.
 struct Session {
   ConsoleOptions console;
   std::function<ExitCode(Console&)> work;
-  ProgramDescription program;  ///< the command line itself
+  ProgramDescription program;  ///< description of the whole command line
 };
 
-/// The words that a command, or the program itself, takes. References must live as long as the app.
+/// Arguments and options of a command or of the program. References must live as long as the app.
 class Options {
  public:
   enum class Need : bool { optional, required };
 
   explicit Options(CLI::App& app) : app_(app) {}
 
-  /// `name` is "word" for one that is told by its place, "-s,--long" for one that is told by its name; `type` is what
-  /// the help calls the value.
+  /// `name` is "word" for a positional argument and "-s,--long" for an option. `type` is the name of the value in the
+  /// help.
   void text(const std::string& name, std::string& value, const std::string& description, const std::string& type,
             Need need = Need::optional);
   void texts(const std::string& name, std::vector<std::string>& values, const std::string& description,
              const std::string& type);
   void flag(const std::string& name, bool& value, const std::string& description);
   void positive(const std::string& name, double& value, const std::string& description, const std::string& type);
-  /// `read` takes the text in, or says what is wrong with it. `absent` is called where the option is not given.
+  /// `read` parses the text and returns an error text if this fails. `absent` is called if the option is not given.
   void parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
               std::function<void()> absent, const std::string& description, const std::string& type);
-  /// The name of an enumerator.
+  /// An option whose value is the name of an enumerator.
   template <NamedEnum Enum>
   void choice(const std::string& name, Enum& value, const std::string& description, Need need = Need::optional) {
     one_of(
         name, {all_names<Enum>.begin(), all_names<Enum>.end()},
         [&value](const std::string& choice) { value = *from_string<Enum>(choice); }, description, need);
   }
-  /// Two that are not to be given together.
+  /// Two options that exclude each other.
   void exclusive(const std::string& one, const std::string& other);
 
   void results_directory(std::string& directory);
@@ -65,11 +65,11 @@ class Options {
   CLI::App& app_;
 };
 
-/// A command of that name, and what is to be done if it is given.
+/// Adds a command with the function to call if it is given.
 Options add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                     std::function<ExitCode(Console&)> work);
 
-/// A command whose work takes arguments: made here, handed to `work` once all are read.
+/// Adds a command whose work takes arguments. They are created here and passed to `work` once all are read.
 template <class Arguments>
 Options add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                     ExitCode (*work)(const Arguments&, Console&), Arguments*& arguments) {
@@ -79,7 +79,7 @@ Options add_command(CLI::App& app, Session& session, const std::string& name, co
                      [owned, work](Console& console) { return work(*owned, console); });
 }
 
-/// Adds a command to the program: its options and its work.
+/// Adds a command with its options and its work to the program.
 using AddCommand = void (*)(CLI::App& app, Session& session);
 
 void add_run(CLI::App& app, Session& session);
@@ -99,8 +99,8 @@ inline constexpr std::array<AddCommand, 11> all_commands{add_run,   add_validate
                                                          add_rerun, add_measure,     add_export,    add_report,
                                                          add_chart, add_completions, add_manual};
 
-/// Takes in the words that the program was called with: `session` gets its work. Where there is none, since help was
-/// asked for or a word is wrong, it is printed, and this is what to exit with.
+/// Parses the command line and stores the work in `session`. Returns an exit code if there is nothing to run (help,
+/// version or usage error); the help or the error is then printed.
 std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& session);
 
 }  // namespace isojam

@@ -36,7 +36,7 @@ void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
   }
 }
 
-/// What is wrong with the first command or option that is none; empty if all are known.
+/// Error text for the first unknown command or option; empty if all are known.
 std::string unknown_word(const CLI::App& app) {
   const auto given = app.get_subcommands();
   for (const auto& word : app.remaining(true)) {
@@ -78,7 +78,7 @@ std::vector<OptionDescription> described_options(const CLI::App& app) {
     for (const auto& name : option->get_snames()) described.names.push_back("-" + name);
     for (const auto& name : option->get_lnames()) described.names.push_back("--" + name);
     if (described.names.empty()) described.place = option->get_name();
-    // A flag expects nothing, whatever its type is called.
+    // A flag takes no value, even if it has a type name.
     if (option->get_items_expected_max() > 0) described.type = option->get_type_name();
     described.choices = choices_of(described.type);
     described.description = option->get_description();
@@ -97,7 +97,8 @@ ProgramDescription described_program(const CLI::App& app) {
                              .commands = {}};
   for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     auto options = described_options(*command);
-    std::erase_if(options, [](const OptionDescription& option) {  // every command has help: it stands with the program
+    std::erase_if(options, [](const OptionDescription& option) { // every command has help, so it is described with the
+                                                                 // program
       return !option.names.empty() && option.names.back() == "--help";
     });
     program.commands.push_back({command->get_name(), command->get_description(), std::move(options)});
@@ -105,7 +106,7 @@ ProgramDescription described_program(const CLI::App& app) {
   return program;
 }
 
-/// What is wrong with the text of a number that must be positive and finite; empty if nothing is.
+/// Error text if the number is not positive and finite; empty if it is.
 std::string not_positive(const std::string& text) {
   double value = 0;
   const bool good = CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);

@@ -21,7 +21,7 @@ std::string point_name(const ReplicateSpec& spec) {
   return name;
 }
 
-/// From `least` to `most` seconds.
+/// Text of the range from `least` to `most` seconds.
 std::string left_text(double least, double most) {
   if (most == 0) return "nothing";
   if (least == most) return about_text(most);

@@ -8,8 +8,8 @@
 
 namespace isojam {
 
-/// Prints every sweep point with its replicates, those recorded already, and what is left to do in CPU time, disk and
-/// memory; the times are scaled by those of the records that are there. Writes nothing.
+/// Prints every sweep point with its replicates, the number already recorded, and the CPU time, disk space and memory
+/// that the rest will need. Times are scaled by those of existing records. Writes nothing.
 ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory,
                  const RunArguments& arguments);
 

@@ -24,11 +24,11 @@ namespace {
 struct MeasureArguments {
   std::string directory;
   std::vector<Measure> add;
-  std::string only;  ///< name of a replicate; empty for all
+  std::string only; ///< name of a replicate; empty for all
   int threads = 0;
 };
 
-/// Names of measures with commas between.
+/// Parses comma-separated names of measures.
 std::optional<std::string> read_measures(const std::string& text, std::vector<Measure>& list) {
   for (std::size_t from = 0; from <= text.size();) {
     const auto end = std::min(text.find(',', from), text.size());
@@ -46,8 +46,8 @@ std::optional<std::string> read_measures(const std::string& text, std::vector<Me
   return std::nullopt;
 }
 
-/// Refuses measures that could not be added to every record of the directory, which would leave it with records that no
-/// measure completes.
+/// Refuses measures that cannot be added to every record of the directory. Otherwise some records could never be
+/// completed.
 void refuse_impossible(const std::vector<Additions::Impossible>& impossible, const std::string& directory) {
   if (impossible.empty()) return;
   const auto& [name, why] = impossible.front();
@@ -64,7 +64,7 @@ void keep_only(Additions& additions, const std::string& name) {
   std::erase_if(additions.impossible, [&](const auto& each) { return each.name != name; });
 }
 
-/// The table as it is now.
+/// Writes the current table.
 void write_table(const Store& store, Console& console) {
   const auto table = table_of(
       store.directory().string(), store.kept(), [&](const std::string& message) { console.warn(message); },
@@ -81,7 +81,7 @@ DirectoryLock hold(const std::string& directory) {
   return std::move(*lock);
 }
 
-/// Measures stored packings: what is asked for, and what an interrupted call has left.
+/// Adds the requested measures to stored packings, and completes what an interrupted call left.
 ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
   // Both throw: they report a wrong directory or name before anything is locked.
@@ -91,7 +91,7 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const auto before = own_manifest(arguments.directory);
   const auto manifest = with_measures(before, arguments.add);
   const Plan plan(manifest);
-  // Refused before anything is written.
+  // Refuse before anything is written.
   auto found = additions(arguments.directory, plan, recorded_names(arguments.directory));
   if (manifest.measures != before.measures) refuse_impossible(found.impossible, arguments.directory);
   extend_manifest(arguments.directory, arguments.add);

@@ -24,8 +24,9 @@ struct ChartArguments {
   std::string directory;
 };
 
-/// Compares methods on this machine and writes data.json, table.txt and chart.html to the directory, which is made if
-/// need be. The table goes to stdout, its last three lines the conclusion. After a signal what was measured is written.
+/// Compares methods on this machine and writes data.json, table.txt and chart.html to the directory, which is created
+/// if it is missing. The table goes to stdout; its last three lines are the conclusion. After a signal the measurements
+/// made so far are written.
 ExitCode chart(const ChartArguments& arguments, Console& console);
 
 }  // namespace isojam

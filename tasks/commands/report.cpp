@@ -24,7 +24,7 @@ ExitCode report(const ReportArguments& arguments, Console& console) {
   }
   Json data = report_data(results, views);
   data["viewable"] = {{"most_particles", options.most_particles}, {"chosen", choice.size()}};
-  // A link that is there for a reader of the directory alone: the page may be sent elsewhere without it.
+  // The link is only for a reader of the directory, because the page may be sent elsewhere without it.
   data["chart"] = std::filesystem::exists(output.parent_path() / "chart.html");
   write_output(output, report_page(data));
   print(output.string() + "\n");

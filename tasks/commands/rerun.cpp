@@ -25,7 +25,7 @@ ReplicateSpec planned(const Plan& plan, const std::string& name, const Store& st
 
 struct Arguments {
   std::string directory;
-  std::string replicate;  ///< name, as its files are called
+  std::string replicate; ///< name, as its files are called
   int threads = 0;
 };
 
@@ -70,7 +70,7 @@ ExitCode redo(const Arguments& arguments, const Store& store, const ReplicateSpe
   return failed ? ExitCode::some_failed : ExitCode::done;
 }
 
-/// Redoes a replicate from the start, replaces what was recorded and says whether the bits are the same. The record
+/// Recomputes a replicate from the start, replaces its record and reports whether the bits are identical. The record
 /// goes to stdout.
 ExitCode rerun(const Arguments& arguments, Console& console) {
   auto manifest = own_manifest(arguments.directory);

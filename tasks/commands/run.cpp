@@ -23,7 +23,7 @@ namespace {
 
 constexpr double gibibyte = 1024.0 * 1024 * 1024;
 
-/// What came of one round.
+/// Result of one round.
 struct Tally {
   std::size_t given = 0, stored = 0;
   int failed = 0;
@@ -43,7 +43,7 @@ void report(const Outcome& outcome, Console& console) {
   console.tick(name);
 }
 
-/// The engine's, but replicates go on where a checkpoint says they stood.
+/// The engine's stages, but replicates resume from their checkpoints.
 Stages resuming_stages(const Store& store) {
   auto stages = engine_stages();
   stages.begin = [&store, begin = stages.begin](const ReplicateSpec& spec) {
@@ -77,12 +77,12 @@ Tally run_round(Campaign& campaign, const Store& store, const Stages& stages, Gr
   return tally;
 }
 
-/// Rounds until nothing is left or a stop is requested.
+/// Runs rounds until nothing is left or a stop is requested.
 ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions& options, Console& console) {
   const auto stages = resuming_stages(store);
   int failed = 0;
   for (int round = 0; campaign.open_round(); ++round) {
-    // Rounds of earlier runs are gone through again, and are no news.
+    // Rounds of earlier runs are processed again without a message.
     const auto size = campaign.round_size();
     if (round > 0 && size.replicates > size.recorded)
       console.info(
@@ -97,7 +97,8 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
   return failed + campaign.failed() > 0 ? ExitCode::some_failed : ExitCode::done;
 }
 
-/// Whether what this run made or found is still there, which `seen` says of each by name; says if not.
+/// Returns whether everything that this run made or found still exists, and reports it if not. `seen` answers for each
+/// name.
 bool all_there(const Campaign& campaign, const std::function<bool(const std::string&)>& seen, Console& console) {
   const auto missing = campaign.without(seen);
   if (missing.empty()) return true;
@@ -140,7 +141,7 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
   return failed ? ExitCode::some_failed : code;
 }
 
-/// Measures that were added to the directory's manifest since are measured of new replicates too.
+/// New replicates also get the measures that were added to the directory's manifest later.
 void take_added_measures(const std::string& directory, Manifest& manifest, Console& console) {
   const auto kept = stored_manifest(directory);
   if (!kept || kept->measures == manifest.measures || !is_same_sweep(manifest, *kept)) return;
@@ -149,8 +150,8 @@ void take_added_measures(const std::string& directory, Manifest& manifest, Conso
   console.info(fmt::format("{} has measures that were added to it, and so will what is run now", directory));
 }
 
-/// Validates, plans, runs what the directory does not hold yet, aggregates. The table goes to stdout; a shard leaves it
-/// to whoever runs when all are finished.
+/// Validates, plans, runs the missing replicates and aggregates. The table goes to stdout. A shard prints none: the
+/// table is made by a run after all shards have finished.
 ExitCode run(const RunArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
   auto manifest = read_manifest(arguments.manifest);

@@ -9,7 +9,7 @@
 
 namespace isojam {
 
-/// Says which settings of a manifest cannot give a good result.
+/// Warns about settings of a manifest that cannot give a good result.
 void warn_about(const Manifest& manifest, const std::string& file, Console& console);
 
 /// Warns that the engine computes without AVX2 and FMA, if it does.
@@ -20,7 +20,8 @@ std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);
 
 /// Names of all records of a directory. Throws FileError if there are none.
 std::vector<std::string> recorded_names(const std::string& directory);
-/// The name, if a record has it: no other ever becomes part of a path. Throws FileError with the nearest one if not.
+/// Returns the name if a record has it, so that no other name ever becomes part of a path. Otherwise throws FileError
+/// with the nearest name.
 std::string recorded_name(const std::string& directory, const std::string& name);
 
 /// Version and commit; on a second line the schemas of the files that results are read from.

@@ -13,7 +13,7 @@
 namespace isojam {
 namespace {
 
-/// A step may take minutes; what has not moved for longer on another machine is probably not being worked on.
+/// A step may take minutes. A replicate on another machine without progress for longer than this is probably abandoned.
 constexpr double patience_seconds = 600;
 
 struct Arguments {
@@ -54,7 +54,7 @@ std::string time_left(const Survey& survey, const Totals& totals, bool has_goal)
                      counted(static_cast<std::size_t>(moving), "replicate"));
 }
 
-/// What a results directory holds and what is under way in it, whoever works on it. Reads only.
+/// Lists the contents of a results directory and the replicates that any process is working on. Writes nothing.
 ExitCode status(const Arguments& arguments, Console&) {
   const auto manifest = own_manifest(arguments.directory);
   const Plan plan(manifest);

@@ -14,7 +14,7 @@ namespace isojam {
 namespace fs = std::filesystem;
 namespace {
 
-/// A file for each frame, and the collection that names them.
+/// One file per frame, and the collection that lists them.
 template <class MakeFile>
 void append_collection(std::span<const ExportFrame> frames, const fs::path& stem, std::string_view suffix,
                        const MakeFile& make, std::vector<ExportedFile>& files) {
@@ -59,7 +59,7 @@ std::vector<ExportedFile> xyz_files(std::span<const ExportFrame> frames, const f
     files.push_back({solid, obj_file(packing.solids.only())});
     return files;
   }
-  // Species are told by shape; the size of a particle stands beside its name.
+  // Each species has one shape; the size of a particle is a separate column.
   std::map<std::string, const ConvexSolid*> shapes;
   for (std::size_t i = 0; i < packing.poses.size(); ++i)
     shapes.emplace(packing.solids.unit(i).name(), &packing.solids.unit(i));

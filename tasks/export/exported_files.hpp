@@ -21,11 +21,11 @@ struct ExportedFile {
   std::string bytes;
 };
 
-/// The files of one replicate in the order in which they are to be written, so that each refers to earlier ones only:
-/// gsd: `output`; xyz: `output`, and the solid beside it as .obj; vtp: `output`, or, if `collection`, one _0000.vtp,
-/// _0001.vtp, … for each frame and a .pvd, all named after `output` without its .vtp or .pvd, with Δφ (the number of
-/// the frame where a frame has none) for time, and of frames with a network the same again with -contacts at the end of
-/// their names. Throws FileError if two of them would have the same path.
+/// The files of one replicate in the order of writing, so that each refers only to earlier ones. gsd: `output`. xyz:
+/// `output`, and the solid beside it as .obj. vtp: `output`, or for a `collection` files _0000.vtp, _0001.vtp, … for
+/// the frames and a .pvd file, all named after `output` without its .vtp or .pvd. The time of a frame is its Δφ, or its
+/// number if it has none. Frames with a network have a second set of files with -contacts at the end of their names.
+/// Throws FileError if two files would have the same path.
 std::vector<ExportedFile> exported_files(std::span<const ExportFrame> frames, ExportFormat format, bool collection,
                                          const std::filesystem::path& output);
 

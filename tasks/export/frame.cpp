@@ -18,7 +18,7 @@ void mark_faces(ExportFrame& frame, int particle, std::uint64_t faces, FaceConta
   const auto first = frame.first_face[static_cast<std::size_t>(particle)];
   for (; faces != 0; faces &= faces - 1) {
     auto& face = frame.faces[first + static_cast<std::size_t>(std::countr_zero(faces))];
-    // None of a frame's contacts is decided, or all are: the order of the enumeration serves for both.
+    // In one frame either all contacts are classified or none is, so the order of the enumeration works for both.
     face = strength == FaceContact::undecided ? strength : std::max(face, strength);
   }
 }
@@ -88,13 +88,13 @@ void check_frames(std::span<const ExportFrame> frames) {
 
 namespace {
 
-/// Into [low, low + 1) of each lattice vector.
+/// Wraps into [low, low + 1) along each lattice vector.
 WrappedPosition into_any_cell(const PeriodicCell& cell, const Eigen::Vector3d& position, double low) {
   const Eigen::Vector3d cells = (cell.fractional(position).array() - low).floor();
   Eigen::Vector3i image = cells.cast<int>();
   Eigen::Vector3d rest = cell.fractional(position - cell.translation(image));
   for (int c = 0; c < 3; ++c) {
-    // Rounding can leave a position just beyond either end, which is the other end.
+    // Rounding can leave a position just outside either end; it is then moved to the other end.
     if (rest[c] >= low && rest[c] < low + 1) continue;
     image[c] += rest[c] < low ? 0 : 1;
     rest[c] = low;

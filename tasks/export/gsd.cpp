@@ -13,7 +13,7 @@
 namespace isojam {
 namespace {
 
-/// As the schema's page on shapes wants a convex polyhedron.
+/// A convex polyhedron in the form of the schema's page on shapes.
 std::string shape_text(const ConvexSolid& solid) {
   Json shape;
   shape["type"] = "ConvexPolyhedron";
@@ -32,7 +32,7 @@ GsdChunk many(std::string name, const std::vector<T>& values, std::uint32_t colu
   return gsd_chunk(std::move(name), std::span<const T>(values), columns);
 }
 
-/// Solids that differ in shape or size, in the order in which particles come, and the number of each particle's.
+/// Solids that differ in shape or size, in the order of first appearance, and the type number of each particle.
 struct Types {
   std::vector<const ConvexSolid*> solids;
   std::vector<std::uint32_t> of;
@@ -50,7 +50,7 @@ Types types_of(const Packing& packing) {
   return types;
 }
 
-/// What does not change along an expansion; other frames inherit it from the first.
+/// Values that are constant along an expansion; other frames inherit them from the first.
 void append_constants(const Packing& packing, std::vector<GsdChunk>& chunks) {
   const auto n = packing.poses.size();
   chunks.push_back(one("configuration/dimensions", std::uint8_t{3}));
@@ -90,8 +90,8 @@ void append_poses(const Packing& packing, std::vector<GsdChunk>& chunks) {
   chunks.push_back(many("particles/image", images, 3));
 }
 
-/// Lengths along the axes and tilts, as HOOMD-blue's schema has them: lattice vectors (Lx, 0, 0), (xy·Ly, Ly, 0) and
-/// (xz·Lz, yz·Lz, Lz).
+/// Lengths along the axes and tilts of HOOMD-blue's schema: lattice vectors (Lx, 0, 0), (xy·Ly, Ly, 0) and (xz·Lz,
+/// yz·Lz, Lz).
 std::vector<float> box_of(const PeriodicCell& cell) {
   const Eigen::Matrix3d& h = cell.vectors().high;
   std::vector<float> box;
@@ -100,7 +100,7 @@ std::vector<float> box_of(const PeriodicCell& cell) {
   return box;
 }
 
-/// The lattice vectors as they are in the packing, one after the other.
+/// The lattice vectors of the packing, one after the other.
 std::vector<double> vectors_of(const PeriodicCell& cell) {
   const Eigen::Matrix3d& h = cell.vectors().high;
   return {h.data(), h.data() + 9};

@@ -9,17 +9,17 @@
 
 namespace isojam {
 
-/// A state of an expansion as its directory keeps it.
+/// A state of an expansion as stored in its directory.
 struct StoredState {
   std::size_t index = 0;            ///< in `states` of the record
-  std::optional<double> delta_phi;  ///< φ − φ_J; none without a jamming point
+  std::optional<double> delta_phi;  ///< φ − φ_J; nullopt without a jamming point
   Packing packing;
 };
 
 /// The index in `states` of the record of the state nearest jamming. Throws InputError if there is none.
 std::size_t index_of_nearest(const std::filesystem::path& directory, const RecordedReplicate& held);
 
-/// Of a replicate that did not fail: the state nearest jamming, or every state, in order, if `path`. Throws as
+/// For a replicate that did not fail: the state nearest jamming or, with `path`, every state in order. Throws as
 /// read_record does, and FileError if the expansion was not kept.
 std::vector<StoredState> stored_states(const std::filesystem::path& directory, const RecordedReplicate& held,
                                        bool path);

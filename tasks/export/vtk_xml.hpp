@@ -11,11 +11,11 @@
 
 namespace isojam {
 
-// What the files for VTK have in common.
+// Common parts of VTK files.
 
 using Text = std::back_insert_iterator<std::string>;
 
-/// An array of `values(k)`, k < count; a line for each `per_line` of them.
+/// An array of `values(k)`, k < count, with `per_line` of them on each line.
 template <class Values>
 void append_array(std::string& xml, std::string_view type, std::string_view attributes, std::size_t count,
                   std::size_t per_line, const Values& values) {
@@ -26,8 +26,8 @@ void append_array(std::string& xml, std::string_view type, std::string_view attr
   xml += "</DataArray>\n";
 }
 
-/// The beginning of a PolyData file, up to its piece, with the field data side, cell unless it is a cube, phi, and
-/// delta_phi if there is one. `explanation`: a comment, or nothing.
+/// The beginning of a PolyData file up to its piece, with the field data side, cell unless it is a cube, phi, and
+/// delta_phi if there is one. `explanation`: a comment, may be empty.
 std::string vtk_head(const ExportFrame& frame, std::string_view explanation);
 
 inline constexpr std::string_view vtk_foot = "</Piece>\n</PolyData>\n</VTKFile>\n";

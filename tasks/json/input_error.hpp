@@ -6,30 +6,29 @@
 
 namespace isojam {
 
-/// Input that is refused. what() has a line for each error: file, JSON pointer, problem, what is allowed, "did you
-/// mean".
+/// Refused input. what() has one line per error: file, JSON pointer, problem, allowed values, "did you mean".
 class InputError : public std::runtime_error {
  public:
   struct Details {
-    std::string file;     ///< with ":line:column" where the text is not JSON
+    std::string file;     ///< followed by ":line:column" if the text is not JSON
     std::string pointer;  ///< RFC 6901; empty for the whole document
     std::string problem;
-    std::string allowed;     ///< empty if `problem` says it all
-    std::string suggestion;  ///< what was probably meant; empty if nothing is near
+    std::string allowed;     ///< empty if `problem` is complete by itself
+    std::string suggestion;  ///< the probably intended name; empty if none is near
   };
 
   explicit InputError(Details details);
-  /// One or more errors, in the order in which they are told.
+  /// One or more errors, in the order in which they are reported.
   explicit InputError(std::vector<Details> all);
 
-  const Details& details() const { return all_.front(); }  ///< of the first
+  const Details& details() const { return all_.front(); }  ///< of the first error
   const std::vector<Details>& all() const { return all_; }
 
  private:
   std::vector<Details> all_;
 };
 
-/// The line of an error.
+/// One line for an error.
 std::string one_line(const InputError::Details& details);
 
 }  // namespace isojam

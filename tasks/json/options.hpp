@@ -10,13 +10,13 @@
 
 #include "tasks/json/place.hpp"
 
-// Options of manifests and configurations: how a value of each type is read, written and described. Readers throw
-// InputError; where errors are gathered, a list lacks the entries that were refused.
+// Options of manifests and configurations: reading, writing and describing values of each type. Readers throw
+// InputError. If errors are collected, a list lacks the refused entries.
 
 namespace isojam {
 
-/// A list, entry by entry; `read` gives the canonical value of one, by which repetition is judged. `allowed` says what
-/// a list may hold.
+/// Reads a list entry by entry. `read` returns the canonical value of an entry, by which duplicates are found.
+/// `allowed` describes the list for errors.
 template <class Read>
 auto read_list(const JsonPlace& place, std::string_view allowed, Read read) {
   const auto size = place.expect_list(allowed);
@@ -33,7 +33,7 @@ auto read_list(const JsonPlace& place, std::string_view allowed, Read read) {
   return values;
 }
 
-/// A value of an option; `range` is that of a number.
+/// Reads the value of an option; `range` applies to numbers.
 template <class T>
 T read_option(const JsonPlace& place, [[maybe_unused]] const Range& range) {
   if constexpr (std::is_enum_v<T>) {
@@ -70,7 +70,7 @@ Json option_json(const T& value) {
   }
 }
 
-/// A list of one or more values, none twice.
+/// A list of one or more distinct values.
 template <class T>
 void read_option(const JsonPlace& place, const Range& range, std::vector<T>& list) {
   list = read_list(place, "a list of one or more values",

@@ -26,12 +26,12 @@ LineColumn locate(std::string_view text, std::size_t position) {
   return {line + 1, start == std::string_view::npos ? before.size() + 1 : before.size() - start};
 }
 
-/// True where a comment of another language begins.
+/// True if a comment of another language begins here.
 bool is_comment(std::string_view text) {
   return text.starts_with("//") || text.starts_with("/*") || text.starts_with('#');
 }
 
-/// Reads the events of a document for what nlohmann's own builder lets pass, and knows where it is.
+/// Checks parser events for violations that nlohmann's own builder accepts, and keeps track of the position.
 class Checker final : public nlohmann::json_sax<Json> {
  public:
   Checker(std::string_view text, const std::string& file) : text_(text), file_(file) {}

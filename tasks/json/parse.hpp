@@ -7,8 +7,8 @@
 
 namespace isojam {
 
-/// Parses a whole document. Throws InputError (with line and column where the text is not JSON) for anything RFC
-/// 8259 does not allow, and for what it leaves open: duplicate keys, numbers beyond double, nesting deeper than 16.
+/// Parses a whole document. Throws InputError (with line and column if the text is not JSON) for everything that RFC
+/// 8259 forbids, and for cases it leaves open: duplicate keys, numbers beyond double, nesting deeper than 16.
 Json parse_json(std::string_view text, const std::string& file);
 
 /// Reads and parses. Throws FileError if the file cannot be read.

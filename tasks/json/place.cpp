@@ -11,7 +11,7 @@
 namespace isojam {
 namespace {
 
-/// Insertions, deletions, replacements and swaps of neighbouring letters, letters compared without case.
+/// Counts insertions, deletions, replacements and swaps of neighbouring letters, without regard to case.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto same = [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
@@ -32,7 +32,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 constexpr std::size_t longest_shown = 40;
 
-/// A scalar as it stands in the file; a list or an object by its kind alone.
+/// A scalar as it stands in the file; only the kind of a list or an object.
 std::string shown(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "a list";
@@ -49,7 +49,7 @@ void number_places(const Json& value, const std::string& pointer, Order& order) 
   for (const auto& item : value.items()) number_places(item.value(), pointer + pointer_step(item.key()), order);
 }
 
-/// Errors beyond these are counted alone.
+/// Further errors are only counted.
 constexpr std::size_t most_told = 100;
 
 }  // namespace
@@ -142,7 +142,7 @@ void JsonPlace::expect_keys(std::span<const std::string_view> names, std::string
     auto suggestion = elsewhere ? elsewhere(key) : std::string();
     if (suggestion.empty()) suggestion = nearest_name(key, names);
     attempt([&] { at(item.key()).refuse("unknown key", quoted_list(names), suggestion); });
-    // That a key is missing follows from another that stands in its place.
+    // The missing key follows from the misspelt key that stands in its place.
     if (problems_ && !suggestion.empty() && !has(suggestion)) problems_->settle(pointer_ + pointer_step(suggestion));
   }
 }
@@ -156,7 +156,7 @@ double JsonPlace::number(const Range& range) const {
 
 std::int64_t JsonPlace::integer(const Range& range) const {
   if (!value_.is_number_integer()) wrong_type(integer_in(range));
-  // Compared as double first, so that a value beyond 2^63 is out of range rather than negative; then exactly.
+  // First compare as double, so that a value beyond 2^63 is out of range rather than negative. Then compare exactly.
   const auto n = value_.get<std::int64_t>();
   if (!range.contains(value_.get<double>()) || n > static_cast<std::int64_t>(range.high)) {
     refuse(fmt::format("{} is out of range", shown(value_)), integer_in(range));

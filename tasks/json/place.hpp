@@ -13,7 +13,7 @@
 
 namespace isojam {
 
-/// An interval of numbers; ends belong to it unless excluded.
+/// An interval of numbers; its ends belong to it unless excluded.
 struct Range {
   double low = 0, high = 0;
   bool low_excluded = false, high_excluded = false;
@@ -30,16 +30,18 @@ std::string integer_in(const Range& range);
 /// `"a", "b", "c"`
 std::string quoted_list(std::span<const std::string_view> names);
 
-/// The candidate nearest to `word` by edit distance, empty if none is near enough to have been meant.
+/// The candidate nearest to `word` by edit distance; empty if none is near enough.
 std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
 
-/// The errors of a document, gathered while it is read: the first of every place, from which others there follow.
+/// Errors of a document, collected while it is read. Only the first error of a place is kept, because others there
+/// follow from it.
 class Problems {
  public:
   void note(const InputError& error);
-  /// What is wrong at that place follows from an error that was noted at another.
+  /// Suppresses errors at this place, because they follow from an error at another place.
   void settle(std::string pointer) { settled_.insert(std::move(pointer)); }
-  /// Throws what was noted as one InputError, in the order of the document; what an object lacks comes with the object.
+  /// Throws all collected errors as one InputError, in the order of the document. Missing keys come at the position of
+  /// their object.
   void refuse_any(const Json& document) const;
 
  private:
@@ -47,11 +49,11 @@ class Problems {
   std::set<std::string> settled_;
 };
 
-/// A value of a document with what an error about it must say. Refers to the document; must not outlive it.
-/// Every reader throws InputError.
+/// A value of a document with its location, for error messages. Refers to the document and must not outlive it. Every
+/// reader throws InputError.
 class JsonPlace {
  public:
-  /// With `problems`, a list of errors is made of what would otherwise end with the first: see attempt().
+  /// With `problems`, errors are collected instead of ending at the first: see attempt().
   JsonPlace(const Json& value, std::string file, std::string pointer = "", Problems* problems = nullptr)
       : value_(value), file_(std::move(file)), pointer_(std::move(pointer)), problems_(problems) {}
 
@@ -60,12 +62,13 @@ class JsonPlace {
   const std::string& pointer() const { return pointer_; }
 
   bool has(const std::string& key) const { return value_.contains(key); }
-  JsonPlace at(const std::string& key) const;  ///< refuses where the value is no object or lacks the key
+  JsonPlace at(const std::string& key) const;  ///< throws if the value is no object or lacks the key
   JsonPlace at(std::size_t index) const;
 
   [[noreturn]] void refuse(std::string problem, std::string allowed = "", std::string suggestion = "") const;
 
-  /// Does `work`; true unless it threw an InputError that was gathered. It passes where errors are not gathered.
+  /// Calls `work` and returns true unless it threw an InputError that was collected. Rethrows if errors are not
+  /// collected.
   template <class Work>
   bool attempt(const Work& work) const {
     try {
@@ -77,7 +80,7 @@ class JsonPlace {
       return false;
     }
   }
-  /// Attempts `work` on what stands at a key: a required one, and one that may be missing.
+  /// Attempts `work` on the value of a required key, or of an optional one.
   template <class Work>
   void read(const std::string& key, const Work& work) const {
     attempt([&] { work(at(key)); });
@@ -88,8 +91,8 @@ class JsonPlace {
   }
 
   void expect_object(std::string_view allowed) const;
-  std::size_t expect_list(std::string_view allowed) const;  ///< its size
-  /// Refuses an object with a key that is not in `names`; `elsewhere` gives a better suggestion where it has one.
+  std::size_t expect_list(std::string_view allowed) const;  ///< returns its size
+  /// Refuses an object with a key that is not in `names`. `elsewhere` may give a better suggestion.
   void expect_keys(std::span<const std::string_view> names, std::string (*elsewhere)(std::string_view) = nullptr) const;
 
   double number(const Range& range) const;

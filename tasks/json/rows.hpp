@@ -10,16 +10,16 @@
 
 namespace isojam {
 
-/// How a row of a table is written as a line: both hold the same values, numbers to the last bit.
+/// Line format of table rows. All formats have the same values, with numbers to the last bit.
 enum class RowFormat : std::uint8_t {
-  csv,        ///< RFC 4180 but for lines that end in a line feed; null is an empty field
-  json_lines  ///< an object for each row
+  csv,        ///< RFC 4180, except that lines end in a line feed; null is an empty field
+  json_lines  ///< one object per row
 };
 
-/// A field as CSV has it: quoted where it holds what divides fields and lines.
+/// A CSV field: quoted if it contains a separator.
 std::string csv_field(const std::string& text);
 
-/// Names of columns, in order, and their line: empty in JSON lines, whose rows repeat them.
+/// Names of columns, in order, and the header line. JSON lines have none, because each row repeats the names.
 using Columns = std::vector<std::string>;
 std::string head_line(RowFormat format, const Columns& columns);
 

@@ -13,18 +13,18 @@ namespace isojam {
 namespace {
 
 constexpr std::string_view key = "checksum", blank = "0000000000000000", before = "\"checksum\": \"";
-/// The checksum stands second; names of schemas are short.
+/// The checksum is the second member; names of schemas are short.
 constexpr std::size_t farthest = 200;
 constexpr std::size_t deepest = 32;
 
-/// Where the digits stand; npos if there are none.
+/// Position of the digits; npos if there are none.
 std::size_t digits_in(std::string_view text) {
   const auto at = text.substr(0, farthest).find(before);
   if (at == std::string_view::npos || text.size() < at + before.size() + blank.size()) return std::string_view::npos;
   return at + before.size();
 }
 
-/// What is built of a text takes the stack as deep as the text is nested when it is copied or written.
+/// Copying or writing a parsed value uses stack in proportion to the nesting of the text.
 void check_depth(std::string_view text, const std::string& file) {
   std::size_t depth = 0;
   bool in_string = false;
@@ -54,7 +54,7 @@ std::string read_result(const std::string& file) {
   }
 }
 
-/// Takes the texts at the beginning of an object and ends there.
+/// Reads the leading string members of an object and stops after them.
 class HeadReader final : public nlohmann::json_sax<Json> {
  public:
   const std::map<std::string, std::string>& head() const { return head_; }

@@ -26,7 +26,7 @@ Json read_value(const JsonPlace& place, const Field& field) {
   return field_value(field, options);
 }
 
-/// By name, as the parameters of a sweep point are.
+/// Sorted by name, as the parameters of a sweep point are.
 Json object_of(const std::map<std::string, Json>& values) {
   Json base = Json::object();
   for (const auto& [name, value] : values) base[name] = value;
@@ -51,7 +51,7 @@ void check_parameter(const JsonPlace& place, const std::string& name, const Json
                nearest_name(name, names));
 }
 
-/// The value of a parameter in a word of a command line.
+/// Parses the value of a parameter from a command-line word.
 Json value_of(const std::string& word, const Field& field) {
   JamOptions options;
   const Slot slot = field.slot(options);
@@ -69,7 +69,7 @@ std::string unknown_parameter(const std::string& name) {
                                      : fmt::format("did you mean \"{}\"?", nearest));
 }
 
-/// Takes in one "parameter=value", or says what is wrong.
+/// Parses one "parameter=value"; returns an error text if this fails.
 std::optional<std::string> parse_part(const std::string& part, std::map<std::string, Json>& values) {
   const auto equals = part.find('=');
   if (equals == std::string::npos)

@@ -9,18 +9,18 @@
 
 namespace isojam {
 
-// The row that the others of its solid and size are compared with is told by a base: an object of swept parameters and
-// their values, canonical and by name. For a parameter that is left out, every row's own value is taken. Empty: nothing
-// is compared.
+// The base identifies the row with which the other rows of the same solid and size are compared. It is an object of
+// swept parameters and their values, canonical and sorted by name. A parameter that is left out takes each row's own
+// value. An empty base means no comparison.
 
-/// The base of a manifest. Throws InputError for what is no parameter or none of its values; whether it is swept is for
-/// check_base to say.
+/// The base of a manifest. Throws InputError for an unknown parameter or an invalid value. check_base checks that the
+/// parameter is swept.
 Json read_base(const JsonPlace& place);
 
-/// Refuses a base that stands at `place` where a parameter is not swept, or not over that value.
+/// Refuses a base at `place` if one of its parameters is not swept, or not over that value.
 void check_base(const JsonPlace& place, const Json& base, const std::vector<SweptField>& swept);
 
-/// Takes in "none", or "parameter=value" between commas, as a command line has it, or says what is wrong.
+/// Parses "none" or comma-separated "parameter=value" from a command line; returns an error text if this fails.
 std::optional<std::string> parse_base(const std::string& text, Json& base);
 
 /// "method = newton, step_fraction = 0.35"

@@ -18,27 +18,27 @@ struct CpuLaw {
 };
 constexpr std::array<CpuLaw, all_solids.size()> cpu_laws{{{11, 2}, {3.5, 2}, {3.5, 2}, {3, 2}, {3.2, 2}}};
 
-/// Other solids cost about as much as cubes; those that tetrahedra resemble more.
+/// Other solids cost about as much as cubes. Solids that resemble tetrahedra cost more.
 const CpuLaw& law_of(const Mixture& solid) {
   const auto kind = from_string<SolidKind>(to_string(solid)).value_or(SolidKind::cube);
   return cpu_laws[static_cast<std::size_t>(kind)];
 }
 
-/// Share of consolidation in the time of a replicate at the step of that size.
+/// Share of the consolidation in the CPU time of a replicate, for the given step size.
 constexpr double consolidation_share = 0.4, measured_step = 0.02;
 
-/// Packings of an expansion, and strain steps in all.
+/// Numbers of states of an expansion and of strain steps in total.
 constexpr double states = 9, steps_of_path = 50;
-/// Text of a particle in a packing, and of a step and a state in a record.
+/// Bytes of a particle in a packing, and of a step and a state in a record.
 constexpr double packing_text = 335, step_text = 400, state_text = 1500, record_text = 4000;
 
-/// Of the program at work on N particles, apart from the factorisation: packings of the expansion, passed between
-/// stages by value, overlaps and Hessians, contacts with forces of their own.
+/// Memory per particle without the factorisation: packings of the expansion, which stages pass by value, overlaps and
+/// Hessians, contacts with their forces.
 constexpr double particle_bytes = 130e3;
-/// Of the factors of the Hessian and their update matrices, which fill in faster than N grows.
+/// Memory of the factors of the Hessian and their update matrices. Fill-in grows faster than N.
 constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
 
-/// A number in a file of one number; infinity if there is none ("max", or no such file).
+/// A number from a file that holds one number; infinity if there is none ("max", or no such file).
 double number_in_file(const char* path) {
   std::ifstream file(path);
   double value = 0;
@@ -55,7 +55,7 @@ double available_of_machine() {
   return std::numeric_limits<double>::infinity();
 }
 
-/// Version 2 of control groups where it is mounted, else version 1.
+/// Uses version 2 of control groups if it is mounted, otherwise version 1.
 double available_of_control_group() {
   const double left = number_in_file("/sys/fs/cgroup/memory.max") - number_in_file("/sys/fs/cgroup/memory.current");
   if (std::isfinite(left)) return left;
@@ -84,7 +84,7 @@ double available_memory() {
 }
 
 int replicates_in_flight(int threads, double largest, double available) {
-  // A fifth stays free for what an estimate misses.
+  // One fifth stays free to cover the error of the estimate.
   if (available <= 0 || largest <= 0) return threads;
   return static_cast<int>(std::clamp(0.8 * available / largest, 1.0, static_cast<double>(threads)));
 }

@@ -61,7 +61,7 @@ constexpr std::array fields{
     field<&M::history>("history", {1, 1000}),
 };
 
-/// Keys of earlier versions, and what they are called now.
+/// A key of an earlier version and its present name.
 struct Renamed {
   std::string_view before, now;
 };

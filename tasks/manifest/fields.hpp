@@ -12,7 +12,7 @@
 
 namespace isojam {
 
-/// The object of the manifest in which a parameter stands.
+/// The object of the manifest that contains a parameter.
 enum class Group { protocol, minimiser };
 template <>
 inline constexpr std::array enum_names<Group>{EnumName{Group::protocol, "protocol"},
@@ -25,14 +25,14 @@ struct Field {
   std::string_view name;  ///< unique over both groups
   Group group;
   Slot (*slot)(JamOptions&);
-  Range range;  ///< of the numeric ones
+  Range range;  ///< for numeric fields
 };
 
-/// Every parameter, the protocol's first, each group in the order of its struct.
+/// Every parameter: first the protocol's, then the minimiser's, each in the order of its struct.
 std::span<const Field> all_fields();
 const Field* find_field(std::string_view name);
 
-/// What a key of an earlier version is called now; empty if it was none.
+/// Present name of a key of an earlier version; empty if it was no such key.
 std::string_view new_name(std::string_view name);
 
 /// "a number in (0, 1]" and so on.

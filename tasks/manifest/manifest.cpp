@@ -24,10 +24,10 @@
 namespace isojam {
 namespace {
 
-constexpr double greatest_seed = 9007199254740992;  // 2^53: every reader of JSON holds integers up to here
+constexpr double greatest_seed = 9007199254740992; // 2^53: every JSON reader represents integers up to here exactly
 constexpr Range particle_range{1, 100000};
 constexpr Range replicate_range{1, 1e6};
-constexpr Range least_replicate_range{2, 1e6};  // one replicate has no interval
+constexpr Range least_replicate_range{2, 1e6}; // one replicate has no confidence interval
 constexpr Range half_width_range{0, 1e6, true};
 constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
@@ -38,7 +38,7 @@ constexpr std::array<std::string_view, 16> keys{"$schema",  "name",      "checks
                                                 "exclude",  "base",      "solids",   "start"};
 constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 
-/// Where a parameter belongs that stands at the wrong place.
+/// The object to which a misplaced parameter belongs.
 std::string home_of_field(std::string_view name) {
   const auto* field = find_field(name);
   return field ? fmt::format("/{}/{}", to_string(field->group), name) : std::string();
@@ -61,7 +61,7 @@ std::string read_name(const JsonPlace& place) {
   return name;
 }
 
-/// A key of an earlier version is refused by name, not as one that nobody knows.
+/// Refuses a key of an earlier version with its new name, instead of as an unknown key.
 void refuse_renamed(const JsonPlace& place) {
   if (!place.value().is_object()) return;
   for (const auto& item : place.value().items()) {
@@ -79,7 +79,7 @@ std::vector<Measure> default_measures() {
   return list;
 }
 
-/// The copy in a results directory is sealed; one that a person has changed is a manifest of theirs.
+/// The copy in a results directory is sealed. A copy that was edited by a person counts as a user's manifest.
 void check_own_seal(std::string_view text, const std::string& file) {
   try {
     check_seal(text, file);
@@ -221,11 +221,11 @@ void check_densities(const JsonPlace& root, const std::vector<OptionSet>& sets) 
   }
 }
 
-/// What holds between values that are each allowed.
+/// Checks conditions between values that are each allowed.
 void check_together(const JsonPlace& root, const Manifest& manifest) {
   root.attempt([&] { check_goal(root, manifest); });
   root.read_if_any("base", [&](const JsonPlace& place) { check_base(place, manifest.base, manifest.swept); });
-  // Combinations beyond count are not made.
+  // Do not build combinations if there are too many.
   if (!root.attempt([&] { check_count(root, manifest); })) return;
   const auto sets = option_sets(manifest);
   root.attempt([&] { check_densities(root, sets); });
@@ -357,7 +357,7 @@ Json identity(const Manifest& manifest) {
   json.erase("keep_path");
   json.erase("exclude");
   json.erase("base");
-  if (json.contains("start")) json["start"].erase("packing");  // its digests tell more
+  if (json.contains("start")) json["start"].erase("packing"); // the digests identify the packings
   return json;
 }
 

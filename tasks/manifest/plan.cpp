@@ -14,11 +14,11 @@
 namespace isojam {
 namespace {
 
-/// Longer ones no one reads.
+/// Longer prefixes are unreadable and replaced by a hash.
 constexpr std::size_t longest_prefix = 96;
 
-/// What the names of a point's replicates have in common. Values are numbers, truth values and names of enumerators,
-/// none of which holds what stands between them.
+/// Common prefix of the names of a point's replicates. Values are numbers, booleans and names of enumerators, none of
+/// which contains a separator.
 std::string prefix(const ReplicateSpec& spec) {
   const auto size = fmt::format("{}-N{}", to_string(spec.solid), spec.particles);
   auto text = size;
@@ -82,7 +82,7 @@ std::optional<Plan::Place> Plan::place_of(std::string_view name) const {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), replicate);
   if (point == point_of_prefix_.end() || error != std::errc() || replicate < 0 || replicate >= replicates())
     return std::nullopt;
-  // Only the one way of writing a number is a name.
+  // A number counts as part of a name only in its canonical spelling.
   if (replicate_name(at(point->second, replicate)) != name) return std::nullopt;
   return Place{point->second, replicate};
 }

@@ -6,7 +6,7 @@
 
 namespace isojam {
 
-/// One of `count` parts of a plan, which never touch the same replicate and may share a directory.
+/// One of `count` parts of a plan. Parts have no replicate in common and may share a directory.
 struct Shard {
   int index = 0;  ///< from 0
   int count = 1;
@@ -20,8 +20,8 @@ struct Shard {
 /// "I/N" with 1 ≤ I ≤ N ≤ 100000; nullopt for anything else.
 std::optional<Shard> parse_shard(const std::string& text);
 
-/// The shard of a Slurm array task, by its index and the array's least index, size and step of indices; the whole
-/// outside of one. Throws std::invalid_argument where the variables contradict each other.
+/// The shard of a Slurm array task, from its index and the array's least index, size and step. Outside of an array: the
+/// whole plan. Throws std::invalid_argument if the variables contradict each other.
 Shard shard_of_environment();
 
 }  // namespace isojam

@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::array<std::string_view, 5> keys{"mode", "control", "step", "until", "back"};
 
-/// Strains of a percent are large near jamming; stresses are fractions of the pressure.
+/// Strains of one per cent are large near jamming; stresses are fractions of the pressure.
 constexpr Range load_range{0, 1, true};
 
-/// Farther than the most states that anybody would draw.
+/// More states than anyone would plot.
 constexpr double most_steps = 10000;
 
 }  // namespace

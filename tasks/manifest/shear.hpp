@@ -5,8 +5,8 @@
 
 namespace isojam {
 
-/// Reads /shear of a manifest: how packings are sheared where that is measured. Throws InputError for unknown keys, for
-/// numbers out of range, and for a step beyond its end.
+/// Reads /shear of a manifest: the load for the measure `shear`. Throws InputError for unknown keys, for numbers out of
+/// range, and for a step larger than the final load.
 ShearOptions read_shear(const JsonPlace& place);
 
 /// Canonical form: every value spelt out.

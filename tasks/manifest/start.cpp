@@ -14,7 +14,7 @@ namespace isojam {
 namespace {
 
 constexpr std::string_view allowed_file = "the path of a packing: isojam's own JSON, GSD or extended XYZ";
-/// Of the smaller of two particles: deeper ones are no packing, and no minimiser finds what was meant.
+/// In units of the smaller particle. Deeper overlaps are no packing, and no minimiser can recover the intended one.
 constexpr double deepest_overlap = 0.5;
 constexpr std::size_t most_files = 10000;
 
@@ -22,7 +22,7 @@ StartFile read_file_place(const JsonPlace& place) {
   const std::filesystem::path given = place.text(allowed_file);
   auto path = given.is_absolute() ? given : std::filesystem::path(place.file()).parent_path() / given;
   const auto whole = std::filesystem::absolute(path).lexically_normal().string();
-  // The manifest's own path may hold bytes that no document can.
+  // The manifest's own path may contain bytes that are invalid in JSON.
   constexpr auto ignored = Json::error_handler_t::ignore;
   if (Json::parse(Json(whole).dump(-1, ' ', false, ignored)) != Json(whole))
     place.refuse("the path of the file is no UTF-8, so that no record could name it", "a path in UTF-8");
@@ -52,7 +52,7 @@ void load_file(const JsonPlace& place, StartFile& file, const Manifest& manifest
   } catch (const NoPackingFile& error) {
     place.refuse(fmt::format("{}: {}", file.path, error.what()), std::string(allowed_file));
   } catch (const FileError& error) {
-    if (error.reason() == FileError::Reason::shortage) throw;  // which says nothing of the manifest
+    if (error.reason() == FileError::Reason::shortage) throw;  // a resource failure, not an error of the manifest
     place.refuse(error.what(), std::string(allowed_file));
   }
   if (!expected.empty() && file.digest != expected)

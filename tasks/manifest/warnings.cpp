@@ -14,8 +14,9 @@
 namespace isojam {
 namespace {
 
-/// Of a solid's packings: about where they jam (Table I of the paper; cubes: examples/paper/cubes.json), and
-/// E/N ≈ stiffness Δφ⁶ for Δφ of .004 to .05, where it is greatest (N = 64 to 100).
+/// Properties of a solid's packings: the density near which they jam (Table I of the paper; cubes:
+/// examples/paper/cubes.json), and the stiffness in E/N ≈ stiffness Δφ⁶ for Δφ from 0.004 to 0.05, at its greatest (N =
+/// 64 to 100).
 struct Known {
   SolidKind kind;
   double density, stiffness;
@@ -25,22 +26,22 @@ constexpr std::array known{
     Known{SolidKind::octahedron, 0.68, 4},    Known{SolidKind::dodecahedron, 0.705, 25},
     Known{SolidKind::icosahedron, 0.695, 30},
 };
-/// Three standard deviations of φ_J between packings of N = 100; of cubes, which scatter more, less than one.
+/// Three standard deviations of φ_J between packings of N = 100. For cubes, which scatter more, it is less than one.
 constexpr double scatter = 0.03;
 
-/// Methods other than Newton's spend this much at Δφ = .008 and are left with residuals of 3e-4 and more; at .03 most
-/// get to 1e-6.
+/// Methods other than Newton's use this many evaluations at Δφ = 0.008 and still end with residuals of 3e-4 and more.
+/// At 0.03 most reach 1e-6.
 constexpr long spent_in_vain = 60000;
 constexpr double near_jamming = 0.01, residual_left = 3e-4;
 
-/// Tetrahedra that are relaxed less on the way up jam at lower densities: docs/protocol.md.
+/// Tetrahedra that are relaxed less during compression jam at lower densities: docs/protocol.md.
 constexpr int relaxed_evaluations = 500;
 
 class Warnings {
  public:
   explicit Warnings(const Manifest& manifest) : manifest_(manifest) {}
 
-  /// The first of a key, and of each solid where it depends on it.
+  /// Adds the first warning of a key, or the first for each solid if it depends on the solid.
   void add(std::string_view name, const std::string& solid, const std::string& text) {
     if (!told_.emplace(name, solid).second) return;
     const bool swept = std::any_of(manifest_.swept.begin(), manifest_.swept.end(),
@@ -57,9 +58,9 @@ class Warnings {
   std::vector<std::string> lines_;
 };
 
-/// Whether φ_J will have states to be fitted to.
+/// Warns if φ_J will have no states to be fitted to.
 void look_at_window(const JamOptions& options, Warnings& warnings) {
-  // Expansion ends with a state within final_distance; the one before it may be one step farther.
+  // The expansion ends with a state within final_distance. The previous state may be one step farther.
   const double last = options.final_distance;
   const double before = std::min(last / (1 - options.step_fraction), last + options.longest_step);
   if (last >= options.fit_window) {
@@ -103,10 +104,10 @@ void look_at_minimiser(const JamOptions& options, const std::vector<Flag>& exclu
   }
 }
 
-/// Whether the density at which this solid jams, or has the target energy, is reached.
+/// Warns if the density at which this solid jams, or has the target energy, is not reached.
 void look_at_density(const JamOptions& options, const Known& solid, Warnings& warnings) {
   const std::string name(to_string(solid.kind));
-  // The other reading of the target ends consolidation just above jamming.
+  // With the other meaning of the target the consolidation ends just above jamming.
   const double distance =
       options.target_before_relaxation ? 0 : nearest::pow(options.target_energy / solid.stiffness, 1.0 / 6);
   const double needed = solid.density + distance;
@@ -115,7 +116,8 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
                                          "{} packings jam at about {:.3g} and have target_energy {} from about "
                                          "{:.2f} on",
                                          name, solid.density, options.target_energy, needed);
-  // What is only just enough for most is too little for some; that jamming itself is reached is sure enough.
+  // The margin is needed because a density that suffices on average is too low for some packings. Jamming itself is
+  // certain enough without a margin.
   if (options.max_density < needed + (distance == 0 ? 0 : scatter))
     warnings.add("max_density", name,
                  fmt::format("{} is too low{}: {}", options.max_density,
@@ -139,7 +141,7 @@ void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warn
   const std::string name(to_string(solid.kind));
   look_at_density(options, solid, warnings);
   const double last = solid.stiffness * nearest::pow(options.final_distance, 6);
-  // Multipliers know what energy to expect.
+  // Multipliers estimate the energy themselves.
   if (options.minimise.method != Method::multipliers && options.minimise.unjammed_energy >= last) {
     warnings.add("unjammed_energy", name,
                  fmt::format("{} is not below the E/N of {} packings at final_distance {}, about {:.1g}: they would "

@@ -7,8 +7,8 @@
 
 namespace isojam {
 
-/// Settings that are allowed, and of which it is known that they cannot give a good result: a line for each, which
-/// begins with its JSON pointer. Of several values of a sweep the first is named.
+/// Settings that are allowed but are known to give no good result. Each line begins with its JSON pointer. For a sweep
+/// only the first value concerned is named.
 std::vector<std::string> warnings_of(const Manifest& manifest);
 
 }  // namespace isojam

@@ -58,7 +58,7 @@ void put_fixed(Json& state, const ContactNumbers& numbers) {
   put(state, C_fixed, numbers.C);
 }
 
-/// What a fit for every class has given, or null.
+/// The fitted value for each class, or null.
 struct Known {
   bool face_face, all;
   std::string_view why;
@@ -75,7 +75,7 @@ void put_numbers(Json& json, const ContactNumbers& n, const Known& known) {
   put_if("C", n.C, known.all);
 }
 
-/// Of a mixture: the numbers of each kind, and what decided the classes of each pair of shapes.
+/// For a mixture: the numbers of each kind, and the basis of the classes for each pair of shapes.
 void put_mixture(Json& state, const ContactAnalysis& analysis, const Known& known) {
   for (std::size_t k = 0; k < analysis.of_kinds.size(); ++k)
     put_numbers(state["kind_" + std::to_string(k + 1)], analysis.of_kinds[k], known);
@@ -98,7 +98,7 @@ Json contact_record(const ContactAnalysis& analysis) {
   const auto& n = analysis.numbers;
   put(state, Z, n.Z);
   put_number(state, "Q6", analysis.Q6);
-  // A cut-off that a fit did not give decides nothing: numbers that hang on it are absent rather than zero.
+  // Without a fitted cut-off there is no classification: numbers that depend on it are absent rather than zero.
   const auto why = undecided(analysis);
   const auto put_known = [&](const Quantity& quantity, double value, bool known) {
     put(state, quantity, known ? std::optional(value) : std::nullopt, why.value_or(""));
@@ -132,8 +132,8 @@ std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
 
 namespace {
 
-/// Ideal random contacts of a packing: of all ends of contacts as many belong to each shape as in the packing, and
-/// either end may be the one that touches the other's face.
+/// Ideal random contacts of a packing. The two ends are distributed over shapes as in the packing, and either end may
+/// be the particle whose face is touched.
 class RandomContacts {
  public:
   RandomContacts(const Composition& solids, std::span<const Contact> contacts) {
@@ -186,8 +186,8 @@ class RandomContacts {
   std::vector<Shape> shapes_;
 };
 
-/// Random contacts of a packing where edges touch too, each kind as often as isotropic contacts of these solids have
-/// it.
+/// Random contacts of a packing with edge contacts; each kind is as frequent as among isotropic contacts of these
+/// solids.
 class IsotropicContacts {
  public:
   static RandomContact of(const Composition& solids, std::span<const Contact> contacts) {
@@ -201,7 +201,8 @@ class IsotropicContacts {
   }
 
  private:
-  using Shape = std::pair<std::string, const ConvexSolid*>;  ///< by name: the order of sums is that of the shapes
+  using Shape = std::pair<std::string, const ConvexSolid*>;  ///< sorted by name, so that sums are taken in the order of
+                                                             ///< the shapes
 
   IsotropicContacts(const Composition& solids, std::span<const Contact> contacts) {
     const double one = 1 / static_cast<double>(contacts.size());
@@ -228,9 +229,9 @@ class IsotropicContacts {
   std::map<std::pair<Shape, Shape>, double> edges_;
 };
 
-/// Of the state nearest jamming: the angles themselves, ascending, for whoever draws their CDFs, and whether more are
-/// near 0 than ideal random contacts would have: those of vertices alone, and those of vertices and edges by their
-/// weights.
+/// For the state nearest jamming: the angles in ascending order, for plots of their CDFs, and whether more of them are
+/// near 0 than for ideal random contacts, both for random vertex contacts and for random vertex and edge contacts with
+/// their weights.
 Json angle_record(const Packing& packing, const ClassifiedContacts& classified) {
   std::vector<double> face_face, edge_face;
   for (const auto& alignment : classified.alignments) {

@@ -7,14 +7,14 @@
 namespace isojam {
 namespace {
 
-// How many unstable modes the paper's own way sees, beside the exact count: the dynamical matrix by central differences
-// of forces and moments in doubles, its symmetric part. It asks about states as the minimiser left them, and so has no
-// saddle followed downhill; where another measure needs that, it sees what that one sees.
+// Number of unstable modes by the paper's method, beside the exact count: the dynamical matrix from central differences
+// of forces and torques in double precision, symmetrised. It uses states as the minimiser left them, so it needs no
+// relaxation along negative modes. If another measure needs that, this one gets the same relaxed states.
 
 constexpr std::string_view group = "modes by central differences";
 constexpr Quantity exact{"unstable_exact", "/difference_modes/exact/share", group, "1", "n_-/6N"};
 
-/// A step, in V_p^(1/3), and the share of negative modes that it gives.
+/// A step, in V_p^(1/3), and the resulting share of negative modes.
 struct Step {
   double h;
   Quantity share;
@@ -25,7 +25,7 @@ constexpr std::array steps{
     Step{1e-8, {"unstable_h8", "/difference_modes/h8/share", group, "1", "n_-/6N,\\,h=10^{-8}"}}};
 constexpr std::array quantities{exact, steps[0].share, steps[1].share, steps[2].share};
 
-/// 12N evaluations and a dense matrix of 6N rows for each step: minutes for a state of as many particles.
+/// Each step needs 12N evaluations and a dense matrix of 6N rows: minutes for a state of this size.
 constexpr int largest = 400;
 
 void put_negative(Json& state, const Quantity& share, const std::optional<long>& negative, Eigen::Index modes,
@@ -36,7 +36,8 @@ void put_negative(Json& state, const Quantity& share, const std::optional<long>&
   put_optional(json, "negative", negative ? std::optional<double>(*negative) : std::nullopt, why);
 }
 
-/// Negative are eigenvalues below the tolerance that the exact matrix has: what differences add to its errors counts.
+/// An eigenvalue counts as negative below the tolerance of the exact matrix. The additional error of the differences is
+/// the effect to be measured.
 void put_step(Json& state, const Step& step, const Packing& packing, double tolerance) {
   const auto lambda = difference_modes(packing, step.h, Precision::working);
   const bool known = lambda.size() > 0 && lambda.allFinite();

@@ -8,13 +8,13 @@
 
 namespace isojam {
 
-/// Warnings that the record of a replicate may hold if it did not fail.
+/// Warnings in the record of a replicate that did not fail.
 enum class Flag : std::uint8_t {
   crystalline,         ///< Q6 of the contacts has the value of a crystal
-  not_balanced,        ///< minimiser.energy_change accepted states whose forces do not balance
-  goal_not_reached,    ///< the decompression did not come as near to jamming as requested
+  not_balanced,        ///< minimiser.energy_change accepted states with unbalanced forces
+  goal_not_reached,    ///< the decompression ended farther from jamming than requested
   outside_fit_window,  ///< φ_J was fitted to states farther from jamming than requested
-  not_stable,          ///< some state has a negative mode, or other than three zero modes
+  not_stable,          ///< some state has a negative mode, or a number of zero modes other than three
   classes_undecided,   ///< a fit of the alignment angles gave no cut-off
   classes_doubtful     ///< a fit gave a cut-off that its curve does not support
 };

@@ -16,31 +16,31 @@
 namespace isojam {
 
 struct MeasureOptions {
-  int modes = 50;  ///< vibrations wanted at either end of the spectrum; the paper averages over 50
+  int modes = 50;  ///< number of vibrational modes at either end of the spectrum; the paper averages over 50
   ShearOptions shear;
 };
 
-/// What one measurement adds to the record of a replicate. A number that is null has its reason beside it.
+/// Contribution of one measure to the record of a replicate. A number that is null has its reason beside it.
 struct Measurement {
-  std::vector<Json> states;         ///< an object for each of jam.states, which goes into the record of that state
-  Json replicate = Json::object();  ///< what takes all states together, which goes into the record itself
-  std::vector<std::string> flags;   ///< reservations about the replicate
+  std::vector<Json> states;         ///< an object for each of jam.states, added to the record of that state
+  Json replicate = Json::object();  ///< results from all states together, added to the record of the replicate
+  std::vector<std::string> flags;   ///< flags of the replicate
 };
 
-/// A measure: the numbers that tables take from it, and how it is made.
+/// A measure: its quantities in tables, and its function.
 struct MeasureDefinition {
   std::span<const Quantity> quantities;
   Measurement (*measure)(const JamResult& jam, const MeasureOptions& options);
-  std::span<const Flag> flags = {};  ///< that it may raise and no other measure does, in the order in which it does
-  bool by_default = false;           ///< made where a manifest names none
-  bool needs_minima = false;         ///< means something at minima only: saddles are followed downhill first
+  std::span<const Flag> flags = {};  ///< flags that only this measure sets, in the order in which it sets them
+  bool by_default = false;           ///< used if a manifest names no measures
+  bool needs_minima = false;  ///< meaningful at minima only: saddles are first relaxed along their negative modes
 };
 
 inline const MeasureDefinition& definition_of(Measure measure) {
   return *measure_definitions[static_cast<std::size_t>(measure)];
 }
 
-/// The measurement of a result with states. Pure; may be called from several threads at once.
+/// Measures a result with states. Pure; may be called from several threads at once.
 Measurement measure(Measure what, const JamResult& jam, const MeasureOptions& options = {});
 
 /// The index in jam.states of the state nearest jamming: the one of lowest density among those of positive energy;

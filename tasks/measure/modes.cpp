@@ -28,7 +28,7 @@ constexpr std::array quantities{omega_l,   omega_h,  zero_modes,          negati
                                 p_l,       p_h,      face_face_amplitude, face_face_particles,
                                 x_omega_l, x_omega_h};
 
-/// Packings up to this size have all their modes computed for the density of states.
+/// Up to this size all modes are computed, for the density of states.
 constexpr int all_modes_up_to = 150;
 
 struct Vibrations {
@@ -81,7 +81,7 @@ Json rattler_records(const Stability& stability) {
   return list;
 }
 
-/// Whether the highest modes sit on particles with a face-face contact.
+/// Adds the share of the highest modes on particles with a face-face contact.
 void put_share(Json& state, const ModeSet& highest, const ClassifiedContacts& classified, int particles) {
   std::optional<AmplitudeShare> share;
   if (!undecided(classified.analysis)) {

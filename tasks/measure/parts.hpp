@@ -7,11 +7,11 @@
 #include "engine/analysis/contacts.hpp"
 #include "tasks/measure/measure.hpp"
 
-// What the measurements share.
+// Functions shared by the measures.
 
 namespace isojam {
 
-/// States are measured in all their digits, whatever was enough to find them: what is stored of them is that.
+/// States are measured at the full precision in which they are stored, whatever precision the minimiser needed.
 inline constexpr Precision state_precision = Precision::double_double;
 
 /// The contacts of a state, their angles and their classes.
@@ -22,26 +22,28 @@ struct ClassifiedContacts {
 };
 ClassifiedContacts classified_contacts(const Packing& packing, PackingEnergy& energy);
 
-/// Why classes cannot be told; nullopt if they can.
+/// The reason why contacts cannot be classified; nullopt if they can.
 std::optional<std::string_view> undecided(const ContactAnalysis& analysis);
 
-/// Z and its parts, C, Q6 and what decided the classes.
+/// Z and its parts, C, Q6 and the basis of the classes.
 Json contact_record(const ContactAnalysis& analysis);
-/// classes_undecided (a fit gave no cut-off), classes_doubtful (one gave a cut-off that its curve does not bear out),
-/// crystalline (Q6 is above crystalline_q6).
+/// Flags: classes_undecided (a fit gave no cut-off), classes_doubtful (a fit gave a cut-off that its curve does not
+/// support), crystalline (Q6 is above crystalline_q6).
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest);
 
-/// x rounded to some significant digits: long lists need no more. x is finite.
+/// x rounded to this many significant digits, which keeps long lists short. x is finite.
 double to_digits(double x, int digits);
 
-/// Why a state cannot be freed or sheared; nullopt if it can: forces balance, and it bears a pressure.
+/// The reason why the cell of a state cannot be relaxed or sheared; nullopt if it can: forces are balanced and the
+/// pressure is positive.
 std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy& energy);
 
-/// Writes the law y ∝ Δφ^exponent over the states within scaling_window of jamming where `exponent` stands in the
-/// record of a replicate, and beside it its ci95_half_width and the points. `y` has an entry per state, nullopt where
-/// it is not known.
+/// Fits y ∝ Δφ^exponent over the states within scaling_window of jamming. Writes the exponent to its place in the
+/// record of a replicate, with its ci95_half_width and the points. `y` has an entry per state, nullopt where it is
+/// unknown.
 void put_scaling(Json& replicate, const Quantity& exponent, const JamResult& jam,
                  const std::vector<std::optional<double>>& y);
-inline constexpr double scaling_window = 0.02;  ///< that of φ_J, by default: farther off the powers bend
+inline constexpr double scaling_window = 0.02;  ///< the default fit window of φ_J: farther from jamming there is no
+                                                ///< single power law
 
 }  // namespace isojam

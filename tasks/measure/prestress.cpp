@@ -22,17 +22,18 @@ constexpr Quantity held_by_second{"held_by_second", "/prestress/modes/held_by_se
 constexpr Quantity held_by_prestress{"held_by_prestress", "/prestress/modes/held_by_prestress", group, "1", "n_p"};
 constexpr std::array quantities{C_s, missing_s, missing_n, self_stress_s, held_by_second, held_by_prestress};
 
-/// s from which a tilt counts as a constraint, and others to see what that choice does to their number.
+/// A tilt counts as a constraint from this stiffness s; other thresholds show how much the number depends on the
+/// choice.
 constexpr double threshold = 10;
 constexpr std::array thresholds{1.0, 3.0, 10.0, 30.0, 100.0};
-/// Shares of normals below which modes are counted: half, and nearly none.
+/// Modes are counted in which normals have less than these shares of the stiffness: half, and almost none.
 constexpr std::array normal_shares{.5, .1, .01};
-/// Packings up to this size have all their modes looked at, others as many as asked for at the soft end.
+/// Up to this size all modes are used; for larger packings, as many as requested at the soft end.
 constexpr int all_modes_up_to = 150;
-/// States nearest to these, and to jamming, keep the stiffness of every contact.
+/// The states nearest to these distances, and the one nearest jamming, keep the stiffness of every contact.
 constexpr std::array kept_near{.02, .005};
 
-/// 6N − 3 − rank, over N.
+/// (6N − 3 − rank)/N.
 double missing(const Rigidity& rigidity, int particles) {
   return static_cast<double>(6L * particles - 3 - rigidity.rank) / particles;
 }
@@ -50,7 +51,7 @@ struct StateStiffness : ClassifiedContacts {
   std::vector<PairStiffness> pairs;
 };
 
-/// Which contacts, by their angles, have the stiff tilts; none where classes are not told.
+/// Numbers of contacts with stiff tilts by their angles; absent if contacts are not classified.
 Json tilts_by_class(const StateStiffness& stiffness) {
   Json list = Json::array();
   if (undecided(stiffness.analysis)) return list;
@@ -92,7 +93,7 @@ void put_counts(Json& state, const Packing& packing, const StateStiffness& stiff
       std::count_if(stiffness.pairs.begin(), stiffness.pairs.end(), [](const auto& pair) { return !pair.has_second; });
 }
 
-/// The modes of a state, softest first, and from where their eigenvalues mean something.
+/// The modes of a state, softest first, and the index of the first with a significant eigenvalue.
 struct Modes {
   ModeSet set;
   double tolerance = 0;
@@ -112,13 +113,13 @@ Modes modes_of(const Packing& packing, PackingEnergy& energy, int wanted) {
   return modes;
 }
 
-/// What opposes the modes of a state that doubles resolve.
+/// Support of the modes of a state that double precision resolves.
 struct Held {
   int resolved = 0;
   std::array<int, normal_shares.size()> by_second{};  ///< by share of normals
   std::array<int, thresholds.size()> by_prestress{};  ///< by threshold of stiff tilts
-  double sum_of_logs = 0;  ///< of λ of those held by prestress, of the threshold that is called so
-  double worst_sum = 0;    ///< of the shares, off λ, relative
+  double sum_of_logs = 0;  ///< sum of ln λ over the modes held by prestress, at the threshold of that name
+  double worst_sum = 0;    ///< largest relative deviation of the sum of shares from λ
   Json lambda = Json::array(), normal = Json::array(), tilt = Json::array();
 };
 constexpr int listed_modes = 50;
@@ -150,12 +151,12 @@ Held held_by(const StateStiffness& stiffness, const Modes& modes) {
 
 constexpr std::string_view more = "all modes that were looked at are, and others may be";
 
-/// The number of modes, or none if there may be more than were looked at.
+/// The number of modes, or nullopt if there may be more than were examined.
 std::optional<double> known(const Modes& modes, const Held& held, int count) {
   return modes.all || count < held.resolved ? std::optional<double>(count) : std::nullopt;
 }
 
-/// What the choices of a share and of a threshold do to these numbers.
+/// Adds these numbers for the other choices of share and threshold.
 void put_choices(Json& json, const Modes& modes, const Held& held) {
   Json shares = Json::array(), stiff = Json::array();
   for (std::size_t t = 0; t < normal_shares.size(); ++t) {
@@ -190,7 +191,7 @@ void put_modes(Json& state, const StateStiffness& stiffness, const Modes& modes)
   json["tilt"] = std::move(held.tilt);
 }
 
-/// s of every normal and tilt, ascending, for whoever draws the bands.
+/// s of every normal and tilt, ascending, for plots of the bands.
 void put_bands(Json& json, const std::vector<PairStiffness>& pairs) {
   constexpr double least = 0.1;
   std::vector<double> normals, tilts;
@@ -204,7 +205,7 @@ void put_bands(Json& json, const std::vector<PairStiffness>& pairs) {
   json["s_tilt"] = tilts;
 }
 
-/// The states that keep the stiffness of every contact.
+/// The states whose contact stiffness is stored.
 std::vector<std::size_t> kept_states(const JamResult& jam) {
   std::vector<std::size_t> kept;
   if (const auto nearest = nearest_state(jam)) kept.push_back(*nearest);

@@ -4,16 +4,16 @@
 #include <optional>
 #include <string_view>
 
-// A record is written one measure after the other, in the order of all_measures. Of a state each measure writes an
-// object of its own name; contacts, the first of them, writes Z and its other numbers beside each other. Of the
-// replicate each writes what its quantities point to, with the reason behind it where that is null.
+// Measures write to a record one after the other, in the order of all_measures. In a state each writes an object of its
+// own name; `contacts`, the first, writes Z and its other numbers directly. In the replicate each writes to the
+// pointers of its quantities, followed by the reason if one is null.
 
 namespace isojam {
 namespace {
 
-constexpr std::string_view last_of_step = "step";  ///< the key before those of measures in a state
+constexpr std::string_view last_of_step = "step";  ///< the last key of a state before those of measures
 
-/// The measure that a key of a state belongs to, after one of `before`.
+/// The measure that a key of a state belongs to. `before` owns the previous key.
 Measure owner_in_state(const std::string& key, Measure before) { return from_string<Measure>(key).value_or(before); }
 
 Json of_state(Measure what, const Json& state) {
@@ -30,7 +30,7 @@ Json of_state(Measure what, const Json& state) {
   return own;
 }
 
-/// The measure of whose quantities one stands in this member of the record.
+/// The measure with a quantity in this member of the record.
 std::optional<Measure> owner_in_record(std::string_view key) {
   for (const auto& quantity : all_quantities()) {
     if (quantity.of != Quantity::Of::replicate || !quantity.measure) continue;

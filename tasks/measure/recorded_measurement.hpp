@@ -4,8 +4,8 @@
 
 namespace isojam {
 
-/// What a measure has written into the record of a replicate that did not fail and for which it was made: joined with
-/// those of the other measures again, it gives the same bytes.
+/// The part of the record of a successful replicate that this measure wrote. Joining it with those of the other
+/// measures gives the same bytes again.
 Measurement recorded_measurement(Measure what, const Json& record);
 
 }  // namespace isojam

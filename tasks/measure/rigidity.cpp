@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::string_view group = "rigidity";
 
-/// What one way of counting constraints gives.
+/// Result of one way of counting constraints.
 struct Count {
   std::string_view rows;  ///< key in the record
   Quantity self_stress, floppy;
@@ -40,10 +40,10 @@ void put_undecided(Json& state, const Count& count, std::string_view why) {
   put(state, count.floppy, std::nullopt, why);
 }
 
-/// Factors of both fitted cut-offs: what their choice does to the rank.
+/// Factors applied to both fitted cut-offs, to show how the rank depends on them.
 constexpr std::array cutoff_factors{.5, 2.0};
 
-/// None of solids of several shapes, which have cut-offs by pair of shapes.
+/// Empty for solids of several shapes, whose cut-offs depend on the pair of shapes.
 Json scaled_cutoffs(const Packing& packing, const ClassifiedContacts& classified) {
   Json list = Json::array();
   const ContactAnalysis& analysis = classified.analysis;

@@ -9,8 +9,8 @@
 namespace isojam {
 namespace {
 
-// The state nearest jamming under quasi-static shear, as /shear in the manifest says: stress and energy along the way,
-// where it gives way, and what is left when the load is taken back.
+// Quasi-static shear of the state nearest jamming, with the load of /shear in the manifest: stress and energy along the
+// path, rearrangements, and the residual strain after unloading.
 
 constexpr std::string_view group = "shear";
 constexpr auto of_replicate = Quantity::Of::replicate;

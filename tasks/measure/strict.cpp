@@ -6,8 +6,8 @@
 namespace isojam {
 namespace {
 
-// Whether packings are held by more than their box: second derivatives by particles and all six strains of the cell,
-// at the pressure that each state has; and what becomes of the state nearest jamming when its cell is freed.
+// Stability with a variable cell (strict jamming): second derivatives with respect to particles and all six strains of
+// the cell, at the pressure of each state. In addition, the state nearest jamming after its cell was relaxed.
 
 constexpr std::string_view group = "strict jamming";
 constexpr Quantity strictly_jammed{"strictly_jammed", "/strict/jammed", group, "1", "n_{strict}"};

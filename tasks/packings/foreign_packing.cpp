@@ -16,15 +16,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a size: what single precision leaves, and a shape's vertices.
+/// Relative tolerance of a size: rounding of single precision and of a shape's vertices.
 constexpr double size_tolerance = 1e-3;
-/// Numbers of images stay far from what an int can hold.
+/// Limits image counts, so that they stay far from the range of int.
 constexpr double most_cells = 1e6;
 
-/// A type as one of a mixture's solids.
+/// Assigns a type of the file to one of a mixture's solids.
 struct Match {
   const ConvexSolid* solid = nullptr;
-  Similarity place;  ///< of the solid in the body frame of the type
+  Similarity place;  ///< placement of the solid in the body frame of the type
 };
 
 std::optional<Match> match_of(const ForeignPacking::Type& type, const Mixture& mixture) {
@@ -53,7 +53,7 @@ std::vector<Match> matches_of(const ForeignPacking& foreign, const Mixture& mixt
   return matches;
 }
 
-/// The mixture's particles in the order of the file's: those of one solid have its sizes in order of size.
+/// The mixture's particles in the order of the file's particles. Sizes of one solid are assigned in order of size.
 std::vector<Particle> assigned(const Mixture& mixture, const std::vector<Particle>& in_file) {
   auto own = mixture.particles(static_cast<int>(in_file.size()));
   const auto before = [](const Particle& a, const Particle& b) {
@@ -81,7 +81,7 @@ std::vector<Particle> assigned(const Mixture& mixture, const std::vector<Particl
 PeriodicCell cell_of(const Eigen::Matrix3d& vectors) {
   const double side = vectors(0, 0);
   const Eigen::Matrix3d cube = side * Eigen::Matrix3d::Identity();
-  // Single precision has a cube's sides equal or nearly so, and what a tilt of 0 became.
+  // In single precision the sides of a cube may differ by rounding, and tilts of 0 may become small numbers.
   if ((vectors - cube).cwiseAbs().maxCoeff() <= 1e-6 * std::abs(side)) return PeriodicCell(side);
   DoubleDoubleMatrix cell;
   cell.high = vectors;
@@ -109,7 +109,7 @@ Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
       Pose pose;
       pose.position = (body.position + body.orientation * (body.size * place.shift)) / unit;
       pose.orientation = (body.orientation * place.rotation).normalized();
-      // Written so that what is not a number is refused too.
+      // Written so that NaN is refused too.
       if (!(packing.cell.fractional(pose.position).cwiseAbs().maxCoeff() <= most_cells))
         throw NoPackingFile(fmt::format("particle {} lies more than {} cells away", packing.size(), most_cells));
       packing.poses.push_back(pose);

@@ -11,15 +11,15 @@
 
 namespace isojam {
 
-/// A packing as a file of another program has it, in that file's units and frames of bodies.
+/// A packing read from another program's file, in that file's units and body frames.
 struct ForeignPacking {
   struct Type {
     std::string name;
-    std::vector<Eigen::Vector3d> vertices;  ///< in the body frame; none if the file tells no shape
+    std::vector<Eigen::Vector3d> vertices;  ///< in the body frame; empty if the file gives no shape
   };
   struct Body {
     int type = 0;
-    double size = 1;  ///< of its lengths to those of its type
+    double size = 1;  ///< ratio of its lengths to those of its type
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   };
@@ -28,17 +28,17 @@ struct ForeignPacking {
   std::vector<Body> bodies;
 };
 
-/// A frame of a GSD file with HOOMD-blue's schema, −1 the last: box, positions, orientations, and shapes of types where
-/// there are any. Throws NoPackingFile.
+/// Reads a frame (−1: the last) of a GSD file with HOOMD-blue's schema: box, positions, orientations, and shapes of
+/// types if there are any. Throws NoPackingFile.
 ForeignPacking read_gsd_packing(const std::string& bytes, int frame);
 
-/// A frame of an extended XYZ file, −1 the last: Lattice, species (the name of a solid), pos, orientation (x, y, z, w),
-/// and size where there are several. Throws NoPackingFile.
+/// Reads a frame (−1: the last) of an extended XYZ file: Lattice, species (the name of a solid), pos, orientation (x,
+/// y, z, w), and size if there are several. Throws NoPackingFile.
 ForeignPacking read_xyz_packing(std::string_view text, int frame);
 
-/// The packing of the mixture's particles that the file tells: types are its solids by shape, turned and shifted as
-/// they may be, or by name where the file has no shape; lengths become those in which the mean volume is 1; sizes,
-/// which files hold in single precision, become those of the mixture. Throws NoPackingFile for other particles.
+/// The packing in terms of the mixture's particles. Types are matched to solids by shape, up to rotation and shift, or
+/// by name if the file has no shape. Lengths are scaled so that the mean volume is 1. Sizes, which files hold in single
+/// precision, are replaced by those of the mixture. Throws NoPackingFile for other particles.
 Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture);
 
 }  // namespace isojam

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t magic = 0x65DF65DF65DF65DF;
 constexpr std::size_t header_size = 256, name_size = 64, entry_size = 32;
-/// Far more than any file of packings has, and far from overflow.
+/// Far more than any file of packings contains, and far from overflow.
 constexpr std::uint64_t most_entries = 1U << 24, most_numbers = 1U << 28;
 
 template <std::unsigned_integral T>
@@ -46,7 +46,7 @@ double number_at(std::string_view data, std::uint8_t type, std::size_t k) {
   }
 }
 
-/// Of layer version 1 one to a block of 64 bytes, of version 2 one after another.
+/// Layer version 1 stores one name per block of 64 bytes, version 2 one after another.
 std::vector<std::string> names_in(std::string_view region, bool packed) {
   std::vector<std::string> names;
   for (std::size_t at = 0; at < region.size();) {

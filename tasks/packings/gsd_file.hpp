@@ -12,22 +12,22 @@
 
 namespace isojam {
 
-/// A file that is no packing, or none of those that can be read. what() says why.
+/// The file contains no packing in a readable format. what() gives the reason.
 class NoPackingFile : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A GSD file, layer version 1 or 2, as others write it: chunks by frame and name. Nothing in it is trusted.
+/// A GSD file, layer version 1 or 2, written by any program: chunks by frame and name. All contents are checked.
 class GsdFile {
  public:
-  /// Throws NoPackingFile for what is no GSD file.
+  /// Throws NoPackingFile if this is no GSD file.
   explicit GsdFile(std::string bytes);
 
   std::uint64_t frames() const { return frames_; }
   const std::string& schema() const { return schema_; }
-  /// Numbers of a chunk, by rows, whatever their type; those of frame 0 where the frame leaves it out; nullopt if that
-  /// does too. Throws NoPackingFile if it has other columns.
+  /// Numbers of a chunk by rows, of any type. If the frame lacks the chunk, that of frame 0; nullopt if both lack it.
+  /// Throws NoPackingFile if it has a different number of columns.
   std::optional<std::vector<double>> numbers(std::uint64_t frame, std::string_view name, std::uint32_t columns) const;
   /// Rows of text.
   std::optional<std::vector<std::string>> texts(std::uint64_t frame, std::string_view name) const;

@@ -134,10 +134,10 @@ GsdChunk gsd_chunk(std::string name, std::span<const std::string> rows) {
 std::string gsd_bytes(const GsdIdentity& identity, std::span<const std::vector<GsdChunk>> frames) {
   NameList names;
   std::vector<IndexEntry> index;
-  std::string bytes(header_size, '\0');  // filled in when the rest is known
+  std::string bytes(header_size, '\0');  // filled in once the rest is known
   for (std::size_t k = 0; k < frames.size(); ++k) append_frame(k, frames[k], names, index, bytes);
 
-  // Readers map the index into memory as it stands.
+  // Readers map the index into memory, which requires alignment.
   pad_to_multiple(bytes, sizeof(std::uint64_t));
   const auto names_at = bytes.size();
   pad_to_multiple(names.text, name_size);

@@ -8,7 +8,7 @@
 
 namespace isojam {
 
-/// Element types of the GSD file layer, by their numbers in the file.
+/// Element types of the GSD file layer, with their numbers in the file.
 enum class GsdType : std::uint8_t { uint8 = 1, uint32 = 3, uint64 = 4, int8 = 5, int32 = 7, float32 = 9, float64 = 10 };
 
 /// A named matrix of rows × columns, stored by rows.
@@ -27,10 +27,10 @@ GsdChunk gsd_chunk(std::string name, std::span<const std::int32_t> values, std::
 GsdChunk gsd_chunk(std::string name, std::span<const std::uint32_t> values, std::uint32_t columns = 1);
 GsdChunk gsd_chunk(std::string name, std::span<const std::uint64_t> values, std::uint32_t columns = 1);
 GsdChunk gsd_chunk(std::string name, std::span<const std::uint8_t> values, std::uint32_t columns = 1);
-/// Rows of text, each ended by zeros.
+/// Rows of text, zero-terminated.
 GsdChunk gsd_chunk(std::string name, std::span<const std::string> rows);
 
-/// What the file says of itself.
+/// Identity of the writer, stored in the header.
 struct GsdIdentity {
   std::string application, schema;  ///< at most 63 bytes each
   std::uint16_t schema_major = 1, schema_minor = 0;
@@ -38,12 +38,12 @@ struct GsdIdentity {
 
 /// A GSD file, layer version 2.0 (https://gsd.readthedocs.io, "File layer"), with one list of chunks for each frame:
 ///
-///     header, 256 bytes │ data of the chunks │ names, each ended by a zero │ index, 32 bytes for each chunk
+///    header, 256 bytes │ data of the chunks │ names, zero-terminated │ index, 32 bytes for each chunk
 ///
-/// The index is ordered by frame, then by name in order of first appearance, as readers search it. A chunk that a frame
-/// leaves out counts as that of frame 0 by the schemas built on the layer.
-/// Throws std::invalid_argument if a frame names a chunk twice, a chunk has no data or other data than its shape says,
-/// or a text of the identity is too long.
+/// The index is ordered by frame, then by name in order of first appearance, because readers search it so. By the
+/// schemas built on the layer, a chunk that a frame lacks has its value from frame 0.
+/// Throws std::invalid_argument if a frame names a chunk twice, if the data of a chunk is empty or does not match its
+/// shape, or if a text of the identity is too long.
 std::string gsd_bytes(const GsdIdentity& identity, std::span<const std::vector<GsdChunk>> frames);
 
 }  // namespace isojam

@@ -19,7 +19,7 @@ Eigen::Matrix3d cell_of(const std::vector<double>& box) {
   return cell;
 }
 
-/// None of a type without a polyhedron.
+/// Empty for a type without a polyhedron.
 std::vector<Eigen::Vector3d> vertices_of(const std::string& text) {
   const auto shape = Json::parse(text, nullptr, false);
   std::vector<Eigen::Vector3d> vertices;
@@ -35,7 +35,7 @@ std::vector<Eigen::Vector3d> vertices_of(const std::string& text) {
   return vertices;
 }
 
-/// Values of every particle; `fallback` of each where the file has none.
+/// Values of all particles; `fallback` if the file has none.
 std::vector<double> of_all(const GsdFile& file, std::uint64_t frame, const std::string& name, std::size_t count,
                            const std::vector<double>& fallback) {
   const auto columns = static_cast<std::uint32_t>(fallback.size());

@@ -116,7 +116,7 @@ void put_solids(Json& json, const Composition& solids) {
   }
 }
 
-/// Of so many particles.
+/// Reads the solids of n particles.
 Composition read_solids(const JsonPlace& place, std::size_t n) {
   if (!place.has("kinds")) return *read_solid(place);
   constexpr Range size_range{0, 1e3, true};

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of the size of a solid: what single precision, or a file of some digits, leaves of vertices.
+/// In units of the size of a solid: rounding of vertices in single precision or in a file with few digits.
 constexpr double tolerance = 1e-4;
 
 Matrix3d frame(const Vector3d& a, const Vector3d& b) {
@@ -21,7 +21,7 @@ Matrix3d frame(const Vector3d& a, const Vector3d& b) {
   return axes;
 }
 
-/// Whether every point of one list lies at one of the other, turned.
+/// True if every point of one list coincides with a point of the rotated other list.
 bool coincide(const std::vector<Vector3d>& points, const std::vector<Vector3d>& others, const Matrix3d& rotation,
               double near) {
   return std::all_of(points.begin(), points.end(), [&](const Vector3d& point) {
@@ -31,7 +31,7 @@ bool coincide(const std::vector<Vector3d>& points, const std::vector<Vector3d>& 
   });
 }
 
-/// Points about their mean, which moves with them as the centroid does, in units of their root mean square distance.
+/// Points relative to their mean, which transforms as the centroid does, in units of their root mean square distance.
 struct Normalised {
   Vector3d mean = Vector3d::Zero();
   double size = 0;
@@ -49,7 +49,7 @@ Normalised normalised(std::span<const Vector3d> points) {
 }
 
 std::optional<Matrix3d> rotation_onto(const std::vector<Vector3d>& own, const std::vector<Vector3d>& others) {
-  // A pair that is far from parallel; the frame of any that it may come to lie on gives a rotation.
+  // Two vectors far from parallel. Each pair of vectors to which they can be mapped gives a candidate rotation.
   const Vector3d& a = own[0];
   const Vector3d& b = *std::max_element(own.begin(), own.end(), [&](const Vector3d& p, const Vector3d& q) {
     return a.cross(p).squaredNorm() < a.cross(q).squaredNorm();

@@ -9,15 +9,15 @@
 
 namespace isojam {
 
-/// How a solid of unit volume stands in a frame of others: y = shift + scale·rotation·x.
+/// Placement of a solid of unit volume in another frame: y = shift + scale·rotation·x.
 struct Similarity {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   double scale = 1;
 };
 
-/// The one that takes the solid to the hull of these points, which are its vertices in any order, to 1e-4 of its size;
-/// nullopt if there is none but mirrored.
+/// The similarity that maps the solid to the hull of these points, which are its vertices in any order, to 1e-4 of its
+/// size. nullopt if there is none; a mirror image does not count.
 std::optional<Similarity> similarity(const ConvexSolid& solid, std::span<const Eigen::Vector3d> points);
 
 }  // namespace isojam

@@ -39,7 +39,7 @@ double number(std::string_view word) {
   return value;
 }
 
-/// The value of key="…" or key=… in the second line of a frame; empty if it is not there.
+/// The value of key="…" or key=… in the second line of a frame; empty if the key is missing.
 std::string_view value_of(std::string_view line, const std::string& key) {
   for (auto at = line.find(key + "="); at != std::string_view::npos; at = line.find(key + "=", at + 1)) {
     if (at > 0 && line[at - 1] != ' ') continue;
@@ -51,7 +51,7 @@ std::string_view value_of(std::string_view line, const std::string& key) {
   return {};
 }
 
-/// Where each property begins, and how many columns there are.
+/// First column of each property, and the number of columns.
 struct Columns {
   std::map<std::string, std::pair<std::size_t, std::size_t>, std::less<>> of;
   std::size_t count = 0;
@@ -90,7 +90,7 @@ std::size_t particles_in(std::string_view line) {
   return static_cast<std::size_t>(count);
 }
 
-/// The text from the frame on.
+/// The text from the beginning of the frame on.
 std::string_view at_frame(std::string_view text, int frame) {
   std::vector<std::string_view> frames;
   for (auto rest = text; !words_of(rest.substr(0, rest.find('\n'))).empty();) {

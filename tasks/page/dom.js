@@ -1,6 +1,6 @@
 'use strict';
 
-/// An element with properties, attributes (`attributes`) and children. Texts become text nodes and are never markup.
+/// An element with properties, attributes (`attributes`) and children. Texts become text nodes, never markup.
 function element(name, options = {}, ...children) {
   const {attributes = {}, ...properties} = options;
   const made = Object.assign(document.createElement(name), properties);
@@ -11,12 +11,12 @@ function element(name, options = {}, ...children) {
 
 const raised = {0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹', '-': '⁻', '/': 'ᐟ'};
 
-/// The letters of a text raised, as far as there are such.
+/// The letters of a text as superscripts, where such characters exist.
 const raisedText = (text) => [...text].map((letter) => raised[letter] ?? letter).join('');
 
 const powerOfTen = (power) => `10${raisedText(String(power))}`;
 
-/// A number for people: `digits` significant ones, an en dash where there is none.
+/// Text of a number with `digits` significant digits; an en dash if there is none.
 function formatted(value, digits = 4) {
   if (value === null || value === undefined) return '–';
   if (typeof value !== 'number') return String(value);
@@ -27,7 +27,7 @@ function formatted(value, digits = 4) {
   return String(Number(value.toPrecision(digits))).replace('-', '−');
 }
 
-/// A file from a text or a data URL, by the browser's own download.
+/// Saves a text or a data URL as a file, by the browser's download.
 function save(name, content, type) {
   const address = type ? URL.createObjectURL(new Blob([content], {type})) : content;
   const link = element('a', {href: address, download: name});
@@ -37,7 +37,7 @@ function save(name, content, type) {
   if (type) setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
-/// On the clipboard; by way of a selected text where the browser refuses, as it may for pages from disk.
+/// Copies to the clipboard. If the browser refuses, as it may for pages from disk, a selected text is copied instead.
 async function copy(text) {
   try {
     await navigator.clipboard.writeText(text);
@@ -50,7 +50,7 @@ async function copy(text) {
   }
 }
 
-/// A button that says for a moment that it did what it does.
+/// A button that confirms its action for a moment.
 function button(label, action) {
   const made = element('button', {type: 'button'}, label);
   made.addEventListener('click', async () => {
@@ -67,10 +67,10 @@ function csvField(value) {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-/// What only the drawing needs to know of a row.
+/// Keys of a row that only the drawing needs.
 const drawingKeys = ['dodge', 'line'];
 
-/// Rows of all data sets below each other, their names in the first column.
+/// Rows of all data sets one below the other, with their names in the first column.
 function csvOf(datasets) {
   const names = [...new Set(Object.values(datasets).flat().flatMap((row) => Object.keys(row)))]
     .filter((name) => !drawingKeys.includes(name));

@@ -1,5 +1,6 @@
-# embed_parts(<list> <name> <part>...): generates a source that holds the files of the parts as bytes and gives them
-# as isojam::<name>(); its path is appended to the variable <list>. A part is "kind|name|file", kinds as in parts.hpp.
+# embed_parts(<list> <name> <part>...): generates a source that contains the files of the parts as bytes and returns
+# them from isojam::<name>(). Its path is appended to the variable <list>. A part is "kind|name|file", with kinds as in
+# parts.hpp.
 set(embed_parts_template ${CMAKE_CURRENT_LIST_DIR}/parts.cpp.in)
 
 function(embed_parts list_variable name)

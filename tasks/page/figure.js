@@ -22,10 +22,10 @@ function handleTooltip(handler, event, item, value) {
 const viewOf = (specification, options) =>
   new vega.View(vega.parse(specification), {logLevel: vega.Warn, renderer: 'none', ...options});
 
-/// Figures are saved for paper, whatever the screen: on white, at one width.
+/// Saved figures are meant for paper: always on white and at one width.
 const savedWidth = 900;
 
-/// A specification for other programs, which set no mathematics.
+/// A specification for other programs, without typeset mathematics.
 const specificationText = (figure) => `${JSON.stringify(figure.spec(savedWidth),
   (key, value) => (typeof value === 'string' ? plainText(value) : value), 1)}\n`;
 
@@ -70,7 +70,7 @@ function chartControls(current) {
     named('Save data', (figure) => save(`${figure.id}.csv`, plainText(csvOf(figure.datasets)), 'text/csv')));
 }
 
-/// Draws, and draws again when the width changes by what a reader would see, or another figure is set in the place.
+/// Draws, and redraws if the width changes noticeably or another figure is set in its place.
 function drawFigure(first, place) {
   let figure = first, drawn = 0, view = null, waiting = 0;
   const chart = element('div', {className: 'chart', id: `chart-${figure.id}`});

@@ -1,11 +1,12 @@
 'use strict';
 
-// Mathematics in texts, set in HTML, in SVG and, where neither is at hand, in plain letters. It stands between dollars:
-// letters, \greek, _x, ^x, _{xy}, ^{xy}. Outside of dollars the N of "N = 100" and φ_J, a letter and a letter, are too.
+// Typesets mathematics in texts: in HTML, in SVG and as plain letters elsewhere. A formula stands between dollars:
+// letters, \greek, _x, ^x, _{xy}, ^{xy}. Outside of dollars the N of "N = 100" and φ_J, a letter with a one-letter
+// index, are formulae too.
 
 const macros = {phi: 'φ', omega: 'ω', langle: '⟨', rangle: '⟩', gamma: 'γ', epsilon: 'ε', sigma: 'σ', max: 'max'};
 
-/// Where what begins at `from`, a brace or a single letter, ends.
+/// End of the argument that begins at `from`: a brace or a single letter.
 function argumentEnd(text, from) {
   if (text[from] !== '{') return from + 1;
   let depth = 0;
@@ -16,7 +17,8 @@ function argumentEnd(text, from) {
   return text.length;
 }
 
-/// Formula as runs: {text, italic} and {script: 'sub' or 'sup', runs}. Words and Δ are upright, as all but letters is.
+/// Formula as runs: {text, italic} and {script: 'sub' or 'sup', runs}. Words, Δ and everything except letters are
+/// upright.
 function formulaRuns(formula) {
   const text = formula.replace(/\\([a-z]+)/gi, (whole, macro) => macros[macro] ?? whole);
   const runs = [];
@@ -56,7 +58,7 @@ const htmlOf = (runs) => runs.map(({text, italic, script, runs: inner}) => {
   return italic ? element('i', {}, text) : text;
 });
 
-/// Nodes of a text with its mathematics set. Nothing of the text is ever markup.
+/// Nodes of a text with its mathematics typeset. The text is never interpreted as markup.
 const rich = (text) => htmlOf(runsOf(text));
 
 /// Nodes of a formula.
@@ -69,10 +71,10 @@ const lettersOf = (runs) => runs.map(({text, script, runs: inner}) => {
   return `${script === 'sup' ? '^' : '_'}${letters}`;
 }).join('');
 
-/// The text in plain letters, for files that others read.
+/// The text in plain letters, for exported files.
 const plainText = (text) => text.replace(/\$([^$]+)\$/g, (whole, formula) => lettersOf(formulaRuns(formula)));
 
-/// Appends the runs as tspans; scripts are smaller and shifted in user units, which all programs that show SVG know.
+/// Appends the runs as tspans. Scripts are smaller and shifted in user units, which all SVG viewers support.
 function appendRuns(line, runs, size, scale = 1, level = 0) {
   const shifts = {sub: 0.25, sup: -0.36};
   for (const {text, italic, script, runs: inner} of runs) {
@@ -91,7 +93,7 @@ function appendRuns(line, runs, size, scale = 1, level = 0) {
   }
 }
 
-/// Sets the mathematics in the texts of a drawn chart, and in what a screen reader says of it.
+/// Typesets the mathematics in the texts of a drawn chart and in its description for screen readers.
 function setMathematics(svg) {
   for (const told of svg.querySelectorAll('[aria-label*="$"]'))
     told.setAttribute('aria-label', plainText(told.getAttribute('aria-label')));

@@ -8,8 +8,8 @@
 
 namespace isojam {
 
-/// One self-contained HTML file of the common parts followed by `own`, one of which is the frame, that shows `data`:
-/// nothing is fetched, and no text of the data is ever markup.
+/// One self-contained HTML file of the common parts and `own`, one of which is the frame, that shows `data`. It loads
+/// nothing from elsewhere, and text in the data is never interpreted as markup.
 std::string assembled_page(std::span<const PagePart> own, const Json& data);
 
 }  // namespace isojam

@@ -1,8 +1,8 @@
 'use strict';
 
-// Small multiples as full Vega specifications: one group mark per panel, all on the same scales.
+// Small multiples as complete Vega specifications: one group mark per panel, all with the same scales.
 
-/// Okabe and Ito's colours, told apart with any colour vision, and a shape each for print in black.
+/// Okabe and Ito's colours, which can be distinguished with any colour vision, and shapes for prints in black.
 const solidColours = {
   tetrahedron: '#d55e00', cube: '#cc79a7', octahedron: '#0072b2', dodecahedron: '#009e73', icosahedron: '#e69f00',
 };
@@ -10,11 +10,11 @@ const solidShapes = {
   tetrahedron: 'triangle-up', cube: 'square', octahedron: 'diamond', dodecahedron: 'circle',
   icosahedron: 'triangle-down',
 };
-// Solids that have none, in the order in which they come.
+// Colours of other solids, in order of appearance.
 const otherColours = ['#56b4e9', '#8c6d31', '#7f7f7f', '#000000', '#b2182b', '#5e4fa2'];
 const otherShapes = ['cross', 'triangle-left', 'triangle-right', 'stroke'];
 
-/// Gives solids of other names a colour and a shape of their own, as far as there are some.
+/// Assigns a colour and a shape to solids of other names, as long as there are any left.
 function nameSolids(names) {
   const others = names.filter((name) => !(name in solidColours));
   others.forEach((name, index) => {
@@ -46,7 +46,7 @@ function evenTicks([low, high]) {
   return ticks;
 }
 
-/// Decades, or 1, 2, 5 of each where there are few.
+/// Decades, or 1, 2, 5 of each if there are few.
 function logTicks([low, high]) {
   const [first, last] = [Math.floor(Math.log10(low)), Math.ceil(Math.log10(high))];
   const decades = Math.log10(high / low);
@@ -69,7 +69,7 @@ function logAxis(domain) {
     signal: `(${JSON.stringify(texts)})[datum.value] || ''`}}}}};
 }
 
-/// The range of values with a margin, in logarithms for a log scale; null without values.
+/// The range of values with a margin, logarithmic for a log scale; null without values.
 function domainOf(values, {type = 'linear', margin = 0.05} = {}) {
   const usable = values.filter((value) => typeof value === 'number' && (type !== 'log' || value > 0));
   if (usable.length === 0) return null;
@@ -81,7 +81,7 @@ function domainOf(values, {type = 'linear', margin = 0.05} = {}) {
   return [back(low - room), back(high + room)];
 }
 
-/// Columns of panels that fit, and the width of each, for labels of `left` pixels on the left and `right` at the end.
+/// Number of columns of panels that fit, and the width of each, with `left` and `right` pixels for labels.
 function panelGrid(width, panels, {least = 215, most = 4, widest = Infinity, left = 76, right = 26, gap = 18} = {}) {
   const fits = Math.floor((width - left + gap) / (least + gap));
   const columns = Math.max(1, Math.min(most, panels, fits));
@@ -97,7 +97,7 @@ function panelAxes({x, y}, {showX, showY}) {
   return [axis('bottom', 'x', x, showX), axis('left', 'y', y, showY)];
 }
 
-/// A text as lines of at most `most` characters where its words, of which "N = 28" is one, allow that.
+/// Breaks a text into lines of at most `most` characters if its words allow it; "N = 28" counts as one word.
 function wrapped(text, most) {
   const lines = [];
   for (const word of text.replaceAll(' = ', '\u00a0=\u00a0').split(' ')) {
@@ -108,7 +108,7 @@ function wrapped(text, most) {
   return lines.map((line) => line.replaceAll('\u00a0', ' '));
 }
 
-/// One panel: its own scales of the common domains, marks inside.
+/// One panel: its own scales of the common domains, with the marks inside.
 function panel({title, width, height, x, y, data = [], marks, showX = true, showY = true}) {
   const scale = (name, range, {type = 'linear', domain}) => ({name, type, domain, range, zero: false, clamp: false});
   return {
@@ -121,10 +121,10 @@ function panel({title, width, height, x, y, data = [], marks, showX = true, show
   };
 }
 
-/// Pixels that an entry of a legend takes; Vega makes room for what stands for mathematics, too.
+/// Width of a legend entry in pixels. Vega also reserves space for the unformatted text of formulae.
 const entryWidth = (text) => 30 + 6.6 * text.length;
 
-/// Legends above the chart, `texts` what their entries are called: beside each other if there is room, else below.
+/// Legends above the chart with entries `texts`: side by side if they fit, otherwise one below the other.
 function placedLegends(legends, scales, width) {
   const widths = [];
   const placed = legends.map(({texts, ...legend}) => {
@@ -140,13 +140,13 @@ function placedLegends(legends, scales, width) {
   return {legends: placed, beside: widths.reduce((total, one) => total + one + 14, 0) <= width};
 }
 
-/// The look of a chart whose legends stand beside or below each other.
+/// Configuration of a chart whose legends are side by side or one below the other.
 const configFor = (beside) => ({
   ...chartConfig,
   legend: {...chartConfig.legend, layout: {top: {direction: beside ? 'horizontal' : 'vertical', anchor: 'start'}}},
 });
 
-/// A specification of panels in a grid. `panelsOf(grid)` is called with the place of each panel.
+/// A specification of panels in a grid. `panelsOf(grid)` is called with the position of each panel.
 function panelSpec({description, width, count, height = 190, datasets, legends = [], scales = [], panelAt, grid = {}}) {
   const {columns, width: panelWidth} = panelGrid(width, count, grid);
   const marks = [];
@@ -165,7 +165,7 @@ function panelSpec({description, width, count, height = 190, datasets, legends =
   };
 }
 
-/// Rows of a data set that belong to a panel, under a name of their own.
+/// Rows of a data set that belong to a panel, under a separate name.
 const rowsOf = (source, index) => ({
   name: `${source}_${index}`, source, transform: [{type: 'filter', expr: `datum.row === ${index}`}],
 });
@@ -177,7 +177,7 @@ function tooltipOf(fields) {
   return {signal: `{${entries.join(', ')}}`};
 }
 
-/// A mark's name becomes a class of its elements, by which the page's style sheet finds what is ink; names are unique.
+/// A mark's name becomes a class of its elements, by which the style sheet recolours ink. Names are unique.
 const styled = (style, type, from) => (style ? {name: `${style}_${type}_${from}`} : {});
 
 const inPanel = (fieldX, fieldY) => ({x: {scale: 'x', field: fieldX}, y: {scale: 'y', field: fieldY}});
@@ -193,7 +193,7 @@ function points(from, x, y, {colour, shape = 'circle', size = 30, hollow = 'fals
   };
 }
 
-/// A line for each value of `by`, in the order of the rows, broken where the test `defined` fails.
+/// A line for each value of `by`, in the order of the rows, interrupted where the test `defined` fails.
 function lines(from, x, y, {by, colour, width = 1.3, dash = [], opacity = 1, style, step = false, defined = 'true'}) {
   return {
     type: 'group', from: {facet: {name: `${from}_${by}`, data: from, groupby: by}},

@@ -1,6 +1,6 @@
 'use strict';
 
-// Vega comes as CommonJS modules. This is all of CommonJS they need, and the part of Vega that charts here use.
+// Vega comes as CommonJS modules. This is the part of CommonJS that they need, and the part of Vega that charts use.
 const vega = (() => {
   const aliases = {'vega-selections': 'vega-selection'};
   const loaded = {};

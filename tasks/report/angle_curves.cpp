@@ -19,10 +19,10 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr int samples = 80, bins_per_decade = 60;
-/// Where charts begin; the random curves are straight lines in the logarithms there.
+/// Lower end of the charts; there the random curves are straight lines in the logarithms.
 constexpr double least_sampled = 0.001 * degree;
 
-/// Digits beyond what a chart shows cost a reader's time and disk.
+/// More digits than a chart can show would only cost disk space and time.
 double shortened(double x) {
   if (x == 0) return 0;
   const double unit = nearest::pow(10, std::floor(nearest::log10(std::abs(x))) - 5);

@@ -25,7 +25,7 @@ namespace {
 
 using Members = std::vector<const RecordedReplicate*>;
 
-/// What stands there, or null: a report shows what it finds.
+/// The value at a pointer, or null: a report shows whatever exists.
 Json value_at(const Json& json, const std::string& pointer) {
   const Json::json_pointer place(pointer);
   return json.contains(place) ? json.at(place) : Json(nullptr);
@@ -75,7 +75,7 @@ std::string point_of(const Row& row) { return point_text(row.solid, row.particle
 
 double sixth_root(double energy) { return energy > 0 ? nearest::cbrt(std::sqrt(energy)) : 0; }
 
-/// Those of a state that charts draw against Δφ, by name.
+/// Quantities of a state that charts draw against Δφ.
 constexpr std::array drawn_quantities{"Z", "Z_ff", "Z_ef", "Z_l", "C", "omega_l", "omega_h", "K", "G"};
 
 Json state_points(const Json& record) {
@@ -92,7 +92,7 @@ Json state_points(const Json& record) {
   return points;
 }
 
-/// The line through the states that gave φ_J, from φ_J to the farthest of them; null if it cannot be drawn.
+/// The fitted line through the states that gave φ_J, from φ_J to the farthest of them; null if it cannot be drawn.
 Json extrapolation(const Json& record) {
   const auto states = state_points(record);
   std::vector<double> roots, densities;
@@ -111,7 +111,7 @@ Json extrapolation(const Json& record) {
   return {{"from", {phi_j, 0}}, {"to", {line.intercept + line.slope * *greatest, *greatest}}};
 }
 
-/// Reasons for which minimisations stopped, counted, the expansion's apart from those on the way up.
+/// Counts of the stop reasons of minimisations, separately for compression and expansion.
 Json stop_counts(const Json& record) {
   std::map<std::pair<std::string, std::string>, int> counts;
   for (const auto& step : list_at(record, "/path")) {
@@ -124,7 +124,7 @@ Json stop_counts(const Json& record) {
   return list;
 }
 
-/// The flags that the manifest excludes, as far as it can be understood.
+/// The flags that the manifest excludes, if they can be read.
 std::vector<Flag> exclude_of(const Json& manifest) {
   if (!value_at(manifest, "/exclude").is_array()) return usually_excluded();
   std::vector<Flag> flags;
@@ -191,7 +191,7 @@ Members counting(const Members& members, const std::vector<Flag>& exclude) {
   return list;
 }
 
-/// The angles are only in one of the states, that nearest jamming.
+/// The angles are stored only in the state nearest jamming.
 Json state_with_angles(const Json& record) {
   for (const auto& state : list_at(record, "/states")) {
     if (state.contains("angles")) return state;
@@ -273,7 +273,7 @@ Json measure_list(const Results& results) {
   return measures;
 }
 
-/// What is not among the measures and could be added to them; null where the manifest kept no expansions.
+/// Measures that could still be added; null if the manifest kept no expansions.
 Json addable_list(const Results& results, const Json& measures) {
   if (value_at(results.manifest, "/keep_path") != true) return nullptr;
   Json addable = Json::array();

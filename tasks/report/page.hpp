@@ -6,7 +6,8 @@
 
 namespace isojam {
 
-/// One self-contained HTML file that shows report_data(): nothing is fetched, and no text of the data is ever markup.
+/// One self-contained HTML file that shows report_data(). It loads nothing from elsewhere, and text in the data is
+/// never interpreted as markup.
 std::string report_page(const Json& data);
 
 }  // namespace isojam

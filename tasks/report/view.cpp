@@ -17,11 +17,11 @@
 namespace isojam {
 namespace {
 
-/// Decimals that a screen can show.
+/// Resolution that a screen can show.
 constexpr double length_unit = 1e5, mode_unit = 1e3;
-/// Forces are told in parts of the largest, places of contacts in hundredths of a length.
+/// Units of the output: forces as thousandths of the largest, contact positions in hundredths of a length.
 constexpr double force_parts = 1000, place_parts = 100;
-/// A view is not worth the dense solver's minutes.
+/// Above this size a view does not justify the minutes of the dense solver.
 constexpr int largest_dense_view = 100;
 
 double shortened(double x, double unit) {
@@ -69,8 +69,8 @@ void put_contacts(Json& json, std::span<const Contact> contacts, int particles) 
     json["local_Q6"].push_back(order ? Json(shortened(*order, mode_unit)) : Json(nullptr));
 }
 
-/// Where the force of a contact acts, from A's centre, A's body frame: where its line leaves A, towards B. The line is
-/// that on which the force has the torque of the contact, but for what turns about the line itself.
+/// Point where the force of a contact acts, relative to A's centre, in A's body frame: where its line of action leaves
+/// A, towards B. On this line the force has the torque of the contact, except for the torque about the line itself.
 Eigen::Vector3d place_of_force(const Contact& contact, const ConvexSolid& a) {
   const auto& [area, moment] = std::tie(contact.overlap.area, contact.overlap.moment);
   const Eigen::Vector3d along = area.normalized();
@@ -90,7 +90,7 @@ void put_forces(Json& json, std::span<const Contact> contacts, const Packing& pa
   json["largest_force"] = largest;
   json["forces"] = Json::array();
   for (const auto& contact : contacts) {
-    if (!(contact.overlap.area.squaredNorm() > 0)) continue;  // so small that it underflows
+    if (!(contact.overlap.area.squaredNorm() > 0)) continue;  // the force underflows
     const auto& pose = packing.poses[static_cast<std::size_t>(contact.pair.a)];
     const Eigen::Vector3d place = pose.orientation.normalized() *
                                   place_of_force(contact, packing.solids[static_cast<std::size_t>(contact.pair.a)]);
@@ -136,7 +136,7 @@ Json mode_list(const Packing& packing, PackingEnergy& energy, int modes) {
   Json list = Json::array();
   if (modes == 0) return list;
   const ModeOptions options{.lowest = modes, .highest = modes, .largest_dense = largest_dense_view};
-  // The low parts decide the softest modes: without them faces that just touch may seem apart.
+  // The low parts decide the softest modes: without them barely touching faces may seem apart.
   const auto ends =
       spectrum_ends(dynamical_matrix(packing, energy.hessian(packing, Precision::double_double)), options);
   append_modes(list, ends.lowest, "lowest", packing);
@@ -182,7 +182,7 @@ std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& 
 
 namespace {
 
-/// Which shape and in which size each particle is.
+/// Shape and size of each particle.
 void put_solids(Json& json, const Composition& solids, int particles) {
   json["kind"] = json["size"] = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(particles); ++i) {
@@ -197,7 +197,7 @@ Json packing_view(const Packing& packing, int modes) {
   PackingEnergy energy;
   const auto classified = classified_contacts(packing, energy);
   Json json;
-  json["solid"] = packing.solids.unit(0).name();  // a mixture has its name from elsewhere
+  json["solid"] = packing.solids.unit(0).name();  // the name of a mixture is written elsewhere
   if (!packing.solids.is_uniform()) put_solids(json, packing.solids, packing.size());
   json["phi"] = packing.density();
   json["side"] = packing.cell.side();

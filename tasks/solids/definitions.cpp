@@ -40,12 +40,12 @@ std::vector<Vector3d> file_vertices(const JsonPlace& place) {
   } catch (const NoSolidFile& error) {
     place.refuse(fmt::format("{}: {}", path.string(), error.what()), "an OFF or STL file of one convex polyhedron");
   } catch (const FileError& error) {
-    if (error.reason() == FileError::Reason::shortage) throw;  // which says nothing of the manifest
+    if (error.reason() == FileError::Reason::shortage) throw;  // a resource failure, not an error of the manifest
     place.refuse(error.what(), "an OFF or STL file of one convex polyhedron");
   }
 }
 
-/// Stands for one whose definition was refused, so that its name is known: nothing is run.
+/// Replaces a solid whose definition was refused, so that its name is known. Nothing is run with it.
 Solid stand_in(const std::string& name) { return Solid::made_of(name, Solid(SolidKind::cube)->vertices()); }
 
 Solid read_definition(const JsonPlace& place, const std::string& name) {

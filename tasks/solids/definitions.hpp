@@ -12,19 +12,18 @@ namespace isojam {
 /// The solids that a document defines, by name.
 using SolidDefinitions = std::map<std::string, Solid, std::less<>>;
 
-/// An object: {"brick": {"box": [1, 1.5, 2]}, "rock": {"file": "rock.off"}, "mine": {"vertices": [[…], …]}}; a file's
-/// path is relative to the document's. Units do not matter: every solid is scaled to unit volume. Throws InputError for
-/// a name that is taken or no name, and for what is no convex solid.
+/// Reads an object: {"brick": {"box": [1, 1.5, 2]}, "rock": {"file": "rock.off"}, "mine": {"vertices": [[…], …]}}.
+/// Paths are relative to the document. Units do not matter, because every solid is scaled to unit volume. Throws
+/// InputError for a name that is taken or invalid, and for a solid that is not convex.
 SolidDefinitions read_definitions(const JsonPlace& place);
 
-/// The solid of the name at `place`: one of the document's, or one with a name of its own.
+/// The solid of the name at `place`: a built-in solid or one defined in the document.
 Solid read_solid_name(const JsonPlace& place, const SolidDefinitions& definitions);
 
-/// Refuses what cannot be the name of a solid: a name stands in names of files, and between others in the names of
-/// replicates.
+/// Refuses invalid names. A solid's name becomes part of file names and of the names of replicates.
 void check_solid_name(const JsonPlace& place, const std::string& name);
 
-/// Definitions by vertices of those that need one; null if none does.
+/// Definitions of user-defined solids by vertices; null if there are none.
 Json definitions_json(const std::vector<Solid>& solids);
 
 }  // namespace isojam

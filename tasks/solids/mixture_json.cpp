@@ -18,7 +18,7 @@ constexpr Range size_range{0, 1000, true}, fraction_range{0, 1, true}, sigma_ran
 constexpr std::string_view allowed_sizes =
     "a number in (0, 1000], {\"discrete\": [{\"size\": s, \"fraction\": f}, ...]}, {\"uniform\": [from, to]} or "
     "{\"log_normal\": {\"median\": s, \"sigma\": of ln volume}}";
-/// What a sum of fractions may be off 1: less than one particle of as many as there can be.
+/// Tolerance of the sum of fractions: less than one particle of the largest possible number.
 constexpr double fraction_rounding = 1e-9;
 constexpr std::size_t most_kinds = 32, longest_name = 48;
 
@@ -108,7 +108,7 @@ std::vector<MixtureKind> read_kinds(const JsonPlace& place, const ReadSolid& rea
   return kinds;
 }
 
-/// One that is too long for the names of files is told by its hash.
+/// A name that is too long for file names is replaced by its hash.
 Mixture named(std::vector<MixtureKind> kinds, std::string name) {
   Mixture mixture(std::move(kinds), std::move(name));
   if (mixture.name().size() <= longest_name) return mixture;
@@ -147,7 +147,7 @@ Mixture read_sweep_entry(const JsonPlace& place, const SolidDefinitions& definit
 Json sweep_entry(const Mixture& mixture) {
   if (mixture.is_one_solid()) return to_string(mixture.solid());
   Json json;
-  // A name that says what the mixture is comes again from that.
+  // A name derived from the mixture need not be stored.
   if (named(mixture.kinds(), "").name() != mixture.name()) json["name"] = mixture.name();
   json["mixture"] = kinds_json(mixture, [](Json& entry, const Solid& solid) { entry["solid"] = to_string(solid); });
   return json;

@@ -11,13 +11,13 @@ namespace isojam {
 /// A size is a length, or a law: {"discrete": [{"size": …, "fraction": …}, …]}, {"uniform": [from, to]} or
 /// {"log_normal": {"median": …, "sigma": …}}. Throws InputError.
 Mixture read_sweep_entry(const JsonPlace& place, const SolidDefinitions& definitions);
-/// The entry, with the name that it has.
+/// The entry, with its name.
 Json sweep_entry(const Mixture& mixture);
 
-/// Writes what put_solid does for one solid; for several kinds "solid", the name of the mixture, and "mixture", its
-/// kinds, each with what put_solid writes.
+/// Writes the same as put_solid for one solid. For several kinds writes "solid", the name of the mixture, and
+/// "mixture", its kinds, each as put_solid writes it.
 void put_mixture(Json& json, const Mixture& mixture);
-/// Reads what put_mixture wrote.
+/// Reads the output of put_mixture.
 Mixture read_mixture(const JsonPlace& place);
 
 }  // namespace isojam

@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "binary STL is little-
 
 using Eigen::Vector3d;
 
-/// More than any solid has; a file of millions of triangles is no such solid and is not worth reading to its end.
+/// More than any suitable solid has. Reading stops there, so that a file of millions of triangles costs little.
 constexpr std::size_t most_faces = 100000;
 
 struct Mesh {
@@ -29,7 +29,7 @@ struct Mesh {
   std::vector<std::vector<std::size_t>> faces;
 };
 
-/// The words of a text; what follows # on a line is none of them.
+/// The words of a text, without comments (from # to the end of a line).
 class Words {
  public:
   explicit Words(std::string_view text) : rest_(text) {}
@@ -81,7 +81,7 @@ std::size_t count_up_to_most(Words& words) {
   return count;
 }
 
-/// OFF: the word, numbers of vertices, faces and edges, coordinates, and faces as lists of vertices; a colour may
+/// OFF: the keyword, numbers of vertices, faces and edges, coordinates, and faces as lists of vertices. A colour may
 /// follow a face on its line.
 Mesh read_off(std::string_view text) {
   Words words(text);
@@ -102,7 +102,7 @@ Mesh read_off(std::string_view text) {
   return mesh;
 }
 
-/// Vertices of triangles, those of the same coordinates as one.
+/// Vertices of triangles; equal coordinates become one vertex.
 class Soup {
  public:
   void add(const std::array<Vector3d, 3>& triangle) {
@@ -145,7 +145,7 @@ std::uint32_t triangles_of(std::string_view bytes) {
   return count;
 }
 
-/// As long as its number of triangles says: texts that begin with "solid" like binary files do are not.
+/// Checks the length against the number of triangles. Binary files may begin with "solid" as text files do.
 bool is_binary_stl(std::string_view bytes) {
   return bytes.size() >= stl_head && bytes.size() == stl_head + stl_triangle * std::size_t{triangles_of(bytes)};
 }
@@ -168,7 +168,8 @@ Mesh read_mesh(std::string_view bytes) {
   throw NoSolidFile("neither OFF nor STL");
 }
 
-/// Seven digits, the last of them rounded, and what a plane through three such points does with them elsewhere.
+/// Seven digits, the last of them rounded, and the effect of this error on a plane through three such points at a
+/// distance.
 constexpr double digits = 1e-5;
 
 void refuse_dents(const Mesh& mesh) {
@@ -182,7 +183,7 @@ void refuse_dents(const Mesh& mesh) {
       normal += (corner(k) - corner(0)).cross(corner(k + 1) - corner(0));
       centre += corner(k) / static_cast<double>(face.size());
     }
-    if (normal.norm() <= digits * size * size) continue;  // a sliver says nothing of its plane
+    if (normal.norm() <= digits * size * size) continue;  // a sliver does not define its plane
     normal.normalize();
     double above = 0, below = 0;
     for (const auto& v : mesh.vertices) {

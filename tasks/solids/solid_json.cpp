@@ -11,9 +11,9 @@
 namespace isojam {
 namespace {
 
-/// Squares and products of three of them stay far from overflow and underflow.
+/// Squares and products of three coordinates stay far from overflow and underflow.
 constexpr Range coordinate_range{-1e9, 1e9};
-/// Of the least cell of a solid, in its own volumes: particles at density 1.
+/// Upper limit for the smallest cell of a solid, in units of its volume: particles at density 1.
 constexpr double largest_cell = 1e8;
 
 }  // namespace
@@ -59,7 +59,7 @@ Solid solid_from(const JsonPlace& place, const std::string& name, const std::vec
                                std::floor(nearest::cbrt(largest_cell) / 2)));
     return solid;
   } catch (const NoSolid& error) {
-    // Corners of a box have no place of their own.
+    // Corners of a box have no entry in the document.
     const bool listed = error.vertex() >= 0 && place.value().size() == vertices.size();
     (listed ? place.at(static_cast<std::size_t>(error.vertex())) : place)
         .refuse(error.what(),

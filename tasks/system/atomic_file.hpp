@@ -9,25 +9,25 @@ namespace isojam {
 
 enum class Durability : std::uint8_t {
   synced,   ///< on the disk when the call returns
-  lossless  ///< after a power failure the file may be cut short, which its reader must notice
+  lossless  ///< after a power failure the file may be truncated, which its reader must detect
 };
 
-/// Writes a file so that any reader, and anyone after a crash, sees either the old content or the whole new one:
-/// a temporary of a name of its own in the same directory, fsync, rename, fsync of the directory. What stood at the
-/// path, a symbolic link too, is replaced and never written through. Throws FileError.
+/// Writes a file so that every reader, even after a crash, sees either the old content or the complete new one. It uses
+/// a uniquely named temporary file in the same directory, fsync, rename, and fsync of the directory. An existing file
+/// or symbolic link at the path is replaced; links are not followed. Throws FileError.
 void write_atomically(const std::filesystem::path& path, std::string_view content,
                       Durability durability = Durability::synced);
 
-/// The same where nothing stands yet, of several writers for exactly one. False, and nothing is changed, if something
-/// stands there.
+/// The same, but only if the path does not exist; of several writers exactly one succeeds. Returns false and changes
+/// nothing if the path exists.
 bool write_exclusively(const std::filesystem::path& path, std::string_view content);
 
-/// Writes what a person asked for under a name of theirs: atomically, but where a symbolic link points, with the mode
-/// and owner of the file that stands there, and into a pipe or device instead of replacing it. Throws FileError.
+/// Writes a file that the user named. Atomic, but follows symbolic links, keeps mode and owner of an existing file, and
+/// writes into a pipe or device instead of replacing it. Throws FileError.
 void write_output(const std::filesystem::path& path, std::string_view content);
 
-/// write_output() of what is too long to be held at once. Nothing stands at the path before finish(), nor ever without
-/// it, unless it is a pipe or a device. Each function throws FileError.
+/// write_output() for content too long to hold in memory. Unless the path is a pipe or a device, nothing appears there
+/// before finish(). Each function throws FileError.
 class OutputWriter {
  public:
   explicit OutputWriter(const std::filesystem::path& path);
@@ -43,15 +43,13 @@ class OutputWriter {
   std::unique_ptr<Target> target_;
 };
 
-/// Whether what is written under that name goes into a pipe, a device or what a shell has opened: nothing can stand
-/// beside.
+/// True if a path is a pipe, a device or a descriptor opened by a shell, beside which no other file can be written.
 bool is_stream(const std::filesystem::path& path);
 
-/// Throws FileError unless files can be written in the directory.
+/// Throws FileError if files cannot be written in the directory.
 void check_writable(const std::filesystem::path& directory);
 
-/// Removes what writers that were killed left in a directory: temporaries older than an hour, by which no writer is
-/// still busy.
+/// Removes temporary files that killed writers left in a directory. Files older than an hour have no active writer.
 void remove_stale_temporaries(const std::filesystem::path& directory);
 
 }  // namespace isojam

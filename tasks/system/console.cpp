@@ -20,7 +20,7 @@ constexpr auto line_interval = std::chrono::seconds(5);
 constexpr int bar_width = 24;
 constexpr std::string_view red = "\033[1;31m", yellow = "\033[1;33m", plain, info_kind = "info";
 
-/// Characters in a line; what a terminal of unknown size surely has.
+/// Line width that every terminal of unknown size surely has.
 std::size_t terminal_width() {
   constexpr std::size_t unknown = 80;
   winsize size{};
@@ -33,7 +33,7 @@ bool wants_colour(Colour colour, bool terminal) {
   return terminal && !(no_colour && *no_colour);
 }
 
-/// What is said may hold names of files and texts of a manifest: only the console itself commands the terminal.
+/// Messages may contain file names and texts of a manifest, so control characters are escaped.
 void put(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
@@ -107,7 +107,7 @@ void Console::put_progress(std::string_view text) {
 void Console::show_bar(std::string_view what) {
   const auto width = terminal_width();
   auto text = total_ > 0 ? status() : printable(what);
-  // What does not fit on one line could not be cleared again: the bar goes first, then the end of the text.
+  // A text longer than a line could not be cleared again. Drop the bar first, then the end of the text.
   if (total_ > 0 && text.size() + bar_width + 3 < width) {
     const int filled = bar_width * std::min(done_, total_) / total_;
     text = fmt::format("[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),

@@ -24,7 +24,7 @@ inline constexpr std::array enum_names<MessageForm>{EnumName{MessageForm::text, 
 
 struct ConsoleOptions {
   bool quiet = false;    ///< errors only
-  bool verbose = false;  ///< a line for each replicate
+  bool verbose = false; ///< print a line for each replicate
   Colour colour = Colour::automatic;
   MessageForm form = MessageForm::text;
 };
@@ -47,7 +47,7 @@ class Console {
   void info(std::string_view message);
   void detail(std::string_view message);  ///< shown with -v
 
-  /// A round of so many replicates, counted from none. `work` measures cost (any unit), for the time left.
+  /// Begins a round of `total` replicates. `work` is its total cost (any unit), used to estimate the time left.
   void begin(int total, double work);
   void finished(double work, bool failed);
   /// Redraws the bar on a terminal, no wider than it is, prints a line every few seconds elsewhere; without begin()

@@ -10,16 +10,15 @@
 
 namespace isojam {
 
-/// A hold on a directory that ends with the object or its process, however that ends. Processes that ask for none are
-/// not held back; nor is anybody where the file system knows no locks.
+/// A lock on a directory, released with the object or when its process ends for any reason. It is advisory: processes
+/// that do not take it are not blocked. It has no effect on file systems without locks.
 class DirectoryLock {
  public:
   enum class Kind : std::uint8_t {
-    shared,    ///< with others of this kind
-    exclusive  ///< alone
+    shared,    ///< compatible with other shared locks
+    exclusive  ///< compatible with no other lock
   };
-  /// nullopt if somebody else holds the directory in a way that does not go together with this. Throws FileError if it
-  /// is not there.
+  /// nullopt if another process holds an incompatible lock. Throws FileError if the directory is missing.
   static std::optional<DirectoryLock> take(const std::filesystem::path& directory, Kind kind);
 
  private:

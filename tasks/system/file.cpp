@@ -37,7 +37,7 @@ FileError::Reason reason_of(int error) {
   }
 }
 
-/// Appends what is left; false with the reason in errno.
+/// Appends the rest of the file; returns false with the reason in errno.
 bool read_rest(int fd, std::size_t most, std::string& text) {
   for (;;) {
     const auto size = text.size();
@@ -57,8 +57,8 @@ bool read_rest(int fd, std::size_t most, std::string& text) {
   }
 }
 
-/// False, with the reason in errno, if there is not so much memory. Asked of malloc first, where a file is named in
-/// what is said; what fails in operator new ends the program with less.
+/// Returns false, with the reason in errno, if there is not enough memory. malloc is tried first, so that the error can
+/// name the file. A failure in operator new would end the program without it.
 bool reserve(std::string& text, std::size_t size) {
   // NOLINTBEGIN(cppcoreguidelines-no-malloc): asked whether there is so much, and given back
   void* const probe = std::malloc(size);
@@ -114,7 +114,7 @@ bool Descriptor::write(std::string_view content) const {
 std::string read_text(const std::filesystem::path& path) { return read_opened({path, O_RDONLY}, path, true); }
 
 std::string read_file(const std::filesystem::path& path) {
-  // Not blocking: a pipe is opened at once, whether or not anyone writes to it.
+  // Non-blocking, so that a pipe opens at once even without a writer.
   return read_opened({path, O_RDONLY | O_NONBLOCK}, path, false);
 }
 

@@ -12,10 +12,11 @@
 namespace isojam {
 namespace {
 
-/// By which the watcher's thread is woken to end: one that nobody sends to ask for anything.
+/// Private signal that wakes the watcher thread at shutdown. Nobody sends SIGURG to request something.
 constexpr int wake = SIGURG;
 
-/// To who reads it: waits neither for a pipe that nobody empties nor for the thread that waits there already.
+/// Writes to stderr without blocking: a full pipe that nobody reads, or a thread that waits for it, must not stop this
+/// one.
 void say(std::string_view text) {
   pollfd err{STDERR_FILENO, POLLOUT, 0};
   if (poll(&err, 1, 0) == 1 && (err.revents & POLLOUT) != 0) [[maybe_unused]]
@@ -32,7 +33,7 @@ bool is_ignored(int signal) {
 InterruptWatcher::InterruptWatcher(std::chrono::milliseconds patience)
     : patience_{patience.count() / 1000, patience.count() % 1000 * 1'000'000} {
   sigemptyset(&signals_);
-  // A blocked signal would be waited for although it is ignored.
+  // sigwait would receive a blocked signal even if it is ignored.
   for (const int signal : {SIGINT, SIGTERM}) {
     if (!is_ignored(signal)) sigaddset(&signals_, signal);
   }
@@ -45,7 +46,7 @@ InterruptWatcher::~InterruptWatcher() {
   finished_ = true;
   pthread_kill(thread_.native_handle(), wake);
   thread_.join();
-  // One that is still pending came too late to stop anything, and must not kill what has ended well.
+  // A signal that is still pending came too late to stop anything. It must not kill a process that has finished.
   const timespec at_once{};
   while (sigtimedwait(&signals_, nullptr, &at_once) > 0) {
   }
@@ -57,7 +58,7 @@ void InterruptWatcher::watch() {
     if (sigwait(&signals_, &signal) != 0 || finished_) return;
   }
   source_.request_stop();
-  // What is under way is asked first. A measurement of a large packing does not listen: it is left.
+  // Request a stop first. A measurement of a large packing does not check for requests and is abandoned.
   if (sigtimedwait(&signals_, nullptr, &patience_) >= 0 && finished_) return;
   say("\nisojam: warning: interrupted; what was recorded is kept, and the same command continues\n");
   std::_Exit(static_cast<int>(ExitCode::interrupted));

@@ -12,7 +12,7 @@
 namespace isojam {
 namespace {
 
-/// Where there is no /proc, no process is known to run.
+/// Without /proc no process is known to run.
 std::string read_if_there(const std::string& file) {
   try {
     return read_text(file);
@@ -29,7 +29,8 @@ std::string this_machine() {
   return boot.substr(0, boot.find('\n')) + ' ' + numbers;
 }
 
-/// Field 22 of /proc/PID/stat; 0 if there is no such process. The name of the program may hold blanks and parentheses.
+/// Field 22 of /proc/PID/stat; 0 if there is no such process. The name of the program may contain blanks and
+/// parentheses.
 std::int64_t start_of(std::int64_t process) {
   constexpr int field_after_name = 3, start = 22;
   const auto stat = read_if_there(fmt::format("/proc/{}/stat", process));

@@ -6,17 +6,16 @@
 
 namespace isojam {
 
-/// Tells a process from every other, also from one that gets its number later.
+/// Identifies a process uniquely, even if its number is reused later.
 struct ProcessId {
-  std::string machine;       ///< this boot of the kernel, and this space of process numbers
-  std::int64_t process = 0;  ///< its number
+  std::string machine;       ///< identifies the boot of the kernel and the PID namespace
+  std::int64_t process = 0;  ///< process number (PID)
   std::int64_t started = 0;  ///< clock ticks after boot
 };
 
-/// This process.
 const ProcessId& this_process();
 
-/// Whether it still runs; nullopt if it is one of another machine.
+/// Whether the process still runs; nullopt if it belongs to another machine.
 std::optional<bool> is_alive(const ProcessId& process);
 
 }  // namespace isojam

@@ -15,7 +15,7 @@ bool is_shortage(const std::exception& error) {
 }
 
 bool is_shortage_text(std::string_view what) {
-  // oneTBB throws a runtime_error of such a text for a thread that cannot be made.
+  // oneTBB throws a runtime_error with one of these texts if a thread cannot be created.
   static constexpr std::array<std::string_view, 5> beginnings{"std::bad_alloc", "pthread_", "Cannot allocate memory",
                                                               "Resource temporarily unavailable",
                                                               "Too many open files"};

@@ -5,11 +5,11 @@
 
 namespace isojam {
 
-/// Whether an exception says what the machine lacks or refuses (memory, threads, descriptors, files) and nothing about
-/// what was being computed.
+/// True if an exception is a resource failure (memory, threads, descriptors, files), which says nothing about the
+/// computation.
 bool is_shortage(const std::exception& error);
 
-/// The same of what such an exception said, where nothing else is left of it.
+/// The same for the text of an exception, if only the text is left.
 bool is_shortage_text(std::string_view what);
 
 }  // namespace isojam

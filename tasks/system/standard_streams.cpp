@@ -14,7 +14,7 @@
 namespace isojam {
 namespace {
 
-/// What could not be written is given up, and said once.
+/// Reports the failed write once and gives up.
 [[noreturn]] void fail() {
   const int error = errno;
   __fpurge(stdout);
@@ -28,7 +28,8 @@ namespace {
 void open_standard_streams() {
   for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {
     if (::fcntl(fd, F_GETFD) >= 0 || errno != EBADF) continue;
-    // The lowest number that is free, which is this one. Standard output is opened for reading: writing to it fails.
+    // open() returns the lowest free number, which is this one. Standard output is opened for reading, so that writing
+    // to it fails.
     const int opened = ::open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY);
     if (opened >= 0 && opened != fd) ::close(opened);
   }
@@ -40,7 +41,7 @@ void print(std::string_view text) {
 }
 
 void flush_output() {
-  errno = EIO;  // of a failure that was earlier
+  errno = EIO;  // from an earlier failure
   if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail();
 }
 

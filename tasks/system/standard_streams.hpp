@@ -5,19 +5,18 @@
 
 namespace isojam {
 
-/// Puts something in the place of those of the descriptors 0 to 2 that are closed, before any file is opened: it would
-/// get their number, and what is meant for people would be written into it. What is written to a closed standard
-/// output still fails.
+/// Opens those of the descriptors 0 to 2 that are closed, before any file is opened. Otherwise a file would get their
+/// number, and messages would be written into it. Writing to a closed standard output still fails.
 void open_standard_streams();
 
-/// Writes to standard output, through to whoever reads it; to a terminal as printable() has it. Throws FileError.
+/// Writes to standard output and flushes it; on a terminal the text is escaped by printable(). Throws FileError.
 void print(std::string_view text);
 
-/// For who has written to standard output otherwise: throws FileError if some of it was lost.
+/// Checks output that was written to standard output by other means: throws FileError if some of it was lost.
 void flush_output();
 
-/// The text with every control character (C0, C1 in UTF-8, DEL) but line feed and tab as "\x1b": what stands in the
-/// name of a file must not command a terminal.
+/// The text with every control character (C0, C1 in UTF-8, DEL) except line feed and tab escaped as "\x1b". A file name
+/// must not control a terminal.
 std::string printable(std::string_view text);
 
 }  // namespace isojam

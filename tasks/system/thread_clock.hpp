@@ -4,7 +4,7 @@
 
 namespace isojam {
 
-/// CPU time that the calling thread has used, in seconds: what others on the machine do does not count.
+/// CPU time of the calling thread in seconds; excludes other threads and processes.
 inline double thread_cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

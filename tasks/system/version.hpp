@@ -4,8 +4,8 @@
 
 namespace isojam {
 
-std::string_view version();   ///< of the project
-std::string_view git_hash();  ///< of the sources when the build was configured; "unknown" outside a repository
+std::string_view version();   ///< version of the project
+std::string_view git_hash();  ///< commit of the sources when the build was configured; "unknown" outside a repository
 std::string_view compiler();
 
 }  // namespace isojam

@@ -21,8 +21,8 @@ std::string describe(const RecordSummary& record) {
                      record.replicate, record.manifest_digest);
 }
 
-/// Linear in ln Δφ between the states on either side of `distance`, quantity by quantity; nothing where they do not
-/// enclose it or one lacks the value.
+/// Linear in ln Δφ between the states on either side of `distance`, for each quantity. A quantity is empty if the
+/// states do not enclose `distance` or one of them lacks the value.
 Values interpolated(std::span<const StateValues> states, double distance) {
   const auto above =
       std::find_if(states.begin(), states.end(), [=](const StateValues& s) { return s.delta_phi >= distance; });
@@ -36,13 +36,13 @@ Values interpolated(std::span<const StateValues> states, double distance) {
   return values;
 }
 
-/// First path at which two JSON values differ.
+/// Path of the first difference between two JSON values.
 std::string difference(const Json& a, const Json& b) {
   const auto patch = Json::diff(a, b);
   return patch.empty() ? "" : patch.front().at("path").get<std::string>();
 }
 
-/// The values of a sweep point's replicates, quantity by quantity.
+/// The values of a sweep point's replicates, by quantity.
 class Samples {
  public:
   void add(std::size_t quantity, double value, bool excluded) {
@@ -52,7 +52,7 @@ class Samples {
   bool empty() const {
     return std::all_of(all_.begin(), all_.end(), [](const auto& values) { return values.empty(); });
   }
-  /// Without the excluded replicates, and of all.
+  /// Estimates without the excluded replicates, and over all of them.
   std::pair<Estimates, Estimates> estimates(const std::string& point) const {
     std::pair<Estimates, Estimates> result{no_estimates(), no_estimates()};
     for (std::size_t i = 0; i < all_.size(); ++i) {
@@ -114,7 +114,7 @@ void Aggregation::add(const RecordSummary& record) {
 std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const std::optional<Replicates>& rule) {
   if (!rule || !rule->goal) return std::nullopt;
   const auto quantity = quantity_index(rule->goal->quantity);
-  // Those from 0 on without a gap, of one manifest.
+  // Values of replicates 0, 1, … up to the first gap, of one manifest.
   std::vector<std::optional<double>> values;
   for (const auto& [key, replicate] : point.replicates) {
     if (key.first != point.replicates.begin()->first.first || key.second != static_cast<int>(values.size())) break;
@@ -155,7 +155,7 @@ std::optional<Differences> Aggregation::differences(const PointKey& key, const P
   const auto& [solid, particles, parameters] = key;
   auto others = parameters;
   for (const auto& item : base_.items()) {
-    // Of records that were pooled, some may be of a sweep over other parameters.
+    // Pooled records may include a sweep over other parameters.
     if (!parameters.contains(item.key())) return std::nullopt;
     others[item.key()] = item.value();
   }

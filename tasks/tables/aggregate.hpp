@@ -22,26 +22,28 @@ namespace isojam {
 using Estimates = std::vector<Estimate>;
 inline Estimates no_estimates() { return Estimates(all_quantities().size()); }
 
-/// Estimates at one distance above jamming; those of replicates are empty.
+/// Estimates at one distance above jamming. Quantities of replicates have none.
 struct SeriesPoint {
   double delta_phi = 0;
-  Estimates estimates = no_estimates(), all = no_estimates();  ///< as those of the row
+  Estimates estimates = no_estimates(), all = no_estimates();  ///< as in Row
 };
 
-/// How far a sweep point came towards a goal.
+/// State of a sweep point with respect to the goal.
 struct GoalOutcome {
   Goal goal;
-  std::optional<int> needed;         ///< replicates after which the rule stopped; nullopt if it asks for more
-  bool met = false;                  ///< false if it stopped too wide, at max replicates or where there is no hope
-  std::optional<double> half_width;  ///< at the last batch that is complete
+  std::optional<int> needed;  ///< number of replicates at which the rule stopped; nullopt if it asks for more
+  bool met = false;  ///< false if it stopped with too wide an interval, at max replicates or without any usable value
+  std::optional<double> half_width;  ///< at the last complete batch
 };
 
-/// How a row differs from its base: from the row of the same solid and particles that has the base's values of the
-/// parameters that it names, and this row's own of the others. Taken over pairs of replicates, of one number and one
-/// manifest, which began alike, so that most of the spread between packings cancels.
+/// Differences of a row from its base. The base is the row with the same solid and particles, with the base's values of
+/// the parameters that it names, and with this row's values of the others. Differences are taken over pairs of
+/// replicates with the same number and manifest. These have the same initial configuration, so most of the spread
+/// between packings cancels.
 struct Differences {
-  int pairs = 0;                         ///< whose replicates neither failed nor are excluded
-  Estimates estimates = no_estimates();  ///< of this row's value less that of the base, over pairs that both have it
+  int pairs = 0;                         ///< pairs whose replicates neither failed nor are excluded
+  Estimates estimates = no_estimates();  ///< of this row's value minus that of the base, over pairs in which both have
+                                         ///< it
 };
 
 /// One sweep point.
@@ -50,16 +52,17 @@ struct Row {
   Mixture solid = SolidKind::tetrahedron;
   int particles = 0;
   Json parameters;     ///< the other swept values
-  int replicates = 0;  ///< recorded, the failed ones included
+  int replicates = 0;  ///< recorded replicates, including failed ones
   int failed = 0;
-  int flagged = 0;                       ///< did not fail, but their records hold a reservation
-  int excluded = 0;                      ///< of these, those with a flag that the table excludes
-  Estimates estimates = no_estimates();  ///< over replicates that neither failed nor are excluded and have the value
-  Estimates all = no_estimates();        ///< the same with the excluded replicates
-  std::vector<SeriesPoint> series;       ///< at those of series_distances that a replicate's states enclose
-  std::optional<double> residual;        ///< worst of the states behind φ_J; nullopt if all failed
+  int flagged = 0;                       ///< replicates that did not fail but have a flag
+  int excluded = 0;                      ///< flagged replicates with a flag that the table excludes
+  Estimates estimates = no_estimates();  ///< over replicates that neither failed nor are excluded and that have the
+                                         ///< value
+  Estimates all = no_estimates();        ///< the same, including excluded replicates
+  std::vector<SeriesPoint> series;       ///< at those of series_distances that the states of a replicate enclose
+  std::optional<double> residual;        ///< largest residual of the states behind φ_J; nullopt if all failed
   std::optional<GoalOutcome> goal;
-  std::optional<Differences> differences;  ///< nullopt for the base itself, and where there is none
+  std::optional<Differences> differences;  ///< nullopt for the base itself, and without a base
 };
 
 /// Rows in order of solid, particles, parameters.
@@ -67,28 +70,29 @@ struct Row {
 struct Table {
   std::vector<Row> rows;
   std::vector<Flag> exclude;
-  Json base = Json::object();    ///< swept parameters and their values; empty: no row is compared with another
-  std::set<std::string> builds;  ///< of the program, that made the records
+  Json base = Json::object();    ///< swept parameters and their values; empty: no comparison
+  std::set<std::string> builds;  ///< builds of the program that made the records
 };
 
-/// Gathers records one by one and keeps of each only what the table needs: a few kilobytes. The order does not matter.
+/// Collects records one by one and keeps only the few kilobytes of each that the table needs. The order does not
+/// matter.
 class Aggregation {
  public:
-  /// Replicates with one of these flags count in no estimate but those of all, and towards no goal. Rows are compared
-  /// with that of the base, as base.hpp describes it.
+  /// Replicates with one of the `exclude` flags count only in the estimates over all replicates, and towards no goal.
+  /// Rows are compared with the base, as described in base.hpp.
   explicit Aggregation(std::vector<Flag> exclude = usually_excluded(), Json base = Json::object())
       : exclude_(std::move(exclude)), base_(std::move(base)) {}
 
-  /// A record that is given twice counts once. Throws InputError if records of one point were made with different
-  /// settings, or if two records of the same replicate disagree.
+  /// A record that is added twice counts once. Throws InputError if records of one point were made with different
+  /// settings, or if two records of the same replicate differ.
   void add(const RecordSummary& record);
 
-  /// `rule` is what the records were made by; with a goal, every row says how far it came.
+  /// `rule` is the rule by which the records were made. With a goal, every row reports its progress towards it.
   Table table(const std::optional<Replicates>& rule = std::nullopt) const;
 
  private:
-  /// A value of a replicate: which of all_quantities(), and where: 0 its own or that of its nearest state, k at
-  /// series_distances[k − 1].
+  /// A value of a replicate: index in all_quantities(), and its place: 0 for the replicate or its state nearest
+  /// jamming, k for series_distances[k − 1].
   struct Cell {
     std::uint16_t quantity, place;
     double value;
@@ -106,7 +110,7 @@ class Aggregation {
   // NOLINTNEXTLINE(bugprone-exception-escape): as above.
   struct Point {
     Json settings;
-    std::string first;  // the record that gave them
+    std::string first;  // the record from which they were taken
     std::map<ReplicateKey, Kept> replicates;
   };
 
@@ -122,7 +126,7 @@ class Aggregation {
   std::set<std::string> builds_;
 };
 
-/// The table of several records at once.
+/// The table of several records.
 Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule = std::nullopt,
                 std::vector<Flag> exclude = usually_excluded(), Json base = Json::object());
 

@@ -1,5 +1,5 @@
-// A table is laid out in two steps: what stands in which cell, which is the same for text and LaTeX but for spelling;
-// and how cells become lines.
+// Tables are laid out in two steps. The first fills the cells, which are the same for text and LaTeX except for
+// spelling. The second turns cells into lines.
 
 #include <fmt/format.h>
 
@@ -17,17 +17,17 @@
 namespace isojam {
 namespace {
 
-/// Of one value, or of values equal to rounding.
+/// True for a single value, and for values that are equal to rounding.
 bool without_spread(const Estimate& estimate) {
   return estimate.half_width.value_or(0) <= 1e-14 * std::abs(*estimate.mean);
 }
 
-/// Of values that would be mostly zeros.
+/// True for values that would be mostly zeros in decimal notation.
 bool small(const Estimate& estimate) {
   return *estimate.mean != 0 && std::abs(*estimate.mean) < 1e-3 && estimate.half_width.value_or(0) < 1e-2;
 }
 
-/// A whole number as such: it is a count.
+/// A whole number is a count and is written without decimals.
 std::string text_without_spread(const Estimate& estimate, std::string_view plus_minus) {
   const double mean = *estimate.mean;
   if (mean == std::round(mean)) return fmt::format("{:.0f}", mean);
@@ -36,7 +36,7 @@ std::string text_without_spread(const Estimate& estimate, std::string_view plus_
   return text;
 }
 
-/// With a common power of ten.
+/// Written with a common power of ten.
 std::string small_text(const Estimate& estimate, std::string_view plus_minus) {
   const double power = std::floor(nearest::log10(std::max(std::abs(*estimate.mean), *estimate.half_width)));
   const double unit = nearest::pow(10.0, power);
@@ -44,7 +44,7 @@ std::string small_text(const Estimate& estimate, std::string_view plus_minus) {
                      power);
 }
 
-/// With decimals that leave the half width two significant digits.
+/// Written with as many decimals as give the half width two significant digits.
 std::string text_with_spread(const Estimate& estimate, std::string_view plus_minus) {
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(nearest::log10(*estimate.half_width))), 0, 12);
   return fmt::format("{:.{}f}{}{:.{}f}", *estimate.mean, decimals, plus_minus, *estimate.half_width, decimals);
@@ -61,7 +61,7 @@ std::string estimate_text(const Estimate& estimate, std::string_view plus_minus,
 
 std::string residual_text(const Row& row) { return row.residual ? fmt::format("{:.1e}", *row.residual) : "-"; }
 
-/// The quantities of a group, by their places in all_quantities().
+/// The quantities of a group, as indices in all_quantities().
 struct Group {
   std::string_view name;
   std::vector<std::size_t> quantities;
@@ -99,7 +99,7 @@ std::string_view in_latex(const char& c) {
   }
 }
 
-/// A text as it can stand in a cell: of one line, and nothing that the terminal or LaTeX obeys.
+/// A text for a cell: on one line, and escaped for the terminal or LaTeX.
 std::string spelt(const std::string& text, Format format) {
   std::string cell;
   for (const char& c : text) {
@@ -133,7 +133,7 @@ Cells cells_of(const TableLine& line, const Group& group, const std::vector<std:
                Format format) {
   const Row& row = *line.row;
   const std::string indent = format == Format::text ? "  " : "\\quad ";
-  // What a second line has in common with the first is not said again.
+  // The second line of a row omits the cells that are equal in both.
   const bool of_all = line.over == Over::all;
   const auto once = [&](const std::string& text) { return of_all ? "" : text; };
   Cells cells{of_all ? indent + "all" : spelt(std::string(to_string(row.solid)), format),
@@ -150,7 +150,7 @@ Cells cells_of(const TableLine& line, const Group& group, const std::vector<std:
   return cells;
 }
 
-/// The paper's Table II, in degrees: a property of the solids.
+/// The paper's Table II, in degrees. The angles are properties of the solids.
 std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
   const auto head = [&](std::string_view text, std::string_view latex) { return symbol(text, latex, format); };
   std::vector<Cells> lines{{"solid", head("ef vertex-face", "\\theta_{ef}^{vf}"),
@@ -168,7 +168,7 @@ std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
   return lines;
 }
 
-/// What lines begin with that tell of rows as a whole: their sweep points.
+/// Leading columns that identify a sweep point.
 Cells point_head(const std::vector<std::string>& parameters, Format format) {
   Cells head{"solid", symbol("N", "N", format)};
   for (const auto& name : parameters) head.push_back(spelt(parameter_head(name), format));
@@ -181,10 +181,10 @@ Cells point_cells(const Row& row, const std::vector<std::string>& parameters, Fo
   return cells;
 }
 
-/// The quantities whose differences people are shown; JSON and CSV have all.
+/// Quantities whose differences are printed for people; JSON and CSV contain all.
 constexpr std::array compared_quantities{"phi_j", "Z", "Z_ff", "C"};
 
-/// How rows differ from their base; the head alone if none is compared.
+/// Differences of rows from their base; only the heading if none is compared.
 std::vector<Cells> difference_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{point_head(parameters, format)};
   lines[0].emplace_back("pairs");
@@ -201,7 +201,7 @@ std::vector<Cells> difference_lines(const Table& table, const std::vector<std::s
   return lines;
 }
 
-/// How far the rows came towards the goal; the head alone if they had none.
+/// Progress of the rows towards the goal; only the heading without a goal.
 std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{point_head(parameters, format)};
   lines[0].insert(lines[0].end(), {"quantity", "half width", "aim", "replicates used", "met"});
@@ -221,11 +221,11 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
 
 struct LaidOut {
   std::string title;
-  bool of_replicates;        ///< rather than of the solids
-  std::vector<Cells> lines;  ///< head first
+  bool of_replicates;        ///< false: of the solids
+  std::vector<Cells> lines;  ///< heading first
 };
 
-/// What stands below the main table where there is any of it.
+/// Adds the tables that follow the main table if they are not empty.
 void add_below(std::vector<LaidOut>& tables, const Table& table, const std::vector<std::string>& parameters,
                Format format) {
   auto goals = goal_lines(table, parameters, format);
@@ -250,7 +250,7 @@ std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
   return tables;
 }
 
-/// Characters of a UTF-8 text.
+/// Number of characters of a UTF-8 text.
 std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -264,7 +264,7 @@ std::string aligned(const std::vector<Cells>& lines) {
   for (const auto& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) {
       const std::string padding(widths[i] - width(line[i]), ' ');
-      // Names to the left, numbers to the right.
+      // Names are left-aligned, numbers right-aligned.
       text += i == 0 ? fmt::format("{}{}", line[i], padding) : fmt::format("   {}{}", padding, line[i]);
     }
     text += '\n';

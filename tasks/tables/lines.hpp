@@ -12,7 +12,7 @@
 
 namespace isojam {
 
-// What tables as text, LaTeX and CSV have in common.
+// Common parts of tables as text, LaTeX and CSV.
 
 using Cells = std::vector<std::string>;
 
@@ -23,9 +23,10 @@ std::string joined(const Cells& cells, std::string_view separator);
 
 /// Names of all swept parameters, in order.
 std::vector<std::string> parameter_names(const Table& table);
-/// What their columns are called: as a manifest calls them, but for that which a column of every table is called too.
+/// Heading of a parameter's column: its name in a manifest, except for a name that another column of every table
+/// already has.
 std::string parameter_head(const std::string& name);
-/// Its value at a sweep point; empty where it was not swept.
+/// Value of the parameter at a sweep point; empty if it was not swept.
 std::string parameter_text(const Row& row, const std::string& name);
 
 /// "differences from step_fraction = 0.35"; empty if no row is compared.
@@ -34,31 +35,31 @@ std::string difference_title(const Table& table);
 /// "without replicates flagged crystalline, not_balanced"; empty if the table excludes none.
 std::string exclusion_text(const Table& table);
 
-/// What a line is over: the replicates that are not excluded, all of them, or pairs of one of the row and one of its
+/// Basis of a line: replicates that are not excluded, all replicates, or pairs of a replicate of the row and one of its
 /// base.
 enum class Over : std::uint8_t { kept, all, difference };
 template <>
 inline constexpr std::array enum_names<Over>{EnumName{Over::kept, "kept"}, EnumName{Over::all, "all"},
                                              EnumName{Over::difference, "difference"}};
 
-/// A line of a table: a row or one of its series points without the excluded replicates; beneath it, where there are
-/// any, of all.
+/// A line of a table: a row, or one of its series points, without the excluded replicates. If there are any, a second
+/// line includes them.
 struct TableLine {
   const Row* row = nullptr;
   std::optional<double> delta_phi;
   const Estimates* estimates = nullptr;
   Over over = Over::kept;
 
-  /// Replicates that count here, or pairs.
+  /// Number of replicates or pairs that count in this line.
   int counted() const {
     if (over == Over::difference) return row->differences->pairs;
     return row->replicates - row->failed - (over == Over::all ? 0 : row->excluded);
   }
 };
 
-/// They refer to the table. Those of differences are left out.
+/// The lines refer to the table. Lines of differences are omitted.
 std::vector<TableLine> lines_of(const Table& table, View view);
-/// The differences of a row from its base, which it has.
+/// The differences of a row from its base. The row must have them.
 TableLine difference_line(const Row& row);
 
 }  // namespace isojam

@@ -15,7 +15,7 @@ double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Linear between order statistics.
+/// Linear interpolation between order statistics.
 double percentile(std::span<const double> sorted, double p) {
   const double at = p * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(at);
@@ -35,14 +35,14 @@ Interval bootstrap(std::span<const double> values, std::uint64_t key) {
   return {percentile(means, 0.025), percentile(means, 0.975)};
 }
 
-/// Standard deviation of the sample; two values or more.
+/// Standard deviation of the sample; needs two or more values.
 double sd_of(std::span<const double> values, double mean) {
   double squares = 0;
   for (const double x : values) squares += (x - mean) * (x - mean);
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
-/// Half width of the 95 % interval of a mean.
+/// Half width of the 95 % confidence interval of a mean.
 double half_width_at(double sd, std::size_t n) {
   const auto count = static_cast<double>(n);
   return student_95(count - 1) * sd / std::sqrt(count);

@@ -11,24 +11,25 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-/// Mean over replicates with its uncertainty. Intervals need two values or more.
+/// Mean over replicates with its uncertainty. Intervals need two or more values.
 struct Estimate {
   int n = 0;
   std::optional<double> mean;           ///< nullopt if n = 0
   std::optional<double> sd;             ///< standard deviation of the sample, n − 1 degrees of freedom
   std::optional<double> half_width;     ///< t_{0.975, n−1} · sd / √n
   std::optional<Interval> ci95;         ///< mean ± half_width
-  std::optional<Interval> bootstrap95;  ///< percentiles of the means of resamples
+  std::optional<Interval> bootstrap95;  ///< percentiles of the means of bootstrap samples
 };
 
 inline constexpr int bootstrap_resamples = 2000;
-/// Beyond this many values the bootstrap would cost minutes to say what Student's interval says.
+/// With more values the bootstrap takes minutes and agrees with Student's interval.
 inline constexpr int most_bootstrapped = 1000;
 
-/// Estimates a mean: the same bits for any order of `values`; the bootstrap draws from a stream of `key` and n alone.
+/// Estimates a mean. The result is bitwise the same for any order of `values`. The bootstrap's random stream depends
+/// only on `key` and n.
 Estimate estimate(std::vector<double> values, std::uint64_t key);
 
-/// t_{0.975, n−1} · sd / √n; nullopt for fewer than two values. The same bits for any order of `values`.
+/// t_{0.975, n−1} · sd / √n; nullopt for fewer than two values. Bitwise the same for any order of `values`.
 std::optional<double> student_half_width(std::vector<double> values);
 
 }  // namespace isojam

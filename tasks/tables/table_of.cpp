@@ -21,7 +21,7 @@ std::string manifest_path(const std::string& directory) {
   return (std::filesystem::path(directory) / "manifest.json").string();
 }
 
-/// Of each directory; nullopt where there is none.
+/// Manifest of each directory; nullopt if it has none.
 std::vector<std::optional<Manifest>> manifests_of(const std::vector<std::string>& directories) {
   std::vector<std::optional<Manifest>> manifests;
   for (const auto& directory : directories) {
@@ -30,7 +30,7 @@ std::vector<std::optional<Manifest>> manifests_of(const std::vector<std::string>
   return manifests;
 }
 
-/// What the manifests ask for, if they agree.
+/// The replicate rule of the manifests, if they agree.
 std::optional<Replicates> common_rule(const std::vector<std::optional<Manifest>>& manifests) {
   for (const auto& manifest : manifests) {
     if (!manifest || !manifests.front() || manifest->replicates != manifests.front()->replicates) return std::nullopt;
@@ -38,7 +38,7 @@ std::optional<Replicates> common_rule(const std::vector<std::optional<Manifest>>
   return manifests.empty() ? std::nullopt : std::optional(manifests.front()->replicates);
 }
 
-/// What all manifests say; `usual` is said where there is none. `json` gives the text of a choice.
+/// The choice on which all manifests agree, or `usual` without manifests. `json` gives the text of a choice.
 template <class Choice, class ToJson>
 Choice common_choice(const std::vector<std::string>& directories, const std::vector<std::optional<Manifest>>& manifests,
                      Choice Manifest::*choice, const std::string& key, const Choice& usual, const ToJson& json) {
@@ -63,7 +63,7 @@ Json common_base(const std::vector<std::string>& directories, const std::vector<
                        [](const Json& base) { return base.empty() ? "not given" : compact(base); });
 }
 
-/// The parameters of rows, and the values that these have.
+/// The swept parameters of the rows, with their values.
 std::vector<SweptField> swept_in(const Table& table) {
   std::map<std::string, std::set<Json>> values;
   for (const auto& row : table.rows) {

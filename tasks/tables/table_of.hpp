@@ -10,22 +10,22 @@
 
 namespace isojam {
 
-/// What to make a table of records with; nullopt: as their manifests say.
+/// Choices for a table of records; nullopt: as in their manifests.
 struct TableChoices {
   std::optional<std::vector<Flag>> exclude;
   std::optional<Json> base;
 };
 
-/// The table of all records in results directories, without the replicates that their manifests exclude, compared with
-/// the base that they name, or by these choices; a directory without a manifest excludes what is usual and names no
-/// base. What is left out, and that records are of different builds, is told. Throws InputError where manifests
-/// disagree, and as for_each_record and Aggregation::add do.
+/// The table of all records in results directories. Excluded flags and the base come from the manifests or from these
+/// choices. A directory without a manifest excludes the default flags and has no base. Warns about excluded replicates
+/// and about records of different builds. Throws InputError if manifests disagree, and as for_each_record and
+/// Aggregation::add do.
 Table table_of(const std::vector<std::string>& directories, const Warn& warn, const TableChoices& choices = {});
 
-/// What is wrong with the base of a table: a parameter that no row has, or a value of one; nullopt if nothing is.
+/// Error text if the base of a table has a parameter, or a value of one, that no row has; nullopt otherwise.
 std::optional<std::string> misplaced_base(const Table& table);
 
-/// The table of a run: of the records of this manifest in one directory, each of which is shown to `seen`.
+/// The table of a run: records of this manifest in one directory. `seen` is called with each record.
 Table table_of(const std::string& directory, const Manifest& manifest, const Warn& warn,
                const std::function<void(const RecordedReplicate&)>& seen);
 

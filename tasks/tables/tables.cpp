@@ -28,7 +28,7 @@ Json to_json(const Estimate& estimate) {
   return json;
 }
 
-/// Those of the first group always, the others where they were measured.
+/// Writes the first group always, and other groups if they were measured.
 void put_estimates(Json& json, const Estimates& estimates) {
   const auto quantities = all_quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -76,7 +76,7 @@ Json to_json(const GoalOutcome& outcome) {
   return json;
 }
 
-/// Degrees.
+/// In degrees.
 Json critical_angle_record(const Mixture& solid) {
   const auto angles = critical_angles(solid);
   const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };

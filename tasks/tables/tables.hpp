@@ -13,12 +13,12 @@ inline constexpr std::string_view table_schema = "isojam.tables.v2";
 Json to_json(const Table& table);
 Json to_json(const Row& row);
 
-/// Which states of the replicates: those nearest jamming, or those at each of series_distances.
+/// States of the replicates: those nearest jamming, or those at each of series_distances.
 enum class View : std::uint8_t { nearest, series };
 
-/// The tables as text for people: one for each group of columns that has values, aligned; mean ± half width of the 95 %
-/// interval, (n) where fewer replicates have the value than count. Above each stands what is excluded. Below the first
-/// stand the goal and, with a base, the differences of rows from it.
+/// The tables as aligned text, one for each group of columns with values. Cells are mean ± half width of the 95 %
+/// confidence interval, with (n) if fewer replicates have the value than count. A line above each table lists the
+/// exclusions. The goal and, with a base, the differences of rows from it follow the first table.
 std::string to_text(const Table& table, View view = View::nearest);
 
 /// One line per row or point of a series, one of all replicates where some are excluded, and of a row one of its

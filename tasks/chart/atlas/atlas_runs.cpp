@@ -9,8 +9,8 @@ namespace {
 
 using Cells = std::vector<const AtlasRow*>;
 
-/// Cells of each regime and method. The methods of a regime come together, though regimes and methods may take turns
-/// in the atlas.
+/// Cells of each regime and method. The methods of a regime are grouped, although regimes and methods may alternate in
+/// the atlas.
 std::vector<Cells> by_regime_and_method(std::span<const AtlasRow> rows) {
   std::map<std::string, std::size_t> regimes, methods;  // in order of appearance
   std::map<std::pair<std::size_t, std::size_t>, Cells> cells;
@@ -28,7 +28,7 @@ bool alike(const AtlasRow& a, const AtlasRow& b) {
   return a.verdict == b.verdict && (a.verdict == AtlasVerdict::holds || a.reason == b.reason);
 }
 
-/// Of cells at these places in `cells`.
+/// Text of the settings of the cells at these indices.
 std::string settings_text(const Cells& cells, const std::vector<std::size_t>& places) {
   std::string text;
   for (std::size_t k = 0; k < places.size();) {

@@ -8,18 +8,18 @@
 
 namespace isojam {
 
-/// Cells of one regime and method that are judged alike.
+/// Cells of one regime and method with the same verdict.
 struct AtlasRun {
   std::string regime, method;
   bool standard = false;
   AtlasVerdict verdict = AtlasVerdict::holds;
   std::string settings;  ///< "1e-04 … 1e-08, 1e-12": neighbours in the atlas as ranges
-  std::string figure;    ///< of the first of them
-  std::string reason;    ///< of the first of them; cells that do not hold have it in common
+  std::string figure;    ///< of the first cell
+  std::string reason;    ///< of the first cell; cells that do not hold share it
 };
 
-/// The atlas in few lines: regimes and methods in the order in which they come, and of each what holds first; then what
-/// does not, a run for each reason.
+/// A short form of the atlas: regimes and methods in their order, for each first the run that holds, then one run for
+/// each other reason.
 std::vector<AtlasRun> atlas_runs(std::span<const AtlasRow> rows);
 
 }  // namespace isojam

@@ -8,11 +8,11 @@
 
 #include "tasks/chart/atlas/atlas.hpp"
 
-// What the parts of the atlas share.
+// Shared by the parts of the atlas.
 
 namespace isojam {
 
-/// Rows as they come. After a stop request none is added any more: what it is judged by may have been cut short.
+/// Rows in the order of arrival. After a stop request none is added, because its measurement may have been cut short.
 class AtlasRows {
  public:
   explicit AtlasRows(std::stop_token stop) : stop_(std::move(stop)) {}
@@ -29,7 +29,7 @@ class AtlasRows {
   std::vector<AtlasRow> rows_;
 };
 
-/// "holds" if error ≤ tolerance, "fails" otherwise or if there is no error to be had. `what` names the error.
+/// "holds" if error ≤ tolerance, "fails" otherwise or without an error. `what` names the error.
 AtlasRow judged(AtlasRow row, std::optional<double> error, double tolerance, const std::string& what);
 
 AtlasRow refused(AtlasRow row, const std::string& why);

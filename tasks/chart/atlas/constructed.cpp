@@ -11,7 +11,7 @@ namespace {
 
 Quad3 vector_part(const QuadQuaternion& q) { return {q[1], q[2], q[3]}; }
 
-/// x turned by q of unit length.
+/// x rotated by q of unit length.
 Quad3 turned(const QuadQuaternion& q, const Quad3& x) {
   const Quad3 t = Quad(2) * cross(vector_part(q), x);
   return x + q[0] * t + cross(vector_part(q), t);
@@ -47,7 +47,7 @@ std::optional<double> displaced_volume(SolidKind kind, const Eigen::Vector3d& t)
 }  // namespace
 
 QuadQuaternion small_turn(double angle, const Eigen::Vector3d& axis) {
-  // tan(angle/2) to 1e-32 by its series would change the angle's last digits only: the double is taken as it is.
+  // tan(angle/2) to 1e-32 by its series would change only the last digits of the angle, so the double is used.
   const Quad tangent = std::tan(angle / 2);
   const Eigen::Vector3d u = axis.normalized();
   return {1, tangent * Quad(u.x()), tangent * Quad(u.y()), tangent * Quad(u.z())};

@@ -12,21 +12,21 @@ namespace isojam {
 /// A quaternion (w, x, y, z) of any length but 0.
 using QuadQuaternion = std::array<Quad, 4>;
 
-/// Rotation by `angle` about `axis`, of any length. Right to 1e-32 however small the angle.
+/// Rotation by `angle` about `axis`, which may have any length. Accurate to 1e-32 even for very small angles.
 QuadQuaternion small_turn(double angle, const Eigen::Vector3d& axis);
 /// Rotation by 45° about coordinate axis 0, 1 or 2.
 QuadQuaternion eighth_turn(int axis);
 QuadQuaternion operator*(const QuadQuaternion& p, const QuadQuaternion& q);
 
-/// Two solids placed in double-double, as the design of a contact asks to 1e-31, and what their overlap is.
+/// Two solids placed in double-double, to the 1e-31 that the design of a contact requires, and their exact overlap.
 struct ConstructedPair {
   Pose at_a, at_b;
   VolumeAndArea reference;
   SolidKind a, b;
-  bool closed_form = false;  ///< of V; S is discontinuous in some of these designs
+  bool closed_form = false;  ///< V has a closed form; S is discontinuous in some of these designs
 };
 
-/// A at the origin turned by `turn_a`, B at r turned by `turn_b`, and then all by `common`.
+/// A at the origin rotated by `turn_a`, B at r rotated by `turn_b`, then both by `common`.
 struct PairDesign {
   SolidKind a = SolidKind::cube, b = SolidKind::cube;
   QuadQuaternion turn_a{1, 0, 0, 0}, turn_b{1, 0, 0, 0};
@@ -35,7 +35,7 @@ struct PairDesign {
   std::optional<double> volume;  ///< its closed form, if it has one
 };
 
-/// What has no closed form is taken from the clip in quadruple precision.
+/// Values without closed form are taken from the clip in quadruple precision.
 ConstructedPair constructed(const PairDesign& design);
 
 /// Contacts of depth δ with closed forms: faces parallel, an edge on a face, an edge across another, a vertex on a

@@ -8,7 +8,7 @@ namespace isojam {
 
 namespace {
 
-/// Images beyond do not reach even into a cell of .4 of the least side.
+/// Images farther away do not reach even a cell of 0.4 times the least side.
 constexpr int farthest_image = 3;
 
 double pair_energy(const Packing& packing, const Pose& a, const Pose& b, const Eigen::Vector3i& shift) {

@@ -15,11 +15,11 @@ namespace isojam {
 
 namespace {
 
-/// The same for every method: Newton's needs at most some 600 down to Δφ = 2e-3. More would not bring the others there:
-/// their residual is of order 1 from Δφ = .02 on.
+/// The same for every method: Newton's needs at most about 600 down to Δφ = 2e-3. More would not help the others: their
+/// residual is of order 1 from Δφ = 0.02 on.
 constexpr long budget = 1000;
 
-/// Of multipliers, whose evaluations are of the envelope: no step needs as many.
+/// For multipliers, whose evaluations are of the envelope; no step needs as many.
 constexpr long follow_budget = 3000;
 
 constexpr double residual = 1e-6;
@@ -35,10 +35,10 @@ Minimiser minimiser(const std::string& name, Method method, double energy_change
   options.method = method;
   options.residual = residual;
   options.max_evaluations = budget;
-  // E/N ~ Δφ⁶ is 2e-20 at Δφ = 5e-4: the usual cut-off would answer in place of the method.
+  // E/N ~ Δφ⁶ is 2e-20 at Δφ = 5e-4, below the usual cut-off for an unjammed state.
   options.unjammed_energy = 1e-26;
   options.energy_change = energy_change;
-  // The paper's rule and nothing else.
+  // Only the paper's rule.
   if (energy_change > 0) options.residual = 1e-14;
   return {name, method == Method::newton, options};
 }
@@ -49,13 +49,13 @@ std::array<Minimiser, 5> minimisers() {
           minimiser("FIRE", Method::fire), minimiser("L-BFGS", Method::lbfgs)};
 }
 
-/// max(|F|, |T|/R) over the mean force, of a fresh evaluation in double-double.
+/// max(|F|, |T|/R) over the mean force, from a new evaluation in double-double.
 double residual_of(const Packing& packing) {
   return PackingEnergy().evaluate(packing, Precision::double_double).residual;
 }
 
-/// Holds: forces balance. Fails: it is claimed that there is nothing left to do, and they do not. Refuses: it says that
-/// it has not come to an end.
+/// Holds: forces balance. Fails: the method reports success but forces do not balance. Refuses: the method reports that
+/// it did not finish.
 AtlasRow judged_end(AtlasRow row, const MinimiseSummary& summary, const Packing& packing, StopReason wanted) {
   const double left = residual_of(packing);
   row.figure = fmt::format("residual {:.0e} after {} evaluations", left, summary.evaluations + summary.work.envelopes);
@@ -83,7 +83,7 @@ void append_starts(const std::string& regime, const std::string& setting, const 
   }
 }
 
-/// The equilibrium that it was strained from, followed.
+/// Follows the equilibrium from which the state was strained.
 void append_followed(const std::string& regime, const std::string& setting, const Packing& from, double distance,
                      double density, AtlasRows& rows) {
   if (rows.over()) return;
@@ -106,14 +106,14 @@ void append_distances(const AtlasStates& states, AtlasRows& rows) {
   }
 }
 
-/// A jammed packing that lost a particle: its neighbours are held by few contacts.
+/// A jammed packing with one particle removed: its neighbours have few contacts.
 Packing with_vacancy(const AtlasStates& states) {
   Packing packing = states.above(0.03);
   packing.poses.erase(packing.poses.begin());
   return packing;
 }
 
-/// What the inertia of the Hessian says beside the vacancy: more than three zero modes must have a name.
+/// Checks the inertia of the Hessian beside the vacancy: more than three zero modes must be explained by near-rattlers.
 AtlasRow judged_rattlers(Packing packing, const std::stop_token& stop) {
   PackingEnergy energy;
   minimise(packing, energy, minimisers().front().options, stop);
@@ -137,7 +137,7 @@ void append_other_starts(const AtlasStates& states, AtlasRows& rows) {
   append_starts("unjammed start", "φ = 0.3", loose, StopReason::unjammed, rows);
 }
 
-/// A balance that doubles cannot carry through the boundary, for their low parts are part of it.
+/// An equilibrium whose translation through the boundary is not exact in doubles, because the low parts belong to it.
 void append_translated(const AtlasStates& states, AtlasRows& rows) {
   for (const double distance : {0.1, 0.005}) {
     Packing packing = states.above(distance);

@@ -18,10 +18,10 @@ namespace isojam {
 
 namespace {
 
-/// Softest modes compared, beyond the three translations.
+/// Number of softest modes compared, beyond the three translations.
 constexpr int wanted = 6;
 
-/// Of an eigenvalue: D, a matrix of doubles, says no more at a condition number of 1e12.
+/// Relative tolerance of an eigenvalue. D, a matrix of doubles, is no more accurate at a condition number of 1e12.
 constexpr double mode_tolerance = 1e-3;
 
 /// Largest relative deviation of the first `wanted` of two ascending lists.
@@ -47,7 +47,7 @@ AtlasRow by_shift_invert(AtlasRow row, const BlockMatrix& matrix, const Eigen::V
   const ModeSet found = spectrum_ends(matrix, options).lowest;
   if (found.size() < wanted) return refused(row, std::string(to_string(found.ended)));
   row = judged(row, deviation(found.eigenvalues, exact), mode_tolerance, "relative error of λ");
-  // A shift that serves badly is found out: by residuals, inertia and, at last, the dense solver.
+  // An unsuitable shift is detected by residuals, inertia and finally the dense solver.
   row.reason += fmt::format(", {}", to_string(found.ended));
   if (row.verdict == AtlasVerdict::fails && found.relative_error > mode_tolerance)
     return refused(row, fmt::format("its own bound is {:.0e}", found.relative_error));
@@ -72,10 +72,10 @@ void append_conditions(const AtlasStates& states, AtlasRows& rows) {
   }
 }
 
-/// Of the softest mode, by differences.
+/// Relative tolerance of the softest mode by differences.
 constexpr double difference_tolerance = 1e-2;
 
-/// Negative modes that are none, and an error in the softest that is real.
+/// Judges spurious negative modes, and the error of the softest mode.
 AtlasRow judged_hessian(AtlasRow row, const Eigen::MatrixXd& matrix, double softest) {
   const Eigen::VectorXd lambda = symmetric_eigenvalues(matrix);
   const long negative = (lambda.array() < -softest / 2).count();

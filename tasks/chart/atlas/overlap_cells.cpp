@@ -20,7 +20,7 @@ namespace {
 constexpr std::array depths{1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14};
 constexpr std::array angles{1e-1, 1e-4, 1e-7, 1e-10, 1e-13, 1e-16, 0.0};
 
-/// Orientations and directions that a cell takes the worst of.
+/// Number of orientations and directions; a cell reports the worst.
 constexpr int samples = 16;
 
 struct Kernel {
@@ -58,11 +58,11 @@ const std::array<Kernel, 3>& kernels() {
   return list;
 }
 
-/// Mean contact force nearest jamming, Δφ = 5e-4: that of a vertex as deep as Δφ in a face, V = ⅔ δ³ and S = 2 δ². What
-/// a contact gets wrong by less than a fraction of it no balance of forces can feel.
+/// Mean contact force nearest jamming, Δφ = 5e-4: that of a vertex at depth Δφ in a face, V = ⅔ δ³ and S = 2 δ². An
+/// error below a small fraction of it does not affect the force balance.
 const double weakest_mean_force = 2.0 / 3 * std::pow(5e-4, 5);
 
-/// Of V and, where it is compared, of S.
+/// Relative error of V and, where it is compared, of S.
 double relative_error(const VolumeAndArea& found, const ConstructedPair& pair) {
   const VolumeAndArea& exact = pair.reference;
   const double volume = std::abs(found.volume - exact.volume) / exact.volume;
@@ -70,17 +70,17 @@ double relative_error(const VolumeAndArea& found, const ConstructedPair& pair) {
   return std::max(volume, (found.area - exact.area).norm() / exact.area.norm());
 }
 
-/// Of the contact force, in units of weakest_mean_force.
+/// Error of the contact force, in units of weakest_mean_force.
 double force_error(const VolumeAndArea& found, const ConstructedPair& pair) {
   const VolumeAndArea& exact = pair.reference;
   return (found.volume * found.area - exact.volume * exact.area).norm() / 2 / weakest_mean_force;
 }
 
-/// The worst over pairs, for one kernel.
+/// The worst pair, for one kernel.
 AtlasRow judged_kernel(AtlasRow row, const Kernel& kernel, const std::vector<ConstructedPair>& pairs) {
   double worst = 0, worst_force = 0;
   const auto note = [](double error, double& sum) {
-    if (!(error <= sum)) sum = error;  // so that what is not a number wins
+    if (!(error <= sum)) sum = error;  // so that NaN counts as the worst
   };
   for (const ConstructedPair& pair : pairs) {
     const VolumeAndArea found = kernel.overlap(pair);
@@ -154,7 +154,7 @@ Eigen::Vector3d direction(RandomStream& random) {
   return u.normalized();
 }
 
-/// Of one orientation: displaced anywhere, and within a face plane, where two pairs of faces stay coplanar.
+/// Pairs of one orientation: any displacement, and one within a face plane, where two pairs of faces stay coplanar.
 void append_same_orientation(std::vector<AtlasRow>& rows) {
   constexpr std::array lengths{1e-1, 1e-4, 1e-7, 1e-10, 1e-13, 1e-16, 0.0};
   for (const double length : lengths) {
@@ -206,8 +206,8 @@ void append_generic(std::vector<AtlasRow>& rows) {
   }
 }
 
-/// Solids of half the size are of unit volume again, so that none lies within another; the clip, which cares for planes
-/// only, can be given one that does.
+/// Solids of half the size are rescaled to unit volume, so that none lies within another. The clip uses only planes and
+/// can be given a pair that does.
 void append_inside(std::vector<AtlasRow>& rows) {
   std::vector<Eigen::Vector3d> halved = platonic(SolidKind::cube).vertices();
   for (Eigen::Vector3d& vertex : halved) vertex /= 2;

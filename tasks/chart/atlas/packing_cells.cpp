@@ -16,7 +16,7 @@ namespace isojam {
 
 namespace {
 
-/// Of energies, and of forces and torques over the mean contact force. Contacts here are deep: rounding leaves 1e-14.
+/// For energies, and for forces and torques over the mean contact force. Contacts here are deep: rounding leaves 1e-14.
 constexpr double tolerance = 1e-12;
 
 constexpr std::array precisions{Precision::working, Precision::double_double};
@@ -36,8 +36,8 @@ AtlasRow energy_row(const std::string& regime, const std::string& setting, const
   }
 }
 
-/// N = 2 … 8 about a corner of the cell, a hair above the least side, at it, and where particles do touch two images
-/// of another.
+/// N = 2 … 8 about a corner of the cell, slightly above the least side, at it, and where particles touch two images of
+/// another.
 void append_smallest_cells(std::vector<AtlasRow>& rows) {
   const ConvexSolid& solid = platonic(SolidKind::tetrahedron);
   const double least = least_side(solid);
@@ -53,7 +53,7 @@ void append_smallest_cells(std::vector<AtlasRow>& rows) {
   }
 }
 
-/// A packing and the same one seen otherwise: particle k of `seen` is particle from[k] of `packing`, turned by `turn`.
+/// A packing and an equivalent one: particle k of `seen` is particle from[k] of `packing`, rotated by `turn`.
 struct Twin {
   Packing packing, seen;
   std::vector<int> from;
@@ -66,7 +66,7 @@ Twin twin_of(const Packing& packing) {
   return twin;
 }
 
-/// Of energy and gradient, in units of energy and mean force.
+/// Difference of energy and gradient, in units of energy and mean force.
 double difference(const Twin& twin, Precision precision) {
   const Evaluation a = PackingEnergy().evaluate(twin.packing, precision);
   const Evaluation b = PackingEnergy().evaluate(twin.seen, precision);
@@ -105,7 +105,7 @@ Twin relabelled(const Packing& packing, bool reversed) {
   return twin;
 }
 
-/// By `angle` about the z axis.
+/// Rotated by `angle` about the z axis.
 Twin turned(const Packing& packing, double angle) {
   Twin twin = twin_of(packing);
   const Eigen::AngleAxisd turn(angle, Eigen::Vector3d::UnitZ());

@@ -11,7 +11,7 @@ AtlasStates::AtlasStates(const std::stop_token& stop) {
   JamOptions options;
   options.initial_density = 0.2;
   options.final_distance = 1.3e-3;
-  options.consolidation_evaluations = 500;  // the way up is not what is looked at
+  options.consolidation_evaluations = 500;  // the compression is not examined here
   options.minimise.residual = 1e-9;
   RandomStream random{1, static_cast<std::uint64_t>(SolidKind::octahedron)};
   const ConvexSolid& solid = platonic(SolidKind::octahedron);
@@ -24,7 +24,7 @@ AtlasStates::AtlasStates(const std::stop_token& stop) {
 }
 
 const Packing& AtlasStates::above(double delta_phi) const {
-  // In the order of expansion: the last that lies above is the nearest.
+  // States are in the order of expansion, so the last one above is the nearest.
   const Packing* nearest = &states_.front();
   for (const Packing& state : states_) {
     if (distance_of(state) > delta_phi) nearest = &state;

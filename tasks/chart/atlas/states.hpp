@@ -7,21 +7,21 @@
 
 namespace isojam {
 
-/// 45 octahedra, the fewest that fit a legal cell, expanded to Δφ = 1.3e-3: condition numbers from 1e3 to 6e12.
+/// 45 octahedra, the fewest in a legal cell, expanded to Δφ = 1.3e-3: condition numbers from 1e3 to 6e12.
 class AtlasStates {
  public:
-  /// Jams them. Throws std::runtime_error if they do not, which they do unless the protocol is broken.
+  /// Jams them. Throws std::runtime_error if this fails, which it does only if the protocol is broken.
   explicit AtlasStates(const std::stop_token& stop = {});
 
-  /// Whether a stop request left nothing to look at: no other function may be called then.
+  /// True if a stop request left no states; no other function may be called then.
   bool empty() const { return states_.empty(); }
 
   double phi_j() const { return phi_j_; }
   /// States of the expansion, density descending.
   const std::vector<Packing>& all() const { return states_; }
-  /// φ − φ_J of a state of it.
+  /// φ − φ_J of one of these states.
   double distance_of(const Packing& packing) const { return packing.density() - phi_j_; }
-  /// The state from which one strain step leads to Δφ: the nearest of those above, the first if none is.
+  /// The state from which one strain step leads to Δφ: the nearest of those above, or the first.
   const Packing& above(double delta_phi) const;
 
  private:

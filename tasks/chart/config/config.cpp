@@ -12,7 +12,7 @@
 namespace isojam {
 namespace {
 
-constexpr Range seed_range{0, 9007199254740992};  // 2^53: every reader of JSON holds integers up to here
+constexpr Range seed_range{0, 9007199254740992};  // 2^53: every JSON reader represents integers up to here exactly
 constexpr Range count_range{1, 1000};
 constexpr Range particle_range{8, 2000};
 constexpr Range distance_range{1e-3, 0.2};
@@ -99,7 +99,7 @@ void read_keys(const JsonPlace& root, ChartConfig& config) {
   });
 }
 
-/// The cell must be legal up to the density that jamming may pass through.
+/// The cell must be legal up to the highest density that jamming may reach.
 void check_particles(const JsonPlace& root, const std::string& key, SolidKind solid, int particles) {
   const int least = least_particles(platonic(solid), JamOptions().max_density);
   if (particles >= least) return;

@@ -12,7 +12,7 @@
 
 namespace isojam {
 
-/// What a chart may compare, in the order in which it is measured.
+/// Comparisons of a chart, in the order of measurement.
 enum class Comparison { equilibrium, hessian, modes, overlap, atlas, phi_j, growth };
 template <>
 inline constexpr std::array enum_names<Comparison>{EnumName{Comparison::equilibrium, "equilibrium"},
@@ -24,7 +24,7 @@ inline constexpr std::array enum_names<Comparison>{EnumName{Comparison::equilibr
                                                    EnumName{Comparison::growth, "growth"}};
 inline constexpr auto all_comparisons = all_of<Comparison>;
 
-/// Settings of the protocol, of which one at a time is varied from the first of its list.
+/// Settings of the protocol. Each is varied alone, starting from the first of its list.
 struct PhiJConfig {
   SolidKind solid = SolidKind::octahedron;
   int replicates = 3;
@@ -35,7 +35,7 @@ struct PhiJConfig {
   std::vector<double> residual{1e-6, 1e-3};
 };
 
-/// Sizes over which it is measured how costs grow.
+/// Sizes over which the growth of costs is measured.
 struct GrowthConfig {
   std::vector<SolidKind> solids{SolidKind::octahedron};
   std::vector<int> particles{50, 100, 200};
@@ -43,8 +43,8 @@ struct GrowthConfig {
   std::vector<double> distances{0.05, 0.03, 0.02, 0.012};  ///< Δφ above jamming, of the equilibria that are timed
 };
 
-/// What a chart compares and how long it may take. In-class values are the configuration that is used without one: it
-/// ends within five minutes on a machine of two cores.
+/// Comparisons of a chart and their time limits. The in-class values are the default configuration; it ends within five
+/// minutes on a machine with two cores.
 struct ChartConfig {
   std::vector<Comparison> compare{all_comparisons.begin(), all_comparisons.end()};
   std::vector<SolidKind> solids{SolidKind::tetrahedron, SolidKind::octahedron};
@@ -53,30 +53,30 @@ struct ChartConfig {
   int packings = 2;                                  ///< per solid
   std::vector<double> distances{0.1, 0.03, 0.01};    ///< Δφ above jamming, of equilibria to be found
   double fit_window = 0.05;                          ///< states within it give the φ_J by which methods are compared
-  std::vector<double> tolerances{1e-3, 1e-6, 1e-9};  ///< residuals asked of every method
+  std::vector<double> tolerances{1e-3, 1e-6, 1e-9};  ///< residuals requested of every method
   std::vector<double> energy_changes{1e-12};         ///< of the paper's rule
   std::vector<double> difference_steps{1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-11};
   std::vector<double> shifts{1e-6, 1e-9, 1e-11, 1e-13};  ///< −σ/λ_max of shift-invert
   std::vector<int> subspaces{120, 200};                  ///< dimensions of the Krylov spaces
   int pairs = 40;                                        ///< per solid and class of contact
-  int repetitions = 3;                                   ///< of what is timed
+  int repetitions = 3;                                   ///< of timed work
   long max_evaluations = 4000;                           ///< of one minimisation
-  /// Evaluations of one minimisation by the paper's rule, which takes its time to be content.
+  /// Evaluations of one minimisation by the paper's rule, which stops late.
   long rule_evaluations = 20000;
   double point_seconds = 10;   ///< of one point, wall clock
-  double total_seconds = 280;  ///< after which no further point is begun and the one under way is stopped
+  double total_seconds = 280;  ///< after which no further point begins and the current one is stopped
   PhiJConfig phi_j;
   GrowthConfig growth;
 };
 
-/// The configuration for an hour: all solids but cubes, whose constraints are redundant, and larger packings.
+/// The configuration for an hour: larger packings, and all solids except cubes, whose constraints are redundant.
 ChartConfig full_chart_config();
 
-/// Reads a configuration; what it does not name is as in `ChartConfig`. Throws InputError for anything that is not
+/// Reads a configuration; missing keys have their values of `ChartConfig`. Throws InputError for anything that is not
 /// understood, out of range, or given twice.
 ChartConfig parse_chart_config(std::string_view text, const std::string& file);
 
-/// Everything, as parse_chart_config() reads it.
+/// The complete configuration, as parse_chart_config() reads it.
 Json to_json(const ChartConfig& config);
 
 }  // namespace isojam

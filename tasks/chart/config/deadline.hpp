@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// Requests a stop when its time is over, or as soon as the one it was made under does.
+/// Requests a stop when its time is over, or when its parent token is stopped.
 class Deadline {
  public:
   Deadline(double seconds, const std::stop_token& outer);
@@ -17,7 +17,7 @@ class Deadline {
  private:
   std::stop_source source_;
   std::stop_callback<std::function<void()>> on_outer_;
-  std::jthread timer_;  // last: it ends before what it uses
+  std::jthread timer_;  // last, so that it ends before the members that it uses
 };
 
 }  // namespace isojam

@@ -12,7 +12,7 @@
 namespace isojam {
 namespace {
 
-/// A way to minimise, as a point of the chart names it.
+/// A minimiser with its settings, as a point of the chart names it.
 struct Variant {
   std::string method, setting;
   MinimiseOptions options;
@@ -34,7 +34,7 @@ std::vector<Ladder> ladders(const ChartConfig& config) {
       ladder.push_back({std::string(to_string(method)), fmt::format("residual {:g}", tolerance), options});
     }
   }
-  // The paper looks at the energy and at nothing else.
+  // The paper's rule considers only the energy.
   Ladder& paper = all.emplace_back();
   for (const double change : changes) {
     MinimiseOptions options{.method = Method::conjugate_gradient,
@@ -46,13 +46,13 @@ std::vector<Ladder> ladders(const ChartConfig& config) {
   return all;
 }
 
-/// A state that a variant ended in.
+/// Final state of a variant.
 struct EndState {
   std::vector<double> seconds;
   MinimiseSummary summary;
   EnergyPoint energy;
   ContactNumbers numbers;
-  bool classes_known = false;  ///< whether both fits gave a cut-off, without which only Z means something
+  bool classes_known = false; ///< true if both fits gave a cut-off; otherwise only Z is meaningful
 
   bool reached() const { return is_equilibrium(summary) || summary.reason == StopReason::energy_change; }
 };
@@ -87,7 +87,7 @@ EndState minimised(const StrainStart& start, const MinimiseOptions& options, con
   return state;
 }
 
-/// All that is kept of a variant: [packing of the solid][distance].
+/// States kept of a variant: [packing of the solid][distance].
 using EndStates = std::map<std::pair<int, double>, EndState>;
 
 /// Differences from the reference, of packings where both are known.
@@ -134,7 +134,7 @@ std::optional<JammingPoint> fitted(const EndStates& states, int packing, double 
   return fit_jamming_point(energies, window);
 }
 
-/// What the states of a variant make of φ_J.
+/// Error of φ_J from the states of a variant.
 ChartPoint bias_of(const Variant& variant, SolidKind solid, const EndStates& states, const EndStates& reference,
                    const ChartConfig& config) {
   ChartPoint point{std::string(to_string(solid)), variant.method, variant.setting, {}, {}, {}, false, Json::object()};
@@ -171,8 +171,8 @@ class Minimisers {
 
   void run() {
     for (const SolidKind solid : config_.solids) {
-      // What follows an equilibrium may go down another branch than what starts from the strained packing, which is no
-      // error of either: each has a reference of its own.
+      // A method that follows an equilibrium may take another branch than one that starts from the strained packing.
+      // Neither is an error, so each has its own reference.
       const EndStates followed = reference(solid, Method::multipliers), minimised = reference(solid, Method::newton);
       for (const Ladder& ladder : ladders(config_))
         climb(solid, ladder, ladder.front().options.method == Method::multipliers ? followed : minimised);

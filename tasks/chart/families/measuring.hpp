@@ -13,7 +13,7 @@
 
 namespace isojam {
 
-/// What all measurements of a chart share.
+/// Shared by all measurements of a chart.
 struct Measuring {
   const ChartConfig& config;
   std::stop_token stop;                                   ///< time over, or a signal
@@ -22,11 +22,11 @@ struct Measuring {
   bool over() const { return stop.stop_requested(); }
 };
 
-/// What takes longer is timed once: repetitions are there for what the clock's noise can spoil.
+/// Longer work is timed once, because repetitions only reduce the noise of the clock.
 inline constexpr double seconds_worth_repeating = 0.1;
 
-/// Runs `work` as often as the configuration says, fewer times if it takes long, and gives the CPU times of the calling
-/// thread. `work` must give the same result each time.
+/// Runs `work` as often as the configuration requires, fewer times if it takes long, and returns the CPU times of the
+/// calling thread. `work` must give the same result each time.
 template <class Work>
 std::vector<double> timed(const Measuring& measuring, const Work& work) {
   const auto begun = std::chrono::steady_clock::now();

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr int wanted = modes_compared;
 constexpr int restarts = 100;
 constexpr double tolerance = 1e-13;
-/// Eigenvalues farther off than this are not the modes that were asked for.
+/// Eigenvalues with a larger error are not the requested modes.
 constexpr double worst_useful_error = 1e-2;
 
 struct Found {
@@ -51,8 +51,8 @@ Found by_inversion(const BlockMatrix& matrix, double shift, Index subspace) {
   }
 }
 
-/// D with the translations moved from 0 to `lambda_max`, out of the way of the lowest modes: projected out alone, they
-/// would be found again as soon as rounding brings them back.
+/// D with the eigenvalue of translations moved from 0 to `lambda_max`, away from the lowest modes. Mere projection
+/// would let rounding reintroduce them.
 class Raised {
  public:
   using Scalar = double;
@@ -135,7 +135,7 @@ void compare(const Packing& packing, const Measuring& measuring, TaskPoints& poi
     const auto seconds = timed(measuring, [&] { found = work(); });
     points.add(method, setting, spread(seconds)->median, found, dense.eigenvalues);
   };
-  // Its own error is the bound that it gives: the others are measured by it.
+  // The dense solver is the reference for the others; its own error is its error bound.
   points.add("dense", "all modes", spread(dense_seconds)->median,
              {"converged", dense.eigenvalues * (1 + dense.relative_error)}, dense.eigenvalues);
   const Index all = dense.eigenvalues.size();

@@ -15,17 +15,17 @@ namespace {
 using oracle::PairCase;
 using oracle::PairClass;
 
-/// Those in which no two faces coincide: see reference_overlap().
+/// Classes in which no two faces coincide: see reference_overlap().
 constexpr std::array classes{PairClass::random_contact, PairClass::near_parallel_faces, PairClass::edge_in_face,
                              PairClass::parallel_edges, PairClass::vertex_vertex,       PairClass::same_orientation};
 
-/// Beyond this an answer is wrong, not inaccurate.
+/// An answer with a larger error counts as failed.
 constexpr double worst_useful_error = 1e-2;
 
-/// A pair with what a packing has at hand before it asks for the overlap.
+/// A pair with the data that a packing has prepared before it computes the overlap.
 struct PreparedPair {
   PairCase pair;
-  Pose pose;  ///< of B; A stands at the origin
+  Pose pose; ///< of B; A is at the origin
   LonePlacedSolid a, b, double_double_a, double_double_b;
   DoubleDoubleVector displacement;
   QuadPose quad;
@@ -53,7 +53,7 @@ PreparedPair prepared(const PairCase& pair) {
 
 struct Found {
   double volume = 0;
-  std::optional<Eigen::Vector3d> area;  ///< S_A, of methods that give it
+  std::optional<Eigen::Vector3d> area; ///< S_A, of methods that give it
 };
 
 Found in_doubles(const PreparedPair& pair) {

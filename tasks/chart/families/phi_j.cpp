@@ -14,11 +14,11 @@ namespace {
 
 /// The replicates of one setting of the protocol.
 struct Replicated {
-  std::map<int, std::vector<EnergyPoint>> energies;  ///< of those that jammed, by number
-  std::vector<double> seconds;                       ///< of all, in order of number
+  std::map<int, std::vector<EnergyPoint>> energies; ///< of jammed replicates, by number
+  std::vector<double> seconds; ///< of all replicates, in order of number
 
   int count() const { return static_cast<int>(seconds.size()); }
-  /// Of the first so many.
+  /// CPU time of the first `first` replicates.
   double total_seconds(int first) const { return std::accumulate(seconds.begin(), seconds.begin() + first, 0.0); }
   int failed(int first) const {
     return first - static_cast<int>(std::distance(energies.begin(), energies.lower_bound(first)));
@@ -88,7 +88,7 @@ Densities densities(const Replicated& replicates, double window) {
   return values;
 }
 
-/// Those with a number below `count`.
+/// Densities with a number below `count`.
 Densities first_of(const Densities& densities, int count) { return {densities.begin(), densities.lower_bound(count)}; }
 
 std::vector<double> values_of(const Densities& densities) {
@@ -97,7 +97,7 @@ std::vector<double> values_of(const Densities& densities) {
   return values;
 }
 
-/// Of replicates that began alike: those of one number, if N is the same.
+/// Differences between replicates with the same initial configuration: those of one number, if N is the same.
 std::vector<double> differences(const Densities& densities, const Densities& first) {
   std::vector<double> values;
   for (const auto& [number, density] : densities) {
@@ -110,7 +110,7 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// What is compared with what.
+/// A setting with its replicates, for comparison.
 struct Compared {
   std::string task, setting;
   Densities densities;
@@ -119,7 +119,7 @@ struct Compared {
   bool began_alike = true;
 };
 
-/// Error: how far the mean is from that of `first` at the far end of its 95 % interval.
+/// Error: distance of the mean from that of `first` at the far end of its 95 % confidence interval.
 ChartPoint point_of(const Compared& compared, const Densities& first) {
   ChartPoint point{compared.task, "protocol",          compared.setting, spread({compared.seconds}), {},
                    "done",        compared.failed > 0, Json::object()};
@@ -180,7 +180,7 @@ class Protocols {
     family_.points.push_back(point_of(compared, first_));
   }
 
-  /// All replicates of the first setting, fewer of them, and other windows on them: what was run already.
+  /// All replicates of the first setting, fewer of them, and other fit windows: no further run is needed.
   void add_points_of(const Replicated& first) {
     for (int n = first.count(); n >= 2; --n) {
       const auto name = fmt::format("{}replicates {}", n == first.count() ? "first setting, " : "", n);

@@ -19,10 +19,11 @@ struct JammedSolid {
   std::vector<Packing> states;  ///< of the expansion, density descending
 };
 
-/// As many packings of every solid as the configuration asks for, those that jammed; fewer after a stop request.
+/// Jams as many packings of every solid as the configuration requests and returns those that jammed; fewer after a stop
+/// request.
 std::vector<JammedSolid> jam_all(const Measuring& measuring);
 
-/// A strain step such as the expansion makes.
+/// A strain step as the expansion makes it.
 struct StrainStart {
   Packing equilibrium;  ///< a state of the expansion
   double distance = 0;  ///< φ − φ_J of it
@@ -35,8 +36,8 @@ struct StrainStart {
 /// From a state of the expansion down to φ_J + distance. nullopt if the expansion began nearer to jamming.
 std::optional<StrainStart> start_at(const JammedSolid& jammed, double distance);
 
-/// The equilibrium that minimise() finds from there by its default method, to a residual of 1e-9 or as near as can be
-/// told; nullopt if it finds none.
+/// The equilibrium that minimise() finds from there by its default method, to a residual of 1e-9 or to the attainable
+/// accuracy; nullopt if it finds none.
 std::optional<Packing> equilibrium_at(const JammedSolid& jammed, double distance, const Measuring& measuring);
 
 /// The equilibria of a solid at a distance, of every packing that has one.
@@ -45,7 +46,8 @@ struct TaskEquilibria {
   std::vector<Packing> packings;
 };
 
-/// Starts for every solid and distance of the configuration, in this order; after a stop request, those until then.
+/// Starts for every solid and distance of the configuration, in this order. After a stop request returns those
+/// completed.
 std::vector<TaskEquilibria> all_equilibria(std::span<const JammedSolid> jammed, const Measuring& measuring);
 
 /// Dynamical matrix of an equilibrium, as accurate as the state is.

@@ -1,6 +1,6 @@
 'use strict';
 
-/// Verdicts are told by sign and word; colour is added.
+/// Verdicts are shown by sign and word; colour is additional.
 const verdictSigns = {holds: '✓', refuses: '–', fails: '✗'};
 
 const groupedBy = (rows, key) => {
@@ -17,7 +17,7 @@ const count = (rows, verdict) => rows.filter((row) => row.verdict === verdict).l
 const countsText = (rows) =>
   `${count(rows, 'holds')} cells hold, ${count(rows, 'refuses')} refuse, ${count(rows, 'fails')} fail. `;
 
-/// A number is not broken at its sign.
+/// Prevents a line break at the sign of a number.
 const unbroken = (text) => text.replaceAll('-', '\u2011');
 
 function atlasCell(row) {

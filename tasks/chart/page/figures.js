@@ -8,7 +8,7 @@ const endings = {complete: '', cut: ' The time was over before all was measured.
 
 const unique = (values) => [...new Set(values)];
 
-/// Points with what a log scale can show: an error of 0 stands at the least of the others.
+/// Points that a log scale can show: an error of 0 is drawn at the least of the others.
 function plotted(family) {
   const errors = family.points.flatMap(({error}) => (error ? [error.median, error.least, error.greatest] : []));
   const positive = errors.filter((value) => value > 0);
@@ -32,13 +32,13 @@ const pointTooltip = {
 
 const byMethod = {scale: 'colour', field: 'method'};
 
-/// Below the upper edge of a panel a line of text says why points failed; under it, above a line, stand those that
-/// failed without an error to be drawn at, where a family has some.
+/// A line of text below the upper edge of a panel gives the reasons for failures. Below it, above a rule, stand failed
+/// points without an error, if a family has some.
 const reasonLine = 9, edge = 23, edgeHeight = 32, textHeight = 18;
 
 const crossPath = 'M-1,-1L1,1M-1,1L1,-1';
 
-/// Each failure once: at its error, or, if it has none, at the edge.
+/// Each failure once: at its error or, without an error, at the edge.
 function failureMarks(source) {
   return {
     name: `failure_${source}`, type: 'symbol', from: {data: source},
@@ -50,7 +50,7 @@ function failureMarks(source) {
   };
 }
 
-/// Why points of a panel failed, said once at its upper edge.
+/// Reasons of the failed points of a panel, at its upper edge.
 function reasonText(failed, width) {
   const plain = (why) => why.replace(/( in \d+ of \d+.*| \d+)$/, '');
   const reasons = unique(failed.flatMap(({stopped}) => stopped.split(', ').map(plain)))
@@ -106,13 +106,13 @@ const filtered = (name, source, expression, sort) => ({
     ...(sort ? [{type: 'collect', sort: {field: 'x'}}] : [])],
 });
 
-/// Height above the scale of errors: for the reasons, and for failures that have no error.
+/// Height above the scale of errors for the reasons and for failures without an error.
 function roomAbove(rows) {
   if (!rows.some(({failed, y}) => failed || y === null)) return 0;
   return rows.some(({y}) => y === null) ? edgeHeight + 4 : textHeight;
 }
 
-/// The domain of errors with that room above it.
+/// The domain of errors with this height above it.
 function errorDomain(rows, height) {
   const [low, high] = domainOf(rows.flatMap(({y, y_least: least, y_greatest: greatest}) => [y, least, greatest]),
     {type: 'log', margin: 0.04}) ?? [1e-16, 1];

@@ -1,9 +1,9 @@
 'use strict';
 
-// How costs grow with the number of particles: a panel for each solid, a line for each thing that is timed, both axes
+// Growth of costs with the number of particles: a panel for each solid, a line for each timed quantity, both axes
 // logarithmic, with the fitted power beside its line.
 
-/// "N^1.62 ± .10" with the minus and superscripts left to plain text, which every font has.
+/// "N^1.62 ± 0.10" in plain text, whose minus and superscripts every font has.
 function powerLabel({exponent, half_width: half}) {
   return `∝ N^${exponent.toFixed(2)}${half === null ? '' : ` ± ${half.toFixed(2)}`}`;
 }
@@ -15,7 +15,7 @@ function growthRows(family) {
   }));
 }
 
-/// Both ends of every fitted line, and what is written at the right one.
+/// Both ends of every fitted line, and the label at the right one.
 function growthLines(family, rows) {
   return family.fits.flatMap((fit) => {
     const sizes = rows.filter(({task, method}) => task === fit.case && method === fit.method)

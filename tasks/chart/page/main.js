@@ -25,7 +25,7 @@ function pointTable(family) {
       element('tbody', {}, ...rows))));
 }
 
-/// Families that are not errors against times have figures of their own.
+/// Families that do not compare errors and times have figures of their own.
 const figuresOf = {phi_j: protocolFigure, growth: growthFigure};
 
 function drawFamily(family, place) {

@@ -1,7 +1,6 @@
 'use strict';
 
-// The jamming density over settings of the protocol: a row for each, so that none hides another, and beside each other
-// what it costs and what it makes of the density.
+// Jamming density for settings of the protocol: a row for each setting, with its cost and its density side by side.
 
 const rowHeight = 22, rowLabels = 162;
 
@@ -12,7 +11,7 @@ function withHalfWidth(value, half) {
   return `${text(value)} ± ${text(half)}`.replaceAll('-', '−');
 }
 
-/// Settings as rows, the first one first. Bars beyond are of means about that of the first setting.
+/// Settings as rows, the first one first. Bars farther out belong to means relative to that of the first setting.
 function protocolRows(family) {
   const first = family.points.find(({further}) => further.phi_j !== null)?.further.phi_j ?? null;
   return family.points.map(({setting, seconds, stopped, failed, further}) => {
@@ -58,7 +57,7 @@ function settingMark(name, x, shape = 'circle') {
   };
 }
 
-/// In numbers what the broadest bar of a row shows: its ends may lie within its dot.
+/// Numbers for the widest bar of a row, whose ends may lie within its dot.
 const numbers = (width) => ({
   name: 'setting_numbers', type: 'text', from: {data: 'known'}, encode: {enter: {
     y: settingY, x: {value: width - 4}, align: {value: 'right'}, baseline: {value: 'middle'}, fontSize: {value: 11},
@@ -66,7 +65,7 @@ const numbers = (width) => ({
   }},
 });
 
-/// Crosses of settings that failed, where their means are, or at the edge; and why, beside those that have none.
+/// Crosses for settings that failed, at their means or at the edge; those without a mean have the reason beside them.
 const failedMarks = () => [
   settingMark('failed', [{test: 'isValid(datum.off)', scale: 'x', field: 'off'}, {value: 8}], crossPath),
   {
@@ -103,7 +102,7 @@ function protocolFigure(family) {
   const ends = rows.flatMap(({low, high, paired_low: a, paired_high: b}) => [low, high, a, b, 0]);
   const [least, greatest] = domainOf(ends, {margin: 0.06});
   const wide = (width) => width > 330;
-  // Numbers have room of their own, where there is room.
+  // Numbers have a column of their own if the page is wide enough.
   const off = (width) => [least, wide(width) ? least + (greatest - least) / (1 - 125 / width) : greatest];
   const known = 'isValid(datum.off)', ticks = (width) => (width < 300 ? 3 : 6);
   const panels = (place) => [

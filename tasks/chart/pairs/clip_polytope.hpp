@@ -7,8 +7,8 @@
 
 namespace isojam::oracle {
 
-/// A convex polyhedron as closed polygons, cut by one half-space after another. Exact if T is an exact field; with
-/// T = double good enough to aim a test case at a volume.
+/// A convex polyhedron as closed polygons, cut by one half-space after another. Exact if T is an exact field; with T =
+/// double accurate enough to construct a test case of a given volume.
 template <class T>
 class ClipPolytope {
  public:
@@ -62,7 +62,7 @@ class ClipPolytope {
     return T(six / 6);
   }
 
-  /// ∫ n dS, outwards, over what is left of the faces that were there before any cut.
+  /// ∫ n dS, outwards, over the remaining parts of the original faces.
   Vector original_area() const {
     Vector twice{T(0), T(0), T(0)};
     for (const Side& side : sides_) {

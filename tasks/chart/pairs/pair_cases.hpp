@@ -22,7 +22,7 @@ enum class PairClass {
   same_orientation,     ///< equal orientation up to a symmetry of the solid, any displacement
   coplanar_faces,       ///< the same, displaced within a face plane: exactly, or to rounding
   coincident,           ///< one upon the other up to a symmetry, exactly or to rounding
-  near_coincident,      ///< the same, displaced and turned by 1e-16..1e-8
+  near_coincident,      ///< the same, displaced and rotated by 1e-16..1e-8
 };
 
 }  // namespace isojam::oracle
@@ -60,7 +60,7 @@ struct PairCase {
 /// The first `count` pairs of a class: a function of the arguments alone (fixed seed).
 std::vector<PairCase> pair_cases(SolidKind a, SolidKind b, PairClass pair_class, int count);
 
-/// Intersection volume by clipping in double: for aiming, not for checking.
+/// Intersection volume by clipping in double: for construction, not for checking.
 double rough_volume(const PairCase& pair);
 
 }  // namespace isojam::oracle

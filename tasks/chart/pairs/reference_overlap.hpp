@@ -16,9 +16,9 @@ struct ReferenceOverlap {
   std::array<Digits50, 3> area;  ///< S_A = ∂V/∂x_A
 };
 
-/// V and S_A of a pair to 1e-25 or better, by cutting A with one face plane of B after another: the rotation by q/|q|
-/// and the displacement are taken as exact, and the solids to the 1e-32 of their constants. Not for pairs whose faces
-/// coincide or are coplanar, which those constants cannot tell from pairs that nearly are.
+/// V and S_A of a pair to 1e-25 or better, by cutting A with one face plane of B after another. The rotation by q/|q|
+/// and the displacement are taken as exact, the solids to the 1e-32 of their constants. Not for pairs with coincident
+/// or coplanar faces, which these constants cannot distinguish from nearly coplanar ones.
 ReferenceOverlap reference_overlap(const PairCase& pair);
 
 }  // namespace isojam::oracle

@@ -15,17 +15,17 @@ struct ChartAtlas {
   std::vector<AtlasRow> rows;
 };
 
-/// What a part of a chart cost, all that is not timed included.
+/// Cost of a part of a chart, including untimed work.
 struct PartCost {
-  std::string part;  ///< "packings", "equilibria" (made once for several families), or what was compared
+  std::string part;  ///< "packings", "equilibria" (made once for several families), or the comparison
   double cpu_seconds = 0;
 };
 
-/// What run_chart() measured.
+/// Results of run_chart().
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct ChartResult {
   std::vector<ChartFamily> families;
-  std::optional<ChartAtlas> atlas;  ///< nullopt unless asked for
+  std::optional<ChartAtlas> atlas;  ///< nullopt unless requested
   std::vector<PartCost> costs;      ///< in the order of measurement
 };
 

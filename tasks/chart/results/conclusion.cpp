@@ -11,7 +11,7 @@
 namespace isojam {
 namespace {
 
-/// Fastest time per method and task, of points within; a method's tasks without one stay.
+/// Fastest time per method and task, over points within the residual. Tasks without such a point are kept.
 using Times = std::map<std::string, std::map<std::string, std::optional<double>>>;
 
 Times fastest(std::span<const ChartPoint> points, double residual) {
@@ -40,7 +40,7 @@ std::string fastest_line(std::span<const ChartPoint> points, double residual) {
   return line;
 }
 
-/// What a setting of this kind asks for; nullopt for another kind.
+/// The value that a setting of this kind requests; nullopt for another kind.
 std::optional<double> asked_of(const ChartPoint& point, std::string_view kind) {
   if (!point.setting.starts_with(kind)) return std::nullopt;
   return std::stod(point.setting.substr(kind.size()));
@@ -48,8 +48,8 @@ std::optional<double> asked_of(const ChartPoint& point, std::string_view kind) {
 
 constexpr std::string_view by_residual = "residual ", by_energy = "energy change ";
 
-/// For each residual that was asked for, by which methods it was missed: the complement of what fastest_line() counts.
-/// A method that missed one was not asked for a smaller one, which it misses too.
+/// The methods that missed each requested residual: the complement of fastest_line(). A method that missed one was not
+/// run for a smaller one, and counts as missing it too.
 std::string missed_text(std::span<const ChartPoint> points) {
   std::set<double, std::greater<>> asked;
   std::vector<ChartPoint> of_residuals;
@@ -72,7 +72,7 @@ std::string missed_text(std::span<const ChartPoint> points) {
   return text.empty() ? "" : "residuals asked for" + text.replace(0, 1, ":");
 }
 
-/// Where stopping by the energy alone ends, though it says that it is done.
+/// Residuals at which the energy rule stops although it reports success.
 std::string energy_rule_text(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias) {
   double residual = 0, shift = 0, change = 0;
   std::set<std::string> unfinished, all;

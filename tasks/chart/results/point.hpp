@@ -12,7 +12,7 @@
 
 namespace isojam {
 
-/// What repetitions, packings or pairs gave.
+/// Spread over repetitions, packings or pairs.
 struct Spread {
   double median = 0, least = 0, greatest = 0;
   int n = 0;
@@ -21,47 +21,48 @@ struct Spread {
 /// The spread of finite values; nullopt if there are none. The median of an even number is the mean of the middle two.
 std::optional<Spread> spread(std::vector<double> values);
 
-/// "budget 2, residual_reached 1": each reason, with its count where there are several.
+/// "budget 2, residual_reached 1": each reason, with its count if there are several.
 std::string reasons_text(const std::map<std::string, int>& counts);
 
-/// One way to compute one thing: what it cost and how far it was off.
+/// One method applied to one task: its cost and its error.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct ChartPoint {
-  std::string task;               ///< what was computed: "octahedron, Δφ = 0.015"
-  std::string method;             ///< how
-  std::string setting;            ///< with which parameter: "residual 1e-06"
+  std::string task;  ///< the task: "octahedron, Δφ = 0.015"
+  std::string method;
+  std::string setting;            ///< the parameter: "residual 1e-06"
   std::optional<Spread> seconds;  ///< CPU time of one thread; nullopt if it was never measured
-  std::optional<Spread> error;    ///< as the family defines it; nullopt if there is no result to be off
-  std::string stopped;            ///< why it ended, of all repetitions: "residual_reached", "budget 1, ..."
-  bool failed = false;            ///< it did not reach what it was asked for
+  std::optional<Spread> error;    ///< as the family defines it; nullopt without a result
+  std::string stopped;            ///< stop reasons of all repetitions: "residual_reached", "budget 1, ..."
+  bool failed = false;            ///< it did not reach the requested accuracy
   Json further = Json::object();  ///< other numbers, null where not defined
 };
 
-/// How many of a family's points there are.
+/// Completeness of a family's points.
 enum class FamilyEnd {
   complete,
-  cut,         ///< the time for all of the chart was over
-  interrupted  ///< a signal
+  cut,         ///< the time limit of the chart was reached
+  interrupted  ///< stopped by a signal
 };
 template <>
 inline constexpr std::array enum_names<FamilyEnd>{EnumName{FamilyEnd::complete, "complete"},
                                                   EnumName{FamilyEnd::cut, "cut"},
                                                   EnumName{FamilyEnd::interrupted, "interrupted"}};
 
-/// How the seconds of a method grow with the number of particles: as prefactor · N^exponent.
+/// Growth of the seconds of a method with the number of particles: prefactor · N^exponent.
 struct GrowthFit {
   std::string task, method;
   double exponent = 0, prefactor = 0;
-  std::optional<double> half_width;  ///< of the exponent's 95 % interval; nullopt for fewer than three measurements
-  int n = 0;                         ///< measurements fitted
+  std::optional<double> half_width;  ///< of the exponent's 95 % confidence interval; nullopt for fewer than three
+                                     ///< measurements
+  int n = 0;                         ///< number of fitted measurements
 };
 
-/// Points that are measured alike.
+/// Points with a common definition of time and error.
 // NOLINTNEXTLINE(bugprone-exception-escape): as above.
 struct ChartFamily {
   std::string name;
-  std::string error_is;  ///< what `error` is, for axes and captions
-  std::string note;      ///< how it was measured
+  std::string error_is;  ///< definition of `error`, for axes and captions
+  std::string note;      ///< measuring method
   FamilyEnd ended = FamilyEnd::complete;
   std::vector<ChartPoint> points;
   std::vector<GrowthFit> fits{};  ///< of points at several numbers of particles

@@ -29,7 +29,7 @@ Row row_of(const ChartPoint& point) {
   return row;
 }
 
-/// Characters as a terminal shows them: bytes that continue a UTF-8 sequence take no room.
+/// Characters as a terminal shows them: continuation bytes of UTF-8 have no width.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -76,7 +76,7 @@ std::string family_text(const ChartFamily& family) {
                      aligned(rows), fits_text(family.fits));
 }
 
-/// Names are not repeated from the line above.
+/// Names equal to those of the line above are omitted.
 Row row_of(const AtlasRun& run, const AtlasRun* above) {
   constexpr std::array<const char*, 3> verdicts{"holds", "REFUSES", "FAILS"};
   const bool same_regime = above != nullptr && above->regime == run.regime;

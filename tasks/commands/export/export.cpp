@@ -20,7 +20,7 @@ bool is_table(Exported what) {
   return what == Exported::contacts || what == Exported::replicates || what == Exported::states;
 }
 
-/// Options that mean nothing for what is exported.
+/// Refuses options that have no meaning for the chosen export.
 void check_options(const ExportArguments& arguments) {
   const auto format = to_string(arguments.what);
   if (!is_table(arguments.what) && arguments.output.empty())

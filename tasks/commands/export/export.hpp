@@ -12,7 +12,7 @@
 
 namespace isojam {
 
-/// What can be exported: packings in formats of other programs, or tables whose rows are contacts or records.
+/// Kinds of export: packings in formats of other programs, or tables whose rows are contacts or records.
 enum class Exported { gsd, vtp, xyz, contacts, replicates, states };
 template <>
 inline constexpr std::array enum_names<Exported>{EnumName{Exported::gsd, "gsd"},
@@ -23,32 +23,33 @@ inline constexpr std::array enum_names<Exported>{EnumName{Exported::gsd, "gsd"},
                                                  EnumName{Exported::states, "states"}};
 
 struct ExportArguments {
-  std::string directory;  ///< of results
+  std::string directory;  ///< results directory
   std::string replicate;  ///< its name, or "all"
   Exported what = Exported::gsd;
-  /// File; of packings of "all" the directory, created if it is missing, that takes <name>.<format>; of tables, empty
-  /// for stdout.
+  /// Output path. For packings of "all": the directory for <name>.<format>, created if it is missing. For tables: a
+  /// file, or empty for stdout.
   std::string output;
   bool path = false;      ///< every state of the expansion instead of the one nearest jamming
-  bool contacts = false;  ///< with packings, their networks of contacts
+  bool contacts = false;  ///< also export the contact networks of packings
 
   bool all() const { return replicate == "all"; }
 };
 
-/// The names of the replicates that are asked for: only names of records that are there ever become part of a path.
+/// Names of the requested replicates. Only names of existing records ever become part of a path.
 std::vector<std::string> chosen_names(const ExportArguments& arguments);
 
-/// A record of this manifest, if the directory has one. Throws as read_record does.
+/// Reads a record and checks that it belongs to this manifest, if the directory has one. Throws as read_record does.
 RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Manifest>& manifest,
                              const std::string& name);
 
-/// Says that a replicate has no packing, if it failed: an error where it was asked for by its name, or else a warning.
+/// Returns false if the replicate failed and so has no packing. This is an error if it was requested by name, and a
+/// warning otherwise.
 bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held, Console& console);
 
-/// Writes and lists on stdout what other programs open.
+/// Writes files for other programs and lists them on stdout.
 ExitCode export_packings(const ExportArguments& arguments, Console& console);
 
-/// Writes a table as CSV, or as JSON lines to a file that is called .jsonl.
+/// Writes a table as CSV, or as JSON lines if the file name ends in .jsonl.
 ExitCode export_rows(const ExportArguments& arguments, Console& console);
 
 }  // namespace isojam

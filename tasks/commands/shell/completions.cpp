@@ -27,12 +27,12 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text;
 }
 
-/// Within single quotes of a shell.
+/// Puts a text in single quotes of a shell.
 std::string quoted(const std::string& text) { return "'" + replaced(text, "'", R"('\'')") + "'"; }
 
 // ---- bash ----------------------------------------------------------------------------------------------------
 
-/// What may stand behind an option with a value: an arm of a case over the word before.
+/// Branches of a case statement on the previous word: the values that may follow an option.
 void add_bash_values(const std::vector<OptionDescription>& options, const std::string& indent, std::string& script) {
   for (const auto& option : options) {
     if (option.names.empty() || option.type.empty()) continue;
@@ -47,7 +47,7 @@ void add_bash_values(const std::vector<OptionDescription>& options, const std::s
   }
 }
 
-/// The words of a command; for one told by its place, its choices or files.
+/// Completes the words of a command. A positional argument is completed by its choices or by files.
 std::string bash_command(const ProgramDescription& program, const CommandDescription& command) {
   std::string choices = names_of(command.options) + " " + names_of(program.options), files;
   for (const auto& option : command.options) {
@@ -95,7 +95,7 @@ std::string zsh_value(const OptionDescription& option) {
   return fmt::format(":{}:{}", label, is_path(option) ? "_files" : " ");
 }
 
-/// In brackets and between colons, as _arguments reads it.
+/// Escapes a text for brackets and colons, as _arguments reads it.
 std::string zsh_text(const std::string& text) {
   return replaced(replaced(replaced(text, "[", "("), "]", ")"), ":", R"(\:)");
 }

@@ -5,11 +5,11 @@
 
 namespace isojam {
 
-/// A word that a command, or the program itself, takes, as its help shows it.
+/// An argument or option of a command or of the program, as its help shows it.
 struct OptionDescription {
-  std::vector<std::string> names;  ///< with their dashes; none if it is told by its place
-  std::string place;               ///< what one told by its place is called
-  std::string type;                ///< what the value is called: DIR, FILE … or the choices; empty of a flag
+  std::vector<std::string> names;  ///< with their dashes; empty for a positional argument
+  std::string place;               ///< name of a positional argument
+  std::string type;                ///< name of the value: DIR, FILE … or the choices; empty for a flag
   std::vector<std::string> choices;
   std::string description;
   bool required = false;
@@ -20,10 +20,10 @@ struct CommandDescription {
   std::vector<OptionDescription> options;
 };
 
-/// The command line as a value: what help, manual page and completions are made of.
+/// The command line as a value, from which help, manual page and completions are made.
 struct ProgramDescription {
   std::string name, description, version, footer;
-  std::vector<OptionDescription> options;  ///< that every command takes
+  std::vector<OptionDescription> options;  ///< accepted by every command
   std::vector<CommandDescription> commands;
 };
 

@@ -6,7 +6,7 @@
 namespace isojam {
 namespace {
 
-/// As troff reads it: hyphens that are dashes of options, backslashes, and no line that begins as a request does.
+/// Escapes for troff: hyphens that are dashes of options, backslashes, and lines that begin like a request.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {

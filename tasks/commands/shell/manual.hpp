@@ -6,7 +6,7 @@
 
 namespace isojam {
 
-/// The manual page isojam(1), in the macros of man.
+/// The manual page isojam(1), in man macros.
 std::string manual(const ProgramDescription& program);
 
 }  // namespace isojam

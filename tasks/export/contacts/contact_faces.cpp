@@ -20,7 +20,7 @@ void for_each_bit(std::uint64_t mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(std::countr_zero(mask));
 }
 
-/// One of the solids of a contact, in the body frame of A, and what of it the contact has.
+/// One of the solids of a contact, in the body frame of A, and its part of the contact.
 struct Body {
   const ConvexSolid& solid;
   Matrix3d rotation;
@@ -28,14 +28,14 @@ struct Body {
   std::uint64_t faces, edges;
 
   Vector3d normal(int face) const { return rotation * solid.faces()[face].normal; }
-  /// Of a point under the plane of the face.
+  /// Depth of a point below the plane of the face.
   double depth(int face, const Vector3d& point) const {
     return solid.faces()[face].offset - normal(face).dot(point - centre);
   }
   Vector3d vertex(int v) const { return centre + rotation * solid.vertices()[v]; }
 };
 
-/// The faces found so far at the least depth.
+/// The faces found so far at the smallest depth.
 struct Least {
   double depth = std::numeric_limits<double>::infinity();
   ContactFaces faces;
@@ -57,7 +57,7 @@ ContactFaces aligned_faces(const Body& a, const Body& b, double cutoff) {
   return least.faces;
 }
 
-/// Edges of `body` in faces of `other`; named(faces of body, faces of other) says which of them is A.
+/// Finds edges of `body` in faces of `other`. named(faces of body, faces of other) returns the faces in the order A, B.
 template <class Named>
 void offer_edges(const Body& body, const Body& other, double cutoff, const Named& named, Least& least) {
   for_each_bit(body.edges, [&](int e) {

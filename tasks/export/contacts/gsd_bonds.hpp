@@ -7,9 +7,9 @@
 
 namespace isojam {
 
-/// A network of contacts as bonds of the schema "hoomd": types face_face, edge_face, lower_order and undecided by the
-/// fits; logged per bond, log/bonds/isojam/: force (on the first particle, 3 columns), volume, area, depth, theta_ef,
-/// theta_ff, and kind (the numbers of ContactKind). `rotation` takes vectors of the packing to the frame of the file.
+/// A contact network as bonds of the schema "hoomd". Types are face_face, edge_face, lower_order and undecided, by the
+/// fits. Logged per bond, log/bonds/isojam/: force (on the first particle, 3 columns), volume, area, depth, theta_ef,
+/// theta_ff, and kind (the numbers of ContactKind). `rotation` maps vectors of the packing to the frame of the file.
 std::vector<GsdChunk> bond_chunks(const std::vector<NetworkContact>& network, const Eigen::Matrix3d& rotation);
 
 }  // namespace isojam

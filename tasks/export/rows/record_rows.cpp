@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view between = "; ";
 
-/// Of an object and the objects in it; null if there is none.
+/// Value at a pointer into an object; null if it is missing.
 const Json* value_at(const Json& object, std::string_view pointer) {
   const Json* value = &object;
   while (!pointer.empty()) {
@@ -28,7 +28,7 @@ const Json* value_at(const Json& object, std::string_view pointer) {
 
 Json copy_of(const Json* value) { return value ? *value : Json(nullptr); }
 
-/// What the record gives for the reason that a value is null, there or in one of the objects around it.
+/// The reason that the record gives for a null value, beside the value or in one of the enclosing objects.
 std::string reason_of(const Json& object, std::string_view pointer) {
   for (auto end = pointer.size(); end != 0; end = pointer.rfind('/', end - 1)) {
     const auto* reason = value_at(object, std::string(pointer.substr(0, end)) + "_reason");
@@ -53,7 +53,7 @@ std::vector<std::string> swept_names(const std::optional<Manifest>& manifest, co
   return names;
 }
 
-/// The most that a packing has.
+/// The largest number of kinds of a packing.
 std::size_t kinds_of(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
   std::size_t most = first.summary.solid.kinds().size();
   for (const auto& solid : manifest ? manifest->solids : std::vector<Mixture>{})
@@ -61,7 +61,7 @@ std::size_t kinds_of(const std::optional<Manifest>& manifest, const RecordedRepl
   return most;
 }
 
-/// Whether a quantity is of a kind of particles that no packing has, or of the only one.
+/// True if a quantity belongs to a kind of particles that no packing has, or that is the only one.
 bool is_of_no_kind(std::string_view pointer, std::size_t kinds) {
   constexpr std::string_view of_kind = "/kind_";
   if (!pointer.starts_with(of_kind)) return false;
@@ -88,7 +88,7 @@ RecordRows::RecordRows(RowOf of, RowFormat format, const std::optional<Manifest>
   add("reasons", [this](const Source& s) { return reasons(s); });
 }
 
-/// A quantity may have the name of a figure that every state has, and is the same then.
+/// A quantity may have the name of a figure that every state has. Both are then the same number.
 void RecordRows::add(std::string name, Value value) {
   if (std::find(columns_.begin(), columns_.end(), name) != columns_.end()) return;
   columns_.push_back(std::move(name));

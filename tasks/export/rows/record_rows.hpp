@@ -13,28 +13,28 @@
 
 namespace isojam {
 
-/// What a row of records stands for.
+/// The entity that one row describes.
 enum class RowOf : std::uint8_t {
-  replicate,  ///< with what was measured of it as a whole and of its state nearest jamming
-  state       ///< every state of the expansions, with what was measured of it
+  replicate,  ///< a replicate, with the measurements of the replicate and of its state nearest jamming
+  state       ///< a state of an expansion, with its measurements
 };
 
-/// Records as tidy tables: a row for each replicate or state, a column for each quantity that was measured. Columns:
-/// replicate, solid, particles, swept parameters, number (of the replicate at its sweep point), status, flags and
-/// reasons as texts with "; " between, excluded (from means); phi, delta_phi and the other figures of a state; the
-/// quantities, under their names in tables; evaluations and cpu_seconds of a replicate. Numbers as they stand in the
-/// records, null where the record has null: `reasons` says why of each.
+/// Records as tidy tables: one row per replicate or state, one column per measured quantity. Columns: replicate, solid,
+/// particles, swept parameters, number (of the replicate at its sweep point), status, flags and reasons as texts with
+/// "; " between, excluded (from means); phi, delta_phi and the other figures of a state; the quantities, under their
+/// names in tables; evaluations and cpu_seconds of a replicate. Numbers are copied from the records; null stays null,
+/// and `reasons` gives the reason for each.
 class RecordRows {
  public:
-  /// Columns are those of the manifest, or where there is none, of this record's specification.
+  /// Columns follow the manifest or, without one, this record's specification.
   RecordRows(RowOf of, RowFormat format, const std::optional<Manifest>& manifest, const RecordedReplicate& first);
 
   std::string head() const;
-  /// A failed replicate has one row among replicates, and none among states.
+  /// A failed replicate has one row in the table of replicates, and none in the table of states.
   std::string lines(const std::filesystem::path& directory, const RecordedReplicate& held) const;
 
  private:
-  /// Where values of a row come from; `state` is null of a failed replicate.
+  /// Sources of the values of a row; `state` is null for a failed replicate.
   struct Source {
     const RecordedReplicate& held;
     const Json* state;
@@ -54,7 +54,7 @@ class RecordRows {
   std::vector<Flag> exclude_;
   Columns columns_;
   std::vector<Value> values_;
-  std::vector<std::size_t> quantities_;  ///< by their places in all_quantities()
+  std::vector<std::size_t> quantities_;  ///< as indices in all_quantities()
 };
 
 }  // namespace isojam
