@@ -209,7 +209,7 @@ package:
 	cd $(PACKAGES)/$(ARCHIVE) && cp -r LICENSE docs/packaging/wheel/pyproject.toml tasks/python/isojam ../wheel
 	cp $(PACKAGES)/build/tasks/python/installed/facts.json $(PACKAGES)/wheel/isojam
 	$(PYTHON) -m build --wheel --no-isolation --outdir $(PACKAGES) $(PACKAGES)/wheel
-	@ls -sh $(PACKAGES)/isojam[_-]*.*
+	@ls -shd $(PACKAGES)/isojam[_-]*.*
 
 # The packages in copies of clean roots, as root. ROOTS names roots that exist; the others are made.
 ROOTS ?= $(BUILD)-bookworm $(BUILD)-trixie

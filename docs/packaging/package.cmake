@@ -49,16 +49,16 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/engine)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS python3:any)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-numpy)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libmetis-dev, libtbb-dev, python3-matplotlib, python3-pandas")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libmetis-dev, libtbb-dev, python3-matplotlib, python3-pandas, python3-tqdm")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "jammed packings of soft frictionless convex solids
 isojam makes jammed packings of soft, frictionless convex solids, Platonic
 ones above all, in a periodic cell. It measures the jamming density, the
 contact number and the constraint number, each with a confidence interval
 over independent replicates, and asks why a packing is rigid.
 .
-This package has the program, a Python module that reads results, and the
-headers and library of the engine for C++ programs (with libeigen3-dev,
-libmetis-dev and libtbb-dev).")
+This package has the program, a Python module that runs it and reads results,
+and the headers and library of the engine for C++ programs (with
+libeigen3-dev, libmetis-dev and libtbb-dev).")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${debian}/postinst ${debian}/prerm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 include(CPack)
