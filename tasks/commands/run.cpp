@@ -200,7 +200,8 @@ void add_run(CLI::App& app, Session& session) {
   RunArguments* arguments = nullptr;
   auto options = add_command(app, session, "run",
                              "Run what a manifest plans and the results directory does not hold yet", run, arguments);
-  options.text("manifest", arguments->manifest, "Manifest of the sweep; - is standard input", "MANIFEST", Options::Need::required);
+  options.text("manifest", arguments->manifest, "Manifest of the sweep; - is standard input", "MANIFEST",
+               Options::Need::required);
   options.text("-o,--output", arguments->directory, "Results directory (default: results/<name>)", "DIR");
   options.threads(arguments->threads);
   const auto read_shard = [arguments](const std::string& text) -> std::optional<std::string> {

@@ -29,7 +29,8 @@ void add_validate(CLI::App& app, Session& session) {
   Arguments* arguments = nullptr;
   auto options = add_command(app, session, "validate", "Check a manifest and say how many replicates it plans",
                              validate, arguments);
-  options.text("manifest", arguments->manifest, "Manifest of the sweep; - is standard input", "MANIFEST", Options::Need::required);
+  options.text("manifest", arguments->manifest, "Manifest of the sweep; - is standard input", "MANIFEST",
+               Options::Need::required);
 }
 
 }  // namespace isojam

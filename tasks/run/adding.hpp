@@ -26,15 +26,15 @@ struct Additions {
 /// plan, FileError for what cannot be read now.
 Additions additions(const std::filesystem::path& directory, const Plan& plan, const std::vector<std::string>& names);
 
-/// Adds measures to the records of a store. A record is read and checked when its replicate begins. Before it is replaced
-/// it is read once more, since another process may have changed it.
+/// Adds measures to the records of a store. A record is read and checked when its replicate begins. Before it is
+/// replaced it is read once more, since another process may have changed it.
 class Adder {
  public:
   /// `replicates`: those that the stages will be given, each once.
   Adder(const Store& store, const std::vector<ReplicateSpec>& replicates);
 
-  /// The run is restored from record and path. States are followed to minima if a measure needs that for the first time.
-  /// Earlier measures are taken from the record unless a state has moved. The stages use this object.
+  /// The run is restored from record and path. States are followed to minima if a measure needs that for the first
+  /// time. Earlier measures are taken from the record unless a state has moved. The stages use this object.
   Stages stages();
 
   /// Replaces the record by one with all measures; returns the reason if it cannot. The record then stays as it is.

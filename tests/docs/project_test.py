@@ -90,7 +90,7 @@ class Project(unittest.TestCase):
                                   text_of("CMakeLists.txt") + text_of("engine/packages.cmake")))
         rows = [row.strip("|").split("|") for row in re.findall(r"^\|.*\|$", text_of("docs/install.md"), re.M)]
         rows = {row[0].strip(): [cell.strip() for cell in row[1:]] for row in rows}
-        self.assertEqual(len(minimum), 8)
+        self.assertEqual(len(minimum), 9)
         for package, version in minimum.items():
             self.assertEqual(rows[package], [version, *names[package]], package)
 

@@ -30,11 +30,10 @@ from isojam import program
 
 MANIFEST = {
     "name": "octahedra", "seed": 3,
-    "sweep": {"solid": ["octahedron"], "particles": [16]},
+    "sweep": {"solid": ["octahedron"], "particles": [48]},
     "replicates": 2,
     "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
-                 "step_fraction": 0.4, "final_distance": 0.03, "fit_window": 0.1, "consolidation_residual": 0.1,
-                 "max_density": 0.75},
+                 "step_fraction": 0.4, "final_distance": 0.03, "fit_window": 0.1, "consolidation_residual": 0.1},
     "minimiser": {"residual": 1e-3, "max_evaluations": 2000, "unjammed_energy": 1e-14},
     "measure": ["contacts"],
     "keep_path": True,
@@ -88,12 +87,14 @@ class Runs(Case):
 
     def test_a_manifest_may_hold_arrays_of_numpy_and_paths(self):
         pathlib.Path("solids").mkdir()
-        pathlib.Path("solids/block.off").write_text("OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
+        faces = [f"3 {x} {y} {z}" for x in (0, 1) for y in (2, 3) for z in (4, 5)]
+        pathlib.Path("solids/block.off").write_text("\n".join(
+            ["OFF", "6 8 0", "1 0 0", "-1 0 0", "0 1 0", "0 -1 0", "0 0 1", "0 0 -1", *faces, ""]))
         manifest = {**MANIFEST, "seed": numpy.int64(3), "replicates": 1,
                     "solids": {"block": {"file": pathlib.Path("solids/block.off")}},
-                    "sweep": types.MappingProxyType({"solid": ("block",), "particles": numpy.array([16])})}
+                    "sweep": types.MappingProxyType({"solid": ("block",), "particles": numpy.array([48])})}
         study = self.run_quietly(manifest, "r")
-        self.assertEqual(study.names, ["block-N16-r0000"])
+        self.assertEqual(study.names, ["block-N48-r0000"])
         self.assertEqual(study.manifest["solids"]["block"]["vertices"][0][0].__class__, float)
 
     def test_the_number_of_threads_reaches_the_program(self):

@@ -10,8 +10,8 @@
 
 namespace isojam {
 
-/// True if this variant of the engine computes with AVX2 and FMA. Without them results have the same bits and take about
-/// five times longer.
+/// True if this variant of the engine computes with AVX2 and FMA. Without them results have the same bits and take
+/// about five times longer.
 bool uses_avx2();
 // Variants for other processors have the same headers, so the layout of Eigen's types may not depend on the processor.
 static_assert(EIGEN_MAX_ALIGN_BYTES == 0, "compile with EIGEN_DONT_VECTORIZE, as isojam::engine asks for");

@@ -42,6 +42,7 @@ def run(manifest: Mapping[str, Any] | Path, directory: Path, threads: int = 2, p
             stdin.write(_text(manifest))
             stdin.seek(0)
             ended = _program.call(program, ["run", file, *words], stdin=stdin, show=show)
+    ended.warnings = [_renamed(text) for text in ended.warnings]
     _refuse_manifest(ended, file)
     return _study(ended, directory, program)
 
@@ -95,12 +96,17 @@ def _refuse_manifest(ended: Ended, file: str) -> None:
         raise ManifestError([_input_error(error) for error in own]) from None
 
 
+def _renamed(text: str) -> str:
+    """A text that begins with a file name; a manifest in memory is named "manifest"."""
+    name, colon, rest = text.partition(":")
+    return f"manifest{colon}{rest}" if name == _STANDARD_INPUT else text
+
+
 def _input_error(error: Mapping[str, str]) -> InputError:
-    file = "manifest" if error["file"] == _STANDARD_INPUT else error["file"]
     allowed, near = error["allowed"], error["suggestion"]
     if near:
         allowed = f'{allowed}; did you mean "{near}"?' if allowed else f'"{near}"'
-    return InputError(file, error["pointer"], error["problem"], allowed)
+    return InputError(_renamed(error["file"]), error["pointer"], error["problem"], allowed)
 
 
 def _study(ended: Ended, directory: Path, program: Path | None) -> Study:

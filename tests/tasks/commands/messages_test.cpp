@@ -107,8 +107,10 @@ TEST(Messages, AManifestOnStandardInputHasItsPathsFromTheCurrentDirectory) {
   const test::TemporaryDirectory here;
   auto manifest = small_manifest();
   manifest["solids"]["block"]["file"] = "block.off";
-  manifest["sweep"]["solid"] = {"block"};
-  test::write_text(here / "block.off", "OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
+  manifest["sweep"] = {{"solid", {"block"}}, {"particles", {64}}};
+  test::write_text(here / "block.off",
+                   "OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
+                   "3 0 2 4\n3 0 2 5\n3 0 3 4\n3 0 3 5\n3 1 2 4\n3 1 2 5\n3 1 3 4\n3 1 3 5\n");
   test::write_text(here / "m.json", manifest.dump());
   const auto file = shell("$ISOJAM validate m.json", here.path());
   for (const std::string line : {"$ISOJAM validate - <m.json", "cat m.json | $ISOJAM validate -"}) {

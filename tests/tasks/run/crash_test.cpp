@@ -1,7 +1,7 @@
 // Facts proved here, through the executable and with real packings, against one undisturbed run, byte by byte but for
 // timing:
-// - killed by SIGKILL twenty times, after random numbers of writes, a sweep comes to the same bytes, and what is recorded
-//   at any of these moments is whole;
+// - killed by SIGKILL twenty times, after random numbers of writes, a sweep comes to the same bytes, and the records
+//   at any of these moments are whole;
 // - a run goes on from its checkpoints; one that outlived its record goes with the next run;
 // - a record, packing or checkpoint with one byte changed is noticed and redone, and nothing else is touched;
 // - a full disk, and files that may not grow, end a run with exit 1 and a message, and it comes to the same bytes when
