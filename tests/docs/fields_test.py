@@ -1,9 +1,9 @@
 """Facts proved here: fields_test.py SOURCE FACTS
 
-- the tables of docs/manifest.md and docs/results.md are what schemas, and the quantities that the program tells, make
-  of them now (reference.py --write makes them again);
-- every name of a field of records, packings, paths and tables stands in docs/results.md with a meaning, every quantity
-  with its unit, every key of a manifest in docs/manifest.md with its default: found without the code that wrote them;
+- the tables of docs/manifest.md and docs/fields.md are those that the schemas and the program's quantities give
+  (reference.py --write makes them again);
+- docs/fields.md has every field of records, packings, paths and tables with a meaning, and every quantity with its
+  unit; docs/manifest.md has every key of a manifest with its default. This is found without the code that wrote them;
 - every flag has its row, every measure too;
 - a page that lacks one, has another default or a field without a meaning is found.
 """
@@ -74,15 +74,15 @@ class Fields(unittest.TestCase):
         stale, missing = reference.stale(SOURCE, FACTS)
         self.assertEqual((stale, missing), ([], []), "tests/docs/reference.py SOURCE FACTS --write makes them again")
 
-    def test_results_have_every_field(self):
-        page, schemas = text_of("docs/results.md"), [schema_of(name) for name in ("replicate", "packing", "tables")]
+    def test_fields_have_rows(self):
+        page, schemas = text_of("docs/fields.md"), [schema_of(name) for name in ("replicate", "packing", "tables")]
         self.assertGreater(len({name for schema in schemas for name, _ in fields(schema)}), 200)
         self.assertEqual(missing_fields(page, schemas), [])
         self.assertIn("(w, x, y, z)", page)
         rows = rows_of(page)
         for one in json.loads(FACTS.read_text(encoding="utf-8"))["quantities"]:
             self.assertTrue(any(one["unit"] in cells for cells in rows.get(one["name"], [])),
-                            f"docs/results.md has no row of {one['name']} with its unit")
+                            f"docs/fields.md has no row of {one['name']} with its unit")
 
     def test_the_manifest_has_every_key(self):
         page, schema = text_of("docs/manifest.md"), schema_of("manifest")
@@ -97,7 +97,7 @@ class Fields(unittest.TestCase):
         self.assertEqual(set(rows_of(page)), set(schema_of("manifest")["properties"]["exclude"]["items"]["enum"]))
 
     def test_what_is_missing_is_found(self):
-        page, schema = text_of("docs/results.md"), [schema_of("replicate")]
+        page, schema = text_of("docs/fields.md"), [schema_of("replicate")]
         renamed = page.replace("| `particles_moved` |", "| moved |")
         self.assertEqual(missing_fields(renamed, schema), ["particles_moved"])
         row = next(line for line in page.split("\n") if line.startswith("| `residual_floor` |"))

@@ -1,6 +1,7 @@
 """Facts proved here: project_test.py SOURCE
 
-- README.md has 150 lines at most, a picture, and names both commands, the licence and how to cite;
+- README.md has at most 120 lines and a picture, and names both commands, the licence and how to cite; its lines of C++
+  are those of examples/12-library, and the entry that it explains is in its table;
 - CITATION.cff is YAML with the keys that version 1.2.0 of its form asks for, names the version of CMakeLists.txt, the
   licence of LICENSE, and the paper by the address that README.md gives it;
 - CHANGELOG.md has the headings of its form;
@@ -55,10 +56,15 @@ def verbs_of(makefile):
 class Project(unittest.TestCase):
     def test_the_first_page(self):
         page = text_of("README.md")
-        self.assertLessEqual(page.count("\n"), 150)
+        self.assertLessEqual(page.count("\n"), 120)
         self.assertRegex(page, r"!\[[^\]]+\]\(examples/[^)]+\.png\)")
         for word in ("make run", "make test", "CITATION.cff", "BSD-3-Clause", "docs/index.md"):
             self.assertIn(word, page)
+        program = text_of("examples/12-library/jam_octahedra.cpp")
+        for line in re.search(r"```cpp\n(.*?)```", page, re.S)[1].splitlines():
+            self.assertTrue(f"  {line}\n" in program, line)
+        explained = re.search(r"`(\d[^`]* ± [^`]*)`", page)[1]
+        self.assertTrue(f"| {explained} |" in page, explained)
 
     def test_the_citation(self):
         citation = yaml.safe_load(text_of("CITATION.cff"))

@@ -1,4 +1,4 @@
-"""reference.py SOURCE FACTS [--write]: what schemas and program tell of docs/manifest.md and docs/results.md.
+"""reference.py SOURCE FACTS [--write]: makes the tables of docs/manifest.md and docs/fields.md from the schemas.
 
 SOURCE is the tree, FACTS the facts.json that the build makes beside the Python module. A page has the tables of a name
 between `<!-- block NAME -->` and `<!-- end -->`. Without --write the pages whose tables differ are named, and the exit
@@ -204,7 +204,7 @@ def blocks(source, facts):
     return {name: "\n".join(lines).strip() for name, lines in made.items()}
 
 
-PAGES = ("docs/manifest.md", "docs/results.md")
+PAGES = ("docs/manifest.md", "docs/fields.md")
 
 
 def rewritten(text, made, used):
@@ -217,7 +217,7 @@ def rewritten(text, made, used):
 
 
 def stale(source, facts, write=False):
-    """Pages whose blocks are not what schemas and program tell now, and blocks that no page has."""
+    """Pages whose blocks differ from what the schemas and the program give, and blocks that no page has."""
     made, used, pages = blocks(source, facts), set(), []
     for name in PAGES:
         path = pathlib.Path(source) / name
@@ -233,7 +233,7 @@ def stale(source, facts, write=False):
 if __name__ == "__main__":
     changed, missing = stale(sys.argv[1], sys.argv[2], "--write" in sys.argv[3:])
     for page in changed:
-        print(f"{page}: {'written' if '--write' in sys.argv[3:] else 'not what the schemas tell'}")
+        print(f"{page}: {'written' if '--write' in sys.argv[3:] else 'differs from the schemas'}")
     for name in missing:
         print(f"no page has the block {name}")
     sys.exit(1 if missing or (changed and "--write" not in sys.argv[3:]) else 0)
