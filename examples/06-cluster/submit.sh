@@ -16,7 +16,7 @@ manifest=$1 directory=$2
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 isojam=${ISOJAM:-$here/../../build/isojam}
 
-# What is wrong with the manifest is better known now than when the array comes up.
+# Report errors of the manifest now, rather than when the array starts.
 "$isojam" validate "$manifest" >&2
 # Slurm makes no directories, and a job whose log cannot be opened fails without one.
 mkdir -p "$directory/logs"

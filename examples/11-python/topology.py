@@ -87,7 +87,7 @@ def read(file):
 
 
 def numbers(*columns):
-    """Of texts; nothing is not a number."""
+    """Arrays of columns of texts; an empty text becomes NaN."""
     values = [[float(text or "nan") for text in column] for column in columns]
     return numpy.array(values).T if len(columns) > 1 else numpy.array(values[0])
 

@@ -1,4 +1,4 @@
-"""What figures of pages have in common: colours and signs by solid, means against Δφ, files that come out the same."""
+"""Shared parts of the pages' figures: colours and symbols by solid, means against Δφ, reproducible files."""
 
 import math
 
@@ -19,8 +19,9 @@ SETTINGS = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False
 
 
 def mean_path(data, solid, particles, column, logarithmic=False):
-    """Means over replicates, with half widths, at distances where at least half of them have a value; geometric ones,
-    with factors of the 95 % interval, of what spreads over decades. Of two replicates no interval is drawn."""
+    """Means over replicates with half widths, at distances where at least half of the replicates have a value.
+    Quantities that spread over decades have geometric means, with factors of the 95 % confidence interval. Two
+    replicates get no interval."""
     paths = [(x, [math.log(v) if v and v > 0 else None for v in y] if logarithmic else y)
              for x, y in data.paths(solid, particles, column)]
     x, y, error = [], [], []

@@ -43,7 +43,7 @@ def binomial_at_least(k, n, p):
 
 
 def estimate_of(values, systematic=None):
-    """Of the values that are there; None if none is."""
+    """Estimate from the values that are not None; None if there are none."""
     values = [value for value in values if value is not None]
     if not values:
         return None

@@ -6,7 +6,7 @@ from estimates import estimate_of, of_choices
 from scaling import at, free_exponent, jamming_density, local_slopes
 
 LEFT_OUT = {"crystalline", "goal_not_reached"}
-# Of fits for φ_J, nearest first: the first with enough states is used, the next two say what that choice does.
+# Fit windows for φ_J, nearest first. The first with enough states is used; the next two show the effect of this choice.
 WINDOWS = ((0, 0.0025), (0, 0.005), (0, 0.01), (0, 0.02))
 ENOUGH = 4
 CHOICES = 4  # of φ_J: three windows and a free exponent
@@ -64,7 +64,7 @@ class Expansions:
         return of_choices(choices[0], choices[1:])
 
     def column(self, solid, particles, name):
-        """Of every replicate the values of its states; of one that has no such column, None."""
+        """Values of the states of every replicate; None for a replicate without this column."""
         return [r["states"].get(name) for r in self.counted(solid, particles)]
 
     def paths(self, solid, particles, name, choice=0):

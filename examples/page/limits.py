@@ -1,4 +1,4 @@
-"""What a quantity tends to as Δφ → 0, and how well that is known: pure functions."""
+"""Limits of quantities as Δφ → 0 with their uncertainty: pure functions."""
 
 import statistics
 
@@ -18,7 +18,7 @@ def fitted(points, exponent):
 
 
 def sums(points, exponent):
-    """Of one replicate what least squares need: n, Σx, Σy, Σx², Σxy, Σy² with x = Δφ^exponent."""
+    """Sums of one replicate for least squares: n, Σx, Σy, Σx², Σxy, Σy² with x = Δφ^exponent."""
     x, y = [a ** exponent for a, _ in points], [b for _, b in points]
     return (len(x), sum(x), sum(y), sum(a * a for a in x), sum(a * b for a, b in zip(x, y)), sum(b * b for b in y))
 

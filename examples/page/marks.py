@@ -1,6 +1,6 @@
 """Pages with parts that are made from data: blocks, `<!-- block NAME -->` … `<!-- end -->`, and numbers within a
-sentence, `<!-- = NAME -->…<!-- / -->`. What stands between is replaced by what NAME gives; all else is left as it
-is."""
+sentence, `<!-- = NAME -->…<!-- / -->`. The text between the marks is replaced by the text for NAME; everything else is
+unchanged."""
 
 import re
 
@@ -32,5 +32,5 @@ def renewed(page, blocks, data, value_of=None, every=True):
 
 
 def without_marks(text):
-    """What a reader sees of a line."""
+    """The line as a reader sees it."""
     return re.sub(r"<!--.*?-->", "", text)

@@ -14,7 +14,7 @@ def records_of(directory):
 
 
 def found(value, place):
-    """What is at a place of a record, keys with / between; None where there is no such."""
+    """Value at a place of a record, keys with / between; None if there is none."""
     for key in place.split("/"):
         if not isinstance(value, dict) or key not in value:
             return None
@@ -23,7 +23,7 @@ def found(value, place):
 
 
 def replicate_of(record):
-    """What every page needs of a record, but for its states."""
+    """The parts of a record that every page needs, without its states."""
     spec = record["spec"]
     made = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"],
             "status": record["status"], "flags": record.get("flags") or [],
@@ -35,7 +35,7 @@ def replicate_of(record):
 
 
 def contacts_of(isojam, directory, name):
-    """Of every state of a replicate its contacts: {a, b (particles), theta_ef, theta_ff (radians)}, lists."""
+    """Contacts of every state of a replicate: {a, b (particles), theta_ef, theta_ff (radians)}, lists."""
     command = [isojam, "export", directory, name, "--format", "contacts", "--path"]
     states = {}
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:

@@ -51,7 +51,7 @@ def counted(estimate):
 
 
 def spread(estimate):
-    """Of single packings, 95 %."""
+    """Spread of single packings, 95 %."""
     if not estimate or estimate["half_width"] is None:
         return "–"
     if estimate["half_width"] == 0:

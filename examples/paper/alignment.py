@@ -106,7 +106,7 @@ def region_least(data, part):
 
 
 def hindrances_of(data, solid, particles):
-    """Of every replicate nearest jamming."""
+    """Hindrance of every replicate nearest jamming."""
     entries = [(r.get("network", {}).get("neighbours") or [None])[-1] for r in data.counted(solid, particles)]
     return [made for entry in entries if entry and (made := hindrance(entry))]
 
@@ -175,7 +175,7 @@ def pooled(data, solid, key):
 
 
 def pooled_value(data, *words):
-    """Of one solid and key, or of how many pooled intervals 0 is left out, of all."""
+    """Value of one solid and key, or the number of pooled intervals that exclude 0, out of all."""
     if words:
         return correlation_told(*pooled(data, *words))
     found = [within for s in SOLIDS for key in ORDERS if (within := pooled(data, s, key)[1])]

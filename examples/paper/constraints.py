@@ -23,7 +23,7 @@ def around(distances, values, distance):
 
 
 def same_states(distances, values, others, distance):
-    """Whether both are taken from the same two states, at a distance from jamming; nearest it they are."""
+    """True if both values come from the same two states around a distance from jamming; always true nearest jamming."""
     return distance is None or around(distances, values, distance) == around(distances, others, distance)
 
 
@@ -128,7 +128,8 @@ def isostatic(data):
 
 
 def half_value(data, solid, particles, of="C"):
-    """What cut-offs leave of C nearest jamming, or of the number of constraints C·N/2."""
+    """Half of the range that the choice of cut-offs leaves for C nearest jamming, or for the number of constraints
+    C·N/2."""
     found = cutoff_range(data, solid, int(particles))[3]
     if not found:
         return "–"
@@ -146,7 +147,7 @@ def gap_value(data, solid, particles, where):
 
 
 def cut_missing(data, solid, particles, where):
-    """Of how many replicates C by other cut-offs is not known of the states that C is taken from, of all with C."""
+    """Number of replicates with C, and how many of them lack C by other cut-offs in the states that C is taken from."""
     known = cutoff_range(data, solid, int(particles), float(where))[0][FACTORS.index(1)]
     every = data.at(solid, int(particles), "C", float(where))
     return f"{every['n'] - (known['n'] if known else 0)} of {every['n']}" if every else "–"

@@ -7,7 +7,7 @@ from text import counted, interval, number, significant, spread, table
 from verdicts import MEAN, ONE, UNDECIDED, overlap, uncertainty, verdict
 
 GRID = (0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001)
-# Of tetrahedral dice, by tomography: the third column of the paper's Table III.
+# Experiment with tetrahedral dice, by tomography: the third column of the paper's Table III.
 DICE = {"Z": 6.3, "Z_ff": 2.3, "Z_ef": 1.2, "Z_l": 2.8, "C": 12.1}
 PLURALS = {solid: solid.replace("hedron", "hedra") for solid in SOLIDS}
 NAMES = {"l_max": "l_max between centres", "body_l_max": "l_max between vertices"}
@@ -83,7 +83,8 @@ def figure_3(data):
 
 
 def figures_of(data, table_of):
-    """Of Table I, III (its first column III-1, its second III-2), IV, and IV at the distance that the rule gives."""
+    """Figures of Table I, III (its first column III-1, its second III-2), IV, and IV at the distance that the rule
+    gives."""
     if table_of == "IV-rule":
         return by_rule(data)
     places = {"III": ("Table III, column 1", "Table III, column 2"), "III-1": ("Table III, column 1",),
@@ -92,8 +93,8 @@ def figures_of(data, table_of):
 
 
 def lies(data, table_of, where="packing", *columns):
-    """Of how many figures of a table the paper's lies in our mean's interval, or there or as one packing; or above our
-    mean; of all; or of how many it is undecided."""
+    """Number of figures of a table for which the paper's value lies in our mean's interval, is compatible with one
+    packing, or lies above our mean; also the number of all, and of undecided ones."""
     some = [f for f in figures_of(data, table_of) if not columns or f["column"] in columns]
     found = [(f, measured(data, f)) for f in some]
     if where == "above":
@@ -113,7 +114,7 @@ def ordered(data, table_of, column, whose="ours"):
 
 
 def told_apart(data, table_of, column, first, second):
-    """Whether the intervals of two solids' means, with their systematic errors, have no point in common."""
+    """True if the intervals of two solids' means, with their systematic errors, do not overlap."""
     found = {f["solid"]: measured(data, f) for f in figures_of(data, table_of) if f["column"] == column}
     wide = [e and e["half_width"] is not None and {**e, "half_width": e["half_width"] + e.get("systematic", 0.0)}
             for e in (found[first], found[second])]

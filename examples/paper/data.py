@@ -1,4 +1,4 @@
-"""What the blocks are made from: replicates of our studies, and what the paper says."""
+"""Data of the blocks: replicates of our studies, and the paper's values."""
 
 import json
 import math
@@ -43,13 +43,13 @@ class Data(Expansions):
         self.figures = read(COMMITTED / "paper.json")["figures"]
 
     def column(self, solid, particles, name):
-        """Those of the records, and ⟨ω_l⟩/√K."""
+        """Columns of the records, and ⟨ω_l⟩/√K."""
         if name == RATIO:
             return [ratio_of(r["states"]) for r in self.counted(solid, particles)]
         return super().column(solid, particles, name)
 
     def network(self, solid, particles, name):
-        """Of every replicate that has them: (Δφ, what network.py made of every state)."""
+        """For every replicate with contacts: (Δφ, the output of network.py for every state)."""
         return [(x, r["network"][name]) for x, r in zip(self.distances(solid, particles),
                                                         self.counted(solid, particles)) if "network" in r]
 

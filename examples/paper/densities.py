@@ -21,7 +21,7 @@ FITS = {"< .02": (0, 0.02), "< .04": (0, 0.04), ".01 – .06": (0.01, 0.06), ".0
 
 
 def said(figure):
-    """What the paper says."""
+    """The paper's value as text."""
     if "digits" not in figure:
         return significant(figure["value"], 4)
     text = number(figure["value"], figure["digits"])
@@ -73,7 +73,7 @@ def offsets_of(data):
 
 
 def apart_of(sizes):
-    """Of a solid's offsets with N = 100 and 400: (difference, standard deviation, its normal deviate)."""
+    """Comparison of a solid's offsets with N = 100 and 400: (difference, standard deviation, its normal deviate)."""
     apart, parts = sizes[400][0] - sizes[100][0], sizes[100][2] + sizes[400][2]
     return apart, added(parts)[0], deviate_of(apart, parts)
 
@@ -133,7 +133,7 @@ def papers_size(data, solid):
 
 
 def window_moves(data, solid, fit):
-    """What a window over the same states moves, N = 100, against the nearest, 10⁻⁴."""
+    """Shift of φ_J by a window over the same states, N = 100, relative to the nearest window, 10⁻⁴."""
     moved = []
     for r, near in zip(data.counted(solid, 100), data.densities(solid, 100)):
         window = (STABLE_FROM[solid] if fit[0] is None else fit[0], fit[1])

@@ -1,7 +1,7 @@
 """Draws the figures of the page: python3 figures.py DATA OUT
 
 spectra.png (the paper's Figure 1a), vibrations.png (1b), angles.png (2), contacts.png (3a–c), from DATA/records.json as
-gather.py writes it. Of N = 400 where that was measured; N = 100 beside it where the paper has it so.
+gather.py writes it. They show N = 400 where that was measured; N = 100 beside it where the paper has it so.
 """
 
 import sys
@@ -19,7 +19,7 @@ TOPOLOGIES = {"vertex_face": "v", "edge_edge": "s", "edge_face": "o"}
 
 
 def drawn(data, solid):
-    """What was drawn of a solid, of the larger size that is there: (size, curves)."""
+    """Curves of a solid at the largest size that was measured: (size, curves)."""
     for particles in reversed(SIZES):
         for study in data.studies.values():
             if f"{solid} {particles}" in study.get("drawn", {}):

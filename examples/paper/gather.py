@@ -42,7 +42,7 @@ POINTS = 60  # of a curve of angles
 
 
 def columns_of(states):
-    """Those columns that some state has."""
+    """Columns that at least one state has."""
     columns = {name: [found(state, place) for state in states] for name, place in COLUMNS.items()}
     for fit, column in (("face_face_fit", "cut_ff"), ("edge_face_fit", "cut_ef")):
         columns[column] = [value if found(state, f"{fit}/verdict") == "fitted" else None
@@ -58,8 +58,8 @@ def quantiles(angles):
 
 
 def drawn_of(records):
-    """What figures need, by solid and size, of replicates that are not crystalline: angles of all states nearest
-    jamming together, and of the first its spectrum in the nearest state with three zero modes."""
+    """Data of the figures, by solid and size, from replicates that are not crystalline: angles of all states nearest
+    jamming together, and the spectrum of the first replicate in its nearest state with three zero modes."""
     angles, made = {}, {}
     for record in records:
         if record["status"] != "done" or "crystalline" in record["flags"]:
@@ -81,8 +81,8 @@ def gap_of(state, which):
 
 
 def network_of(contacts, record):
-    """Of every state: C by other cut-offs, shares of the regions of c(θ_ff), what has emerged, and how face-face
-    contacts are spread over particles."""
+    """For every state: C by other cut-offs, shares of the regions of c(θ_ff), emerged contacts, and the distribution of
+    face-face contacts over particles."""
     particles, columns = record["spec"]["particles"], columns_of(record["states"])
     critical = math.radians(min(value for name, value in record["critical"].items() if name.startswith("ff")))
     made = {"by_cutoffs": [], "regions": [], "emerged": [], "hyper_random": [], "neighbours": []}
@@ -100,7 +100,7 @@ def network_of(contacts, record):
 
 
 def with_states(record):
-    """What the page needs of a record, but for its contacts."""
+    """The parts of a record that the page needs, without its contacts."""
     made = replicate_of(record)
     if record["status"] != "done":
         return made
@@ -127,7 +127,7 @@ CRYSTALLINE = 0.32  # Q6 above it: the program's own limit, which it flags by it
 
 
 def search_of(directory):
-    """Of each replicate its settings, flags, φ_J and the states that windows are laid over."""
+    """For each replicate its settings, flags, φ_J and the states for fit windows."""
     made = []
     for _, record in records_of(directory):
         spec, protocol = record["spec"], record["spec"]["protocol"]
@@ -146,7 +146,7 @@ def search_of(directory):
 
 
 def critical_angles(isojam, directories):
-    """Of each solid, in degrees: closed forms, which tables carry."""
+    """Critical angles of each solid in degrees: closed forms, copied from the tables."""
     made = {}
     for directory in directories:
         command = [isojam, "aggregate", directory, "--exclude", "none", "--format", "json", "--quiet"]

@@ -11,7 +11,7 @@ from text import counted, interval, number, power, significant, table
 from vibrations import DISTANCES, MISSING, bin_name
 
 STEPS = {"h4": "10⁻⁴", "h6": "10⁻⁶", "h8": "10⁻⁸"}  # of central differences, V_p^(1/3)
-# What the caption of the paper's Figure 3 says: share of unstable modes, %; of the last two it is less than that.
+# Caption of the paper's Figure 3: share of unstable modes in %; an upper limit for the last two solids.
 PAPERS = {("tetrahedron", 0.01): 5.3, ("tetrahedron", 0.02): 1.2, ("octahedron", 0.01): 1.2}
 
 
@@ -58,8 +58,8 @@ def zeros(data):
 
 
 def means_of(data, study, solid):
-    """Replicates that count: no crystals, and of studies that the page means over none that ended short. Of the paper's
-    rule nearly all ended short: it is judged by the states that it reached."""
+    """Replicates that count: no crystals, and for studies whose means are shown no replicate that ended short. With the
+    paper's rule almost all ended short, so it is judged by the states that they reached."""
     out = LEFT_OUT if study in MAIN else {"crystalline"}
     return [r for r in data.studies.get(study, {"replicates": []})["replicates"]
             if r["solid"] == solid and r["status"] == "done" and not out & set(r["flags"])]
@@ -99,7 +99,7 @@ def share_at(data, solid, column, distance):
 
 
 def differences(data):
-    """Of the paper's unstable points the shares by every step, beside what the paper says."""
+    """Shares of the paper's unstable points for every step, beside the paper's values."""
     rows = []
     for (solid, distance), share in PAPERS.items():
         found = [share_at(data, solid, column, distance) for column in ("unstable_exact", *(
@@ -112,8 +112,8 @@ def differences(data):
 
 
 def rule_value(data, study, what, *solid):
-    """Of a study of minimisations: states, those with a negative mode, the nearest Δφ that a solid reached, the worst
-    residual, how many ended short."""
+    """Figure of a study of minimisations: states, states with a negative mode, the nearest Δφ that a solid reached, the
+    largest residual, the number of replicates that ended short."""
     some = [r["states"] for s in (solid or SOLIDS) for r in means_of(data, study, s)]
     if what == "nearest":
         return significant(min(s["delta_phi"][-1] for s in some), 2) if some else "–"
@@ -127,7 +127,7 @@ def rule_value(data, study, what, *solid):
 
 
 def rule_moves(data, solid):
-    """φ_J by the paper's minimisation less that by ours, replicates that began alike, 10⁻⁴."""
+    """φ_J by the paper's minimisation minus that by ours, for replicates with the same initial configuration, 10⁻⁴."""
     ours = {r["replicate"]: r["phi_j"]["phi_j"] for r in means_of(data, "paper-rule-base", solid)}
     return estimate_of([1e4 * (r["phi_j"]["phi_j"] - ours[r["replicate"]]) for r in means_of(data, "paper-rule", solid)
                         if r["replicate"] in ours])

@@ -1,5 +1,5 @@
-"""What the contacts of a state tell beyond the record: pure functions of their angles and of who touches whom. A state
-is a dict of lists, one entry per contact: a, b (particles), theta_ef, theta_ff (radians)."""
+"""Properties of a state's contacts that the record does not contain: pure functions of the angles and of the particles
+in contact. A state is a dict of lists, one entry per contact: a, b (particles), theta_ef, theta_ff (radians)."""
 
 import math
 import sys
@@ -39,15 +39,15 @@ def regions(state, critical):
 
 
 def emerged(counts, critical):
-    """Whether region 1 is denser in θ_ff than region 2: more contacts than what chance (1 %) makes of region 2's
-    density, given how many there are in both."""
+    """True if region 1 is denser in θ_ff than region 2: it has more contacts than expected by chance (1 %) from the
+    density of region 2, given the number in both."""
     both = counts[0] + counts[1]
     return both > 0 and binomial_at_least(counts[0], both, REGION_1 / critical) < LEVEL
 
 
 def hyper_random(state, angle, fraction=0.1):
-    """Whether more θ_ef lie below `angle`, under which random contacts have `fraction` of theirs, than chance (1 %)
-    makes."""
+    """True if more θ_ef than expected by chance (1 %) lie below `angle`. Random contacts have the share `fraction`
+    below it."""
     below = sum(x < angle for x in state["theta_ef"])
     return binomial_at_least(below, len(state["theta_ef"]), fraction) < LEVEL
 
@@ -83,9 +83,9 @@ def hindrance(found):
 
 
 def random_curves(kind, critical):
-    """Of θ_ef ("ef") or θ_ff ("ff") angles in degrees and cumulative shares of contacts at random: free, p ∝ cos θ_ef
-    and p ∝ sin θ_ff up to the greatest critical angle; of an edge in a face, θ_ef = 0 and p(θ_ff) uniform up to its
-    own."""
+    """Angles θ_ef ("ef") or θ_ff ("ff") in degrees and cumulative shares of random contacts. Free: p ∝ cos θ_ef and p ∝
+    sin θ_ff up to the largest critical angle. Edge in a face: θ_ef = 0 and p(θ_ff) uniform up to its own critical
+    angle."""
     greatest = max(angle for name, angle in critical.items() if name.startswith(kind))
     angles = [greatest * i / 60 for i in range(61)]
     if kind == "ef":

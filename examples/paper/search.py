@@ -17,8 +17,8 @@ from verdicts import MEAN, verdict
 
 TARGET = 3.2e-5
 BASE = ({"before": False, "step": 0.02, "budget": 2000}, "< .02")
-# A way up and a window: Σ of squared normal deviates, root mean square of paper − ours, and by solid our estimate,
-# paper − ours and whether the paper's lies in our mean's interval.
+# A compression protocol and a fit window: Σ of squared normal deviates, root mean square of paper − ours, and for each
+# solid our estimate, paper − ours and whether the paper's value lies in our mean's interval.
 Entry = collections.namedtuple("Entry", "chi rms setting window found off inside")
 
 
@@ -43,7 +43,8 @@ def refitted(replicates, fit, solid):
 
 @functools.cache
 def entries_of(data, particles=100):
-    """Every way up with every window; of those that have not all searched solids three times, chi and rms are None."""
+    """Every compression protocol with every window. chi and rms are None unless all searched solids have three
+    replicates."""
     theirs = {f["solid"]: f for f in table_i(data) if f["particles"] == particles}
     made, searched = [], searched_solids(data, particles)
     for setting, solids in settings_of(data, particles).items():
@@ -61,12 +62,12 @@ def entries_of(data, particles=100):
 
 
 def ranked(data, particles=100):
-    """Those that have all solids that were searched, best first."""
+    """Entries with all searched solids, best first."""
     return sorted((e for e in entries_of(data, particles) if e.chi is not None), key=lambda entry: entry.chi)
 
 
 def searched_solids(data, particles=100):
-    """Those of which some setting has three replicates: of a search under way, not all."""
+    """Solids with three replicates for some setting; an unfinished search has fewer than all."""
     return [s for s in SOLIDS if any(len(solids.get(s, [])) >= 3 for solids in settings_of(data, particles).values())]
 
 
@@ -136,7 +137,7 @@ def least_first(pairs, best):
 
 
 def windows_400(data, best=4):
-    """Those of every way up that was tried with N = 400."""
+    """Windows of every compression protocol that was run with N = 400."""
     small = {(tuple(sorted(e.setting.items())), e.window): e.chi for e in entries_of(data)}
     ways = {}
     for e in entries_of(data, 400):
@@ -147,8 +148,8 @@ def windows_400(data, best=4):
 
 
 def chosen_small(data, what):
-    """Of settings of the table of N = 400 that were chosen with N = 100 and have a χ² with N = 400, how many are not
-    rejected by it; the first of them, and its χ²."""
+    """Settings of the table for N = 400 that were chosen with N = 100 and have a χ² with N = 400: the number that it
+    does not reject, the first of them, and its χ²."""
     found = [e for e, _, by_small in windows_400(data) if by_small and e.chi is not None]
     if not found:
         return "–"
@@ -160,7 +161,7 @@ def chosen_small(data, what):
 
 @functools.cache
 def way_of(manifest):
-    """What a study of this folder says of its way up, or the schema says for it."""
+    """Compression protocol of a study of this folder, with defaults from the schema."""
     said = read(HERE / manifest)["protocol"]
     known = read(HERE.parent.parent / "schemas" / "manifest.schema.json")["definitions"]
     return {key: said.get(key, known[key]["default"]) for key in (
@@ -168,15 +169,15 @@ def way_of(manifest):
 
 
 def way_value(data, study):
-    """The way up of a study, as settings are named."""
+    """The compression protocol of a study, as settings are named."""
     way = way_of(f"{study}.json")
     return ", ".join(name_of({"before": way["target_before_relaxation"], "step": way["consolidation_step"],
                               "budget": way["consolidation_evaluations"], "target": way["target_energy"]}))
 
 
 def search_400(data, best=4):
-    """Every way up that was tried with N = 400, with the windows that are best with N = 100, and that which is best
-    with N = 400, marked, if it is another."""
+    """Every compression protocol that was run with N = 400, with the windows that are best with N = 100. The best
+    window with N = 400 is marked if it is another."""
     entries, searched = entries_of(data, 400), searched_solids(data, 400)
     if not entries:
         return "Not in these records.\n"
@@ -188,7 +189,7 @@ def search_400(data, best=4):
 
 
 def moved_by(data, setting, solid):
-    """Shift of φ_J, 10⁻⁴, against the base setting, in pairs of replicates that began alike."""
+    """Shift of φ_J, 10⁻⁴, relative to the base setting, in pairs of replicates with the same initial configuration."""
     every = [r for r in searched_of(data, 100)
              if r["solid"] == solid and r["status"] == "done" and "crystalline" not in r["flags"]]
     base = {r["replicate"]: r["phi_j"] for r in every if is_base_setting(r["setting"])}
@@ -197,7 +198,7 @@ def moved_by(data, setting, solid):
 
 
 def moves_of(data):
-    """(setting, {solid: its shift, of three pairs or more}) of every way up but the base."""
+    """(setting, {solid: its shift, of three pairs or more}) of every compression protocol except the base."""
     made = []
     for setting in map(dict, settings_of(data)):
         if not is_base_setting(setting):
@@ -207,13 +208,13 @@ def moves_of(data):
 
 
 def levers(data):
-    """What each choice of the way up moves."""
+    """Shift of φ_J by each choice of the compression protocol."""
     rows = [[*name_of(setting), *(counted(found.get(s)) for s in SOLIDS)] for setting, found in moves_of(data)]
     return table(["target read", "step", "budget", *SOLIDS], rows) if rows else "Not in these records.\n"
 
 
 def ended(data, solid, particles, reading, step, budget):
-    """How many of a way up ended, of how many."""
+    """Number of replicates of a compression protocol that ended, and of all."""
     some = [r for r in searched_of(data, int(particles)) if r["solid"] == solid and name_of(r["setting"]) == [
         reading, step, budget]]
     return f"{sum(r['status'] == 'done' for r in some)} of {len(some)}"

@@ -18,9 +18,9 @@ def uncertainty(figure):
 
 
 def verdict(estimate, figure):
-    """Whether the figure, give or take its own uncertainty, lies within the interval of our mean (both errors added),
-    or within what one more packing of ours would give, or outside of both. Where packings spread by half of the figure
-    and more, or there are fewer than three, that says nothing."""
+    """Compares a figure, within its own uncertainty, with our results: it lies within the interval of our mean (both
+    errors added), within the range of one more packing of ours, or outside of both. Undecided if packings spread by
+    half of the figure or more, or if there are fewer than three."""
     if not estimate or estimate["n"] < 3 or estimate["half_width"] is None:
         return UNDECIDED
     value = figure["value"]
@@ -35,7 +35,7 @@ def verdict(estimate, figure):
 
 
 def overlap(ours, theirs):
-    """Whether two estimates' 95 % intervals have a point in common; None if one of them has no interval."""
+    """True if two estimates' 95 % confidence intervals overlap; None if one of them has no interval."""
     if not ours or not theirs or ours["half_width"] is None or theirs["half_width"] is None:
         return None
     return abs(ours["mean"] - theirs["mean"]) <= (ours["half_width"] + theirs["half_width"]) * (1 + 1e-9)

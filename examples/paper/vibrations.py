@@ -15,7 +15,7 @@ NAMES = {"omega_l": "⟨ω_l⟩", "omega_h": "⟨ω_h⟩", "E": "E", "K": "K", R
 SAID = {"omega_l": "∝ Δφ² by the paper", "omega_h": "asymptotically constant by the paper", "E": "∝ Δφ⁶ by the paper",
         "K": "∝ Δφ⁴ by the paper",
         RATIO: "constant by the paper; the exponent of ⟨ω_l⟩ less half that of K, by replicate"}
-# Of the paper's range of Δφ, .01 … .16, the first and the last of our bins within it, and a nearer one.
+# Bins within the paper's range of Δφ, 0.01 … 0.16: the first and the last, and one nearer to jamming.
 ENDS = (0.064, 0.016, 0.004)
 DISTANCES = ((0.08, 0.256), (0.04, 0.08), (0.02, 0.04), (0.01, 0.02), (0.005, 0.01), (0.0025, 0.005), (0.0, 0.0025))
 
@@ -64,15 +64,15 @@ def exponents(data):
 
 
 def off_laws(data):
-    """Of bins of Δφ = .008 – .13, N = 400, all solids: of how many the exponent of ⟨ω_l⟩/√K is above 0 by both its
-    errors, of all."""
+    """Bins of Δφ = 0.008 – 0.13, N = 400, all solids: the number whose exponent of ⟨ω_l⟩/√K exceeds 0 by both its
+    errors, and the number of all."""
     found = [e for solid in SOLIDS for i, e in enumerate(data.slopes(solid, 400, RATIO, EDGES))
              if e and e["n"] > 2 and 0.007 < EDGES[i] < EDGES[i + 1] < 0.16]
     return f"{sum(e['mean'] > e['half_width'] + e.get('systematic', 0) for e in found)} of {len(found)}"
 
 
 def free_energy(data, solid, particles, window):
-    """Of E ∝ Δφ^x with φ_J free too: estimates of x, and of that φ_J less ours, 10⁻⁴."""
+    """Fit of E ∝ Δφ^x with free φ_J: estimates of x, and of the difference of this φ_J from ours, 10⁻⁴."""
     near = data.densities(solid, particles)
     found = [free_exponent(r["states"]["phi"], r["states"]["E"], n[0], window)
              for r, n in zip(data.counted(solid, particles), near)]
@@ -97,7 +97,7 @@ FAR = (0.02, 0.12)
 
 
 def apparent_exponent(data, solid, particles, column):
-    """Of one who fits φ_J over FAR and one exponent over the same states."""
+    """Exponent that results if φ_J is fitted over FAR and one exponent over the same states."""
     found = []
     for r in data.counted(solid, particles):
         values = r["states"].get(column)
@@ -117,7 +117,7 @@ def apparent(data):
 
 
 def apparent_above(data, column, exponent):
-    """Of how many solids with N = 400 that exponent lies above another by its interval, of all."""
+    """Number of solids with N = 400 whose exponent lies above another by its interval, and the number of all."""
     found = [e for solid in SOLIDS if (e := apparent_exponent(data, solid, 400, column)) and e["n"] > 1]
     return f"{sum(e['mean'] - e['half_width'] > float(exponent) for e in found)} of {len(found)}"
 

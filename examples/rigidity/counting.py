@@ -16,7 +16,8 @@ AT = (0.02, 0.005)  # besides the nearest: where records have the stiffness of e
 
 def banded(data, solid, particles, place):
     """By replicate ([Z_l, Z_ef, Z_ff, C] by bands, for boundaries × ½, 1 and 2, and by the record's fits), at Δφ =
-    place or nearest jamming. Z_l, Z_ef, Z_ff are told by normals; C is Z and two for each tilt of the upper band."""
+    place or nearest jamming. Z_l, Z_ef, Z_ff are classified by normals; C is Z plus two for each tilt of the upper
+    band."""
     made = []
     for replicate in data.counted(solid, particles):
         some = replicate.get("bands") or []

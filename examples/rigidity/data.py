@@ -1,4 +1,4 @@
-"""What the blocks are made from: replicates of our studies by solid and size."""
+"""Data of the blocks: replicates of our studies by solid and size."""
 
 import json
 import math
@@ -49,7 +49,7 @@ def derived(states, particles):
     soft = ["omega_l", "G", "K"]
 
     def where_all_are(function):
-        """Of states that have them all, so that exponents of quotients are differences of exponents."""
+        """Uses only states with all quantities, so that exponents of quotients are differences of exponents."""
         return each(states, soft, lambda w, g, k: function(w, g, k) if min(w, g, k) > 0 else None)
 
     def per_particle(name):

@@ -121,7 +121,7 @@ def power_laws(data):
 
 
 def at_an_end(found):
-    """Whether the free exponent lies at an end of the range that is tried."""
+    """True if the free exponent lies at an end of its range."""
     return found["exponent"] in (EXPONENTS[0], EXPONENTS[-1])
 
 

@@ -57,7 +57,7 @@ def median_or_none(values):
 
 
 def columns_of(states):
-    """Those columns that some state has."""
+    """Columns that at least one state has."""
     columns = {name: [found(state, place) for state in states] for name, place in COLUMNS.items()}
     for i, threshold in enumerate(THRESHOLDS):
         columns[f"C_s_{threshold}"] = [counts[i]["C"] if (counts := found(s, "prestress/thresholds")) else None
@@ -72,8 +72,8 @@ def columns_of(states):
 
 
 def bins_of(state):
-    """Of the nearest state, numbers in bins of forces by class and of gaps, from the first bin that holds any: [its
-    lower edge's logarithm, numbers]; None where classes are not told."""
+    """For the nearest state, counts in bins of forces by class and of gaps, from the first occupied bin on: [logarithm
+    of its lower edge, counts]; None if contacts are not classified."""
     gaps = state.get("gaps")
     if not gaps or not gaps["classes_told"]:
         return None
@@ -93,7 +93,7 @@ POWERS = tuple(round(-0.5 + 0.125 * i, 3) for i in range(53))  # edges of bins o
 
 
 def bands_of(record):
-    """Of the states whose stiffnesses the record has: [Δφ, Z, Z_ef, Z_ff, C, [normals with s above Δφ^(−4/3) × ½, 1,
+    """For states whose stiffnesses are in the record: [Δφ, Z, Z_ef, Z_ff, C, [normals with s above Δφ^(−4/3) × ½, 1,
     2], above Δφ^(−10/3), [tilts above Δφ^(−5/6) × ½, 1, 2]]."""
     made = []
     for state in record["states"]:
@@ -126,13 +126,13 @@ def with_states(record):
 
 
 def angles_of(contacts):
-    """Of every state its quantiles of θ_ef, radians."""
+    """Quantiles of θ_ef of every state, radians."""
     ordered = [sorted(state["theta_ef"]) for state in contacts]
     return {f"theta_{share}": [quantile(angles, share) for angles in ordered] for share in QUANTILES}, ordered
 
 
 def bins_of_angles(contacts):
-    """Of the nearest state, numbers of angles in bins as bins_of() has them; 0 is in the first."""
+    """Counts of angles of the nearest state in the bins of bins_of(); 0 is in the first."""
     made = {}
     for name in ("theta_ef", "theta_ff"):
         counts = [0] * len(LOG_ANGLES)
@@ -144,7 +144,7 @@ def bins_of_angles(contacts):
 
 
 def next_to(states, distance):
-    """Of states the one nearest to the distance, if it is within a fifth of it."""
+    """The state nearest to the distance, if it is within a fifth of it."""
     best = min(range(len(states)), key=lambda i: abs(states[i]["delta_phi"] - distance))
     return best if abs(states[best]["delta_phi"] / distance - 1) < 0.2 else None
 

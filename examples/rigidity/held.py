@@ -27,7 +27,7 @@ def grid_name(distance):
 
 
 def told(estimate):
-    """Whether an exponent is known at all: of three replicates or more, to better than 1."""
+    """True if an exponent is known: from three replicates or more, and to better than 1."""
     return bool(estimate) and estimate["n"] > 2 and estimate["half_width"] <= 1
 
 
@@ -80,7 +80,7 @@ def softest(data):
 
 
 def sure_exponents(data, column):
-    """Those of SURE, every solid and bin."""
+    """Exponents in the columns of SURE, every solid and bin."""
     particles, least = SURE
     return [e for solid in SOLIDS for lower, e in zip(BINS, data.slopes(solid, particles, column, BINS))
             if lower >= least and told(e)]

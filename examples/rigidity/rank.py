@@ -56,8 +56,9 @@ def not_below_nothing(estimate):
 
 @functools.cache
 def missing_limit(data, solid, particles):
-    """Of m = (6N − 3 − rank)/N as Δφ → 0: by form over the nearest window, and the central choice with what forms and
-    windows leave open and, as `cutoffs`, half its range from half to twice the cut-offs nearest jamming."""
+    """Limit of m = (6N − 3 − rank)/N as Δφ → 0: by functional form over the nearest window, and the central choice with
+    the range over forms and windows and, as `cutoffs`, half its range from half to twice the cut-offs nearest
+    jamming."""
     paths = [list(zip(x, y)) for x, y in data.paths(solid, particles, "missing")]
     if not paths:
         return {}, None

@@ -97,8 +97,8 @@ ProgramDescription described_program(const CLI::App& app) {
                              .commands = {}};
   for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     auto options = described_options(*command);
-    std::erase_if(options, [](const OptionDescription& option) { // every command has help, so it is described with the
-                                                                 // program
+    std::erase_if(options, [](const OptionDescription& option) {  // every command has help, so it is described with the
+                                                                  // program
       return !option.names.empty() && option.names.back() == "--help";
     });
     program.commands.push_back({command->get_name(), command->get_description(), std::move(options)});

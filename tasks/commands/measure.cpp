@@ -24,7 +24,7 @@ namespace {
 struct MeasureArguments {
   std::string directory;
   std::vector<Measure> add;
-  std::string only; ///< name of a replicate; empty for all
+  std::string only;  ///< name of a replicate; empty for all
   int threads = 0;
 };
 

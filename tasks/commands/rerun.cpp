@@ -25,7 +25,7 @@ ReplicateSpec planned(const Plan& plan, const std::string& name, const Store& st
 
 struct Arguments {
   std::string directory;
-  std::string replicate; ///< name, as its files are called
+  std::string replicate;  ///< name, as its files are called
   int threads = 0;
 };
 

@@ -23,8 +23,9 @@ void warn_about(const Manifest& manifest, const std::string& file, Console& cons
 
 void warn_about_kernels(Console& console) {
   if (!uses_avx2())
-    console.warn("this processor or this build has no AVX2 and FMA: the portable kernels run, with the same results, "
-                 "about five times slower");
+    console.warn(
+        "this processor or this build has no AVX2 and FMA: the portable kernels run, with the same results, "
+        "about five times slower");
 }
 
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {

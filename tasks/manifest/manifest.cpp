@@ -24,10 +24,10 @@
 namespace isojam {
 namespace {
 
-constexpr double greatest_seed = 9007199254740992; // 2^53: every JSON reader represents integers up to here exactly
+constexpr double greatest_seed = 9007199254740992;  // 2^53: every JSON reader represents integers up to here exactly
 constexpr Range particle_range{1, 100000};
 constexpr Range replicate_range{1, 1e6};
-constexpr Range least_replicate_range{2, 1e6}; // one replicate has no confidence interval
+constexpr Range least_replicate_range{2, 1e6};  // one replicate has no confidence interval
 constexpr Range half_width_range{0, 1e6, true};
 constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
@@ -357,7 +357,7 @@ Json identity(const Manifest& manifest) {
   json.erase("keep_path");
   json.erase("exclude");
   json.erase("base");
-  if (json.contains("start")) json["start"].erase("packing"); // the digests identify the packings
+  if (json.contains("start")) json["start"].erase("packing");  // the digests identify the packings
   return json;
 }
 

@@ -24,7 +24,7 @@ struct SweptField {
 /// Half width of a confidence interval at which a sweep point stops.
 struct Goal {
   std::string quantity;   ///< name of a column of the tables
-  double half_width = 0; ///< of the 95 % confidence interval of the mean over replicates
+  double half_width = 0;  ///< of the 95 % confidence interval of the mean over replicates
 
   bool operator==(const Goal&) const = default;
 };
@@ -49,11 +49,11 @@ struct Manifest {
   std::vector<Measure> measures;
   MeasureOptions measuring;
   bool keep_path = false;  ///< keep the packings of every state of an expansion, not only the one nearest jamming
-  std::vector<Flag> exclude = usually_excluded(); ///< replicates with one of these flags count in no mean and towards
-                                                  ///< no goal
+  std::vector<Flag> exclude = usually_excluded();  ///< replicates with one of these flags count in no mean and towards
+                                                   ///< no goal
   /// Swept parameters and their values that identify the row to compare with; see base.hpp. Empty: none.
   Json base = Json::object();
-  std::optional<Start> start{}; ///< user-defined initial packings instead of random ones
+  std::optional<Start> start{};  ///< user-defined initial packings instead of random ones
 };
 
 /// One combination of the swept parameters: the complete options, and the parameters that distinguish them from other
@@ -63,7 +63,7 @@ struct OptionSet {
   JamOptions options;
 };
 
-/// All combinations; one with an empty object if nothing but solids and particles is swept.
+/// All combinations; one with an empty object if only solids and particles are swept.
 std::vector<OptionSet> option_sets(const Manifest& manifest);
 
 /// Reads a manifest strictly. Throws InputError with all errors at once: everything that is not understood, and too few

@@ -24,7 +24,7 @@ inline constexpr std::array enum_names<MessageForm>{EnumName{MessageForm::text, 
 
 struct ConsoleOptions {
   bool quiet = false;    ///< errors only
-  bool verbose = false; ///< print a line for each replicate
+  bool verbose = false;  ///< print a line for each replicate
   Colour colour = Colour::automatic;
   MessageForm form = MessageForm::text;
 };
@@ -32,9 +32,7 @@ struct ConsoleOptions {
 /// Parts of a message by name.
 using MessageParts = std::vector<std::pair<std::string_view, std::string_view>>;
 
-/// What people read while a command works: messages and progress, all on stderr. Safe to use from several threads.
-/// For programs each message is a JSON object on its own line: "kind", "text", and the parts of an error or the counts
-/// of progress.
+/// Messages and progress for people, all on stderr. Safe to use from several threads.
 class Console {
  public:
   explicit Console(const ConsoleOptions& options);

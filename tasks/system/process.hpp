@@ -15,7 +15,7 @@ struct ProcessId {
 
 const ProcessId& this_process();
 
-/// Whether the process still runs; nullopt if it belongs to another machine.
+/// True if the process still runs; nullopt if it belongs to another machine.
 std::optional<bool> is_alive(const ProcessId& process);
 
 }  // namespace isojam

@@ -1,4 +1,4 @@
-"""Facts proved here, in Chromium, of a chart that isojam wrote and that is opened from disk:
+"""These tests prove, in Chromium, of a chart that isojam wrote and that is opened from disk:
 - the page has no console error, and asks the network for nothing;
 - every family of errors against times has a figure with a panel for each case, both axes logarithmic; each failure is
   drawn once, and the reason is written at the upper edge, clear of the marks; fronts are drawn;
@@ -6,7 +6,7 @@
   touch, each point stands in the row of its label, and a failure is one cross;
 - costs against N have a line for each thing that is timed, and beside it the fitted power as the data have it;
 - the conclusion stands as the data have it;
-- the atlas has a cell for each row, told by sign and word, not by colour alone; its tooltip says figure and reason;
+- the atlas has a cell for each row, marked by sign and word, not by colour alone; its tooltip says figure and reason;
   each failure and refusal is also text, which is open in print;
 - nothing is wider than the window on a narrow screen.
 usage: chart_browser_test.py ISOJAM

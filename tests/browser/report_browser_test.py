@@ -1,4 +1,4 @@
-"""Facts proved here, in Chromium, of pages that isojam wrote and that are opened from disk:
+"""These tests prove, in Chromium, of pages that isojam wrote and that are opened from disk:
 - no page has a console error, asks the network for anything, or opens an alert;
 - every chart has marks, in every panel, and none of them lies at NaN; tooltips appear;
 - charts are saved as SVG, PNG, specification (with the data) and data;
@@ -7,7 +7,8 @@
 - the 3D view draws, turns by mouse and by keys, zooms, colours, shows the largest cluster alone, animates a mode, and
   leaves out the outlines of 400 particles while they turn; without WebGL a sentence stands in its place;
 - someone who asked for less motion is shown none;
-- all solids stand in one chart where the reader asks, told apart by colour and symbol; symbols are set as mathematics;
+- all solids stand in one chart where the reader asks, distinguished by colour and symbol; symbols are set as
+  mathematics;
 - of 400 replicates none hides another: boxes, swarms; crystals stretch an axis only where the reader asks; flagged ones
   are listed by flag; the page says which packings it holds;
 - forces of contacts are drawn; the view is saved as PNG;

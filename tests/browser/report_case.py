@@ -1,4 +1,4 @@
-"""What the report's tests in a browser share: pages made once, a browser, and what they ask of a page."""
+"""Shared by the report's browser tests: pages made once, a browser, and queries of a page."""
 
 import pathlib
 import sys
@@ -13,7 +13,7 @@ from selenium.webdriver.common.by import By
 EXECUTABLE = pathlib.Path(sys.argv.pop(1)).resolve()
 CHARTS = ["density", "topology", "edge-face", "face-face", "extrapolation", "spectrum", "scaling", "moduli", "shear",
           "evaluations", "time", "stops"]
-# Of all solids together, and how many charts of their own they have.
+# Charts of all solids together, and the number of charts of single solids.
 TOGETHER = {"topology": 3, "edge-face": 1, "face-face": 1, "extrapolation": 1, "spectrum": 1, "scaling": 1, "moduli": 2,
             "shear": 1}
 
@@ -107,7 +107,7 @@ class Case(unittest.TestCase):
                           "charts to be drawn again")
 
     def marks(self, chart):
-        """Of each panel of a chart: fills and forms of its symbols, lines with more than one point, boxes."""
+        """For each panel of a chart: fills and forms of its symbols, lines with more than one point, boxes."""
         return self.browser.run("""
             const panels = [...document.querySelectorAll(`#chart-${arguments[0]} g.role-scope > g`)]
               .filter((panel) => panel.querySelector(':scope > g .role-axis'));
@@ -137,7 +137,7 @@ class Case(unittest.TestCase):
         return canvas
 
     def after(self, action):
-        """What is drawn once an action led to another frame."""
+        """The drawing after an action led to a new frame."""
         before = self.browser.run("return Number(document.getElementById('packing').dataset.frames)")
         action()
         self.browser.wait(f"document.getElementById('packing').dataset.frames > {before}", "another frame")

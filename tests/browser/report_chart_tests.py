@@ -35,7 +35,7 @@ class ChartTests:
 
     def test_symbols_are_set_as_mathematics(self):
         self.open(self.page)
-        # Of each axis title: its text, which parts are italic and which are shifted.
+        # For each axis title: its text, the italic parts and the shifted parts.
         titles = self.browser.run("""
             const titles = [...document.querySelectorAll('.role-axis-title text')].map((title) => {
               const spans = [...title.children];
@@ -76,7 +76,7 @@ class ChartTests:
         self.open(self.pages.report(self.pages.flagged("one-left", study, flags)))
         mean = self.browser.driver.find_elements(By.CSS_SELECTOR, "#chart-density g.mark-symbol")[1]
         self.assertRegex(self.tooltip_of(mean.find_elements(By.CSS_SELECTOR, "path")[1]), r"n\W*1$")
-        # Of each panel: its marks of means, open ones and those of one replicate, and whether lines join any.
+        # For each panel: its marks of means, open ones and those of one replicate, and whether lines join any.
         panels = self.browser.run("""
             const panels = [...document.querySelectorAll('#chart-topology g.role-scope > g')]
               .filter((panel) => panel.querySelector(':scope > g .role-axis'));

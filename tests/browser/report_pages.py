@@ -197,8 +197,9 @@ class Pages:
         return directory
 
     def many(self, name, source, replicates, solids):
-        """As many replicates of every sweep point, slim copies of real ones, moved at random; every tenth is a crystal,
-        denser by far. Those of a point in `solids` get that solid; the others' first ones have their packings."""
+        """As many replicates of every sweep point: slim copies of real ones, shifted at random; every tenth is a
+        crystal with a much higher density. Replicates of a point in `solids` get that solid; the first ones of other
+        points keep their packings."""
         directory = self.root / name
         shutil.copytree(source, directory, ignore=lambda folder, names: [entry for entry in names if "-r" in entry])
         numbers, points = random.Random(5), {}

@@ -1,4 +1,4 @@
-"""Facts proved here: commands_test.py SOURCE PROGRAM
+"""These tests prove: commands_test.py SOURCE PROGRAM
 
 - every command line of isojam that a page shows, in a block or in the text, names a command and options of this program.
   It runs without an error, on a small results directory in place of the one that it names, and `run` with --dry-run.
@@ -22,7 +22,7 @@ from pages import code_lines, pages, spans  # noqa: E402
 
 SOURCE, PROGRAM = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
 LINE = re.compile(r"(?:^|[\s(])(?:build/)?isojam ((?:-{1,2}[a-z-]+ )*[a-z]+\b.*)$")
-# What usage has in place of values.
+# Placeholders of values in usage lines.
 STANDS_FOR = {"MANIFEST": "manifest.json", "DIR": "results", "DIR...": "results", "N": "1", "I/N": "1/2",
               "K/200": "1/200", "GIB": "1", "FLAG,...": "crystalline", "PARAMETER=VALUE,...": "step_fraction=0.35",
               "MEASURE,...": "clusters", "MEASURES": "order", "YYYY-MM-DD": "2026-01-31",

@@ -1,4 +1,4 @@
-"""Facts proved here: fields_test.py SOURCE FACTS
+"""These tests prove: fields_test.py SOURCE FACTS
 
 - the tables of docs/manifest.md and docs/fields.md are those that the schemas and the program's quantities give
   (reference.py --write makes them again);

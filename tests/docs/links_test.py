@@ -1,4 +1,4 @@
-"""Facts proved here: links_test.py SOURCE
+"""These tests prove: links_test.py SOURCE
 
 - every relative link and picture of the pages leads to a file of the tree, and every anchor to a heading that has it on
   GitHub and in the site alike;
@@ -18,7 +18,7 @@ SOURCE = pathlib.Path(sys.argv[1]).resolve()
 
 
 def broken(root, page):
-    """What is wrong with the links of a page, one line for each."""
+    """Broken links of a page, one line for each."""
     wrong = []
     for number, target in links(page.read_text(encoding="utf-8")):
         if "://" in target or target.startswith("mailto:"):

@@ -1,4 +1,4 @@
-"""Facts proved here: project_test.py SOURCE
+"""These tests prove: project_test.py SOURCE
 
 - README.md has at most 120 lines and a picture, and names both commands, the licence and how to cite; its lines of C++
   are those of examples/12-library, and the entry that it explains is in its table;
@@ -32,7 +32,7 @@ def text_of(name):
 
 
 def faults(citation):
-    """What is wrong with a citation, after https://citation-file-format.github.io, version 1.2.0."""
+    """Errors of a citation, after https://citation-file-format.github.io, version 1.2.0."""
     wrong = [f"no {key}" for key in ("cff-version", "message", "title", "authors", "version", "license", "references")
              if not citation.get(key)]
     if citation.get("cff-version") != "1.2.0" or citation.get("type", "software") not in ("software", "dataset"):

@@ -57,7 +57,7 @@ class Schema:
 
     def objects(self, node, path=""):
         """Pairs of a path and the fields of the object there: the object itself, then those inside it, in their order.
-        What definitions describe is left to them."""
+        Objects described by definitions are omitted."""
         fields = fields_of(node)
         if fields:
             yield path, fields, set(node.get("required", []))
@@ -98,7 +98,7 @@ def number(x):
 
 
 def kinds(schema, node):
-    """What a value may be, in words."""
+    """Allowed kinds of a value, as text."""
     node = schema.resolved(node)
     if "const" in node:
         return code(node["const"])

@@ -1,4 +1,4 @@
-"""Facts proved here: site_test.py SOURCE
+"""These tests prove: site_test.py SOURCE
 
 - every page, and all that it links to, has a place in the site that `make docs` makes, links go along, code is left as
   it is, and a link that leads nowhere ends it;

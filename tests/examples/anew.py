@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def gathered(isojam, folder, runs):
-    """What the folder's gather.py makes of some replicates of its studies: {name of a file of data: its content}. A run
+    """Output of the folder's gather.py for some replicates of its studies: {name of a file of data: its content}. A run
     is (study, name of its results, shard, measures to add)."""
     with tempfile.TemporaryDirectory() as here:
         results = Path(here)

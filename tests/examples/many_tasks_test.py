@@ -1,5 +1,5 @@
-"""Facts proved here of examples/08-many-short-tasks, with a stand-in for HyperQueue that starts the tasks of an array as
-its options say, each in an environment of its own:
+"""These tests prove of examples/08-many-short-tasks, with a stand-in for HyperQueue that starts the tasks of an array
+as its options say, each in an environment of its own:
 - as many tasks as replicates, two at a time, the last first, each with a part and a HQ_TASK_ID: after one of them was
   killed with -9 at work, table and status say that one is missing, and submitting again runs what is missing alone;
 - for all that, records, packings and table are those of one run without shards, and so are the result digests;
@@ -74,7 +74,7 @@ class ManyTasks(unittest.TestCase):
         self.results = self.root / "results"
 
     def submit(self, **environment):
-        # What a batch system says of itself must not choose the part.
+        # Variables of a surrounding batch system must not choose the part.
         known = dict(os.environ, PATH=f"{self.root}:{os.environ['PATH']}", ISOJAM=str(EXECUTABLE), TASKS=str(TASKS),
                      SLURM_ARRAY_TASK_ID="3", SLURM_ARRAY_TASK_COUNT="7", **environment)
         done = subprocess.run([EXAMPLE / "submit.sh", EXAMPLE / "manifest.json", self.results], env=known, check=False,

@@ -1,4 +1,4 @@
-"""Facts proved here: python3 page_test.py examples/page
+"""These tests prove: python3 page_test.py examples/page
 
 - Student's t is that of tables; an interval of normal samples covers their mean in 95 of 100 cases; the binomial tail
   is the sum of its terms; of choices, the systematic error is half their range;

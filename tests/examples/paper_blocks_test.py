@@ -1,4 +1,4 @@
-"""Facts proved here: python3 paper_blocks_test.py examples/paper
+"""These tests prove: python3 paper_blocks_test.py examples/paper
 
 - states are counted as minima, near-rattlers, unresolved and negative as by hand, crystals in none; a rank of the rest
   that its rows do not allow is none; φ_J of the paper's rule is compared with the same replicates;
@@ -6,7 +6,7 @@
   of sums of binomial terms, what emerges first and stays is told, and shares of random contacts are those of
   directions drawn at random;
 - C carries the range of cut-offs as its error, where it is known of the states that C is taken from, Z_ff half of what
-  fits and gaps differ by; solids are told apart by both errors; where rests have more than three zero modes is told;
+  fits and gaps differ by; solids are distinguished by both errors; where rests have more than three zero modes is told;
   deviates of offsets know the paper's interval as well as ours; solids stand in order of what they have.
 """
 
@@ -212,7 +212,8 @@ class Tests(unittest.TestCase):
         self.assertEqual(alignment.order_of(x, [0, 1, 1, 1], [1, 1, 0, 1]), "before")
 
     def test_offsets_know_both_intervals(self):
-        # Of 16 replicates that spread by 1: t = 2.1314 of 15 degrees of freedom is 1.96 of a normal.
+        # For 16 replicates with a spread of 1: t = 2.1314 with 15 degrees of freedom corresponds to 1.96 of a normal
+        # distribution.
         ours = of(0.0, 2.13145 / 4)
         deviation = (1 + 1 / 16) ** 0.5
         self.assertAlmostEqual(densities.deviation_of(ours), deviation, places=5)

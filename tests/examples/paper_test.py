@@ -1,4 +1,4 @@
-"""Facts proved here: python3 paper_test.py examples/paper ISOJAM
+"""These tests prove: python3 paper_test.py examples/paper ISOJAM
 
 - the committed page, and what the project's first page has of it, are what the committed data say, to every block and
   every number in a sentence; a page with one of them changed, without a block or with one twice, is refused;
@@ -8,7 +8,7 @@
   are spread are as counted by hand, and contacts drawn at random neither hinder nor favour each other;
 - shifts of φ_J are differences of the same replicates, crystals left out; settings are ranked by χ², and one that gives
   the paper's values is the first; which means' intervals hold them is as by hand; windows are chosen with the smaller
-  size, one with the larger is marked; the base of the search is the way up of the studies;
+  size, one with the larger is marked; the base of the search is the compression protocol of the studies;
 - gathering the results of a small run gives means, and φ_J, of the tables that the program makes of them;
 - two replicates of the studies, run anew, have the figures of the committed data: these are of this program.
 """

@@ -1,4 +1,4 @@
-"""Facts proved here: python3 rigidity_test.py examples/rigidity ISOJAM
+"""These tests prove: python3 rigidity_test.py examples/rigidity ISOJAM
 
 - the committed page is what the committed data say, to every block and every number in a sentence; a page with one
   of them changed is refused; its figures are small and on it;

@@ -1,4 +1,4 @@
-"""Facts proved here, of packings in cells of any shape, as the same readers see them in every format:
+"""These tests prove, of packings in cells of any shape, as the same readers see them in every format:
 - the cell of a record is no cube and has volume N/phi;
 - GSD: the box has tilts and is the packing's lattice, turned; positions lie in it, their distances are those of the packing;
   orientations are turned with it; log/isojam/cell has the lattice vectors as they were;
@@ -25,7 +25,7 @@ IMAGES = numpy.array(list(itertools.product((-1, 0, 1), repeat=3)))
 
 
 def distances(positions, cell):
-    """Of all pairs, to the nearest periodic image; rows of `cell` are lattice vectors."""
+    """Distances of all pairs, to the nearest periodic image; rows of `cell` are lattice vectors."""
     difference = positions[:, None, :] - positions[None, :, :]
     difference -= numpy.round(difference @ numpy.linalg.inv(cell)) @ cell
     images = difference[:, :, None, :] + (IMAGES @ cell)[None, None, :, :]

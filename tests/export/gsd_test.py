@@ -1,4 +1,4 @@
-"""Facts proved here, of GSD files as python3-gsd reads them, by its C reader and by its Python one:
+"""These tests prove, of GSD files as python3-gsd reads them, by its C reader and by its Python one:
 - the file is valid "hoomd" 1.4; both readers see the same chunks;
 - number and order of frames, N and the box are those of the packings; steps count from 0;
 - centres lie in the box about the origin, their distances are those of the packings, images undo the wrapping;

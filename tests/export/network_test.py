@@ -1,4 +1,4 @@
-"""Facts proved here, of contacts as they leave the program, in every state of an expansion:
+"""These tests prove, of contacts as they leave the program, in every state of an expansion:
 - CSV and JSON lines hold the same values to the last bit, and the header is the one that is documented;
 - as many rows as the record's Z says, and as many of each class as Z_ff, Z_ef and Z_l say, or no class at all where the
   record says that classes are undecided;

@@ -1,4 +1,4 @@
-"""What a results directory says, for comparison with what third-party readers see in exported files."""
+"""Contents of a results directory, for comparison with exported files as third-party readers see them."""
 
 import json
 import pathlib
@@ -44,7 +44,7 @@ def path(results, name):
 
 
 def measured(results, name, whole_path):
-    """What the record says of each of these states."""
+    """Values of the record for each of these states."""
     document = record(results, name)
     return document["states"] if whole_path else [document["nearest"]]
 
@@ -60,7 +60,7 @@ def rotation(quaternions):
 
 
 def distances(positions, side):
-    """Of all pairs, to the nearest periodic image."""
+    """Distances of all pairs, to the nearest periodic image."""
     difference = positions[:, None, :] - positions[None, :, :]
     difference -= side * numpy.round(difference / side)
     return numpy.linalg.norm(difference, axis=2)

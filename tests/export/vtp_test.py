@@ -1,4 +1,4 @@
-"""Facts proved here, of VTP and PVD files as VTK reads them:
+"""These tests prove, of VTP and PVD files as VTK reads them:
 - every particle is a closed surface of its own, wound outwards, of unit volume; together they have volume N;
 - centres lie in the cell and have the distances of the packing; all particles are the solid of the OBJ file, turned by
   the packing's quaternions;
@@ -64,7 +64,7 @@ class Picture:
 
 
 def apart(a, b, normals, edges_a, edges_b):
-    """Whether a face normal or a common perpendicular of two edges separates the corners."""
+    """True if a face normal or a common perpendicular of two edges separates the corners."""
     crosses = numpy.cross(edges_a[:, None, :], edges_b[None, :, :]).reshape(-1, 3)
     lengths = numpy.linalg.norm(crosses, axis=1)
     keep = lengths > 1e-9 * lengths.max()  # parallel edges have no common perpendicular; normals see to them
@@ -74,7 +74,7 @@ def apart(a, b, normals, edges_a, edges_b):
 
 
 def count_contacts(picture, translations):
-    """Of each particle, over these images."""
+    """Number of contacts of each particle, over these images."""
     n = len(picture.corners)
     reach = 2 * numpy.linalg.norm(picture.corners[0] - picture.centres[0], axis=1).max()
     normals = [picture.normals(i) for i in range(n)]

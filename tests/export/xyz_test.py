@@ -1,4 +1,4 @@
-"""Facts proved here, of extended XYZ and OBJ files, read by the few lines that their formats need:
+"""These tests prove, of extended XYZ and OBJ files, read by the few lines that their formats need:
 - frames in order, N lines each, columns as Properties says, the lattice the cell;
 - positions lie in the cell and have the distances of the packing; quaternions (x, y, z, w) are the packing's;
 - Z has the record's mean, clusters are the record's; phi and delta_phi are exact;

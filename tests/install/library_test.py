@@ -1,4 +1,4 @@
-"""Facts proved here: library_test.py CMAKE BUILD SOURCE COMPILER
+"""These tests prove: library_test.py CMAKE BUILD SOURCE COMPILER
 
 - a program elsewhere that finds an installed isojam builds, without a warning of its own strictest kind, with this
   compiler and with clang where there is one, and both print the same bits;

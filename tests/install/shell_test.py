@@ -1,8 +1,8 @@
-"""Facts proved here: shell_test.py CMAKE BUILD
+"""These tests prove: shell_test.py CMAKE BUILD
 
 - the manual page that is installed has no error that groff knows, names every command and every option of each
   command's help, and says what the exit codes mean;
-- the completions that are installed are read by bash, zsh and fish without a word; bash and fish complete commands,
+- the completions that are installed are read by bash, zsh and fish without a message; bash and fish complete commands,
   options, the choices of an option, directories where one is asked for, and nothing where a number stands;
 - `-o` writes what is else printed.
 A shell that is not here is not tested, which is said.

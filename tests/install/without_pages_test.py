@@ -1,4 +1,4 @@
-"""Facts proved here: without_pages_test.py CMAKE SOURCE PROGRAM
+"""These tests prove: without_pages_test.py CMAKE SOURCE PROGRAM
 
 - without Vega, three.js, CGAL and valijson, configuring names their packages and goes on; the tests of the engine are
   built, and those that need one of them are not;

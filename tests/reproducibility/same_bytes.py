@@ -1,4 +1,4 @@
-"""Whether variants of the program give the same bytes: same_bytes.py MANIFEST NAME=PROGRAM [NAME=PROGRAM ...]
+"""Checks that variants of the program give the same bytes: same_bytes.py MANIFEST NAME=PROGRAM [NAME=PROGRAM ...]
 
 Every variant runs the manifest in a directory of its own. PROGRAM may have arguments of its own. VARIABLE:VALUE in front
 of it sets an environment variable, as in  old=GLIBC_TUNABLES:glibc.cpu.hwcaps=-FMA,build/isojam . The digest of each
@@ -28,7 +28,7 @@ def parsed(argument):
 
 
 def results_of(directory):
-    """What must be the same, by name of file."""
+    """Files that must be identical, by name."""
     results = {}
     for path in sorted((directory / "records").iterdir()):
         results[f"records/{path.name}"] = json.loads(path.read_text(encoding="utf-8"))["result_digest"]

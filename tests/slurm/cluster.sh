@@ -78,7 +78,7 @@ await_cluster() {
 
 start_cluster() {
   cluster=$1
-  # Those of a job or a shell that this runs in would be taken for options.
+  # Variables of a surrounding job or shell would act as options.
   unset "${!SLURM_@}" "${!SBATCH_@}" "${!SQUEUE_@}" "${!SCANCEL_@}" "${!SINFO_@}"
   export SLURM_CONF=$cluster/slurm.conf
   mkdir "$cluster/state" "$cluster/spool"

@@ -52,7 +52,7 @@ struct EndState {
   MinimiseSummary summary;
   EnergyPoint energy;
   ContactNumbers numbers;
-  bool classes_known = false; ///< true if both fits gave a cut-off; otherwise only Z is meaningful
+  bool classes_known = false;  ///< true if both fits gave a cut-off; otherwise only Z is meaningful
 
   bool reached() const { return is_equilibrium(summary) || summary.reason == StopReason::energy_change; }
 };

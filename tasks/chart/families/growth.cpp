@@ -97,7 +97,7 @@ class Growth {
 
   void measure_evaluation(const Packing& packing, int particles) {
     PackingEnergy energy;
-    energy.evaluate(packing); // neighbours are found once and then kept
+    energy.evaluate(packing);  // neighbours are found once and then kept
     const auto taken = timed(measuring_, [&] {
       for (int k = 0; k < evaluations_timed; ++k) energy.evaluate(packing);
     });

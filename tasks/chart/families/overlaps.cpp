@@ -25,7 +25,7 @@ constexpr double worst_useful_error = 1e-2;
 /// A pair with the data that a packing has prepared before it computes the overlap.
 struct PreparedPair {
   PairCase pair;
-  Pose pose; ///< of B; A is at the origin
+  Pose pose;  ///< of B; A is at the origin
   LonePlacedSolid a, b, double_double_a, double_double_b;
   DoubleDoubleVector displacement;
   QuadPose quad;
@@ -53,7 +53,7 @@ PreparedPair prepared(const PairCase& pair) {
 
 struct Found {
   double volume = 0;
-  std::optional<Eigen::Vector3d> area; ///< S_A, of methods that give it
+  std::optional<Eigen::Vector3d> area;  ///< S_A, of methods that give it
 };
 
 Found in_doubles(const PreparedPair& pair) {

@@ -14,8 +14,8 @@ namespace {
 
 /// The replicates of one setting of the protocol.
 struct Replicated {
-  std::map<int, std::vector<EnergyPoint>> energies; ///< of jammed replicates, by number
-  std::vector<double> seconds; ///< of all replicates, in order of number
+  std::map<int, std::vector<EnergyPoint>> energies;  ///< of jammed replicates, by number
+  std::vector<double> seconds;                       ///< of all replicates, in order of number
 
   int count() const { return static_cast<int>(seconds.size()); }
   /// CPU time of the first `first` replicates.

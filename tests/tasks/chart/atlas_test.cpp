@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 //   every cell of the stability atlas is as the tables of atlas_expected.cpp say, a letter for each setting (h holds,
 //   r refuses, f fails, ? holds or refuses as the last bits of a compiler's arithmetic have it): isojam's own methods,
 //   and those that are there to be compared with; no cell is missing from a table, and none is there twice; isojam's
@@ -39,7 +39,7 @@ void expect_as_told(const std::vector<AtlasRow>& rows, std::span<const ExpectedC
   EXPECT_EQ(found, expected);
 }
 
-/// Of isojam's own methods, and of what every row says.
+/// Checks isojam's own methods, and the texts of every row.
 void expect_sound(const std::vector<AtlasRow>& rows) {
   std::set<std::string> seen;
   for (const AtlasRow& row : rows) {

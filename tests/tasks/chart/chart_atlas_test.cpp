@@ -1,6 +1,6 @@
-// Facts proved here, on cells made up for the purpose:
+// These tests prove, on cells made up for the purpose:
 // - cells of a regime and method that are judged alike are one run: what holds first, then a run for each reason, with
-//   the figure of its first cell; neighbours are given as a range, and methods that take turns are told apart;
+//   the figure of its first cell; neighbours are given as a range, and methods that take turns are distinguished;
 // - every cell is in exactly one run;
 // - the table names each run with its verdict, failures and refusals with reason and figure; data hold every cell.
 

@@ -1,10 +1,11 @@
-// Facts proved here, of every point of a tiny but real chart:
+// These tests prove, of every point of a tiny but real chart:
 // - a point says why it stopped, with a spread in order and the number of runs behind it;
 // - what reached a residual is within it, and what did not is marked as failed; likewise wrong overlaps, negative modes
 //   that are none, and eigensolvers that did not converge; all but the overlaps do fail somewhere; so says the table;
 // - on the front is what no other point of its case beats, and all of that;
-// - settings of the protocol: each is told by a name of its own; a fit window differs from the first setting by the
-//   difference of the means, and an interval of paired differences stands where packings began alike and nowhere else;
+// - settings of the protocol: each has its own name; a fit window differs from the first setting by the
+//   difference of the means, and an interval of paired differences stands where packings had the same initial
+//   configuration and nowhere else;
 // - every method has a fit over the numbers of particles, and it is the power law of its points;
 // - at a vanishing tolerance the bias of the default method vanishes, and a loose minimiser's does not.
 
@@ -88,7 +89,7 @@ int count_failed(const std::string& family, const ShouldFail& should_fail) {
   return failed;
 }
 
-/// What a setting of that kind asks for; nullopt for another kind.
+/// The value that a setting of this kind requests; nullopt for another kind.
 std::optional<double> asked(const ChartPoint& point, const std::string& kind) {
   if (!point.setting.starts_with(kind)) return std::nullopt;
   return std::stod(point.setting.substr(kind.size()));
@@ -97,7 +98,7 @@ std::optional<double> asked(const ChartPoint& point, const std::string& kind) {
 TEST(ChartPoints, FailedMeansWhatTheFamilySays) {
   const int unbalanced = count_failed("equilibrium", [](const ChartPoint& point) {
     const auto residual = asked(point, "residual ");
-    // By energy a residual says nothing: only that it was not content.
+    // The energy rule requests no residual: a point fails only if the rule did not stop it.
     return residual ? !(point.error->greatest <= *residual) : point.stopped != "energy_change";
   });
   const int unstable =
@@ -171,7 +172,7 @@ TEST(ChartPoints, SettingsOfTheProtocolAreToldApart) {
     std::printf("%s: %.1e ± %.1e replicate by replicate, of means ± %.1e\n", point.setting.c_str(),
                 difference.get<double>(), width.get<double>(), point.further.at("half_width").get<double>());
   }
-  // Of the same states, the window moves every replicate much alike.
+  // The states are the same, so the window shifts every replicate by about the same amount.
   const Json& window = points[2].further;
   EXPECT_LT(window.at("difference_half_width").get<double>(), window.at("half_width").get<double>());
 }

@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - a signal in any part of a chart ends the command with exit code 75, its three files written: parts that ended
 // before
 //   are complete, the one under way and those after it say that they were interrupted;

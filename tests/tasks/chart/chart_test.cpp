@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - a configuration without keys is the built-in one; what is written is read back equal, both built-in ones among
 //   them;
 // - a configuration that is not understood, out of range or impossible is refused with pointer and what is allowed, and
@@ -145,7 +145,7 @@ TEST(ChartSpread, IsOfFiniteValues) {
   EXPECT_FALSE(spread({}));
 }
 
-/// Of which 1e-6 was asked, and 1e-9 of what is slower.
+/// Points with a requested residual of 1e-6, and slower ones with 1e-9.
 std::vector<ChartPoint> made_up_equilibrium() {
   std::vector<ChartPoint> points{made_up("a", "newton", 2, 1e-10),     made_up("a", "newton", 1, 1e-7),
                                  made_up("b", "newton", 3, 1e-7),      made_up("a", "lbfgs", 0.1, 1e-7),

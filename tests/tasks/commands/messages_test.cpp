@@ -1,4 +1,4 @@
-// Facts proved here, through the executable:
+// These tests prove, through the executable:
 // - with --messages json every line on stderr is a JSON object with "kind" and "text";
 // - the errors of a manifest have file, pointer, problem, allowed and suggestion, and the text that people read;
 // - progress counts from 0 to the number of replicates, and what goes to stdout and to files is as without the option;

@@ -1,4 +1,4 @@
-// Facts proved here, through the executable:
+// These tests prove, through the executable:
 // - every manifest of the bad corpus ends `run` and `validate` with exit 65 and one line that names the file, and
 //   nothing is written;
 // - several errors are as many lines, each with the file; warnings come beside an OK;

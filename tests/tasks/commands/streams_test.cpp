@@ -1,4 +1,4 @@
-// Facts proved here, of every command:
+// These tests prove, of every command:
 // - what cannot be written to standard output, because it is full or closed, is said and ends with exit 1;
 // - with standard error closed, nothing meant for people gets into a result;
 // - a word for a number that is none is refused.
@@ -63,7 +63,7 @@ TEST_F(Streams, ANumberThatIsNoneIsRefused) {
 
 TEST_F(Streams, AnOutputIsWrittenWhereItPoints) {
   ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
-  // A stream has nothing beside it: the solid of an XYZ file stays away, a collection is refused.
+  // A stream takes one file: the solid of an XYZ file is omitted, and a collection is refused.
   const auto name = "dodecahedron-N24-r0000";
   for (const std::string stream : {"fifo", "descriptor"}) {
     fs::remove_all(here_ / "beside");
@@ -79,7 +79,7 @@ TEST_F(Streams, AnOutputIsWrittenWhereItPoints) {
     EXPECT_EQ(std::distance(fs::directory_iterator(here_ / "beside"), {}), 1) << stream;
     EXPECT_FALSE(fs::exists("/dev/fd/7.obj") || fs::exists(here_ / "beside/pipe.obj")) << stream;
   }
-  // What a shell has opened under a name is that, whatever stands behind it.
+  // A descriptor opened by a shell is a stream, whatever file is behind it.
   const auto opened = shell(
       "$ISOJAM aggregate r -o /dev/stdout | head -c 2000 >piped && "
       "$ISOJAM aggregate r --format csv -o /dev/stdout >both && $ISOJAM aggregate r --format csv >csv && "

@@ -35,7 +35,7 @@ Json study(int most) {
   return manifest;
 }
 
-/// What one types into a terminal that stands in `directory`, and sees.
+/// Output and exit code of a command typed into a terminal in `directory`.
 std::pair<std::string, int> typed(const std::vector<std::string>& arguments, const fs::path& directory) {
   return test::on_a_terminal([&] {
     std::vector<std::string> words{ISOJAM_EXECUTABLE};

@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - contacts that were constructed mark the faces that they were constructed on, by their class, and no others; both
 //   particles count them; face-face contacts, and no others, make clusters, which the least particle names;
 // - of several pairs of parallel faces that bound a contact, those are marked that lie in each other;

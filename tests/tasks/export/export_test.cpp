@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - the same frames give the same bytes in every format, also after packings went through JSON; no text holds a NaN;
 // - the GSD layer keeps its index in the order of frames and names whatever the order of a frame's chunks, every entry
 //   lies within the file and points at its data; what is not a chunk is refused;
@@ -159,7 +159,7 @@ class ExportCommandTest : public ::testing::Test {
     return isojam(arguments, directory_.path());
   }
 
-  /// What is in the directory now and was not before.
+  /// Files that were added to the directory.
   std::vector<std::string> written() const {
     std::vector<std::string> names;
     for (const auto& [name, content] : files_below(directory_.path())) {

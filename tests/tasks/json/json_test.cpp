@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - every double that is written reads back as the same bits, and pretty text parses to the same value;
 // - a number that JSON cannot hold is written as null with its reason;
 // - a global locale with another decimal point changes neither reading nor writing;

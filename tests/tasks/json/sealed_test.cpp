@@ -68,7 +68,7 @@ Packing made_up_packing() {
   return packing;
 }
 
-/// In a cell that has given way, and in a cube whose side has a low part.
+/// Packings in a cell whose shape has relaxed, and in a cube whose side has a low part.
 std::vector<Packing> in_other_cells() {
   DoubleDoubleMatrix skew, stretch;
   skew.high << 1.02, .07, -.03, .01, .98, .05, 0, -.02, 1.01;

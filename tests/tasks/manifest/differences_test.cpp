@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - manifests of different digest differ in keys that are named with both values, a handful of them;
 // - those of the same digest differ in none.
 

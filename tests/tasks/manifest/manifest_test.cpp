@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - every manifest of the bad corpus is refused with the file, the JSON pointer and the text that it deserves;
 // - what is left out takes the defaults of the engine's structs;
 // - every parameter can be set and swept at the ends of its range, and not beyond them;

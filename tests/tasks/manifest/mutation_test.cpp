@@ -1,4 +1,4 @@
-// Facts proved here, over ten thousand manifests made from valid ones by changes of a few places or bytes, fixed seeds:
+// These tests prove, over ten thousand manifests made from valid ones by changes of a few places or bytes, fixed seeds:
 // each is refused by errors that name the file, no two of one place, or is a manifest that means what it says: its
 // canonical form reads back as itself, and its plan holds as many replicates of distinct names as the product of its
 // lists. The same holds of records, which make a table or are refused.

@@ -1,9 +1,9 @@
-// Facts proved here:
+// These tests prove:
 // - the plan is the product of the swept lists, in canonical order, each replicate once and under a name of its own,
 //   which says what varies, can be that of a file, and leads back to the replicate;
 // - a replicate's random numbers do not depend on what else is swept over, nor on its place in the sweep;
-// - replicates of one number begin alike at every swept value of protocol and minimiser: the same poses, in a cell of
-//   the initial density;
+// - replicates of one number have the same initial configuration at every swept value of protocol and minimiser: the
+//   same poses, in a cell of the initial density;
 // - random numbers differ between numbers of replicates, solids, particles, seeds and purposes, and are those of the
 //   solid and particles alone.
 
@@ -89,7 +89,7 @@ TEST(Plan, NamesAreSafeAndLeadBack) {
       EXPECT_EQ(place->point * 3 + static_cast<std::size_t>(place->replicate), k) << name;
     }
     EXPECT_EQ(names.size(), plan.size());
-    // What would be too long to read has a hash in the place of what varies.
+    // A name that would be too long has a hash in place of its parameters.
     EXPECT_GT(hashed, 0U);
     EXPECT_EQ(hashed == plan.size(), longer);
   }
@@ -114,7 +114,7 @@ TEST(Plan, AReplicateDrawsTheSameBitsInEverySweep) {
   }
 }
 
-/// What of a specification the random numbers depend on.
+/// The parts of a specification on which the random numbers depend.
 using Origin = std::tuple<std::uint64_t, Mixture, int, int>;
 Origin origin_of(const ReplicateSpec& spec) { return {spec.seed, spec.solid, spec.particles, spec.replicate}; }
 
@@ -192,7 +192,7 @@ TEST(Plan, StartsOfOtherOriginsDiffer) {
   EXPECT_EQ(seen.size(), 2U * 2 * 2 * 2);
 }
 
-/// The first bits of a replicate of which nothing but solid and particles is swept, as every version has drawn them.
+/// The first random bits of a replicate in a sweep over solids and particles only. They are the same in every version.
 TEST(Plan, TheBitsOfPlainSweepsAreWhatTheyWere) {
   const auto spec = plan_of(test::good_manifest()).at(1);
   RandomStream stream{7, hash_of(R"({"solid":"dodecahedron","particles":64})"), 1,

@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - what is wrong with a manifest is told at once, a line for each error, in the order of the document, and nothing
 //   that follows from another error;
 // - two errors in different places give the two lines that each gives alone;
@@ -23,7 +23,7 @@ namespace {
 using Lines = std::vector<std::string>;
 using test::good_manifest;
 
-/// What is said of a text; nothing where it is accepted.
+/// Error lines for a text; empty if it is accepted.
 Lines refusals(const std::string& text) {
   try {
     parse_manifest(text, "m.json");
@@ -36,7 +36,7 @@ Lines refusals(const std::string& text) {
   }
 }
 
-/// The same, of each line the pointer alone.
+/// The same, but only the pointer of each line.
 Lines pointers(const std::string& text) {
   auto lines = refusals(text);
   for (auto& line : lines) {

@@ -1,4 +1,4 @@
-// Facts proved here: "I/N" is read and nothing else is; shards of any plan are disjoint and together the whole; a Slurm
+// These tests prove: "I/N" is read and nothing else is; shards of any plan are disjoint and together the whole; a Slurm
 // array task finds its shard by its place in the array, whatever the indices, and contradictions are refused.
 
 #include "tasks/manifest/shard.hpp"

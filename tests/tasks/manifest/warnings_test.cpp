@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - settings of which it is known that they give no good result are warned of, by the key to change;
 // - the defaults, and every example, are not.
 
@@ -90,7 +90,7 @@ TEST(Warnings, MinimisersMustGetThere) {
   EXPECT_EQ(of_minimiser({{"method", "fire"}, {"residual", 1e-3}}), Lines{});
   EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}}), Lines{"/protocol/consolidation_evaluations"});
   EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}}}, {"protocol", {{"consolidation_evaluations", 100}}}}), Lines{});
-  // Who says hasty means it.
+  // A user who chooses "hasty" does so deliberately.
   EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}, {"consolidation", "hasty"}}), Lines{});
 }
 

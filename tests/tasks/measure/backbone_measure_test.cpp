@@ -1,4 +1,4 @@
-// Facts proved here, of what the backbone's measure puts into records:
+// These tests prove, of what the backbone's measure puts into records:
 // - of a jammed packing that has no near-rattlers it is what contacts, modes, moduli and rigidity say of the whole;
 // - where those that go bore force the rest is said not to balance, and has no bulk modulus; its rank is that of all
 //   singular values of its rows, though its forces are no state of self-stress;

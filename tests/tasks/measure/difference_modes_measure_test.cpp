@@ -1,4 +1,4 @@
-// Facts proved here, of what the measure of modes by differences puts into records:
+// These tests prove, of what the measure of modes by differences puts into records:
 // - the exact count is that of all 6N eigenvalues of the analytic matrix, at a saddle too, which is left as it is;
 //   the counts by differences are those of difference_hessian in doubles, by a dense solver, at every step; shares are
 //   of 6N;

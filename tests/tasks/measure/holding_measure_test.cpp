@@ -1,4 +1,4 @@
-// Facts proved here, of what the measures of prestress and of gaps put into records, in states of jammed octahedra:
+// These tests prove, of what the measures of prestress and of gaps put into records, in states of jammed octahedra:
 // - numbers of constraints fall as their threshold rises, and the one called C_s is that of 10; missing ranks are those
 //   of the rigidity of the same rows; shares of modes add up, and lie in [0, 1] but for prestress that is negative;
 //   more modes are left to prestress by a higher threshold, and fewer to the second term by a lower share of normals;
@@ -35,7 +35,7 @@ const JamResult& octahedra() {
   return result;
 }
 
-/// What a measure says of every state, under its key.
+/// The part of every state that a measure wrote, under its key.
 std::vector<Json> states_of(Measure what, const std::string& key) {
   std::vector<Json> list;
   for (const Json& state : measure(what, octahedra()).states) list.push_back(state.at(key));
@@ -43,7 +43,7 @@ std::vector<Json> states_of(Measure what, const std::string& key) {
   return list;
 }
 
-/// What choices of thresholds and shares may do, of the prestress of a state.
+/// Checks how thresholds and shares affect the prestress of a state.
 void expect_choices(const Json& state, const Packing& packing) {
   const Json& modes = state.at("modes");
   const Json &by_share = modes.at("second_by_share"), &by_threshold = modes.at("prestress_by_threshold");

@@ -1,4 +1,4 @@
-// Facts proved here, of what measurements put into records:
+// These tests prove, of what measurements put into records:
 // - of a jammed packing every measurement has an entry per state, the record conforms to its schema, every quantity
 //   of the tables finds its number or the reason why there is none;
 // - its zero, negative and positive modes are counted right: as many as a dense solver finds among all 6N eigenvalues;
@@ -67,7 +67,7 @@ std::string unexplained(const Json& json, const std::string& path = "") {
   return list;
 }
 
-/// Of a record with all measures: what each wrote is found again.
+/// Checks that the part of each measure is found again in a record with all measures.
 void expect_recorded(const Json& record, const Outcome& outcome) {
   for (const auto& [what, measured] : outcome.measured) {
     const auto found = recorded_measurement(what, record);
@@ -114,7 +114,7 @@ TEST(Measure, CountsModesAsADenseSolverDoes) {
   }
 }
 
-/// What the record says of the rows of `matrix`, where the contacts have so many `constraints`.
+/// Checks the record's counts for the rows of `matrix`, for contacts with this many `constraints`.
 void expect_counted(const Json& counted, const RigidityMatrix& matrix, int constraints, double per_particle) {
   const auto coordinates = static_cast<int>(matrix.rows.cols());
   const Eigen::VectorXd sigma = singular_values_of(Eigen::MatrixXd(matrix.rows));

@@ -1,4 +1,4 @@
-// Facts proved here, of the table of quantities:
+// These tests prove, of the table of quantities:
 // - names and places are distinct, pointers are pointers, and every text is there;
 // - φ_J comes first; it and those of rearrangements are of no measure, every other quantity is of the measure whose
 //   source tells it; a group stands in one piece, the main one first;

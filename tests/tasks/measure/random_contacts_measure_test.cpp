@@ -1,4 +1,4 @@
-// Facts proved here, of what the record says about angles near 0 and random contacts where edges touch too:
+// These tests prove, of what the record says about angles near 0 and random contacts where edges touch too:
 // - the range near 0 ends where a tenth of random contacts are, summed contact by contact over the solids that touch,
 //   for one solid, for one shape in two sizes and for two shapes;
 // - angles there are counted, and a tenth of all is what is expected; with edges the range is another one than with

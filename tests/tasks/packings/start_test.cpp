@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - a GSD of another program's making, its solid in its own units, turned, shifted and in another order of vertices, in
 //   a mixture of shapes and sizes too, gives the packing that was meant, to single precision; so does an extended XYZ,
 //   to the last digits; so does one that Python's gsd wrote;
@@ -173,7 +173,7 @@ TEST(ForeignPackings, AreNotTrusted) {
   }
   EXPECT_GT(refused, 150) << "those that were cut, at least";
   EXPECT_THROW(packing_of(read_gsd_packing(whole, -1), SolidKind::octahedron), NoPackingFile);
-  // What overflows on the way is told, and not carried on.
+  // An overflow is reported and not carried on.
   auto far = read_gsd_packing(whole, -1), huge = far;
   far.bodies[3].position[1] = 3e38;
   EXPECT_THROW(packing_of(far, SolidKind::cube), NoPackingFile);

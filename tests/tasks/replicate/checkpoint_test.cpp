@@ -1,6 +1,6 @@
-// Facts proved here:
+// These tests prove:
 // - a run that goes on from the text of any of its checkpoints ends with the record of the run that never stopped, but
-//   for timing, also where steps failed and were tried again, and in a cell that gives way; so does one that had ended
+//   for timing, also where steps failed and were tried again, and in a variable cell; so does one that had ended
 //   and was not recorded yet;
 // - a checkpoint of another replicate, manifest or build, or with states that are not its own, is refused where it is
 //   wrong; a run that is no longer finite leaves none.

@@ -1,4 +1,4 @@
-// Facts proved here, on real packings of 24 dodecahedra:
+// These tests prove, on real packings of 24 dodecahedra:
 // - a run that stops at max_density or max_steps says which key of the manifest sets the limit;
 // - φ_J of states outside the fit window is flagged, and of states within it is not;
 // - the settings of both, and no others, are warned of beforehand.

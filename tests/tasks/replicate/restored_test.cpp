@@ -1,6 +1,6 @@
-// Facts proved here:
+// These tests prove:
 // - of a record and the packings of its path comes a result that gives the same record again, also where a branch was
-//   lost, a packing gave way, a residual was infinite or states were followed downhill;
+//   lost, a packing rearranged, a residual was infinite or states were followed downhill;
 // - what a measure has not, in a state or of all states, comes back from the record with its reason;
 // - nothing is added to a record that its result does not give again: it is refused and left as it was.
 

@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - the data stands in the page as JSON that reads back equal, whatever texts it holds, and no text of it is markup;
 // - the same results give the same bytes; the command writes the file asked for, nothing else, nothing from damage;
 // - the extrapolation runs from φ_J through the states that gave it;
@@ -295,7 +295,7 @@ TEST(ReportViews, ForcesAreThoseOfTheContactsAndEndWhereTheyAct) {
     most = std::max(most, shown[2]);
     const auto& turn = packing.poses[static_cast<std::size_t>(pair.a)].orientation;
     const Eigen::Vector3d place = turn.conjugate() * Eigen::Vector3d(shown[3] / 100., shown[4] / 100., shown[5] / 100.);
-    // What a force cannot have is a torque about its own line.
+    // A force has no torque about its own line.
     const Eigen::Vector3d along = overlap.area.normalized(),
                           torque = overlap.moment - along * along.dot(overlap.moment);
     EXPECT_LE((place.cross(overlap.area) - torque).norm(), 1.01 * rounding * overlap.area.norm()) << k;

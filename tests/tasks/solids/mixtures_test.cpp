@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - a mixture is an entry of a sweep; its canonical form is a fixed point of parsing, and holds the vertices of solids
 //   that the manifest defines;
 // - what is no mixture is refused at its place: fractions that do not sum to 1, sizes that are none, kinds without

@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - a solid is defined by a box, by vertices or by a file, and swept by its name beside the program's own;
 // - OFF and STL, text and binary, give the same solid; their paths are relative to the manifest;
 // - what is no convex solid is refused at its place, all of it at once, and nothing that follows from it;

@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - values are used in the order of their indices, each once, whichever were made first, and on the calling thread;
 // - few wait in memory: no more than four for each thread are made ahead of the one in use;
 // - of several failures the first index is thrown, after all before it were used; what `use` throws ends it too, and in

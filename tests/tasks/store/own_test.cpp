@@ -1,9 +1,9 @@
-// Facts proved here, of files that are whole but not what they are taken for:
+// These tests prove, of files that are whole but not what they are taken for:
 // - a packing or path of another replicate, manifest or run is not taken for a record's own, whoever reads it;
 // - a record must have the result digest that it states, and be of the replicate its name says;
-// - records of another manifest than the directory's are told and left out of the table, and builds are told apart;
+// - records of another manifest than the directory's are told and left out of the table, and builds are distinguished;
 // - a pipe, a link to an endless device and a million nested lists are damage, at once;
-// - a record of what the machine lacked is redone;
+// - a record of a resource failure is redone;
 // - of manifests that begin at once in a fresh directory one gets it, and the others are refused by the keys that
 //   differ.
 

@@ -1,4 +1,4 @@
-// Facts proved here, on a hundred thousand synthetic records (a minute and a gigabyte of disk, so only with
+// These tests prove, on a hundred thousand synthetic records (a minute and a gigabyte of disk, so only with
 // --gtest_also_run_disabled_tests): `aggregate` stays below a gibibyte, prints how long it takes, and gives the same
 // table whichever half of the records it finds first.
 

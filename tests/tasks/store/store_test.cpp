@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
 // - a record without its packing is not held; a packing keeps every bit of its state, low parts included, and conforms
 //   to its schema, alike or a mixture, in a cube or not;

@@ -23,7 +23,7 @@ std::string replaced(const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
-/// A value set where it must not be; a schema can tell.
+/// A value at a place where it is not allowed; a schema can detect it.
 BadManifest set(const std::string& name, const std::string& at, const Json& value, const std::string& says,
                 const std::string& pointer = "") {
   return {name, with(at, value), pointer.empty() ? at : pointer, says, true};
@@ -89,7 +89,7 @@ std::vector<BadManifest> malformed() {
   };
 }
 
-/// What rows cannot be compared with.
+/// Bases with which rows cannot be compared.
 std::vector<BadManifest> malformed_base() {
   return {
       set("misspelt parameter of the base", "/base/step_fracton", 0.35, "did you mean \"step_fraction\"?"),
@@ -103,7 +103,7 @@ std::vector<BadManifest> malformed_base() {
   };
 }
 
-/// How to shear, in words that a schema refuses.
+/// Shears that a schema refuses.
 std::vector<BadManifest> malformed_shear() {
   return {
       set("shear that is no object", "/shear", "pure", "an object"),

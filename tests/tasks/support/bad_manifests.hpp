@@ -7,7 +7,7 @@
 
 namespace isojam::test {
 
-/// A manifest that must be refused, and what its one error must say.
+/// A manifest that must be refused, and its expected error.
 struct BadManifest {
   std::string name;
   std::string text;

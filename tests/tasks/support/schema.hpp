@@ -9,7 +9,7 @@ namespace isojam::test {
 /// schemas/<name>.schema.json
 Json schema(const std::string& name);
 
-/// What a draft-07 validator has against a document; empty if it conforms.
+/// Violations that a draft-07 validator finds in a document; empty if it conforms.
 std::string violations(const std::string& schema_name, const Json& document);
 
 }  // namespace isojam::test

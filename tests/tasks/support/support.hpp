@@ -12,7 +12,7 @@
 
 namespace isojam::test {
 
-/// A directory that is removed with what it holds.
+/// A directory that is removed with its contents.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();
@@ -40,10 +40,10 @@ Finished isojam(const std::vector<std::string>& arguments, const std::filesystem
 /// The same for a line of a shell, in which $ISOJAM is the executable.
 Finished shell(const std::string& line, const std::filesystem::path& directory);
 
-/// What `work` writes to a terminal, in a process of its own, and how that ended (the status of waitpid).
+/// Output of `work` on a terminal, in a separate process, and the status of waitpid.
 std::pair<std::string, int> on_a_terminal(const std::function<void()>& work, int columns = 80);
 
-/// Warnings that a test keeps, or does without.
+/// Collects warnings for a test.
 struct Warnings {
   std::vector<std::string> said;
   std::function<void(const std::string&)> warn() {
@@ -70,7 +70,7 @@ Json tiny_manifest();
 /// Every specification of a plan, in order.
 std::vector<ReplicateSpec> make_plan(const Manifest& manifest);
 
-/// What remains of a record or packing without its checksum, and of a record without what may differ between runs.
+/// A record or packing without its checksum, and a record without the values that may differ between runs.
 Json without_checksum(Json document);
 
 /// The record as it is read back from its file.
@@ -78,7 +78,7 @@ Json record_on_disk(const Outcome& outcome);
 
 /// Contacts of which both fits gave a cut-off.
 ContactAnalysis made_up_contacts(double z);
-/// In place of those of the state nearest jamming of a made-up outcome.
+/// Replaces the contacts of the state nearest jamming of a made-up outcome.
 void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis);
 
 /// A made-up outcome without failure, a function of the specification.

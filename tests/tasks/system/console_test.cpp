@@ -1,4 +1,4 @@
-// Facts proved here, on a pseudo-terminal, as a person sees it:
+// These tests prove, on a pseudo-terminal, as a person sees it:
 // - a bar of constant length counts the replicates of each round from none to its own total, however many rounds came
 //   before;
 // - nothing is wider than the terminal, for what is could not be cleared again;

@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - a file is replaced whole or not at all, and a failed write leaves nothing behind; of several writers of a new file
 //   exactly one is told that it is the one;
 // - what a person names is written where it points: through a link, into a pipe, with the mode that the file had;

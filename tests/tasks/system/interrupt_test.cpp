@@ -1,4 +1,4 @@
-// Facts proved here, in processes made for the purpose: a process that listens to the stop request ends as it likes;
+// These tests prove, in processes made for the purpose: a process that listens to the stop request ends as it likes;
 // one that does not listen is ended with exit code 75 when the patience is over, and by a second signal before;
 // without a signal, or with one that was ignored before, nothing happens.
 

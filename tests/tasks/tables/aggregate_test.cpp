@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - the table does not depend on the order of the records, nor on a record being given twice;
 // - failed replicates are counted and in no mean; flagged ones are counted, and in the means they have a value for
 //   unless their flag is excluded: these are in the means of all;

@@ -1,4 +1,4 @@
-// Facts proved here, with made-up records, and through the executable:
+// These tests prove, with made-up records, and through the executable:
 // - the differences of a row from its base are those of replicates of one number, mean, standard deviation and
 //   Student's interval as computed by hand; a replicate that failed, is excluded or lacks the value on either side is
 //   left out;
@@ -148,7 +148,7 @@ TEST(Base, PairsHaveNarrowerIntervalsWhereReplicatesVaryTogether) {
   EXPECT_LT(*other.estimates[i].mean - *base.estimates[i].mean, unpaired);
 }
 
-/// Of two parameters and sizes, every combination with values of its own.
+/// Every combination of two parameters and two sizes, each with its own values.
 std::vector<RecordSummary> grid() {
   std::vector<RecordSummary> records;
   for (const int particles : {100, 200}) {

@@ -1,4 +1,4 @@
-// Facts proved here, through the executable, with made-up outcomes:
+// These tests prove, through the executable, with made-up outcomes:
 // - replicates with a flag that the manifest excludes count in no mean of the first line; those of all stand beneath it
 //   in every format; what is excluded is told in each but CSV, whose rows are marked;
 // - which flags are excluded is no part of a replicate: it may be changed later in the same directory, which then takes

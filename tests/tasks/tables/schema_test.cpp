@@ -1,10 +1,10 @@
-// Facts proved here:
+// These tests prove:
 // - defaults, ranges, choices and places of the manifest's schema are those of the program;
 // - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
 // - of the bad corpus the schema refuses all that it can express;
 // - the schema of tables knows every quantity, and those that name flags know every flag;
 // - records and tables conform, failed and flagged ones too; a damaged one does not;
-// - a record tells in how many steps the packing gave way, and tables take it from there;
+// - a record tells in how many steps the packing rearranged, and tables take it from there;
 // - failed records have the keys of others, null with a reason; earlier ones without them conform and are read.
 
 #include <gtest/gtest.h>
@@ -206,7 +206,7 @@ TEST(RecordSchema, RefusesDamagedRecords) {
   EXPECT_NE(violations("replicate", both), "");
 }
 
-/// Of a replicate whose vibrations and moduli were measured too.
+/// Outcome of a replicate with measured vibrations and moduli.
 Outcome with_scaling() {
   auto manifest = test::good_manifest();
   manifest["measure"] = {"contacts", "order", "clusters", "modes", "moduli"};

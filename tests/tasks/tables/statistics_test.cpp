@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - mean, standard deviation and half width are those of the definition, t from the textbooks' table;
 // - the order of the values changes no bit;
 // - intervals are absent without spread: one value, or none;

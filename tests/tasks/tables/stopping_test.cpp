@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - batches grow by a quarter and at least two, and never pass max;
 // - the rule stops at the first batch whose interval is narrow enough, by an interval computed anew; a failed replicate
 //   takes part without a value; without a goal all are wanted;
@@ -65,7 +65,7 @@ TEST(Stopping, StopsAtTheFirstNarrowBatch) {
     EXPECT_NEAR(*advance.half_width, half_width(values, expected), 1e-12 * *advance.half_width);
     stopped_early += expected < 40;
     went_on_to_the_end += !met;
-    // What lies beyond is not looked at, and what is missing is asked for batch by batch.
+    // Values beyond the stopping point are not used, and missing ones are requested batch by batch.
     for (int n = 0; n < expected; ++n) {
       const auto so_far = advance_of(asked, std::span(values).first(static_cast<std::size_t>(n)));
       EXPECT_FALSE(so_far.finished) << seed << " with " << n;

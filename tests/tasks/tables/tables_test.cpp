@@ -1,4 +1,4 @@
-// Facts proved here:
+// These tests prove:
 // - the text table is aligned, carries two significant digits of each half width, and says where fewer replicates
 //   have a value; without an interval it shows none;
 // - what is whole and without spread is printed as a whole number;
