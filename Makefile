@@ -83,10 +83,10 @@ run: build
 	$(BUILD)/isojam run $(EXAMPLE)/manifest.json -o $(RESULTS)
 	@$(BUILD)/isojam report $(RESULTS)
 
-# The studies of examples/paper, those first that its page is mostly made of; then the page from their results. What was
-# interrupted goes on. A replicate that failed (exit 1) is counted on the page.
+# The studies of examples/paper, the most important ones first; then the page from their results. An interrupted call is
+# resumed. A replicate that failed (exit 1) is counted on the page.
 PAPER = n100 n100-tetrahedra n400 n400-tetrahedra search-protocol search-400 cubes rule-base rule
-# Measures first that an interrupted call left: `run` would make the whole replicate anew.
+# Measures that an interrupted call left come first, because `run` would compute the whole replicate again.
 studies = @for study in $(1); do \
 	  [ ! -d results/$(2)-$${study\#n}/records ] || $(BUILD)/isojam measure results/$(2)-$${study\#n} >/dev/null || [ $$? = 1 ] || exit 1; \
 	  $(BUILD)/isojam run examples/$(2)/$$study.json $(3) >/dev/null || [ $$? = 1 ] || exit 1; \
@@ -248,7 +248,7 @@ bench-against:
 	cmake --build $(BUILD)-before -j $(JOBS) --target isojam_bench
 	$(PYTHON) -B tests/bench/against.py $(BUILD)-before/isojam_bench $(BUILD)/isojam_bench --filter '$(FILTER)'
 
-# What following equilibria towards jamming costs: the tables of docs/equilibria.md.
+# The cost of following equilibria towards jamming: the tables of docs/equilibria.md.
 equilibria:
 	$(call install,$(TEST_PACKAGES))
 	$(CONFIGURE) -DISOJAM_TESTS=ON

@@ -1,1 +1,1 @@
-// Nothing but the headers that most tests read, which CMake compiles for all of them.
+// Only the headers that most tests include; CMake precompiles them for all.

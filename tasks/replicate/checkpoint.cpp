@@ -115,7 +115,7 @@ int read_lost(const JsonPlace& root) {
   return static_cast<int>(root.at("lost").integer({-1, steps - 1}));
 }
 
-/// The build and the sweep. What will be measured is no part of a run: measures may be added while it stands.
+/// The build and the sweep. Measures are left out, because they may be added while a run is interrupted.
 Json origin(const ReplicateSpec& spec) {
   auto json = provenance(spec);
   json["manifest_digest"] = spec.sweep_digest;

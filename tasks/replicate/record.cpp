@@ -88,7 +88,7 @@ Owner owner(const Outcome& outcome, const std::string& result_digest) {
   return {replicate_name(outcome.spec), outcome.spec.manifest_digest, result_digest};
 }
 
-/// What a record holds unless its replicate failed, but for the flags: null, with the reason.
+/// Fills a failed record with the keys of a complete one, apart from flags: null, with the reason.
 void put_nothing(Json& record, const std::vector<Measure>& measures) {
   std::vector<std::string> keys{"phi_j", "nearest"};
   for (const auto& quantity : all_quantities()) {

@@ -36,7 +36,7 @@ struct Outcome {
   std::map<std::string, double> stage_seconds;  ///< CPU time by stage: jam, and every measurement that was made
 };
 
-/// What a replicate can go on from: where its run stands, and what that has cost.
+/// State from which a replicate can be resumed: the progress of its run, and the time spent on it.
 struct Checkpoint {
   JamProgress progress;
   Timing spent;

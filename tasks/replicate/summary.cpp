@@ -83,7 +83,7 @@ void read_additions(const JsonPlace& added, RecordSummary& summary) {
   }
 }
 
-/// Those that this version knows.
+/// Reads the measures that this version knows.
 void read_measures(const JsonPlace& measures, RecordSummary& summary) {
   const auto count = measures.expect_list("a list of measures");
   for (std::size_t k = 0; k < count; ++k) {

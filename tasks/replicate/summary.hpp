@@ -21,7 +21,7 @@ struct StateValues {
   Values values = no_values();
 };
 
-/// What a table needs of a record.
+/// The part of a record that a table needs.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct RecordSummary {
   Mixture solid = SolidKind::tetrahedron;
@@ -29,7 +29,7 @@ struct RecordSummary {
   Json parameters;
   int replicate = 0;
   std::string manifest_digest;
-  /// What it was until measures were added to it, and by which build.
+  /// The record before measures were added to it, and the build that added them.
   struct Before {
     std::string manifest_digest, result_digest, added_by;
   };
@@ -46,7 +46,7 @@ struct RecordSummary {
   std::optional<double> residual;   ///< worst of the states behind φ_J
 };
 
-/// Whether the replicate has one of these flags.
+/// True if the replicate has one of these flags.
 bool has_any(const RecordSummary& summary, const std::vector<Flag>& flags);
 
 /// Throws InputError if the record is not one of ours or lacks what a table needs.

@@ -5,8 +5,8 @@
 
 namespace isojam {
 
-// What records and checkpoints say of the work behind a result, in both directions. Readers throw InputError for what
-// was not written so.
+// The work behind a result as JSON, for records and checkpoints. Readers throw InputError for anything else than a
+// writer writes.
 
 Json to_json(const PairCounts& counts);
 PairCounts read_counts(const JsonPlace& place);

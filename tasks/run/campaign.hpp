@@ -12,11 +12,11 @@
 
 namespace isojam {
 
-/// What a shard of a plan still has to run, round by round. Without a goal there is one round, and replicates are dealt
-/// to shards one by one. With a goal a round is the next batch of every sweep point that has not met it, decided by
-/// what is recorded of that point's earlier batches alone; whole points are dealt to shards, since one shard cannot
-/// wait for another. Holds a few numbers per sweep point, and nothing per replicate but the values that a goal looks
-/// at.
+/// The replicates that a shard of a plan still has to run, round by round. Without a goal there is one round, and
+/// replicates are dealt to shards one by one. With a goal a round is the next batch of every sweep point that has not
+/// met it, decided by what is recorded of that point's earlier batches alone; whole points are dealt to shards, since
+/// one shard cannot wait for another. Holds a few numbers per sweep point, and nothing per replicate but the values
+/// that a goal looks at.
 class Campaign {
  public:
   Campaign(const Plan& plan, const Replicates& rule, const Shard& shard, const Store& store);

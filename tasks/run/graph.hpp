@@ -12,7 +12,8 @@ struct GraphOptions {
   int threads = 0;    ///< 0: as many as the machine gives this process
   int in_flight = 0;  ///< replicates in memory at once; 0: as many as threads
   std::stop_token stop;
-  /// Called after every minimised step of any replicate, from several threads at once. What it throws stops the run.
+  /// Called after every minimised step of any replicate, from several threads at once. An exception from it stops the
+  /// run.
   std::function<void(const ReplicateSpec&, const Checkpoint&)> on_step;
 };
 
@@ -20,11 +21,11 @@ struct GraphOptions {
 /// there is room for another: a plan of any length takes no memory.
 using NextReplicate = std::function<std::optional<ReplicateSpec>()>;
 
-/// Runs every replicate through the stages and hands exactly one outcome of each to `on_outcome`, one at a time, in
-/// no particular order. An exception in a stage becomes the outcome's failure, but one that says what the machine lacks
-/// (bad_alloc, system_error, FileError) stops the run and is thrown from here. After a stop request, replicates that
-/// have not started give no outcome and those under way give an interrupted one. An exception of `next`,
-/// `on_outcome` or `on_step` stops the run and is thrown from here.
+/// Runs every replicate through the stages and hands exactly one outcome of each to `on_outcome`, one at a time, in no
+/// particular order. An exception in a stage becomes the outcome's failure. A resource failure (bad_alloc,
+/// system_error, FileError) instead stops the run and is thrown from here. After a stop request, replicates that have
+/// not started give no outcome and those under way give an interrupted one. An exception of `next`, `on_outcome` or
+/// `on_step` stops the run and is thrown from here.
 void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
                const std::function<void(const Outcome&)>& on_outcome);
 

@@ -102,8 +102,8 @@ class InOrder {
 };
 
 /// Makes `count` values on all threads and gives them to `use` on the calling one, in the order of their indices; few
-/// are in memory at once. What `make` throws for the first index that fails is thrown from here, after all before it
-/// were used: which of several failures is reported does not depend on who was first. What `use` throws ends it too.
+/// are in memory at once. An exception of `make` is thrown from here once all earlier values were used, so that the
+/// failure of the lowest index is reported on any number of threads. An exception of `use` ends the loop too.
 template <class Make, class Use>
 void in_order(std::size_t count, const Make& make, const Use& use) {
   InOrder<Make> values(count, make);

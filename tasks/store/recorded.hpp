@@ -23,9 +23,9 @@ struct RecordedReplicate {
 /// does not have the result digest that it states, or is of another replicate than its name says.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
-/// Whether the record is of the sweep of this manifest, whatever was measured.
+/// True if the record belongs to the sweep of this manifest, whatever was measured.
 bool is_of(const RecordedReplicate& replicate, const Manifest& manifest);
-/// The measures of a manifest that the record has not: those that were added to the manifest since.
+/// The measures of a manifest that the record lacks, because they were added to the manifest later.
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest);
 
 /// Throws InputError unless the record has all the settings of this specification, measures apart.
@@ -48,8 +48,8 @@ std::optional<Manifest> stored_manifest(const std::filesystem::path& directory);
 /// The same, where there must be one.
 Manifest own_manifest(const std::filesystem::path& directory);
 
-/// Names of what a folder holds, without extension, ordered; none if there is no such folder. What writers left
-/// behind is no result.
+/// Names of the files in a folder, without extension, ordered; none if there is no such folder. Temporary files of
+/// writers are skipped.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
 }  // namespace isojam

@@ -11,7 +11,7 @@
 
 namespace isojam {
 
-/// What a report is made of.
+/// The contents of a results directory, for a report.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct Results {
   Json manifest;  ///< canonical; null if there is none

@@ -25,7 +25,7 @@ namespace {
                     fmt::format("results of this manifest (digest {}): choose another directory with -o", ours), ""});
 }
 
-/// What a manifest measures that the one of the directory does not.
+/// The remedy if a manifest asks for measures that the directory lacks.
 std::string how_to_add(const fs::path& directory, const Manifest& theirs, const Manifest& ours) {
   std::string names;
   for (const auto what : ours.measures) {
@@ -94,7 +94,8 @@ void make_own_folder(const fs::path& folder) {
   remove_stale_temporaries(folder);
 }
 
-/// Those that a writer leaves that is killed after the record and before its checkpoint went.
+/// Removes checkpoints of recorded replicates: a run may be killed after the record and before it removes the
+/// checkpoint.
 void remove_outlived_checkpoints(const fs::path& directory) {
   for (const auto& name : names_in(directory / "checkpoints")) {
     std::error_code gone;
@@ -113,7 +114,7 @@ Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
   return manifest;
 }
 
-/// Makes the directory this manifest's, or finds that it has become another's. What it keeps of it.
+/// Writes the manifest to the directory, or refuses a directory of another manifest. Returns the manifest kept there.
 Manifest claim(const fs::path& directory, const Manifest& manifest) {
   const auto path = directory / "manifest.json";
   auto before = manifest_in(directory, manifest);
@@ -146,7 +147,7 @@ Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
   check_directory(directory_, manifest, warn_);
   make_folder(directory_);
   kept_ = claim(directory_, manifest);
-  // What was put there between the two is read back.
+  // Another process may have written the manifest between the two calls, so it is read back.
   manifest_in(directory_, manifest);
   remove_stale_temporaries(directory_);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);

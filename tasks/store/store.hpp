@@ -33,9 +33,9 @@ class Store {
   /// which results would end up elsewhere.
   Store(std::filesystem::path directory, const Manifest& manifest, Warn warn);
 
-  /// What a valid record of this replicate says, if it is there with its packing, and its path if it is to be kept. A
-  /// damaged one is reported. Throws InputError if the record belongs to another manifest; FileError if it cannot be
-  /// read now, which is not to be damaged.
+  /// Summary of a valid record of this replicate, if it has its packing, and its path if paths are kept. A damaged one
+  /// is reported. Throws InputError if the record belongs to another manifest; FileError if it cannot be read now,
+  /// which is not to be damaged.
   std::optional<RecordSummary> recorded(const ReplicateSpec& spec) const;
   /// Where the replicate stood. A damaged checkpoint, or one of another build, is reported and not used. Throws
   /// FileError if it cannot be read now.
@@ -48,12 +48,12 @@ class Store {
   /// out as it was. `moved`: states have changed on the way, as those do that are followed to minima first, and are
   /// written again. Throws InputError if the record cannot be made again bit for bit.
   void write_added(const Outcome& outcome, const RecordedReplicate& before, bool moved) const;
-  /// The same of a replicate that failed before anything was measured.
+  /// The same for a replicate that failed before anything was measured.
   void write_added(const ReplicateSpec& spec, const RecordedReplicate& failed) const;
   void write_tables(const Json& tables) const;
 
   const std::filesystem::path& directory() const { return directory_; }
-  /// What manifest.json says of this manifest: the plan that its records belong to, which may be larger than the one
+  /// The manifest of manifest.json: the plan that the records belong to, which may be larger than the one
   /// that the store was opened for.
   const Manifest& kept() const { return kept_; }
   std::filesystem::path record_path(const ReplicateSpec& spec) const { return file("records", spec); }
@@ -84,7 +84,7 @@ Manifest extend_manifest(const std::filesystem::path& directory, const std::vect
 /// any other that is damaged, FileError if the directory holds no records or one cannot be read now.
 void for_each_record(const std::filesystem::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
                      const std::function<void(RecordedReplicate)>& use);
-/// The same of the manifest that the directory keeps.
+/// The same for the manifest that the directory keeps.
 void for_each_record(const std::filesystem::path& directory, const Warn& warn,
                      const std::function<void(RecordedReplicate)>& use);
 

@@ -22,7 +22,7 @@ struct UnderWay {
   std::optional<bool> working;  ///< whether the process that wrote it still runs; nullopt on another machine
 };
 
-/// What a results directory holds, point by point.
+/// Counts of a results directory, by sweep point.
 struct Survey {
   struct Point {
     int recorded = 0, failed = 0, flagged = 0, under_way = 0;
@@ -39,9 +39,9 @@ struct Survey {
   int calibration_records = 0;
 };
 
-/// Surveys a directory, reading only; an empty survey if there is no such directory. What `run` would redo is damaged:
-/// also a record whose packing is missing or another's, and, `with_paths`, whose path is. Throws FileError for what
-/// cannot be read now.
+/// Surveys a directory, reading only; an empty survey if there is no such directory. A record counts as damaged if
+/// `run` would redo it. This includes a record whose packing, or `with_paths` whose path, is missing or belongs to
+/// another record. Throws FileError for files that cannot be read now.
 Survey survey_of(const std::filesystem::path& directory, const Plan& plan, bool with_paths);
 
 }  // namespace isojam

@@ -69,7 +69,7 @@ def interrupted(process, here):
 
 
 def run(command, here, interrupt=False):
-    """What a command prints, and its exit code."""
+    """The output of a command, and its exit code."""
     command = command.replace("/usr/bin/python3", sys.executable)
     # The shell hands over to the command, so that a signal reaches it.
     with subprocess.Popen(["bash", "-c", f"exec {command}" if interrupt else command], cwd=here, text=True,

@@ -1,6 +1,6 @@
-"""Facts proved here, of contacts as the program prints them, nearest jamming and along paths, in cubes, cells that have
-given way and mixtures:
-- there are as many as Z and its parts of the same state say, class by class;
+"""Properties of contacts as the program prints them, nearest jamming and along paths, in cubic cells, relaxed cells and
+mixtures:
+- their number agrees with Z and its parts of the same state, class by class;
 - forces on every particle cancel, and so do torques about its centre, to the residual in the record;
 - a torque is that of the force at its point of attack, but for a couple along the force itself; the force is V/2 times the
   area against the normal; solids are those of the packing's particles;
@@ -71,7 +71,7 @@ class Contacts(support.Case):
             mean = numpy.linalg.norm(of["force"], axis=1).mean()
             reach = max(numpy.linalg.norm(solid.vertices, axis=1).max() for solid in packing.solids) * packing.size.max()
             left = numpy.linalg.norm(force, axis=1).max() / mean, numpy.linalg.norm(torque, axis=1).max() / mean / reach
-            # What rounding leaves of sums of so many terms is far below.
+            # Rounding errors of sums of so many terms are far smaller.
             self.assertLessEqual(max(left), 1.001 * row["residual"] + 1e-9, f"{packing}: {left}")
             worst = max(worst, *left)
         print(f"largest imbalance {worst:.2g} of the mean force")

@@ -1,7 +1,7 @@
-"""Facts proved here, of packings and solids:
-- positions, orientations, cell, density and Δφ are those that the program exports: of extended XYZ to the last bit but for
-  wrapping into the cell, of GSD to single precision; of the state nearest jamming and of whole paths, in cubes and in
-  cells that have given way;
+"""Properties of packings and solids:
+- positions, orientations, cell, density and Δφ agree with the exported files: extended XYZ to the last bit apart from
+  wrapping into the cell, GSD to single precision. This is tested nearest jamming and for whole paths, in cubic cells and
+  in relaxed cells;
 - corners are the exported solid's, turned by the exported quaternion;
 - solids have unit volume and their centroid at the origin, faces wound outwards; those of a mixture, in their sizes, are
   the shapes in the exported GSD, particle by particle;
@@ -92,7 +92,7 @@ class Solids(support.Case):
 
     @staticmethod
     def centroid(solid):
-        """Of unit volume, by tetrahedra about the origin."""
+        """The solid has unit volume, computed by tetrahedra about the origin."""
         centroid = numpy.zeros(3)
         for face in solid.faces:
             a = solid.vertices[face[0]]

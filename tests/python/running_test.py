@@ -41,7 +41,7 @@ MANIFEST = {
 
 
 def contents(directory):
-    """What may not differ between two runs, by file: in records all but the time they took."""
+    """The part of each file that must be equal in two runs: in records all but the time they took."""
     found = {}
     for file in sorted(pathlib.Path(directory).rglob("*.json")):
         document = json.loads(file.read_text())
@@ -80,7 +80,7 @@ class Runs(Case):
             self.assertIsInstance(study, isojam.Study)
             self.assertEqual(contents(study.directory), expected)
             self.assertEqual(list(study.replicates["status"]), ["done", "done"])
-        # What is recorded is not run again.
+        # Recorded replicates are not run again.
         records = {file: file.stat().st_mtime_ns for file in pathlib.Path("memory/records").iterdir()}
         self.run_quietly(MANIFEST, "memory")
         self.assertEqual({file: file.stat().st_mtime_ns for file in pathlib.Path("memory/records").iterdir()}, records)

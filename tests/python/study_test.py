@@ -23,7 +23,7 @@ def rows_of_tables(directory):
 
 
 def rows_like(rows, line):
-    """Those of the sweep point of a line of a table."""
+    """The rows of the sweep point of a line of a table."""
     mask = (rows["solid"] == line["solid"]) & (rows["particles"] == line["particles"])
     for name, value in line["parameters"].items():
         mask &= rows["minimiser.residual" if name == "residual" else name] == value

@@ -1,4 +1,4 @@
-"""What the tests of the Python module share.
+"""Shared parts of the tests of the Python module.
 
 usage of each: NAME_test.py MODULE RESULTS EXPORTED, where MODULE holds the package isojam, RESULTS the study of
 manifest.json, and EXPORTED what tests/export makes: results, exported/, free-results, free-exported/."""
@@ -18,7 +18,7 @@ sys.path[:0] = [str(MODULE), str(pathlib.Path(__file__).parent.parent / "export"
 
 import isojam  # noqa: E402
 
-#: Directories with cubes, with cells that gave way, and with mixtures and failures.
+#: Results with cubic cells, with relaxed cells, and with mixtures and failures.
 CUBES, FREE, MIXED = EXPORTED / "results", EXPORTED / "free-results", RESULTS
 ALL = (CUBES, FREE, MIXED)
 

@@ -15,7 +15,7 @@ from .progress import shown
 from .study import Study
 
 _SOME_FAILED, _BAD_INPUT, _INTERRUPTED = 1, 65, 75
-#: What the program calls a manifest on standard input.
+#: The name of a manifest on standard input, in messages of the program.
 _STANDARD_INPUT = "-"
 
 

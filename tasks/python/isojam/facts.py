@@ -1,4 +1,4 @@
-"""What the program says of its files, written down when it is built: schemas, names of quantities, usual exclusions."""
+"""Facts about the files of the program, stored when it is built: schemas, names of quantities, usual exclusions."""
 
 import json
 import pathlib

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any, TextIO
 
-#: What the program reports on one line of stderr.
+#: A message of the program: one line of stderr.
 Message = dict[str, Any]
 
 #: Seconds between lines where stderr is not a terminal.

@@ -13,7 +13,7 @@ _REASON = "_reason"
 #: Keys of a record whose content has columns of its own, or is no measurement.
 _APART = {"schema", "checksum", "result_digest", "provenance", "spec", "status", "flags", "failure", "nearest", "states",
           "path"}
-#: What it cost, and by whom it was made: the last columns.
+#: The last columns: the cost of a replicate, and the build that computed it.
 _COST = ("evaluations", "work", "pairs")
 _ORIGIN = ("version", "git", "compiler", "manifest_digest", "seed")
 #: Figures that every state has; a quantity that has the name of one is the same.
@@ -65,7 +65,7 @@ def _parameters(spec: dict[str, Any]) -> Iterator[tuple[str, Any]]:
 
 
 def head_of(name: str, record: dict[str, Any], excluding: Collection[str]) -> dict[str, Any]:
-    """What a row of a replicate or of one of its states begins with. `excluding`: flags whose replicates count nowhere."""
+    """The first columns of a row. `excluding`: flags whose replicates are excluded from means."""
     spec, flags = record["spec"], tuple(record.get("flags") or ())
     head = {"replicate": name, "solid": spec["solid"], "particles": spec["particles"], **dict(_parameters(spec))}
     return {**head, "number": spec["replicate"], "status": record["status"], "flags": flags,
@@ -87,7 +87,7 @@ def replicate_row(head: dict[str, Any], record: dict[str, Any]) -> dict[str, Any
 
 
 def _index_of_nearest(record: dict[str, Any]) -> int | None:
-    """Of the state nearest jamming among all states, which has its strain step; None of a replicate that failed."""
+    """Index of the state nearest jamming, found by its strain step; None for a failed replicate."""
     step = (record.get("nearest") or {}).get("step")
     return next((k for k, state in enumerate(record["states"]) if state["step"] == step), None)
 

@@ -15,7 +15,7 @@ class Rows:
     """Named numpy arrays of one length: rows["phi_j"] is a column, rows[rows["Z"] > 8] are some of the rows.
 
     Columns are of numbers (null is NaN), of text (null is ""), truth values, or objects (tuples of flags, dicts of
-    reasons); a vector is one column of shape (rows, 3). What is asked for by name are the arrays themselves, not copies."""
+    reasons); a vector is one column of shape (rows, 3). Columns are the arrays themselves, not copies."""
 
     def __init__(self, columns: Mapping[str, ArrayLike]) -> None:
         self._columns = {name: numpy.asarray(values) for name, values in columns.items()}

@@ -38,7 +38,7 @@ _POWERS = _powers()
 
 
 def _running_xor(flips: NDArray[numpy.uint8]) -> None:
-    """Of bytes, in place; a multiple of eight of them."""
+    """Changes the bytes in place; their number is a multiple of eight."""
     words = flips.view(_WORD)
     for shift in (8, 16, 32):
         words ^= words << _WORD.type(shift)

@@ -127,7 +127,7 @@ class Study:
         return file, record, document
 
     def _shapes(self, name: str, record: dict[str, Any]) -> dict[str, Solid]:
-        """Solids by name. Those of a name are the same in the whole directory: its manifest defines them."""
+        """Solids by name. The manifest defines them, so a name means the same solid in the whole directory."""
         spec = record["spec"]
         wanted = {kind["solid"] for kind in spec.get("mixture", [spec])}
         if not wanted <= self._solids.keys():

@@ -13,7 +13,7 @@ from . import facts
 from .errors import InputError
 from .rows import Array, Rows, column_of
 
-#: What a column is of, where its values alone would not tell: 0 may stand for 0., and nothing for any null.
+#: Types of columns whose values do not show them: 0 may mean 0.0, and an empty cell any null.
 _TEXT = {"replicate", "solid", "class", "kind", "solid_a", "solid_b", "status", "stopped", "failed_in", "failure"}
 _LISTS = {"flags", "reasons"}
 _INTEGER = {"state", "a", "b", "image"}
@@ -56,7 +56,7 @@ def _read(opened: Iterable[str], file: str | os.PathLike[str]) -> Rows:
 
 
 def _reasons(names: set[str]) -> Callable[[str], Any]:
-    """What takes "Z_ff: no cut-off; S: …" apart into a dict by these names; a reason may hold what divides them."""
+    """A function that splits "Z_ff: no cut-off; S: …" into a dict by names; a reason may contain the separator."""
     def take(text: str) -> dict[str, str]:
         found: dict[str, str] = {}
         name = None

@@ -44,7 +44,7 @@ using test::TemporaryDirectory;
 
 const std::string rest = "order,clusters,modes,moduli,rigidity";
 
-/// What a run from the start has too.
+/// The part of a record that a run from the start has too.
 Json without_history(Json record) {
   record.erase("provenance");
   return test::without_checksum(std::move(record));

@@ -33,7 +33,7 @@ using test::one_by_one;
 using test::plan_of;
 using test::quiet_stages;
 
-/// What the made-up stages do to a replicate.
+/// Behaviour of the artificial stages for a replicate.
 enum class Fate { good, begin_throws, jam_throws, jam_ends_early, contacts_throw, contacts_throw_int };
 
 Fate fate_of(const ReplicateSpec& spec) { return static_cast<Fate>(hash_of(replicate_name(spec)) % 6); }
