@@ -14,8 +14,8 @@ namespace isojam {
 /// For a mixture: the smallest critical angles, and no random curves.
 Json angle_references(const Mixture& mixture);
 
-/// Empirical CDF of angles (radians, any order) as [[θ in degrees, c], ...], one entry for each step. If steps
-/// are closer in log θ than a chart resolves, only the last is kept. Angles below `angle_floor` degrees are moved to it.
+/// Empirical CDF of angles (radians, any order) as [[θ in degrees, c], ...], one entry for each step. If steps are
+/// closer in log θ than a chart resolves, only the last is kept. Angles below `angle_floor` degrees are moved to it.
 Json thinned_cdf(std::span<const double> angles);
 
 /// Least angle drawn, degrees.
