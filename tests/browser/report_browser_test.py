@@ -130,8 +130,9 @@ class Report(ChartTests, ManyTests, Case):
         self.browser.run(COUNT)
         frames = self.browser.driver.execute_async_script(TURNS)
         print(frames[:3], file=sys.stderr)
-        # A frame that the browser was late for may show them again.
-        self.assertEqual(min(frame["lines"] for frame in frames), 24, "edges of the cell")
+        # A busy machine draws nothing in some frames, and all outlines in a frame that comes long after the last turn.
+        drawn = [frame["lines"] for frame in frames if frame["corners"]]
+        self.assertEqual(min(drawn, default=0), 24, "edges of the cell")
         self.browser.wait("drawn.lines > 24000", "outlines after the last turn")
         self.browser.driver.execute_async_script(REST)
 
