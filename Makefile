@@ -206,8 +206,8 @@ package:
 	  -DISOJAM_PYTHON_DIR=lib/python3/dist-packages $(OPTIONS)
 	cmake --build $(PACKAGES)/build -j $(JOBS)
 	cpack --config $(PACKAGES)/build/CPackConfig.cmake -B $(PACKAGES)
-	cd $(PACKAGES)/$(ARCHIVE) && cp -r LICENSE docs/packaging/wheel/pyproject.toml tasks/python/isojam ../wheel
-	cp $(PACKAGES)/build/tasks/python/installed/facts.json $(PACKAGES)/wheel/isojam
+	cd $(PACKAGES)/$(ARCHIVE) && cp -r LICENSE docs/packaging/wheel/pyproject.toml tasks/extras/python/isojam ../wheel
+	cp $(PACKAGES)/build/tasks/extras/python/installed/facts.json $(PACKAGES)/wheel/isojam
 	$(PYTHON) -m build --wheel --no-isolation --outdir $(PACKAGES) $(PACKAGES)/wheel
 	@ls -shd $(PACKAGES)/isojam[_-]*.*
 
@@ -282,7 +282,7 @@ LINT    := $(filter %.cpp,$(FILES))
 EIGEN   ?= /usr/include/eigen3
 STAMPS   = $(LINT:%=$(BUILD)-lint/stamps/%)
 CONFIGURE_LINT = $(subst -B $(BUILD),-B $(BUILD)-lint,$(CONFIGURE)) -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON \
-                 -DISOJAM_FUZZ=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+                 -DISOJAM_FUZZ=ON -DISOJAM_BATCHES=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 
 # In a directory of its own, where nothing is built: clang-tidy cannot read the headers that g++ precompiles, and so sees
 # that every source includes what it needs.

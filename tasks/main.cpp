@@ -6,17 +6,28 @@
 #include <system_error>
 
 #include "tasks/commands/command.hpp"
-#include "tasks/json/input_error.hpp"
-#include "tasks/system/file.hpp"
-#include "tasks/system/shortage.hpp"
-#include "tasks/system/standard_streams.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/resource_failure.hpp"
+#include "tasks/io/standard_streams.hpp"
+#include "tasks/io/texts.hpp"
+
+#ifdef ISOJAM_EXTRAS
+#include "tasks/extras/commands/extra_commands.hpp"
+#endif
 
 namespace isojam {
 namespace {
 
+constexpr AddCommand commands[]{add_run,         add_validate, add_aggregate, add_status, add_rerun, add_measure,
+#ifdef ISOJAM_EXTRAS
+                                add_export,      add_report,   add_chart,
+#endif
+                                add_completions, add_manual};
+
 ExitCode parse_and_run(int argc, char** argv) {
   Session session;
-  if (const auto ended = parse_command_line(argc, argv, session)) return *ended;
+  if (const auto ended = parse_command_line(argc, argv, commands, session)) return *ended;
   Console console(session.console);
   try {
     return session.work(console);
@@ -25,19 +36,21 @@ ExitCode parse_and_run(int argc, char** argv) {
       console.error(one_line(each), {{"file", each.file},
                                      {"pointer", each.pointer},
                                      {"problem", each.problem},
-                                     {"allowed", each.allowed},
+                                     {"allowed", each.correction()},
                                      {"suggestion", each.suggestion}});
     }
     return ExitCode::bad_input;
   } catch (const FileError& error) {
     console.error(error.what());
-    return error.reason() == FileError::Reason::shortage ? ExitCode::some_failed : ExitCode::usage;
+    return error.reason() == FileError::Reason::resource_failure ? ExitCode::some_failed : ExitCode::usage;
   }
 }
 
+constexpr auto out_of_memory = "out of memory";
+
 /// Ends the program after a resource failure, also in code that must not throw.
-[[noreturn]] void end_for_want(const char* what) {
-  std::fprintf(stderr, "isojam: error: %s; what was recorded is kept, and the same command continues\n", what);
+[[noreturn]] void end_after_resource_failure(const char* what) {
+  std::fprintf(stderr, "isojam: error: %s; %s\n", what, how_to_resume.data());
   std::_Exit(static_cast<int>(ExitCode::some_failed));
 }
 
@@ -45,11 +58,11 @@ ExitCode parse_and_run(int argc, char** argv) {
   try {
     if (const auto error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
-    end_for_want("the machine has no more memory to give");
+    end_after_resource_failure(out_of_memory);
   } catch (const std::system_error& error) {
-    end_for_want(error.what());
+    end_after_resource_failure(error.what());
   } catch (...) {
-    std::fputs("isojam: error: an exception that nothing caught\n", stderr);
+    std::fputs("isojam: error: unhandled exception of unknown type\n", stderr);
   }
   std::abort();
 }
@@ -61,7 +74,7 @@ int main(int argc, char** argv) {
   isojam::open_standard_streams();
   std::set_terminate(isojam::terminated);
   // Called at the first failed allocation, before unwinding, because not all code on the stack survives it.
-  std::set_new_handler([] { isojam::end_for_want("the machine has no more memory to give"); });
+  std::set_new_handler([] { isojam::end_after_resource_failure(isojam::out_of_memory); });
   // A file that must not grow is then an ordinary failed write.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
@@ -69,15 +82,15 @@ int main(int argc, char** argv) {
     isojam::flush_output();
     return static_cast<int>(code);
   } catch (const std::bad_alloc&) {
-    isojam::end_for_want("the machine has no more memory to give");
+    isojam::end_after_resource_failure(isojam::out_of_memory);
   } catch (const std::system_error& error) {
     const bool thread = error.code() == std::errc::resource_unavailable_try_again;
-    isojam::end_for_want(thread ? "the machine has no more threads to give" : error.what());
+    isojam::end_after_resource_failure(thread ? "cannot create another thread" : error.what());
   } catch (const isojam::FileError& error) {
     std::fprintf(stderr, "isojam: error: %s\n", isojam::printable(error.what()).c_str());
     return static_cast<int>(isojam::ExitCode::some_failed);
   } catch (const std::exception& error) {
-    if (isojam::is_shortage(error)) isojam::end_for_want(error.what());
+    if (isojam::is_resource_failure(error)) isojam::end_after_resource_failure(error.what());
     std::fprintf(stderr, "isojam: error: %s\n", isojam::printable(error.what()).c_str());
     return static_cast<int>(isojam::ExitCode::some_failed);
   }

@@ -51,8 +51,12 @@ def rewritten(root, page, needed):
         if not is_code:
             line = re.sub(r"(\]\()([^()\s]+)(\))", link, line)
             line = re.sub(r"(^\[[^\]]+\]:\s+)(\S+)($)", link, line)
-            # Python-Markdown takes what follows a comment directly for a part of it.
-            line = re.sub(r"^(<!--.*-->)$", r"\n\1\n", line)
+            # A comment at the beginning of a line would end the paragraph, and Python-Markdown prints \| in code as it is.
+            line = re.sub(r"<!--.*?-->", "", line)
+            line = re.sub(r"`[^`]+`", lambda code: code[0].replace("\\|", "|"), line)
+            # A line ends neither between a value and its first error, nor after a sign.
+            line = re.sub(r"([±<]) (?=[\d.<])", "\\1\u00a0", line)
+            line = re.sub(r"(\d) (±\u00a0\S+)", "\\1\u00a0\\2", line)
         lines.append(line)
     return "\n".join(lines)
 
@@ -72,7 +76,9 @@ def gather(root, build):
         shutil.copy(root / file, source / place_of(file))
     (source / "reference.md").write_text(REFERENCE, encoding="utf-8")
     shutil.copy(root / "docs/site/extra.css", source)
-    shutil.copy(root / "docs/site/mkdocs.yml", build)
+    for name in ("mkdocs.yml", "hooks.py"):
+        shutil.copy(root / "docs/site" / name, build)
+    shutil.copytree(root / "docs/site/theme", build / "theme")
 
 
 if __name__ == "__main__":

@@ -138,7 +138,7 @@ FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluste
 
 ClusterStatistics cluster_statistics(const Packing& packing, std::span<const NeighbourPair> bonds,
                                      std::span<const Cluster> clusters) {
-  if (clusters.empty()) throw std::invalid_argument("statistics of clusters need at least one");
+  if (clusters.empty()) throw std::invalid_argument("cluster statistics need at least one cluster");
   ClusterStatistics statistics;
   long particles = 0, squares = 0;
   double longest = -1, longest_body = 0;

@@ -10,12 +10,12 @@
 
 namespace isojam {
 
-/// Result of fitting a cluster's fractal dimension.
+/// Result of a fit of the fractal dimension.
 enum class DimensionVerdict {
   not_called,
   fitted,
-  winds,     ///< the cluster closes on itself through the periodic boundary and has no size
-  too_small  ///< pieces of fewer than three radii, or without extent: a line has no error
+  winds,     ///< the cluster is connected to its own periodic image, so it has no size
+  too_small  ///< the pieces have fewer than three radii, or no extent, so the fit has no error
 };
 template <>
 inline constexpr std::array enum_names<DimensionVerdict>{
@@ -25,34 +25,37 @@ inline constexpr std::array enum_names<DimensionVerdict>{
 /// Fractal dimension D, s ∝ ρ^D, of connected pieces with s particles and size ρ.
 struct FractalDimension {
   DimensionVerdict verdict = DimensionVerdict::not_called;  ///< result of the fit
-  double D = 0;                                             ///< the slope; 0 unless fitted
+  double D = 0;      ///< fractal dimension, the slope of the fit; 0 unless the verdict is fitted
   double error = 0;  ///< standard error of the slope, from the scatter about the line
   int points = 0;    ///< number of radii ℓ in the fit
 };
 
-/// Fits D to pieces of one cluster. A piece consists of all particles within ℓ bonds of a member, ℓ = 1, 2, ... until a
-/// piece is the whole cluster. The line fits the means over the members of log ρ and log s at each ℓ, with equal
-/// weights. ρ² = R_g² + a²/12, R_g the radius of gyration of the centres and a² the mean square bond length. Each
-/// particle is thus replaced by a rod of the length of a bond, so that straight chains of any length have exactly D =
-/// 1. Since pieces overlap, the error is that of the line, not that of D for similar clusters. `bonds` may include
-/// those of other clusters. O(s²·bonds per particle).
+/// Fits D to pieces of one cluster. A piece consists of all particles that are at most ℓ bonds away from a member, for
+/// ℓ = 1, 2, ... until a piece is the whole cluster. For each ℓ, the means of log ρ and log s over all members are one
+/// point of the fit; all points have equal weights. The size ρ of a piece is defined by ρ² = R_g² + a²/12, where R_g is
+/// the radius of gyration of the centres and a² the mean square length of the bonds. The second term replaces each
+/// particle by a rod with the length of a bond, so that straight chains of any length have exactly D = 1. The pieces
+/// overlap. The error is therefore the error of the fitted line, and not the spread of D between similar clusters.
+/// `bonds` may contain bonds of other clusters. The time is O(s²·bonds per particle).
 FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluster,
                                    std::span<const NeighbourPair> bonds);
 
-/// Sizes and extents of clusters of face-face contacts, as in the paper's Table IV; lengths in L.
+/// Sizes and extents of clusters of face-face contacts, as in the paper's Table IV. Lengths are divided by the side L
+/// of the cell.
 struct ClusterStatistics {
-  double S = 0;     ///< mean size of the cluster of a particle, Σs²/Σs over clusters, including single particles
-  int largest = 0;  ///< number of particles in the largest cluster
-  int winding_rank = 0;  ///< largest winding rank of a cluster; 0 means no periodic percolation
-  bool spans = false;    ///< true if some cluster is as long as the cell, or winds
-  int longest = -1;      ///< index of the cluster with the largest extent; the first one that winds, if any
-  /// Largest extent of any cluster along a Cartesian axis over L, between centres and between vertices. nullopt if a
-  /// cluster winds.
+  double S = 0;          ///< mean size Σs²/Σs, with sums over all clusters, including single particles
+  int largest = 0;       ///< number of particles in the largest cluster
+  int winding_rank = 0;  ///< largest winding rank of a cluster; 0 if no cluster percolates
+  bool spans = false;    ///< true if a cluster is at least as long as the cell, or winds
+  int longest = -1;      ///< index of the cluster with the largest extent, or of the first cluster that winds
+  /// Largest extent of a cluster along a Cartesian axis divided by L, between centres (l_max) and between vertices
+  /// (body_l_max). nullopt if a cluster winds.
   std::optional<double> l_max, body_l_max;
-  FractalDimension D_max;  ///< fractal dimension of the longest cluster
+  FractalDimension D_max;  ///< fractal dimension of the cluster `longest`
 };
 
-/// Statistics of `clusters`, the result of find_clusters(packing, bonds). Throws std::invalid_argument if it is empty.
+/// Computes the statistics. `clusters` must be the result of find_clusters(packing, bonds). Throws
+/// std::invalid_argument if there is no cluster.
 ClusterStatistics cluster_statistics(const Packing& packing, std::span<const NeighbourPair> bonds,
                                      std::span<const Cluster> clusters);
 

@@ -132,7 +132,7 @@ std::vector<Cluster> find_clusters(const Packing& packing, std::span<const Neigh
   ImageUnion particles(packing.size());
   for (const NeighbourPair& bond : bonds) {
     if (bond.a < 0 || bond.b < 0 || bond.a >= packing.size() || bond.b >= packing.size())
-      throw std::invalid_argument("a bond of clusters names a particle that the packing does not have");
+      throw std::invalid_argument("a bond refers to a particle that the packing does not contain");
     particles.join(bond);
   }
   std::vector<Cluster> clusters;
@@ -155,7 +155,7 @@ std::vector<Cluster> find_clusters(const Packing& packing, std::span<const Neigh
 
 std::vector<NeighbourPair> bonds_of(std::span<const Contact> contacts, std::span<const ContactClass> classes,
                                     ContactClass wanted) {
-  if (contacts.size() != classes.size()) throw std::invalid_argument("bonds need the class of every contact");
+  if (contacts.size() != classes.size()) throw std::invalid_argument("each contact needs one class");
   std::vector<NeighbourPair> bonds;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     if (classes[k] == wanted) bonds.push_back(contacts[k].pair);

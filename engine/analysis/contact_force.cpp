@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/geometry/overlap/penetration.hpp"
+#include "engine/parallel/parallel.hpp"
 
 namespace isojam {
 
@@ -108,7 +109,7 @@ ContactForce contact_force(const Packing& packing, const NeighbourPair& pair) {
 
 std::vector<ContactForce> contact_forces(const Packing& packing, std::span<const Contact> contacts) {
   std::vector<ContactForce> forces(contacts.size());
-  for_each_slot(contacts.size(), [&](std::size_t k) { forces[k] = contact_force(packing, contacts[k].pair); });
+  for_each_small(contacts.size(), [&](std::size_t k) { forces[k] = contact_force(packing, contacts[k].pair); });
   return forces;
 }
 

@@ -24,7 +24,7 @@ std::vector<ContactClass> classify(std::span<const Alignment> alignments, double
 }
 
 ContactNumbers contact_numbers(int particles, std::span<const ContactClass> classes) {
-  if (particles < 1) throw std::invalid_argument("contact numbers are per particle: at least 1 particle is needed");
+  if (particles < 1) throw std::invalid_argument("contact numbers need at least one particle");
   long face_face = 0, edge_face = 0, lower_order = 0;
   for (const ContactClass contact_class : classes) {
     face_face += contact_class == ContactClass::face_face;

@@ -14,71 +14,80 @@
 
 namespace isojam {
 
-/// Class of a contact by its angles, for counting constraints: 3, 2 or 1 of them.
+/// Class of a contact by its alignment angles. A face_face contact counts as 3 constraints, an edge_face contact as 2,
+/// and a lower_order contact as 1.
 enum class ContactClass { face_face, edge_face, lower_order };
 template <>
 inline constexpr std::array enum_names<ContactClass>{EnumName{ContactClass::face_face, "face_face"},
                                                      EnumName{ContactClass::edge_face, "edge_face"},
                                                      EnumName{ContactClass::lower_order, "lower_order"}};
 
-/// Mean contact and constraint numbers per particle, C = 3 Z_ff + 2 Z_ef + Z_l (the paper's Table III).
+/// Contact numbers Z and constraint number C per particle, C = 3 Z_ff + 2 Z_ef + Z_l (the paper's Table III).
 struct ContactNumbers {
-  double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;  ///< all contacts, contacts of each class, and constraints
+  double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;  ///< all contacts, the contacts of each class, and constraints
 };
 
-/// Cut-offs between contact classes, for the contacts between solids of two shapes.
+/// Cut-offs between the contact classes, for the contacts between solids of two shapes.
 struct ClassCutoffs {
-  CdfFit face_face, edge_face;            ///< fits of the distributions of θ_ff and θ_ef
-  GapSplit face_face_gap, edge_face_gap;  ///< the other method, with the same windows
-  CriticalAngles critical;                ///< windows end at half the smallest of these angles
+  CdfFit face_face, edge_face;  ///< fits of the distributions of θ_ff and θ_ef
+  /// cut-offs by another method, a gap between the angles, from the same windows of angles
+  GapSplit face_face_gap, edge_face_gap;
+  CriticalAngles critical;  ///< critical angles; a window of angles ends at half of the smallest of them
 };
 
-/// Cut-offs for one pair of shapes in a mixture.
+/// Cut-offs for the contacts between two shapes in a mixture.
 struct ShapePair {
-  const ConvexSolid *a = nullptr, *b = nullptr;  ///< shapes with unit volume
+  const ConvexSolid *a = nullptr, *b = nullptr;  ///< the two shapes, solids with unit volume
   long contacts = 0;                             ///< number of contacts between solids of these shapes
   ClassCutoffs cutoffs;                          ///< cut-offs from these contacts
 };
 
-/// Result of analysing contacts. If there are several shapes, the base class has for each method the cut-off of the
-/// least conclusive pair of shapes: one without a cut-off, else a doubtful one, else any.
+/// Result of analyse_contacts(). If particles have several shapes, each pair of shapes has its own cut-offs in `pairs`.
+/// The base class then has, for each method, the result of the least conclusive pair of shapes: a pair without a
+/// cut-off if there is one, else a pair with a doubtful cut-off if there is one, else any pair.
 struct ContactAnalysis : ClassCutoffs {
-  std::vector<ShapePair> pairs;  ///< pairs of shapes that touch; empty if there is one shape
-  /// Number of packings whose combined angles gave the fits, the gaps and hence the cut-offs. 1: only its own.
+  std::vector<ShapePair> pairs;  ///< pairs of shapes that have contacts; empty if there is only one shape
+  /// Number of packings whose angles were combined to find the fits, the gaps and the cut-offs. 1: only this packing.
   int pooled_over = 1;
-  std::vector<ContactClass> classes;     ///< class of each contact, in the given order, by the fits
-  ContactNumbers numbers;                ///< numbers by the fits
-  std::optional<double> Z_ff_gap;        ///< Z_ff by the gap in θ_ff; nullopt if there is no gap
-  ContactNumbers fixed_cutoffs;          ///< fixed_cutoff_numbers of the contacts
-  std::vector<ContactNumbers> of_kinds;  ///< per kind of a mixture; empty if all particles are identical
-  /// Z_ff_gap − Z_ff; nullopt unless both methods give a cut-off.
+  std::vector<ContactClass> classes;  ///< class of each contact by the fitted cut-offs, in the order of the contacts
+  ContactNumbers numbers;             ///< contact and constraint numbers by the fitted cut-offs
+  /// Z_ff with the cut-off in the gap between the angles θ_ff; nullopt if there is no gap
+  std::optional<double> Z_ff_gap;
+  ContactNumbers fixed_cutoffs;  ///< result of fixed_cutoff_numbers()
+  /// numbers for the particles of each kind of a mixture; empty if all particles are identical
+  std::vector<ContactNumbers> of_kinds;
+  /// Difference Z_ff_gap − Z_ff; nullopt unless both methods give a cut-off.
   std::optional<double> disagreement() const;
-  /// The cut-offs for contacts between solids of these shapes.
+  /// The cut-offs for contacts between solids with the shapes of a and b.
   const ClassCutoffs& cutoffs_of(const ConvexSolid& a, const ConvexSolid& b) const;
-  double Q6 = 0;  ///< contact_q6 of the state; set only where the contacts are known, not just their angles
+  /// Steinhardt's Q6 of the contacts; set only by functions that receive the contacts, not only their angles
+  double Q6 = 0;
 };
 
-/// Classifies by the cut-offs of the two CDF fits, each on [0, θ_c,min/2]: face-face if θ_ff is below its cut-off, else
-/// edge-face if θ_ef is below its cut-off, else lower order. A collapsed fit has the cut-off 0.
+/// Fits the distributions of both angles on [0, θ_c,min/2], and classifies the contacts by the cut-offs. A contact is
+/// face-face if θ_ff is below its cut-off. Otherwise it is edge-face if θ_ef is below its cut-off. All other contacts
+/// are of lower order. A collapsed fit has the cut-off 0.
 ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments);
 
-/// The same for a packing of any solids: every pair of shapes has its own cut-offs, from its own contacts.
+/// Classifies the contacts of a packing with any solids. Each pair of shapes has its own cut-offs, fitted to the
+/// contacts between these two shapes.
 ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::span<const Contact> contacts,
                                  std::span<const Alignment> alignments);
 
-/// Analyses several packings with the same number of particles (replicates of a sweep point) together. Fits and gaps
-/// use the angles of all packings, and each packing is classified by the common cut-offs. Results are in the given
-/// order.
+/// Analyses several packings with the same number of particles together, for example the replicates of a sweep point.
+/// The fits and gaps use the angles of all packings. The contacts of each packing are classified by these common
+/// cut-offs. The results are in the order of `packings`.
 std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
                                             std::span<const std::vector<Alignment>> packings);
 
-/// Means over the cut-offs 5°, 15°, ..., 55°, each used for both angles: column 2 of the paper's Table III.
+/// Numbers with fixed cut-offs instead of fitted ones: the means over the cut-offs 5°, 15°, ..., 55°, each used for
+/// both angles. This is column 2 of the paper's Table III.
 ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> alignments);
 
-/// Classes for given cut-offs (radians).
+/// Classes of the contacts for given cut-offs (radians).
 std::vector<ContactClass> classify(std::span<const Alignment> alignments, double ff_cutoff, double ef_cutoff);
-/// Numbers of a packing with these contacts; each contact counts for two particles. Throws std::invalid_argument if
-/// particles < 1.
+/// Contact and constraint numbers of a packing with contacts of these classes. Each contact counts for two particles.
+/// Throws std::invalid_argument if particles < 1.
 ContactNumbers contact_numbers(int particles, std::span<const ContactClass> classes);
 
 }  // namespace isojam

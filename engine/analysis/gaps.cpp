@@ -4,6 +4,7 @@
 
 #include "engine/geometry/overlap/separating_axis.hpp"
 #include "engine/packing/pair_loop.hpp"
+#include "engine/parallel/parallel.hpp"
 
 namespace isojam {
 
@@ -29,12 +30,12 @@ bool is_of_faces(const ConvexSolid& a, const ConvexSolid& b, const RelativePose&
 }  // namespace
 
 std::vector<Gap> near_gaps(const Packing& packing, double widest) {
-  if (!(widest > 0)) throw std::invalid_argument("gaps are looked for up to a positive width");
+  if (!(widest > 0)) throw std::invalid_argument("the largest gap must be positive");
   const auto pairs = find_in_reach(packing, widest);
   PlacedSolids placed;
   place_all(packing, Precision::working, placed);
   std::vector<Gap> all(pairs.size());
-  for_each_slot(pairs.size(), [&](std::size_t k) {
+  for_each_small(pairs.size(), [&](std::size_t k) {
     const PlacedSolid a = placed[static_cast<std::size_t>(pairs[k].a)],
                       b = placed[static_cast<std::size_t>(pairs[k].b)];
     const Eigen::Matrix3d to_a = a.rotation().transpose();

@@ -132,7 +132,7 @@ OrientationCorrelation orientation_correlation(const Packing& packing, const Eig
                                                const OrientationCorrelationOptions& options) {
   const double reach = options.reach.value_or(packing.cell.heights().minCoeff() / 2);
   if (!(options.width > 0) || !(reach > 0) || !std::isfinite(reach))
-    throw std::invalid_argument("orientational correlation needs bins and a reach of positive size");
+    throw std::invalid_argument("the bins and the range of an orientational correlation must be positive");
   OrientationCorrelation result{options.width, {}};
   result.bins.resize(static_cast<std::size_t>(std::max(1.0, std::floor(reach / options.width))));
   const double end = options.width * static_cast<double>(result.bins.size());

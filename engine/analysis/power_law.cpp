@@ -11,7 +11,7 @@
 namespace isojam {
 
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y) {
-  if (x.size() != y.size()) throw std::invalid_argument("each x has one y");
+  if (x.size() != y.size()) throw std::invalid_argument("each x needs one y");
   std::vector<double> log_x, log_y;
   for (std::size_t k = 0; k < x.size(); ++k) {
     if (!(x[k] > 0) || !(y[k] > 0) || !std::isfinite(x[k]) || !std::isfinite(y[k])) continue;

@@ -1,15 +1,15 @@
 #pragma once
 
 // The C library has two versions of each elementary function, one of them for processors with fused multiply-adds, and
-// chooses at run time. Their last bits differ, and so would the results of a replicate.
+// selects one at run time. The last bits of the two versions differ, so the results of a replicate would depend on the
+// processor.
 
-/// Elementary functions with the same bits on every processor: computed in software quadruple precision and rounded
-/// once to the nearest double. Infinities and NaN give the same as with the standard library. Each call takes about a
-/// microsecond, so do not use them in innermost loops.
+/// Elementary functions with the same bits on every processor. They are computed in software in quadruple precision and
+/// rounded once to the nearest double. For infinities and NaN, the results are those of the standard library. Each call
+/// takes about a microsecond, so do not use these functions in innermost loops.
 namespace isojam::nearest {
 
-/// The functions of the standard library with these names.
-/// @{
+/// The functions of the standard library with the same names. @{
 double sin(double x);
 double cos(double x);
 double tan(double x);
@@ -29,8 +29,8 @@ double hypot(double x, double y);
 
 namespace isojam {
 
-/// sin x / x, and 1 at x = 0; relative error at most 2 ε. For |x| ≤ 1 it uses the series and takes nanoseconds, so that
-/// it can be used for rotations in innermost loops.
+/// The function sin x / x, which is 1 at x = 0, with a relative error of at most 2 ε. For |x| ≤ 1 it uses the power
+/// series and takes only nanoseconds, so it can be used for rotations in innermost loops.
 double sinc(double x);
 
 inline double squared(double x) { return x * x; }    ///< x²

@@ -170,14 +170,14 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vert
 
 ConvexSolid::ConvexSolid(std::string name, std::span<const Quad3> vertices) : name_(std::move(name)) {
   if (vertices.size() < 4 || vertices.size() > max_features)
-    throw NoSolid("a solid has 4 to " + std::to_string(max_features) + " vertices, not " +
+    throw NoSolid("a solid needs 4 to " + std::to_string(max_features) + " vertices instead of " +
                   std::to_string(vertices.size()));
   const std::vector<Loop> loops = hull_faces(vertices);
   edges_ = find_edges(loops);
   if (loops.size() > max_features || edges_.size() > max_features)
-    throw NoSolid("a solid has at most " + std::to_string(max_features) + " faces and edges, not " +
+    throw NoSolid("a solid may have at most " + std::to_string(max_features) + " faces and edges instead of " +
                   std::to_string(loops.size()) + " and " + std::to_string(edges_.size()));
-  if (vertices.size() + loops.size() != edges_.size() + 2) throw NoSolid("a vertex is not extreme");
+  if (vertices.size() + loops.size() != edges_.size() + 2) throw NoSolid("a vertex is not a corner of the convex hull");
 
   std::vector<Quad3> points(vertices.begin(), vertices.end());
   const Moments raw = moments(points, loops);

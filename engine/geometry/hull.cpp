@@ -83,12 +83,12 @@ std::vector<FaceLoop> supporting_faces(const std::vector<Vector3l>& points) {
   return faces;
 }
 
-void refuse_twins(const std::vector<Vector3l>& points) {
+void refuse_coincident_points(const std::vector<Vector3l>& points) {
   const long double tolerance = rounding(extent(points));
   for (std::size_t k = 0; k < points.size(); ++k) {
     for (std::size_t other = 0; other < k; ++other) {
       if ((points[k] - points[other]).norm() <= tolerance)
-        throw NoSolid("vertex " + std::to_string(k) + " is vertex " + std::to_string(other) + " once more",
+        throw NoSolid("vertex " + std::to_string(k) + " is equal to vertex " + std::to_string(other),
                       static_cast<int>(k));
     }
   }
@@ -96,14 +96,15 @@ void refuse_twins(const std::vector<Vector3l>& points) {
 
 /// Number of faces that contain a point: at least three for a vertex, two on an edge, one on a face, none inside.
 void refuse_inner_points(const std::vector<FaceLoop>& faces, std::size_t points) {
-  std::vector<int> meeting(points, 0);
+  std::vector<int> face_count(points, 0);
   for (const FaceLoop& face : faces) {
-    for (const int v : face) ++meeting[static_cast<std::size_t>(v)];
+    for (const int v : face) ++face_count[static_cast<std::size_t>(v)];
   }
   for (std::size_t k = 0; k < points; ++k) {
-    if (meeting[k] >= 3) continue;
-    const char* where = meeting[k] == 2 ? "on an edge" : meeting[k] == 1 ? "on a face" : "inside";
-    throw NoSolid("vertex " + std::to_string(k) + " is not extreme: it lies " + where + " of the hull of the others",
+    if (face_count[k] >= 3) continue;
+    const char* where = face_count[k] == 2 ? "on an edge" : face_count[k] == 1 ? "on a face" : "inside";
+    throw NoSolid("vertex " + std::to_string(k) + " is not a corner of the convex hull: it lies " + where +
+                      " of the hull of the others",
                   static_cast<int>(k));
   }
 }
@@ -114,7 +115,7 @@ std::vector<FaceLoop> hull_faces(std::span<const Quad3> vertices) {
   std::vector<Vector3l> points;
   for (const Quad3& v : vertices)
     points.emplace_back(static_cast<long double>(v[0]), static_cast<long double>(v[1]), static_cast<long double>(v[2]));
-  refuse_twins(points);
+  refuse_coincident_points(points);
   std::vector<FaceLoop> faces = supporting_faces(points);
   if (faces.size() < 4) throw NoSolid("the vertices span no volume");
   refuse_inner_points(faces, points.size());

@@ -13,21 +13,21 @@ struct ConstArrays {
 };
 
 /// Rotates the n vectors v and stores them in blocks.
-void turn(const Eigen::Matrix3d& q, ConstArrays v, int n, double* turned) {
+void rotate(const Eigen::Matrix3d& q, ConstArrays v, int n, double* rotated) {
   const double q00 = q(0, 0), q01 = q(0, 1), q02 = q(0, 2);
   const double q10 = q(1, 0), q11 = q(1, 1), q12 = q(1, 2);
   const double q20 = q(2, 0), q21 = q(2, 1), q22 = q(2, 2);
-  for (int first = 0; first < n; first += 4, turned += block) {
+  for (int first = 0; first < n; first += 4, rotated += block) {
     const double *x = v.x + first, *y = v.y + first, *z = v.z + first;
-    for (int k = 0; k < 4; ++k) turned[k] = q00 * x[k] + q01 * y[k] + q02 * z[k];
-    for (int k = 0; k < 4; ++k) turned[4 + k] = q10 * x[k] + q11 * y[k] + q12 * z[k];
-    for (int k = 0; k < 4; ++k) turned[8 + k] = q20 * x[k] + q21 * y[k] + q22 * z[k];
+    for (int k = 0; k < 4; ++k) rotated[k] = q00 * x[k] + q01 * y[k] + q02 * z[k];
+    for (int k = 0; k < 4; ++k) rotated[4 + k] = q10 * x[k] + q11 * y[k] + q12 * z[k];
+    for (int k = 0; k < 4; ++k) rotated[8 + k] = q20 * x[k] + q21 * y[k] + q22 * z[k];
   }
 }
 
 /// One component of four vectors (x + x_low, …), rotated in double-double.
-void turn_row(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c, ConstArrays v, ConstArrays v_low,
-              double* turned, double* turned_low) {
+void rotate_row(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& c, ConstArrays v, ConstArrays v_low,
+                double* rotated, double* rotated_low) {
   const double *x = v.x, *y = v.y, *z = v.z, *x_low = v_low.x, *y_low = v_low.y, *z_low = v_low.z;
   // There are too many arrays for g++ to check that they are distinct. clang has no such pragma, and does check them.
 #ifndef __clang__
@@ -39,17 +39,18 @@ void turn_row(const DoubleDouble& a, const DoubleDouble& b, const DoubleDouble& 
     const double first_order =
         (a.high * x_low[k] + a.low * x[k]) + (b.high * y_low[k] + b.low * y[k]) + (c.high * z_low[k] + c.low * z[k]);
     const DoubleDouble sum = fast_two_sum(three.high, (two.low + three.low) + (ax.low + by.low + cz.low) + first_order);
-    turned[k] = sum.high;
-    turned_low[k] = sum.low;
+    rotated[k] = sum.high;
+    rotated_low[k] = sum.low;
   }
 }
 
-void turn(const DoubleDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, double* turned, double* turned_low) {
-  for (int first = 0; first < n; first += 4, turned += block, turned_low += block) {
+void rotate(const DoubleDoubleMatrix& q, ConstArrays v, ConstArrays v_low, int n, double* rotated,
+            double* rotated_low) {
+  for (int first = 0; first < n; first += 4, rotated += block, rotated_low += block) {
     const ConstArrays high{v.x + first, v.y + first, v.z + first};
     const ConstArrays low{v_low.x + first, v_low.y + first, v_low.z + first};
     for (int row = 0; row < 3; ++row)
-      turn_row(q(row, 0), q(row, 1), q(row, 2), high, low, turned + 4 * row, turned_low + 4 * row);
+      rotate_row(q(row, 0), q(row, 1), q(row, 2), high, low, rotated + 4 * row, rotated_low + 4 * row);
   }
 }
 
@@ -107,9 +108,9 @@ std::pair<const ConvexSolid*, double*> PlacedSolids::room_of(std::size_t k) {
 void PlacedSolids::place(std::size_t k, const Eigen::Matrix3d& rotation) {
   auto [solid, at] = room_of(k);
   const SolidArrays& body = solid->arrays();
-  turn(rotation, {body.x, body.y, body.z}, body.vertices, at);
+  rotate(rotation, {body.x, body.y, body.z}, body.vertices, at);
   at += room(body.vertices);
-  turn(rotation, {body.nx, body.ny, body.nz}, body.faces, at);
+  rotate(rotation, {body.nx, body.ny, body.nz}, body.faces, at);
   at += room(body.faces);
   Eigen::Map<Eigen::Matrix3d>{at} = rotation;
 }
@@ -119,9 +120,9 @@ void PlacedSolids::place(std::size_t k, const DoubleDoubleMatrix& rotation) {
   auto [solid, at] = room_of(k);
   const SolidArrays& body = solid->arrays();
   double* low = at + to_low_;
-  turn(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, at, low);
+  rotate(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, at, low);
   at += room(body.vertices), low += room(body.vertices);
-  turn(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, at, low);
+  rotate(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, at, low);
   at += room(body.faces), low += room(body.faces);
   Eigen::Map<Eigen::Matrix3d>{at} = rotation.high;
   Eigen::Map<Eigen::Matrix3d>{low} = rotation.low;

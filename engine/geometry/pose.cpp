@@ -50,9 +50,9 @@ Pose normalised(const Pose& pose) {
 
 /// The pose with its centre at x + dx, rotated by the quaternion 1 + turn. Passing the difference from 1 adds a small
 /// rotation to q without loss of digits.
-Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Quaterniond& turn) {
+Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Quaterniond& rotation) {
   Pose result = pose;
-  const Eigen::Vector4d change = (turn * pose.orientation).coeffs();
+  const Eigen::Vector4d change = (rotation * pose.orientation).coeffs();
   for (int c = 0; c < 4; ++c) store(result, c, short_sum(pose.component(c), change[c]));
   result = normalised(result);
   for (int c = 0; c < 3; ++c) {
@@ -72,18 +72,18 @@ bool Pose::operator==(const Pose& other) const {
 
 Pose moved(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& theta) {
   const double angle = theta.norm();
-  Eigen::Quaterniond turn;
-  turn.w() = -2 * squared(angle / 4 * sinc(angle / 4));
-  turn.vec() = half_sinc(angle) * theta;
-  return moved(pose, dx, turn);
+  Eigen::Quaterniond rotation;
+  rotation.w() = -2 * squared(angle / 4 * sinc(angle / 4));
+  rotation.vec() = half_sinc(angle) * theta;
+  return moved(pose, dx, rotation);
 }
 
-Pose moved_by_half_turn(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& v) {
+Pose moved_by_half_rotation(const Pose& pose, const Eigen::Vector3d& dx, const Eigen::Vector3d& v) {
   const double square = v.squaredNorm();
-  Eigen::Quaterniond turn;
-  turn.w() = -square / (1 + std::sqrt(1 - square));
-  turn.vec() = v;
-  return moved(pose, dx, turn);
+  Eigen::Quaterniond rotation;
+  rotation.w() = -square / (1 + std::sqrt(1 - square));
+  rotation.vec() = v;
+  return moved(pose, dx, rotation);
 }
 
 Pose scaled(const Pose& pose, const DoubleDouble& s) {
@@ -178,10 +178,10 @@ QuadPose relative_pose(const Pose& a, const Pose& b, const Quad3& displacement) 
 
 Eigen::Quaterniond rotated(const Eigen::Quaterniond& q, const Eigen::Vector3d& theta) {
   const double angle = theta.norm();
-  Eigen::Quaterniond turn;
-  turn.w() = nearest::cos(angle / 2);
-  turn.vec() = half_sinc(angle) * theta;
-  return (turn * q).normalized();
+  Eigen::Quaterniond rotation;
+  rotation.w() = nearest::cos(angle / 2);
+  rotation.vec() = half_sinc(angle) * theta;
+  return (rotation * q).normalized();
 }
 
 }  // namespace isojam

@@ -8,22 +8,23 @@
 
 namespace isojam {
 
-/// Software quadruple precision (113 bits): for constants, degenerate pairs and test oracles.
+/// Quadruple precision (113 bits), computed in software. It is used for constants, degenerate pairs and references in
+/// tests.
 __extension__ using Quad = __float128;
 /// A vector in quadruple precision.
 using Quad3 = std::array<Quad, 3>;
-using QuadMatrix = std::array<Quad3, 3>;  ///< rows
+using QuadMatrix = std::array<Quad3, 3>;  ///< a matrix in quadruple precision, as three rows
 
-/// The exact sum of both parts.
+/// The exact value of a double-double: the sum of both doubles.
 inline Quad widened(const DoubleDouble& x) { return Quad(x.high) + Quad(x.low); }
 
-/// Nearest double-double: the nearest double, and the double nearest to the difference.
+/// The nearest double-double: the double nearest to x, and the double nearest to the difference.
 inline DoubleDouble narrowed(Quad x) {
   const auto high = static_cast<double>(x);
   return {high, static_cast<double>(x - Quad(high))};
 }
 
-/// Rounds to the nearest doubles.
+/// The vector rounded to the nearest doubles.
 inline Eigen::Vector3d rounded(const Quad3& p) {
   return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
@@ -32,34 +33,34 @@ inline Quad3 operator+(const Quad3& p, const Quad3& q) { return {p[0] + q[0], p[
 inline Quad3 operator-(const Quad3& p, const Quad3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }  ///< p − q
 inline Quad3 operator*(Quad s, const Quad3& p) { return {s * p[0], s * p[1], s * p[2]}; }                   ///< s p
 inline Quad dot(const Quad3& p, const Quad3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }         ///< p·q
-/// p×q.
+/// The vector product p×q.
 inline Quad3 cross(const Quad3& p, const Quad3& q) {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
-/// M p.
+/// The product M p.
 inline Quad3 operator*(const QuadMatrix& m, const Quad3& p) { return {dot(m[0], p), dot(m[1], p), dot(m[2], p)}; }
-/// M − N.
+/// The difference M − N.
 inline QuadMatrix operator-(const QuadMatrix& m, const QuadMatrix& n) {
   return {m[0] - n[0], m[1] - n[1], m[2] - n[2]};
 }
-/// Mᵀ.
+/// The transpose Mᵀ.
 inline QuadMatrix transposed(const QuadMatrix& m) {
   return {Quad3{m[0][0], m[1][0], m[2][0]}, Quad3{m[0][1], m[1][1], m[2][1]}, Quad3{m[0][2], m[1][2], m[2][2]}};
 }
-/// M N.
+/// The product M N.
 inline QuadMatrix operator*(const QuadMatrix& m, const QuadMatrix& n) {
   const QuadMatrix columns = transposed(n);
   return transposed({m * columns[0], m * columns[1], m * columns[2]});
 }
 
-/// √x: one step of Newton's method doubles the digits of the standard library's long double root.
+/// The root √x. One step of Newton's method doubles the number of correct digits of std::sqrt for long double.
 inline Quad square_root(Quad x) {
   if (!(x > 0)) return 0;
   const Quad guess = std::sqrt(static_cast<long double>(x));
   return (guess + x / guess) / 2;
 }
 
-/// ∛x, also by one step of Newton's method.
+/// The cube root ∛x, computed from std::cbrt for long double in the same way.
 inline Quad cube_root(Quad x) {
   if (x == 0) return 0;
   const Quad guess = std::cbrt(static_cast<long double>(x));

@@ -14,14 +14,14 @@ namespace isojam {
 template <class Enum>
 struct EnumName {
   Enum value;             ///< the enumerator
-  std::string_view name;  ///< its name
+  std::string_view name;  ///< its name in files and messages
 };
-/// g++ deduces this by itself; clang does so only from version 17 on, and clang-tidy 14 reads these headers.
+/// Deduction guide for clang before version 17, because clang-tidy 14 reads these headers. g++ does not need it.
 template <class Enum>
 EnumName(Enum, std::string_view) -> EnumName<Enum>;
 
-/// The names of an enumeration in the order in which they are listed, each enumerator once. Specialise it directly
-/// after the enumeration, which then has to_string() and from_string():
+/// The names of an enumeration. Each enumerator occurs once, and lists of names have this order. Specialise this
+/// variable directly after the enumeration. Then to_string() and from_string() work for the enumeration:
 ///
 ///   enum class Axis { x, y };
 ///   template <>
@@ -33,7 +33,7 @@ template <class Enum>
 concept NamedEnum = std::is_enum_v<Enum> && !enum_names<Enum>.empty();
 
 template <NamedEnum Enum>
-/// The name of an enumerator; the enumerator must have one.
+/// The name of an enumerator. The enumerator must have a name.
 constexpr std::string_view to_string(Enum value) {
   for (const auto& entry : enum_names<Enum>) {
     if (entry.value == value) return entry.name;
@@ -42,7 +42,7 @@ constexpr std::string_view to_string(Enum value) {
   return "";
 }
 
-/// nullopt if no enumerator has that name.
+/// The enumerator with this name, or nullopt if there is none.
 template <NamedEnum Enum>
 constexpr std::optional<Enum> from_string(std::string_view name) {
   for (const auto& entry : enum_names<Enum>) {
@@ -60,7 +60,7 @@ inline constexpr auto all_of = [] {
   return values;
 }();
 
-/// All names, in the same order.
+/// The names of all enumerators, in the order of enum_names.
 template <NamedEnum Enum>
 inline constexpr auto all_names = [] {
   std::array<std::string_view, enum_names<Enum>.size()> names{};

@@ -7,33 +7,35 @@
 
 namespace isojam {
 
-/// Symmetric matrix of 6×6 blocks: one per particle and one per pair of touching particles. If strains of the cell are
-/// coordinates too, it has a border for them.
+/// Symmetric matrix that consists of 6×6 blocks: one diagonal block per particle and one off-diagonal block per pair of
+/// touching particles. If strains of the cell are also coordinates, the matrix has additional rows and columns for
+/// them, the border.
 struct BlockMatrix {
   /// An off-diagonal block.
   struct Block {
-    int row = 0, column = 0;  ///< row < column; the block below the diagonal is its transpose
-    Matrix6d value;           ///< 6 × 6, per particle (x, R·θ)
+    int row = 0, column = 0;  ///< position of the block, row < column; the block at (column, row) is its transpose
+    Matrix6d value;           ///< 6 × 6 entries for the coordinates (x, R·θ) of the two particles
   };
   std::vector<Matrix6d> diagonal;   ///< diagonal block of every particle
   std::vector<Block> off_diagonal;  ///< sorted by (row, column), each at most once
-  /// The last columns, 6N × strains, and their diagonal block, strains × strains; empty without strains.
+  /// `border` has the last columns for the particles, 6N × strains; `corner` is the block of the strains, strains ×
+  /// strains. Both are empty without strains.
   Eigen::MatrixXd border, corner;
-  /// √m of the particles, if coordinates are scaled by it and masses differ: these are then the entries of a uniform
-  /// translation. Otherwise empty.
+  /// √m of each particle, if the coordinates are multiplied by √m and the masses differ; otherwise empty. In these
+  /// coordinates, the entries of a uniform translation are proportional to √m.
   Eigen::VectorXd root_masses{};
 
   int size() const { return static_cast<int>(diagonal.size()); }   ///< number of diagonal blocks
   int strains() const { return static_cast<int>(corner.cols()); }  ///< number of strains in the border
-  /// Number of entries of a vector that can be multiplied.
+  /// Number of rows: 6N plus the number of strains.
   Eigen::Index rows() const { return 6 * Eigen::Index{size()} + strains(); }
-  /// Adds the blocks of a pair of particles, row < column. Calls must be sorted by (row, column); repetitions are
-  /// allowed.
+  /// Adds the blocks of a pair of particles, row < column. Successive calls must be sorted by (row, column). Several
+  /// calls with the same row and column are allowed.
   void add_pair(int row, int column, const Matrix6d& row_row, const Matrix6d& row_column,
                 const Matrix6d& column_column);
 };
 
-/// Product with a vector of matrix.rows() entries.
+/// Product of the matrix with a vector of matrix.rows() entries.
 Eigen::VectorXd operator*(const BlockMatrix& matrix, const Eigen::VectorXd& x);
 
 }  // namespace isojam

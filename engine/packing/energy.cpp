@@ -7,6 +7,7 @@
 
 #include "engine/geometry/overlap/small_distances.hpp"
 #include "engine/packing/strain_border.hpp"
+#include "engine/parallel/parallel.hpp"
 
 namespace isojam {
 
@@ -47,26 +48,26 @@ ContactTerms terms_of(const Packing& packing, const NeighbourPair& pair, const O
   return terms;
 }
 
-void add_contact(const NeighbourPair& pair, const ContactTerms& terms, Evaluation& sum, Accumulator& on_the_way) {
+void add_contact(const NeighbourPair& pair, const ContactTerms& terms, Evaluation& sum, Accumulator& sums) {
   sum.gradient.segment<3>(6 * pair.a) += terms.dx;
   sum.gradient.segment<3>(6 * pair.a + 3) += terms.dtheta_a;
   sum.gradient.segment<3>(6 * pair.b) -= terms.dx;
   sum.gradient.segment<3>(6 * pair.b + 3) += terms.dtheta_b;
   sum.energy += terms.energy;
   sum.stress -= terms.stress;
-  on_the_way.force += terms.force;
-  on_the_way.stiffness[pair.a] += terms.stiffness_a;
-  on_the_way.stiffness[pair.b] += terms.stiffness_b;
-  on_the_way.noise[pair.a] += terms.error * terms.force;
-  on_the_way.noise[pair.b] += terms.error * terms.force;
-  on_the_way.energy_noise += 2 * terms.error * terms.energy;
+  sums.force += terms.force;
+  sums.stiffness[pair.a] += terms.stiffness_a;
+  sums.stiffness[pair.b] += terms.stiffness_b;
+  sums.noise[pair.a] += terms.error * terms.force;
+  sums.noise[pair.b] += terms.error * terms.force;
+  sums.energy_noise += 2 * terms.error * terms.energy;
   ++sum.contacts;
 }
 
 /// Sets residual_floor and energy_noise; requires mean_force > 0.
 void bound_rounding(const Packing& packing, Precision precision, const Accumulator& sums, Evaluation& result) {
   if (precision == Precision::double_double) {
-    const double levers = packing.solids.greatest_lever();
+    const double levers = packing.solids.greatest_lever_arm();
     result.residual_floor = levers * *std::max_element(sums.noise.begin(), sums.noise.end()) / result.mean_force;
     result.energy_noise = sums.energy_noise;
     return;
@@ -124,17 +125,17 @@ double deviator_of(const Evaluation& evaluation) {
 
 void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
   // Hessians and contacts are mostly requested for a state that has just been evaluated.
-  const bool seen = seen_solids_ == packing.solids && seen_cell_ && *seen_cell_ == packing.cell &&
-                    seen_ == packing.poses && seen_precision_ == precision;
-  if (seen) return;
-  seen_.clear();
+  const bool known = evaluated_solids_ == packing.solids && evaluated_cell_ && *evaluated_cell_ == packing.cell &&
+                     evaluated_poses_ == packing.poses && evaluated_precision_ == precision;
+  if (known) return;
+  evaluated_poses_.clear();
   list_.refresh(packing);
   place_all(packing, precision, placed_);
   totals_ += overlap_pairs(packing, precision, placed_, list_.pairs(), list_.axes(), touching_);
-  seen_ = packing.poses;
-  seen_cell_ = packing.cell;
-  seen_solids_ = packing.solids;
-  seen_precision_ = precision;
+  evaluated_poses_ = packing.poses;
+  evaluated_cell_ = packing.cell;
+  evaluated_solids_ = packing.solids;
+  evaluated_precision_ = precision;
 }
 
 Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) {
@@ -146,31 +147,31 @@ Evaluation PackingEnergy::evaluate(const Packing& packing, Precision precision) 
     result.gradient = Eigen::VectorXd::Constant(6 * packing.size(), result.energy);
     return result;
   }
-  seen_.clear();  // drop the cache, so that every call computes and counts, even for a repeated state
+  evaluated_poses_.clear();  // drop the cache, so that every call computes and counts, even for a repeated state
   overlap_all(packing, precision);
   result.gradient = Eigen::VectorXd::Zero(6 * packing.size());
   const std::vector<double> zeros(packing.poses.size(), 0.0);
-  Accumulator on_the_way{0, zeros, zeros};
+  Accumulator sums{0, zeros, zeros};
   // The terms of the contacts are computed in parallel. They are added serially, because the order of additions
   // determines their rounding.
   const std::vector<NeighbourPair>& pairs = list_.pairs();
   terms_.resize(touching_.blocks.size());
-  for_each_block(terms_.size(), [&](std::size_t block) {
+  for_each_index(terms_.size(), [&](std::size_t block) {
     terms_[block].clear();
     for (const PairOverlap& at : touching_.blocks[block])
       terms_[block].push_back(terms_of(packing, pairs[at.pair], at.overlap));
   });
   for (std::size_t block = 0; block < terms_.size(); ++block) {
     for (std::size_t k = 0; k < terms_[block].size(); ++k)
-      add_contact(pairs[touching_.blocks[block][k].pair], terms_[block][k], result, on_the_way);
+      add_contact(pairs[touching_.blocks[block][k].pair], terms_[block][k], result, sums);
   }
   result.stress /= packing.cell.volume();
   result.pressure = -result.stress.trace() / 3;
   const double imbalance = largest_imbalance(result.gradient);
-  if (result.contacts > 0) result.mean_force = on_the_way.force / static_cast<double>(result.contacts);
+  if (result.contacts > 0) result.mean_force = sums.force / static_cast<double>(result.contacts);
   if (imbalance > 0)
     result.residual = result.mean_force > 0 ? imbalance / result.mean_force : std::numeric_limits<double>::infinity();
-  if (result.mean_force > 0) bound_rounding(packing, precision, on_the_way, result);
+  if (result.mean_force > 0) bound_rounding(packing, precision, sums, result);
   return result;
 }
 

@@ -6,29 +6,31 @@ namespace isojam {
 
 struct EnvelopeEvaluation;
 
-/// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing in a variable cell: the function that is minimised. V₀ is the
-/// initial volume and F the deformation of the cell since then. In a fixed cell it equals the energy. The last term is
-/// the work of a dead load. It equals a stress τ only near F = 1, so make a new Enthalpy with the present cell as
-/// reference after a large strain.
+/// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing in a variable cell. Minimisers minimise this function. V₀ is the
+/// volume of the reference cell, and F is the deformation from the reference cell to the present cell. In a fixed cell
+/// the enthalpy equals the energy. The last term is the work of a dead load. This load corresponds to the stress τ only
+/// if F is near 1. After a large strain, make a new Enthalpy with the present cell as the reference.
 class Enthalpy {
  public:
-  /// An enthalpy whose reference is the cell `reference`.
+  /// Makes an enthalpy with the reference cell `reference`.
   Enthalpy(const CellControl& control, const PeriodicCell& reference);
 
-  const CellControl& control() const { return control_; }  ///< freedom and load of the cell
+  const CellControl& control() const { return control_; }  ///< free strains of the cell and load on the cell
 
-  /// The evaluation with p (V − V₀) in its energy, and with derivatives with respect to the free strains after those of
-  /// the particles. The residual becomes that of the stress if that is larger: the largest entry of σ + p·1 − τ,
-  /// projected on the free strains, divided by p. If no pressure is prescribed, it is divided by the packing's own.
+  /// Converts an evaluation of the energy to one of the enthalpy. It adds the load to the energy, and appends the
+  /// derivatives with respect to the free strains to the gradient. The residual of the stress is the largest entry of σ
+  /// + p·1 − τ, projected on the free strains and divided by p. If no pressure is prescribed, it is divided by the
+  /// pressure of the packing. If the residual of the stress is larger than the residual of the forces, it replaces the
+  /// latter.
   Evaluation of(Evaluation evaluation, const Packing& packing) const;
-  /// The same for an envelope instead of the energy.
+  /// Converts an evaluation of an envelope in the same way.
   EnvelopeEvaluation of(EnvelopeEvaluation evaluation, const Packing& packing) const;
-  /// Adds the second derivatives of the load to the corner of the energy's Hessian.
+  /// Adds the second derivatives of the load to BlockMatrix::corner of the Hessian of the energy.
   void add_to(BlockMatrix& hessian, const Packing& packing) const;
 
  private:
   double pressure() const { return frees_volume(control_.cell) ? control_.pressure : 0; }
-  /// p (V − V₀) − V₀ τ:(F − 1).
+  /// The load energy p (V − V₀) − V₀ τ:(F − 1).
   double work(const PeriodicCell& cell) const;
   Eigen::Matrix3d load(const PeriodicCell& cell) const;
   Eigen::VectorXd strain_gradient(const Eigen::Matrix3d& stress, const Packing& packing) const;

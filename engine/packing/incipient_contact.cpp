@@ -32,7 +32,7 @@ IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overl
   IncipientContact pair;
   pair.a = a, pair.b = b;
   const double mean_radius = std::sqrt(radii.a * radii.b);
-  pair.turn_a = mean_radius / radii.a, pair.turn_b = mean_radius / radii.b;
+  pair.rotation_scale_a = mean_radius / radii.a, pair.rotation_scale_b = mean_radius / radii.b;
   const Eigen::Vector3d approach = probe_distance * r.normalized();
   if (now.touching()) pair.now = tangent(now, r, radii);
   if (closed.touching()) {

@@ -7,15 +7,16 @@
 
 namespace isojam {
 
-/// Overlap volume of a pair (a, b) to first order in a step s of moved(): per particle (x, R·θ), R its radius of
-/// gyration, followed by the free strains ℓ·ε. V ≈ at_rest + slope_a·s_a + slope_b·s_b + slope_strains·ε. V in V_p,
-/// slopes in V_p^(2/3).
+/// Overlap volume V of a pair (a, b), to first order in a step s in the format of moved(): V ≈ at_rest + slope_a·s_a +
+/// slope_b·s_b + slope_strains·ε. V is in units of V_p, slopes are in units of V_p^(2/3).
 struct LinearisedOverlap {
-  double at_rest = 0;                                                 ///< V at s = 0
-  Vector6d slope_a = Vector6d::Zero(), slope_b = Vector6d::Zero();    ///< with respect to the steps of a and b
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> slope_strains{};  ///< by the free strains; empty without
+  double at_rest = 0;  ///< V for s = 0
+  /// derivatives with respect to the steps of a and of b
+  Vector6d slope_a = Vector6d::Zero(), slope_b = Vector6d::Zero();
+  /// derivatives with respect to the free strains; empty if there are none
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> slope_strains{};
 
-  /// V after a step of the whole packing, for the pair (a, b).
+  /// V of the pair (a, b) after a step of the whole packing.
   double at(const Eigen::VectorXd& step, int a, int b) const {
     const double by_particles = at_rest + slope_a.dot(step.segment<6>(6 * a)) + slope_b.dot(step.segment<6>(6 * b));
     if (slope_strains.size() == 0) return by_particles;
@@ -24,37 +25,39 @@ struct LinearisedOverlap {
 };
 
 /// A pair of particles that touch, or would touch if their centres were closer by the probe distance. V is linearised
-/// twice: in the present state, and with the gap closed by the probe distance. If two faces are about to become
-/// coplanar, the second tangent is far steeper. Both tangents are lower bounds, because V of a flat contact is convex
-/// in depth and tilt.
+/// in two states: the present state, and the state in which the centres are closer by the probe distance. If two faces
+/// are almost coplanar, the tangent in the second state is much steeper. Both tangents are lower bounds of V, because V
+/// of a flat contact is a convex function of depth and tilt.
 struct IncipientContact {
   int a = 0, b = 0;       ///< particles
   LinearisedOverlap now;  ///< tangent in the present state; 0 if the pair does not touch
-  /// Tangent with the gap closed, extrapolated to the present state, where it is negative for a gap; 0 if the pair
-  /// still does not touch.
+  /// Tangent in the state with closer centres, extrapolated to the present state. There its value is negative if the
+  /// pair has a gap. 0 if the pair does not touch even with closer centres.
   LinearisedOverlap closed;
-  /// Stiffness against the relative rotation relative_turn() that a flat contact has once its section line crosses the
-  /// face. Before that V is linear in the tilt, so that the Hessian does not contain this stiffness.
+  /// Stiffness of a flat contact against relative_rotation(). The contact has this stiffness only if the line in which
+  /// the two face planes intersect crosses the face. Otherwise V is linear in the tilt, so the Hessian does not contain
+  /// this stiffness.
   Eigen::Matrix3d tilt = Eigen::Matrix3d::Zero();
-  double turn_a = 1, turn_b = 1;  ///< √(R_A R_B)/R for each particle
+  double rotation_scale_a = 1, rotation_scale_b = 1;  ///< √(R_A R_B)/R for each particle
 
-  /// √(R_A R_B) (θ_B − θ_A).
-  Eigen::Vector3d relative_turn(const Eigen::VectorXd& step) const {
-    return turn_b * step.segment<3>(6 * b + 3) - turn_a * step.segment<3>(6 * a + 3);
+  /// Relative rotation √(R_A R_B) (θ_B − θ_A) of the pair in a step.
+  Eigen::Vector3d relative_rotation(const Eigen::VectorXd& step) const {
+    return rotation_scale_b * step.segment<3>(6 * b + 3) - rotation_scale_a * step.segment<3>(6 * a + 3);
   }
 };
 
-/// Radii of gyration of a pair.
+/// Radii of gyration of the two particles of a pair.
 struct GyrationRadii {
   double a, b;  ///< radii of A and of B, V_p^(1/3)
 };
 
-/// Tangent of V for an overlap (vector area S_A and moment M_A in the lab frame) at displacement r = x_B − x_A.
+/// Computes the tangent of V from an overlap, whose vector area S_A and moment M_A are in the lab frame. r is the
+/// displacement x_B − x_A.
 LinearisedOverlap tangent(const Overlap& overlap, const Eigen::Vector3d& r, const GyrationRadii& radii);
 
-/// The pair with overlap `now` at displacement r, and overlap `closed` with B's centre closer to A's by
-/// `probe_distance` (V_p^(1/3)). At least one of them must not be empty. `strains`: basis of the free strains, divided
-/// by ℓ.
+/// Makes the IncipientContact of a pair. `now` is the overlap at displacement r. `closed` is the overlap with the
+/// centre of B closer to the centre of A by `probe_distance` (V_p^(1/3)). At least one of the two overlaps must not be
+/// empty. `strains` is the basis of the free strains, divided by ℓ.
 IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overlap& closed, const Eigen::Vector3d& r,
                                    double probe_distance, const GyrationRadii& radii, const StrainBasis& strains = {});
 

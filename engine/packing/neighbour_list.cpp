@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/packing/pair_search.hpp"
+
 namespace isojam {
 
 namespace {
@@ -12,15 +14,14 @@ namespace {
 /// that few listed pairs are out of reach.
 constexpr double skin_in_circumradii = 0.15;
 
-/// Axes of the pairs that remain, by merging two lists in canonical order.
+/// Axes of the pairs that remain.
 std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_pairs,
                                          const std::vector<SeparatingAxis>& old_axes,
                                          const std::vector<NeighbourPair>& pairs) {
   std::vector<SeparatingAxis> axes(pairs.size());
-  std::size_t old = 0;
+  PairSearch<NeighbourPair> old(old_pairs);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    while (old < old_pairs.size() && canonical_key(old_pairs[old]) < canonical_key(pairs[k])) ++old;
-    if (old < old_pairs.size() && canonical_key(old_pairs[old]) == canonical_key(pairs[k])) axes[k] = old_axes[old];
+    if (const NeighbourPair* found = old.find(pairs[k])) axes[k] = old_axes[found - old_pairs.data()];
   }
   return axes;
 }

@@ -9,17 +9,19 @@
 
 namespace isojam {
 
-/// Pairs of particles within reach plus a skin, each with a separating axis. The list is kept until particles or cell
-/// have moved so far that an unlisted pair could be within reach. It is a cache: it changes the cost of a computation,
-/// and never the result.
+/// Neighbour list: all pairs of particles whose circumscribed spheres intersect or have a gap smaller than a skin. Each
+/// pair has the separating axis that was found last. refresh() makes a new list only if particles or cell have moved so
+/// far that a pair outside the list could touch. The list is a cache: it changes the cost of a computation, but never
+/// the result.
 class NeighbourList {
  public:
-  /// Updates the list for `packing`. Throws std::invalid_argument unless is_legal(cell, solids.widest()).
+  /// Updates the list for `packing`. Throws std::invalid_argument unless is_legal(cell, solids.widest()) is true.
   void refresh(const Packing& packing);
 
-  /// Pairs sorted by (a, b, shift), including pairs in the skin, whose circumspheres do not intersect.
+  /// Pairs sorted by (a, b, shift). The circumscribed spheres of some pairs do not intersect, because their gap is
+  /// smaller than the skin.
   const std::vector<NeighbourPair>& pairs() const { return pairs_; }
-  std::vector<SeparatingAxis>& axes() { return axes_; }  ///< the axes of pairs()
+  std::vector<SeparatingAxis>& axes() { return axes_; }  ///< separating axis of each pair, in the order of pairs()
 
  private:
   bool is_valid(const Packing& packing) const;

@@ -8,38 +8,41 @@
 
 namespace isojam {
 
-/// Particles a < b whose centres may be within reach. Their displacement is x_b − x_a + h·shift, where the columns of h
-/// are the lattice vectors. a == b never occurs in a legal cell; the same (a, b) may occur with several shifts.
+/// Two particles a < b that may touch, and the periodic image of b that may touch a. The displacement from a to this
+/// image is x_b − x_a + h·shift, where the columns of h are the lattice vectors. A list of pairs may contain the same a
+/// and b with several shifts. It never contains a == b, because is_legal() requires a cell in which no particle can
+/// touch its own image.
 struct NeighbourPair {
-  int a = 0, b = 0;                                 ///< particles, a < b
-  Eigen::Vector3i shift = Eigen::Vector3i::Zero();  ///< lattice vectors from b to its image
+  int a = 0, b = 0;                                 ///< indices of the particles, a < b
+  Eigen::Vector3i shift = Eigen::Vector3i::Zero();  ///< image of b, as numbers of lattice vectors
 };
 
-/// Sort key of pairs everywhere: (a, b, shift).
+/// Key by which all lists of pairs are sorted: (a, b, shift).
 inline auto canonical_key(const NeighbourPair& p) {
   return std::make_tuple(p.a, p.b, p.shift[0], p.shift[1], p.shift[2]);
 }
 
-/// Displacement x_b − x_a + h·shift of a pair, from the high parts of positions.
+/// Displacement x_b − x_a + h·shift of a pair in double precision, that is, without Pose::position_low.
 inline Eigen::Vector3d displacement(const Packing& packing, const NeighbourPair& pair) {
   return packing.poses[static_cast<std::size_t>(pair.b)].position -
          packing.poses[static_cast<std::size_t>(pair.a)].position + packing.cell.translation(pair.shift);
 }
-/// Displacement in double-double, with the low parts of positions.
+/// The same displacement in double-double, with Pose::position_low.
 DoubleDoubleVector displacement_double_double(const Packing& packing, const NeighbourPair& pair);
 
-/// All pairs and images with a centre distance below `reach`, sorted by (a, b, shift). O(N) with a grid whose cells are
-/// at least `reach` from face to face; brute force if fewer than 3 such cells fit along a lattice vector.
+/// Finds all pairs whose centres are closer than `reach` (V_p^(1/3)), for all periodic images of b, sorted by (a, b,
+/// shift). The time is O(N), because the search uses a grid whose cells have opposite faces at least `reach` apart. If
+/// fewer than 3 such cells fit along a lattice vector, the search tests all pairs.
 std::vector<NeighbourPair> find_neighbours(const Packing& packing, double reach);
 
-/// All pairs and images whose distance is at most the sum of their circumradii plus `skin`, in the same order. There is
-/// a grid for each size class (radii within a factor of 2), so that large particles do not slow down the search for
-/// small ones.
+/// Finds all pairs whose circumscribed spheres intersect or have a gap of at most `skin` (V_p^(1/3)), for all periodic
+/// images of b, sorted by (a, b, shift). Each size class, which has radii within a factor of 2, has its own grid. Large
+/// particles therefore do not slow down the search for neighbours of small ones.
 std::vector<NeighbourPair> find_in_reach(const Packing& packing, double skin);
-/// find_in_reach() by testing all pairs: the test oracle.
+/// Computes the result of find_in_reach() by testing all pairs. Tests use it as the reference.
 std::vector<NeighbourPair> find_in_reach_brute_force(const Packing& packing, double skin);
 
-/// find_neighbours() by testing all N(N−1)/2 pairs: the test oracle.
+/// Computes the result of find_neighbours() by testing all N(N−1)/2 pairs. Tests use it as the reference.
 std::vector<NeighbourPair> find_neighbours_brute_force(const Packing& packing, double reach);
 
 }  // namespace isojam

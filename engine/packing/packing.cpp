@@ -43,9 +43,9 @@ Packing random_packing(const ConvexSolid& solid, int n, double density, RandomSt
 }
 
 Packing random_packing(std::span<const Particle> particles, double density, RandomStream& random) {
-  if (!(density > 0 && density <= 1)) throw std::invalid_argument("a density lies in (0, 1]");
+  if (!(density > 0 && density <= 1)) throw std::invalid_argument("a density must be in (0, 1]");
   const std::size_t n = particles.size();
-  if (n < 1) throw std::invalid_argument("a packing has at least one particle");
+  if (n < 1) throw std::invalid_argument("a packing needs at least one particle");
   const PeriodicCell cell(side_at(static_cast<int>(n), density));
   const double side = cell.side();
   std::vector<Pose> poses(n);

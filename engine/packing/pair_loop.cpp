@@ -12,8 +12,8 @@ namespace isojam {
 
 namespace {
 
-/// Pairs per task: about 50 µs of work, far more than the cost of a task, and small enough to balance the load.
-constexpr std::size_t grain = 128;
+/// Pairs per task.
+constexpr std::size_t grain = small_calls_per_task;
 
 /// A pair that may touch. Stored as three scalars: a packed load of two doubles would stall on store forwarding.
 struct NearPair {
@@ -67,10 +67,16 @@ std::size_t not_separated(const PlacedSolids& placed, std::span<const NeighbourP
   return left;
 }
 
-Overlap overlap_of(const Packing& packing, Precision precision, const PlacedSolid& a, const PlacedSolid& b,
-                   const NeighbourPair& pair, const Eigen::Vector3d& r, SeparatingAxis& axis) {
-  if (precision == Precision::double_double) return overlap(a, b, displacement_double_double(packing, pair), axis);
-  return overlap(a, b, r, axis);
+/// The overlap of a pair that its cached axis does not separate; updates the axis.
+Overlap overlap_unseparated(const Packing& packing, Precision precision, const PlacedSolids& placed,
+                            const NeighbourPair& pair, const Eigen::Vector3d& r, SeparatingAxis& axis) {
+  const PlacedSolid a = placed[pair.a], b = placed[pair.b];
+  const Overlap found = precision == Precision::double_double
+                            ? overlap(a, b, displacement_double_double(packing, pair), axis)
+                            : overlap(a, b, r, axis);
+  // If no face separates a pair that is apart, a product of edges does; a single search for it pays off.
+  if (!found.touching() && axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
+  return found;
 }
 
 PairCounts overlap_block(const Packing& packing, Precision precision, const PlacedSolids& placed,
@@ -86,17 +92,10 @@ PairCounts overlap_block(const Packing& packing, Precision precision, const Plac
   counts.overlapped = static_cast<long>(left);
   touching.clear();
   for (std::size_t k = 0; k < left; ++k) {
-    const NeighbourPair& pair = pairs[near[k].pair];
-    const PlacedSolid a = placed[pair.a], b = placed[pair.b];
-    SeparatingAxis& axis = axes[near[k].pair];
-    const Overlap found = overlap_of(packing, precision, a, b, pair, near[k].r(), axis);
+    const std::size_t place = near[k].pair;
+    const Overlap found = overlap_unseparated(packing, precision, placed, pairs[place], near[k].r(), axes[place]);
     counts.clipped += static_cast<long>(found.path == OverlapPath::clip);
-    if (found.touching()) {
-      touching.push_back({near[k].pair, found});
-    } else if (axis.kind == SeparatingAxis::Kind::none) {
-      // No face separates the pair, so a product of edges does; a single search for it pays off.
-      axis = best_axis(a, b, near[k].r());
-    }
+    if (found.touching()) touching.push_back({place, found});
   }
   counts.touching = static_cast<long>(touching.size());
   return counts;
@@ -143,18 +142,12 @@ PairCounts& PairCounts::operator+=(const PairCounts& term) {
   return *this;
 }
 
-void for_each_block(std::size_t blocks, const std::function<void(std::size_t)>& run) {
-  if (blocks < 2) {
-    for (std::size_t block = 0; block < blocks; ++block) run(block);
-  } else {
-    for_each_index(blocks, run);
-  }
-}
-
-void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run) {
-  for_each_block(block_count(slots), [&](std::size_t block) {
-    for (std::size_t k = block * grain; k < std::min(slots, (block + 1) * grain); ++k) run(k);
-  });
+Overlap overlap_listed(const Packing& packing, const PlacedSolids& placed, const NeighbourPair& pair,
+                       SeparatingAxis& axis) {
+  const Eigen::Vector3d r = displacement(packing, pair);
+  const double reach = reach_of(packing.solids, pair);
+  if (r.squaredNorm() >= reach * reach || separates(placed[pair.a], placed[pair.b], r, axis)) return {};
+  return overlap_unseparated(packing, Precision::working, placed, pair, r, axis);
 }
 
 void make_room(const Packing& packing, Precision precision, PlacedSolids& placed) {
@@ -168,7 +161,7 @@ void make_room(const Packing& packing, Precision precision, PlacedSolids& placed
 
 void place_all(const Packing& packing, Precision precision, PlacedSolids& placed) {
   make_room(packing, precision, placed);
-  for_each_slot(placed.size(), [&](std::size_t k) {
+  for_each_small(placed.size(), [&](std::size_t k) {
     const Pose& pose = packing.poses[k];
     if (precision == Precision::double_double) {
       placed.place(k, rotation_matrix(pose));
@@ -185,7 +178,7 @@ PairCounts overlap_pairs(const Packing& packing, Precision precision, const Plac
   const std::size_t n = pairs.size(), blocks = block_count(n);
   std::vector<PairCounts> counts(blocks);
   touching.blocks.resize(blocks);
-  for_each_block(blocks, [&](std::size_t block) {
+  for_each_index(blocks, [&](std::size_t block) {
     counts[block] = overlap_block(packing, precision, placed, pairs, axes, block * grain,
                                   std::min(n, (block + 1) * grain), touching.blocks[block]);
   });
@@ -200,7 +193,7 @@ TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, st
   const std::size_t n = pairs.size();
   TouchingPairs touching;
   touching.blocks.resize(block_count(n));
-  for_each_block(touching.blocks.size(), [&](std::size_t block) {
+  for_each_index(touching.blocks.size(), [&](std::size_t block) {
     for (std::size_t k = block * grain; k < std::min(n, (block + 1) * grain); ++k)
       probe_pair(packing, placed, pairs, axes, k, probe_distance, touching.blocks[block]);
   });
@@ -212,7 +205,7 @@ std::vector<PairHessian> pair_hessians(const Packing& packing, Precision precisi
   std::vector<std::size_t> first{0};
   for (const auto& block : touching.blocks) first.push_back(first.back() + block.size());
   std::vector<PairHessian> hessians(first.back());
-  for_each_block(touching.blocks.size(), [&](std::size_t block) {
+  for_each_index(touching.blocks.size(), [&](std::size_t block) {
     for (std::size_t k = 0; k < touching.blocks[block].size(); ++k)
       hessians[first[block] + k] = pair_hessian(packing, precision, placed, pairs[touching.blocks[block][k].pair]);
   });

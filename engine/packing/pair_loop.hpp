@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,62 +11,63 @@
 
 namespace isojam {
 
-/// Counts from the broad and narrow phases of one evaluation.
+/// Numbers of pairs that one evaluation processed, by the step that decided whether they touch.
 struct PairCounts {
   long listed = 0;        ///< pairs in the neighbour list
-  long out_of_reach = 0;  ///< circumspheres do not intersect
-  long by_axis = 0;       ///< rejected by the axis cached from an earlier evaluation
-  long overlapped = 0;    ///< passed to the overlap kernel
-  long clipped = 0;       ///< those of them computed by the slow path
-  long touching = 0;      ///< pairs with V > 0
+  long out_of_reach = 0;  ///< pairs whose circumscribed spheres do not intersect
+  long by_axis = 0;       ///< pairs that the separating axis from an earlier evaluation still separates
+  long overlapped = 0;    ///< pairs whose overlap was computed
+  /// pairs of `overlapped` that needed clipped_overlap(), which is slower but works for degenerate pairs
+  long clipped = 0;
+  long touching = 0;  ///< pairs with V > 0
 
   /// Adds the counts of another evaluation.
   PairCounts& operator+=(const PairCounts& term);
 };
 
-/// Digits of the state that an evaluation uses: high parts, or the whole double-double.
+/// Precision of the coordinates that an evaluation uses. A state stores each coordinate as the sum of two doubles.
 enum class Precision {
-  working,       ///< doubles: enough until the force residual reaches residual_floor, 1e-8 or worse near jamming
-  double_double  ///< low parts too: enough for a residual of 1e-9 at any distance from jamming
+  /// only the first double of each coordinate: enough until the residual reaches Evaluation::residual_floor, which is
+  /// 1e-8 or more near jamming
+  working,
+  double_double  ///< both doubles of each coordinate: enough for a residual of 1e-9 at any distance to jamming
 };
 
-/// Calls run(block) for every block < blocks, in parallel by oneTBB. Each call must be far longer than the cost of a
-/// task.
-void for_each_block(std::size_t blocks, const std::function<void(std::size_t)>& run);
-
-/// Calls run(k) for every k < slots, in parallel by oneTBB if there are enough slots. A call may write only to slot k,
-/// so that the result does not depend on the number of threads.
-void for_each_slot(std::size_t slots, const std::function<void(std::size_t)>& run);
-
-/// Allocates memory for every particle's solid. The previous content is kept if the kinds of packing and precision have
-/// not changed.
+/// Allocates memory in `placed` for the solid of every particle. If neither the solids nor the precision have changed,
+/// the previous content is kept.
 void make_room(const Packing& packing, Precision precision, PlacedSolids& placed);
-/// Places every particle's solid in its orientation, in the order of particles. `placed` is overwritten.
+/// Computes, for every particle, the solid rotated into the lab frame. `placed` is overwritten; its elements are in the
+/// order of the particles.
 void place_all(const Packing& packing, Precision precision, PlacedSolids& placed);
 
-/// Overlap of a listed pair, lab frame.
+/// Computes the overlap of a pair of the neighbour list with Precision::working. The result is an empty overlap if the
+/// circumscribed spheres do not intersect or if `axis` separates the pair. `axis` is updated.
+Overlap overlap_listed(const Packing& packing, const PlacedSolids& placed, const NeighbourPair& pair,
+                       SeparatingAxis& axis);
+
+/// Overlap of one pair of a neighbour list; vectors are in the lab frame.
 struct PairOverlap {
-  std::size_t pair = 0;  ///< index in the list
+  std::size_t pair = 0;  ///< index of the pair in the list
   Overlap overlap;       ///< V > 0
 };
 
-/// The touching pairs of a list, in its order, in blocks that are computed in parallel.
+/// The touching pairs of a neighbour list. They are divided into blocks, which are computed in parallel.
 struct TouchingPairs {
-  std::vector<std::vector<PairOverlap>> blocks;  ///< in the order of the list
+  std::vector<std::vector<PairOverlap>> blocks;  ///< blocks, and the pairs in each block, in the order of the list
 };
 
-/// Finds the touching pairs of a list, in parallel by oneTBB if there are enough blocks. `placed` comes from
-/// place_all() with the same precision. axes[k], the axis of pair k, is read and updated: a cache that changes the cost
-/// and never the result. `touching` is overwritten.
+/// Finds the touching pairs of a list. Several threads compute the blocks if there are enough of them. `placed` must
+/// come from place_all() with the same precision. axes[k] is the separating axis of pair k from an earlier call; it is
+/// read and updated. It is a cache, which changes the cost but never the result. `touching` is overwritten.
 PairCounts overlap_pairs(const Packing& packing, Precision precision, const PlacedSolids& placed,
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, TouchingPairs& touching);
 
-/// The touching pairs of a list after closing gaps: B's centre is moved closer to A's by `probe_distance` (V_p^(1/3)).
-/// `axes` come from overlap_pairs().
+/// Finds the pairs of a list that touch if the centre of B is moved towards the centre of A by `probe_distance`
+/// (V_p^(1/3)). `axes` must come from overlap_pairs().
 TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
                           std::span<const SeparatingAxis> axes, double probe_distance);
 
-/// PairHessian of every touching pair, in the same order.
+/// Computes the PairHessian of every touching pair, in the order of `touching`.
 std::vector<PairHessian> pair_hessians(const Packing& packing, Precision precision, const PlacedSolids& placed,
                                        std::span<const NeighbourPair> pairs, const TouchingPairs& touching);
 

@@ -8,30 +8,30 @@
 
 namespace isojam {
 
-/// Borders second derivatives with those with respect to the free strains. The energy of a pair depends on its centres
-/// through r = x_b − x_a, and strain changes r to exp(ε) r = r + ε r + ½ ε² r + …. With the coordinates ℓ·ε
-/// (control.hpp),
+/// Computes the border and the corner of a Hessian: the second derivatives with respect to the free strains. The energy
+/// of a pair depends on its centres only through r = x_b − x_a, and a strain changes r to exp(ε) r = r + ε r + ½ ε² r +
+/// …. With the coordinates ℓ·ε (control.hpp),
 ///   ∂²E/∂q∂ε = Σ (∂²e/∂q∂r) ∂r/∂ε,   ∂²E/∂ε² = Σ ∂r/∂ε·(∂²e/∂r²) ∂r/∂ε + ½ (∂e/∂r)·∂²(ε² r)/∂ε².
-/// Without free strains it does nothing.
+/// If there are no free strains, this class does nothing.
 class StrainBorder {
  public:
   /// Sets border and corner of `matrix` to zero; the matrix must outlive this object.
   StrainBorder(CellFreedom cell, int particles, BlockMatrix& matrix);
 
-  /// Adds a pair with second derivatives `h`, slope ∂e/∂r and displacement r; lab frame.
+  /// Adds a pair with the second derivatives `h`, the slope ∂e/∂r and the displacement r, all in the lab frame.
   void add_pair(int a, int b, const PairHessian& h, const Eigen::Vector3d& slope, const Eigen::Vector3d& r);
-  /// Derivatives with respect to the free strains for a virial Σ (∂e/∂r) rᵀ.
+  /// First derivatives with respect to the free strains, from the virial Σ (∂e/∂r) rᵀ of all pairs.
   Eigen::VectorXd slopes(const Eigen::Matrix3d& virial) const;
-  /// Adds the terms of second order in ε. Call it after the last pair.
+  /// Adds the terms with ε² from all pairs. Call this function once, after the last call of add_pair().
   void finish();
 
  private:
-  StrainBasis basis_;  ///< divided by ℓ
+  StrainBasis basis_;  ///< basis of the free strains, divided by ℓ
   BlockMatrix& matrix_;
   Eigen::Matrix3d virial_ = Eigen::Matrix3d::Zero();  ///< Σ (∂e/∂r) rᵀ = V_cell·stress
 };
 
-/// Matrix of the quadratic form T:ε² of ε in Mandel's components, T symmetric.
+/// Matrix of the quadratic form ε → T:ε², with ε in Mandel's components. T must be symmetric.
 Matrix6d of_squared_strain(const Eigen::Matrix3d& tensor);
 
 }  // namespace isojam

@@ -6,13 +6,22 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <algorithm>
 #include <atomic>
 #include <vector>
 
 namespace isojam {
 
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& run) {
+  if (count == 1) return run(0);
   tbb::this_task_arena::isolate([&] { for_each_index_within(count, run); });
+}
+
+void for_each_small(std::size_t count, const std::function<void(std::size_t)>& run) {
+  for_each_index((count + small_calls_per_task - 1) / small_calls_per_task, [&](std::size_t task) {
+    const std::size_t end = std::min(count, (task + 1) * small_calls_per_task);
+    for (std::size_t k = task * small_calls_per_task; k < end; ++k) run(k);
+  });
 }
 
 void for_each_index_within(std::size_t count, const std::function<void(std::size_t)>& run) {

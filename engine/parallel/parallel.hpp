@@ -6,22 +6,32 @@
 
 namespace isojam {
 
-// Parallel loops of the engine, run by oneTBB. Each call may write only to its own slot, so results depend neither on
-// the number of threads nor on the schedule. A thread that waits for the last calls starts only calls of the same loop
-// or forest; it does not start another replicate, which might take an hour. Cancellation elsewhere does not skip calls.
-// An exception from a call is rethrown when no call is running any more; calls that had not started by then may be
-// skipped.
+// Parallel loops of the engine, which oneTBB runs. The function `run` is called once for each index. Rules:
+// - Each call of `run` may write only to data that no other call uses, such as its own element of an array. The result
+//   therefore depends neither on the number of threads nor on the order of the calls.
+// - A thread that waits for the end of a loop or forest runs only calls of the same loop or forest. It does not start
+//   another replicate, which might take an hour.
+// - If the caller is cancelled by oneTBB, all calls are made nevertheless.
+// - If a call throws an exception, calls that have not started may be skipped. The exception is rethrown when all
+//   running calls have ended.
 
-/// Calls run(k) for every k < count.
+/// Calls run(k) for every k < count. Each call must take much longer than 1 µs, which is about the cost of a task of
+/// oneTBB. Use for_each_small() for shorter calls.
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& run);
 
-/// The same loop, called from inside for_each_in_forest: a thread that waits here may start any other call of that
-/// forest, and the threads of the forest may start calls of this loop.
+/// Calls run(k) for every k < count, for short calls. One task makes small_calls_per_task calls. For example, the
+/// overlap of a pair takes 0.4 µs, so a task takes about 50 µs. This is much more than the cost of a task, and short
+/// enough to distribute the work evenly over the threads.
+void for_each_small(std::size_t count, const std::function<void(std::size_t)>& run);
+inline constexpr std::size_t small_calls_per_task = 128;
+
+/// Calls run(k) for every k < count, from a call of for_each_in_forest(). While a thread waits for the end of this
+/// loop, it may also run other calls of the forest. The other threads of the forest may run calls of this loop.
 void for_each_index_within(std::size_t count, const std::function<void(std::size_t)>& run);
 
-/// Calls run(k) for every node k of a forest, after the calls of all its children have returned true. `parents[k]` is
-/// another node, or −1 for a root. Returns false if a call returned false: the ancestors of its node are then skipped,
-/// and so is every other node that had not started.
+/// Calls run(k) for every node k of a forest, after the calls for all children of k have returned true. `parents[k]` is
+/// the parent of node k, or −1 if k is a root. Returns true if all calls returned true. If a call returns false, the
+/// function calls run() for no further node and returns false after the calls that are already running have ended.
 bool for_each_in_forest(std::span<const int> parents, const std::function<bool(int)>& run);
 
 }  // namespace isojam

@@ -7,28 +7,30 @@
 
 namespace isojam {
 
-/// Purpose of a stream of random bits; part of its key.
+/// Purpose of a stream of random bits. It is a part of the key of the stream.
 enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2 };
 
-/// A reproducible stream of random bits that depends only on its key, such as (manifest seed, solid and particles,
-/// replicate, purpose). The C++ standard fixes the 64-bit Mersenne twister and std::seed_seq bit by bit. It does not
-/// fix its distributions, so this class maps bits to uniform numbers itself.
+/// A reproducible stream of random bits. It depends only on its key, for example (seed of the manifest, solid and
+/// particles, replicate, purpose). The C++ standard defines the 64-bit Mersenne twister and std::seed_seq bit by bit.
+/// It does not define the distributions of its library in this way, so this class converts the bits to random numbers
+/// itself.
 class RandomStream {
  public:
   /// The stream with this key.
   RandomStream(std::initializer_list<std::uint64_t> key);
 
-  std::uint64_t bits() { return engine_(); }  ///< 64 independent random bits
-  /// Uniform in [0, 1), all 2^53 multiples of 2^-53 equally likely.
+  std::uint64_t bits() { return engine_(); }  ///< the next 64 independent random bits
+  /// A uniform random number in [0, 1). All 2^53 multiples of 2^-53 are equally likely.
   double uniform();
-  /// Standard normal (Box–Muller).
+  /// A random number with the standard normal distribution (Box–Muller method).
   double normal();
 
  private:
   std::mt19937_64 engine_;
 };
 
-/// 64-bit FNV-1a hash of a text; makes a key from a canonical description.
+/// 64-bit FNV-1a hash of a text. It converts a canonical description, such as the name of a solid, to a number for a
+/// key.
 std::uint64_t hash_of(std::string_view text);
 
 }  // namespace isojam

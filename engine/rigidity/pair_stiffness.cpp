@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "engine/arithmetic/elementary.hpp"
+#include "engine/parallel/parallel.hpp"
 
 namespace isojam {
 
@@ -87,7 +88,7 @@ std::vector<PairStiffness> pair_stiffnesses(const Packing& packing, std::span<co
   PlacedSolids placed;
   place_all(packing, Precision::double_double, placed);
   std::vector<PairStiffness> pairs(contacts.size());
-  for_each_slot(contacts.size(), [&](std::size_t k) { pairs[k] = pair_stiffness(packing, placed, contacts[k].pair); });
+  for_each_small(contacts.size(), [&](std::size_t k) { pairs[k] = pair_stiffness(packing, placed, contacts[k].pair); });
   return pairs;
 }
 
@@ -99,7 +100,7 @@ double stiff_constraint_number(int particles, std::span<const PairStiffness> pai
 
 RigidityMatrix stiff_constraints(const Packing& packing, std::span<const Contact> contacts,
                                  std::span<const PairStiffness> pairs, double threshold) {
-  if (pairs.size() != contacts.size()) throw std::invalid_argument("each contact has one stiffness");
+  if (pairs.size() != contacts.size()) throw std::invalid_argument("each contact needs one stiffness");
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> forces;
   for (std::size_t c = 0; c < contacts.size(); ++c) {

@@ -31,9 +31,9 @@ class Rows {
   void add_tilt(const Contact& contact, const Vector3d& axis) {
     // θ_A − θ_B = R·θ_A/R_A − R·θ_B/R_B; the row has unit length.
     const double ratio = radius(contact.pair.a) / radius(contact.pair.b);
-    const Vector3d turn =
+    const Vector3d rotation =
         std::sqrt(2 / (1 + ratio * ratio)) * (orientation(contact.pair.a) * axis / std::numbers::sqrt2);
-    add(contact, joined(Vector3d::Zero(), turn), joined(Vector3d::Zero(), -ratio * turn));
+    add(contact, joined(Vector3d::Zero(), rotation), joined(Vector3d::Zero(), -ratio * rotation));
     forces_.push_back(0);
   }
 
@@ -103,7 +103,7 @@ RigidityMatrix normal_constraints(const Packing& packing, std::span<const Contac
 RigidityMatrix class_constraints(const Packing& packing, std::span<const Contact> contacts,
                                  std::span<const Alignment> alignments, std::span<const ContactClass> classes) {
   if (alignments.size() != contacts.size() || classes.size() != contacts.size())
-    throw std::invalid_argument("each contact has one alignment and one class");
+    throw std::invalid_argument("each contact needs one alignment and one class");
   Rows rows(packing);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     rows.add_normal(contacts[k]);

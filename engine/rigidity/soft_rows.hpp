@@ -8,21 +8,21 @@
 
 namespace isojam {
 
-/// Inverse iteration on rows·rowsᵀ for the combinations of constraints with the smallest singular values. It uses the
-/// sparse factor of rowsᵀrows + τ², in 6×6 blocks on the graph of particles. For N = 400 this takes milliseconds; a
-/// dense factorisation takes half a minute.
+/// Inverse iteration with rows·rowsᵀ, which finds the combinations of constraints with the smallest singular values. It
+/// uses a sparse factorisation of rowsᵀrows + τ² in 6×6 blocks on the graph of particles. For N = 400 this takes
+/// milliseconds, and a dense factorisation would take half a minute.
 class SoftRows {
  public:
-  /// Keeps a reference to `rows`, constraints × 6N, which must outlive this object. Throws std::invalid_argument if
-  /// they contain NaN or infinity.
+  /// Stores a reference to `rows`, constraints × 6N, which must outlive this object. Throws std::invalid_argument if
+  /// `rows` contains NaN or infinity.
   explicit SoftRows(const Eigen::SparseMatrix<double>& rows);
 
-  /// Damped x, τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x (Sherman, Morrison, Woodbury), for each
-  /// column. Combinations with singular value σ are multiplied by τ²/(σ² + τ²), states of self-stress by one. τ is 1e-6
-  /// of stiffest().
+  /// One step of the iteration for each column of x: τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x
+  /// (Sherman, Morrison, Woodbury). It multiplies a combination with singular value σ by τ²/(σ² + τ²), so states of
+  /// self-stress do not change and all others are damped. τ is 1e-6 times stiffest().
   Eigen::MatrixXd damped(const Eigen::MatrixXd& x) const;
 
-  /// An upper bound of the largest singular value: the root of the largest row sum of |rowsᵀrows|.
+  /// An upper bound of the largest singular value: the square root of the largest row sum of |rowsᵀrows|.
   double stiffest() const { return stiffest_; }
 
  private:
@@ -31,7 +31,7 @@ class SoftRows {
   double stiffest_ = 0;
 };
 
-/// Gram matrix rowsᵀrows; rows have 6N entries.
+/// The Gram matrix rowsᵀrows. Rows have 6N entries.
 BlockMatrix gram(const Eigen::SparseMatrix<double>& rows);
 
 }  // namespace isojam

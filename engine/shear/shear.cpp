@@ -9,7 +9,7 @@
 #include "engine/packing/cell/strain.hpp"
 #include "engine/packing/enthalpy.hpp"
 #include "engine/solve/multipliers/multipliers.hpp"
-#include "engine/vibration/follow_downhill.hpp"
+#include "engine/vibration/relax_to_minimum.hpp"
 
 namespace isojam {
 
@@ -30,7 +30,7 @@ class Shear {
   Shear(const Packing& start, const ShearOptions& options, std::stop_token stop)
       : options_(options), stop_(std::move(stop)), start_cell_(start.cell) {
     if (!(options.step > 0 && options.until >= options.step))
-      throw std::invalid_argument("a shear has a positive step that is not above its end");
+      throw std::invalid_argument("the step of a shear must be positive and not above its end");
     result_.states.push_back(measured(start, 0, {}));
     pressure_ = result_.states.front().pressure;
     if (!(pressure_ > 0)) throw std::invalid_argument("a packing without pressure is not jammed and cannot be sheared");
@@ -95,11 +95,11 @@ class Shear {
   /// Relaxes an equilibrium to a minimum if it is a saddle.
   ShearState settled(Packing packing, const MinimiseSummary& summary, double load, const CellControl& control) {
     if (!is_equilibrium(summary)) return measured(std::move(packing), load, summary);
-    DownhillOptions downhill;
-    downhill.minimise = options_.minimise;
-    downhill.minimise.control = control;
-    downhill.modes.lowest = 4;
-    DownhillResult found = follow_downhill(packing, downhill, stop_);
+    MinimumSearchOptions search;
+    search.minimise = options_.minimise;
+    search.minimise.control = control;
+    search.modes.lowest = 4;
+    MinimumSearchResult found = relax_to_minimum(packing, search, stop_);
     ShearState state = measured(std::move(found.packing), load, found.summary);
     state.descents = found.descents;
     return state;

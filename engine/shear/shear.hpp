@@ -12,9 +12,9 @@
 
 namespace isojam {
 
-// Quasi-static shear of a jammed packing: strain or stress changes in small steps, with a new equilibrium after each.
-// Strain γ and shear stress s are conjugate, dE = V s dγ, so that s = G γ with the shear modulus G in the linear
-// regime.
+// Quasi-static shear of a jammed packing: strain or stress changes in small steps, and the packing is brought to
+// equilibrium after each step. The strain γ and the shear stress s are conjugate, dE = V s dγ. In the linear regime, s
+// = G γ with the shear modulus G.
 
 /// Kind of shear.
 enum class ShearMode {
@@ -38,25 +38,25 @@ inline constexpr std::array enum_names<ShearControl>{EnumName{ShearControl::stra
 struct ShearOptions {
   ShearMode mode = ShearMode::pure;             ///< kind of shear
   ShearControl control = ShearControl::strain;  ///< prescribed quantity
-  double step = 1e-3;                           ///< Δγ of a step; with stress control Δs/p, p the initial pressure
-  double until = 0.02;                          ///< γ or s/p at which the load is reversed or ends
-  bool back = false;                            ///< true if the load returns to zero
-  MinimiseOptions minimise;                     ///< options of the minimisations
+  double step = 1e-3;   ///< change of γ in a step; with stress control, change of s/p, where p is the initial pressure
+  double until = 0.02;  ///< final value of γ, or of s/p with stress control
+  bool back = false;    ///< true if the load is then reduced to zero again
+  MinimiseOptions minimise;  ///< options of the minimisations
 };
 
-/// An equilibrium under shear; energies in Y·V_p, stress and pressure in Y.
+/// An equilibrium under shear. Energies are in units of Y·V_p, stress and pressure in Y.
 struct ShearState {
-  Packing packing;    ///< in equilibrium
+  Packing packing;    ///< packing in equilibrium
   double load = 0;    ///< prescribed γ or s/p
-  double strain = 0;  ///< γ; with stress control from the deformation since the start
+  double strain = 0;  ///< strain γ; with stress control it is computed from the deformation since the start
   double stress = 0;  ///< s
   Eigen::Matrix3d full_stress = Eigen::Matrix3d::Zero();  ///< σ
   double pressure = 0, energy = 0;                        ///< p, and E
-  long contacts = 0;                                      ///< touching pairs
-  /// Work done in the step minus the increase of stored energy: positive for a rearrangement.
+  long contacts = 0;                                      ///< number of touching pairs
+  /// Work of the shear in the step minus the increase of the energy. It is positive for a rearrangement.
   double dissipated = 0;
-  /// True for a rearrangement: the state had to be relaxed along a negative mode, or more than drop_part of the energy
-  /// was dissipated.
+  /// True if the step contains a rearrangement: the equilibrium was a saddle and had to be relaxed along a negative
+  /// mode, or the step dissipated more than drop_part of the energy.
   bool dropped = false;
   int descents = 0;           ///< number of saddles that were relaxed
   MinimiseSummary summary{};  ///< summary of the last minimisation
@@ -68,10 +68,10 @@ inline constexpr double drop_part = 0.01;
 /// Reason for the end of a shear.
 enum class ShearEnd {
   not_called,
-  completed,       ///< reached the requested load
-  no_equilibrium,  ///< a step found no equilibrium: the packing slides too far
+  completed,       ///< the requested load was reached
+  no_equilibrium,  ///< a step found no equilibrium, because the packing slides too far
   unjammed,        ///< the packing lost its contact forces
-  cell_limit,      ///< the cell became too skew or small, as happens for a stress beyond the yield stress
+  cell_limit,      ///< the cell became too skew or small; this happens if the stress exceeds the yield stress
   interrupted
 };
 template <>
@@ -83,19 +83,19 @@ inline constexpr std::array enum_names<ShearEnd>{
 /// Result of a shear.
 struct ShearResult {
   ShearEnd ended = ShearEnd::not_called;  ///< reason for its end
-  std::vector<ShearState> states;         ///< equilibria; the first one is the initial packing
+  std::vector<ShearState> states;         ///< equilibria, beginning with the initial packing
 };
 
 /// Shears an equilibrium. With strain control the volume is constant. With stress control the pressure is constant, and
-/// s is reached by a prescribed stress deviator. Throws std::invalid_argument if the packing has no pressure, or unless
-/// step and until are positive and step is at most until.
+/// a stress deviator with the shear stress s is prescribed. Throws std::invalid_argument if the packing has no
+/// pressure, or unless `step` and `until` are positive and `step` is at most `until`.
 ShearResult shear(const Packing& start, const ShearOptions& options, std::stop_token stop = {});
 
 /// Shear stress s of a stress tensor.
 double shear_stress(const Eigen::Matrix3d& stress, ShearMode mode);
-/// The traceless symmetric tensor with this s and no other component.
+/// The traceless symmetric stress tensor that has only this shear stress.
 Eigen::Matrix3d deviator_with(double shear_stress, ShearMode mode);
-/// Deformation F of a strain γ.
+/// The deformation F of the cell for a strain γ.
 DoubleDoubleMatrix shear_deformation(double strain, ShearMode mode);
 
 }  // namespace isojam

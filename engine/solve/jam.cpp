@@ -43,7 +43,7 @@ class StrainStep {
     }
     result_.evaluations += energy_.evaluations();
     result_.counts += energy_.counts();
-    if (progress_.ended()) result_.phi_j = fit_jamming_point(energy_points(result_), options_.fit_window);
+    if (progress_.ended()) result_.phi_j = fit_jamming_point(energy_points(result_), options_.decompression.fit_window);
   }
 
  private:
@@ -57,10 +57,10 @@ class StrainStep {
   const JamStep& relax(Packing& packing) {
     MinimiseOptions options = minimiser();
     if (progress_.stage == JamStage::consolidation) {
-      options.residual = std::max(options.residual, options_.consolidation_residual);
-      options.unjammed_energy = std::max(options.unjammed_energy, options_.consolidation_energy);
-      options.max_evaluations = options_.consolidation_evaluations;
-      if (options_.consolidation == Consolidation::hasty)
+      options.residual = std::max(options.residual, options_.compression.residual);
+      options.unjammed_energy = std::max(options.unjammed_energy, options_.compression.unjammed_energy);
+      options.max_evaluations = options_.compression.evaluations;
+      if (options_.compression.relaxation == Consolidation::hasty)
         options.max_evaluations = std::min(options.max_evaluations, hasty_evaluations);
       options.method = Method::lbfgs;
     }
@@ -99,18 +99,18 @@ class StrainStep {
 
   bool consolidated(const JamStep& step) const {
     if (step.summary.reason == StopReason::unjammed) return false;
-    if (options_.target_before_relaxation) return step.summary.converged();
-    return step.energy_per_particle >= options_.target_energy;
+    if (options_.compression.target_before_relaxation) return step.summary.converged();
+    return step.energy_per_particle >= options_.compression.target_energy;
   }
 
   /// A strain step after which the unrelaxed energy is below the target, at most `consolidation_step`.
   double gentle_step() {
     const Packing& packing = progress_.packing;
-    double step = options_.consolidation_step;
+    double step = options_.compression.step;
     const double least = step / 64;
     while (step > least) {
       const Packing strained = strained_to(packing, packing.density() + step);
-      if (energy_.evaluate(strained).energy <= options_.target_energy * packing.size()) break;
+      if (energy_.evaluate(strained).energy <= options_.compression.target_energy * packing.size()) break;
       step /= 2;
     }
     return step;
@@ -121,8 +121,8 @@ class StrainStep {
     Packing& packing = progress_.packing;
     packing.cell = packing.cell.reduced();
     if (!result_.path.empty()) {
-      const double strain = options_.target_before_relaxation ? gentle_step() : options_.consolidation_step;
-      if (packing.density() + strain > options_.max_density) {
+      const double strain = options_.compression.target_before_relaxation ? gentle_step() : options_.compression.step;
+      if (packing.density() + strain > options_.compression.max_density) {
         result_.status = JamStatus::density_limit;
         return;
       }
@@ -139,7 +139,9 @@ class StrainStep {
 
   /// Upper limit of an expansion step, besides the fraction: states nearer than requested cost more than they are
   /// worth.
-  double step_bound() const { return std::min(options_.longest_step, distance() - 0.95 * options_.final_distance); }
+  double step_bound() const {
+    return std::min(options_.decompression.longest_step, distance() - 0.95 * options_.decompression.final_distance);
+  }
 
   /// If there is only one state, the next one may be nearer than requested.
   double expansion_step() const {
@@ -149,44 +151,45 @@ class StrainStep {
 
   /// Decompresses towards φ_J from the last equilibrium; the first step only minimises.
   void expand() {
-    if (progress_.lost >= 0) return rise();
+    if (progress_.lost >= 0) return recompress();
     // Reduced before the step, so that the pairs at both of its ends refer to the same lattice vectors.
     progress_.packing.cell = progress_.packing.cell.reduced();
     Packing next = progress_.packing;
     const bool first = result_.states.empty();
     const JamStep& step = first ? relax(next) : strained_down(next);
     if (must_end(step)) return;
-    if (first && !progress_.jammed && gave_way_at_the_top(step)) {
+    if (first && !progress_.jammed && relaxed_below_target(step)) {
       progress_.stage = JamStage::consolidation;
       progress_.packing = std::move(next);
       return;
     }
-    const bool ends_branch = follows() && gives_way() && options_.control == Control::density;
+    const bool ends_branch = follows() && lost_equilibrium() && options_.decompression.control == Control::density;
     if (!ends_branch && !is_state(step.summary)) return failed(first);
     if (!first && !ends_branch && last_state().energy_per_particle > 0)
       result_.path.back().rearrangement = rearrangement(progress_.packing, last_state(), next, step);
     const double strain = progress_.packing.density() - next.density();
-    if ((ends_branch || gave_way(result_.path.back())) && strain > options_.event_resolution * distance() &&
-        options_.event_resolution > 0) {
+    if ((ends_branch || is_rearranged(result_.path.back())) &&
+        strain > options_.decompression.event_resolution * distance() && options_.decompression.event_resolution > 0) {
       result_.path.back().rearrangement.reset();  // the step is discarded
       progress_.step_fraction = strain / distance() / 2;
       return;
     }
-    if (ends_branch) return lose(std::move(next));
-    if (!first) progress_.step_fraction = std::min(options_.step_fraction, 1.5 * progress_.step_fraction);
+    if (ends_branch) return lose_branch(std::move(next));
+    if (!first) progress_.step_fraction = std::min(options_.decompression.step_fraction, 1.5 * progress_.step_fraction);
     // A packing that becomes denser as its pressure decreases has found a denser branch. Energies of the earlier branch
     // contain no information about φ_J of the new one.
-    if (!first && options_.control == Control::pressure && next.density() >= progress_.packing.density())
+    if (!first && options_.decompression.control == Control::pressure && next.density() >= progress_.packing.density())
       forget_states();
     keep(std::move(next));
-    const bool bracketed = result_.states.size() > 1 || options_.control == Control::density;
-    if (bracketed && distance_to_jamming(result_.path.back()) <= options_.final_distance)
+    const bool bracketed = result_.states.size() > 1 || options_.decompression.control == Control::density;
+    if (bracketed && distance_to_jamming(result_.path.back()) <= options_.decompression.final_distance)
       end_expansion(JamStatus::jammed);
   }
 
   /// True if the last compression state was not yet in equilibrium and lost most of its energy on further minimisation.
-  bool gave_way_at_the_top(const JamStep& step) const {
-    return !options_.target_before_relaxation && step.energy_per_particle < options_.target_energy / 2 &&
+  bool relaxed_below_target(const JamStep& step) const {
+    return !options_.compression.target_before_relaxation &&
+           step.energy_per_particle < options_.compression.target_energy / 2 &&
            (is_state(step.summary) || step.summary.reason == StopReason::unjammed);
   }
 
@@ -216,7 +219,7 @@ class StrainStep {
   }
 
   const JamStep& strained_down(Packing& next) {
-    if (options_.control == Control::pressure) return released(next);
+    if (options_.decompression.control == Control::pressure) return released(next);
     const double density = next.density() - expansion_step();
     if (!follows()) {
       next = strained_to(next, density);
@@ -227,7 +230,7 @@ class StrainStep {
 
   /// True if the last step unjammed the packing, or if the last two steps, the second one half as long, spent their
   /// budget because the packing slides too far.
-  bool gives_way() const {
+  bool lost_equilibrium() const {
     const auto ended = [&](std::size_t back, StopReason reason) {
       return result_.path.size() >= back && result_.path[result_.path.size() - back].summary.reason == reason;
     };
@@ -236,7 +239,7 @@ class StrainStep {
 
   /// The branch has ended: the packing is unjammed at a density where it was expected to be jammed, or is far from
   /// equilibrium.
-  void lose(Packing packing) {
+  void lose_branch(Packing packing) {
     result_.path.back().lost = true;
     if (++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
     progress_.packing = std::move(packing);
@@ -246,11 +249,11 @@ class StrainStep {
 
   /// Compresses the remaining packing to an equilibrium from which the expansion can continue. Energies of the ended
   /// branch contain no information about φ_J of the new one.
-  void rise() {
+  void recompress() {
     const JamStep& before = result_.path[static_cast<std::size_t>(progress_.lost)];
     const double distance = distance_to_jamming(before), strain = progress_.step_fraction * distance;
     Packing next = strained_to(progress_.packing, progress_.packing.density() + strain);
-    if (next.density() > options_.max_density) return end_expansion(JamStatus::goal_not_reached);
+    if (next.density() > options_.compression.max_density) return end_expansion(JamStatus::goal_not_reached);
     const double force = mean_force_at(before.pressure, before.density);
     const JamStep& step = append(next, relax_to_equilibrium(next, force, distance, energy_, minimiser(), stop_));
     if (must_end(step)) return;
@@ -259,7 +262,8 @@ class StrainStep {
       if (step.summary.reason != StopReason::unjammed) failed(false);
       return;
     }
-    if (distance_to_jamming(step) < options_.final_distance / (1 - options_.step_fraction)) return;
+    if (distance_to_jamming(step) < options_.decompression.final_distance / (1 - options_.decompression.step_fraction))
+      return;
     progress_.lost = -1;
     forget_states();
     keep(std::move(next));
@@ -307,11 +311,11 @@ std::vector<EnergyPoint> energy_points(const JamResult& result) {
 }
 
 JamProgress begin_jam(Packing start, const JamOptions& options) {
-  return {std::move(start), JamStage::consolidation, options.step_fraction, 0, -1, {}};
+  return {std::move(start), JamStage::consolidation, options.decompression.step_fraction, 0, -1, {}};
 }
 
 JamProgress begin_expansion(Packing jammed, const JamOptions& options) {
-  return {std::move(jammed), JamStage::expansion, options.step_fraction, 0, -1, {}, true};
+  return {std::move(jammed), JamStage::expansion, options.decompression.step_fraction, 0, -1, {}, true};
 }
 
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop) {

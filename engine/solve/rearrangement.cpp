@@ -30,8 +30,8 @@ Eigen::Matrix3d deformation(const PeriodicCell& before, const PeriodicCell& afte
 /// |dx|² + R²|dθ|² of a particle after subtracting the affine strain.
 double squared_displacement(const Pose& before, const Pose& after, const Eigen::Matrix3d& f, double radius) {
   const Eigen::Vector3d dx = after.position - f * before.position;
-  const Eigen::Quaterniond turn = after.orientation * before.orientation.conjugate();
-  const double angle = 2 * nearest::atan2(turn.vec().norm(), std::abs(turn.w()));
+  const Eigen::Quaterniond rotation = after.orientation * before.orientation.conjugate();
+  const double angle = 2 * nearest::atan2(rotation.vec().norm(), std::abs(rotation.w()));
   return dx.squaredNorm() + squared(radius * angle);
 }
 
@@ -65,8 +65,8 @@ Rearrangement rearrangement(const Packing& before, const JamStep& step_before, c
   return found;
 }
 
-bool gave_way(const JamStep& step) {
-  return step.lost || (step.rearrangement && step.rearrangement->energy_ratio < gave_way_below);
+bool is_rearranged(const JamStep& step) {
+  return step.lost || (step.rearrangement && step.rearrangement->energy_ratio < rearranged_below);
 }
 
 Rearrangements rearrangements(std::span<const JamStep> path) {
@@ -75,8 +75,8 @@ Rearrangements rearrangements(std::span<const JamStep> path) {
   int arrived = 0;
   for (const JamStep& step : path) {
     found.steps += step.rearrangement || step.lost;
-    found.gave_way += gave_way(step);
-    if (!gave_way(step) || !step.rearrangement) continue;
+    found.is_rearranged += is_rearranged(step);
+    if (!is_rearranged(step) || !step.rearrangement) continue;
     ++arrived;
     moved += step.rearrangement->particles_moved;
     lost += step.rearrangement->contacts_lost;

@@ -11,10 +11,10 @@ struct Line {
   double intercept_variance = 0, slope_variance = 0;  ///< 0 with two points
 };
 
-/// Fits at least two points, not all at the same x.
+/// Fits a line to at least two points. They must not all have the same x.
 Line fit_line(std::span<const double> x, std::span<const double> y);
 
-/// Quantile t with P(|T| < t) = 0.95 for Student's T with `degrees` ≥ 1 degrees of freedom.
+/// The quantile t with P(|T| < t) = 0.95 for Student's T with `degrees` ≥ 1 degrees of freedom.
 double student_95(double degrees);
 
 }  // namespace isojam

@@ -12,38 +12,40 @@
 
 namespace isojam {
 
-/// A packing without its near-rattlers. They are removed recursively: those that assess() reports in the packing, then
-/// those that it reports in the rest, until it reports none. The remaining particles keep their poses and the cell,
-/// without a new minimisation. `here` contains their force residual, which is as before if the removed particles
-/// carried no force.
+/// The backbone: a packing from which near-rattlers were removed. assess() finds the near-rattlers of the packing. They
+/// are removed, and assess() finds the near-rattlers of the remaining particles, until there are none. The remaining
+/// particles keep their poses in the same cell; they are not minimised again. `here` contains their residual. It is the
+/// same as before if the removed particles carried no force.
 struct Backbone {
-  Packing packing;  ///< the remaining particles in their order; without any, it has no poses, and the rest is empty
-  std::vector<int> kept{};     ///< their indices in the whole packing, ascending
+  /// the remaining particles in their original order; if none remains, `packing` has no poses, and all other members
+  /// are empty
+  Packing packing;
+  std::vector<int> kept{};     ///< indices of the remaining particles in the whole packing, ascending
   std::vector<int> removed{};  ///< indices of the removed particles, ascending
-  int rounds = 0;              ///< number of rounds that removed particles
-  Evaluation here{};           ///< evaluation of the remaining packing; the members below refer to it too
-  BlockMatrix hessian{};       ///< its Hessian
-  SpectrumEnds ends{};         ///< its modes
-  Stability stability{};       ///< counts of its modes; no near-rattler is left
+  int rounds = 0;              ///< number of rounds in which particles were removed
+  Evaluation here{};           ///< evaluation of the remaining packing
+  BlockMatrix hessian{};       ///< Hessian of the remaining packing
+  SpectrumEnds ends{};         ///< modes of the remaining packing
+  Stability stability{};       ///< numbers of modes of the remaining packing; it has no near-rattler
 };
 
-/// Removes near-rattlers until none is reported.
+/// Computes the backbone of a packing.
 Backbone backbone_of(const Packing& packing, const ModeOptions& options = {},
                      Precision precision = Precision::double_double);
 
-/// A part of a packing in the same cell; `kept` contains ascending indices of particles.
+/// The packing of some of the particles in the same cell. `kept` contains their indices, ascending.
 Packing part_of(const Packing& packing, std::span<const int> kept);
 
-/// The contacts between the particles of a part.
+/// The contacts between the particles of a part of a packing.
 struct PartContacts {
-  std::vector<Contact> contacts;    ///< contacts with the particle numbers of the part
+  std::vector<Contact> contacts;    ///< contacts, with the indices of the particles in the part
   std::vector<std::size_t> places;  ///< index of each contact in the full list
 };
-/// Contacts within the part `kept` of a packing of `particles`.
+/// Finds the contacts within the part `kept` of a packing with this number of particles.
 PartContacts contacts_within(std::span<const Contact> contacts, std::span<const int> kept, int particles);
 
-/// Elastic tensor of the remaining packing at its own stress, per volume of the whole cell; see elastic_tensor().
-/// nullopt as there, and if no particle is left.
+/// Elastic tensor of the remaining packing at its own stress, divided by the volume of the whole cell; see
+/// elastic_tensor(). nullopt in the same cases, and if no particle is left.
 std::optional<ElasticTensor> elastic_tensor(const Backbone& backbone);
 
 }  // namespace isojam

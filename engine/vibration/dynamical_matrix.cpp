@@ -18,8 +18,8 @@ using Principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
 /// M^(-1/2) of one particle, lab frame.
 struct InverseRoot {
-  double translation = 1;  ///< m^(-1/2)
-  Eigen::Matrix3d turn;    ///< R I^(-1/2)
+  double translation = 1;           ///< m^(-1/2)
+  Eigen::Matrix3d rotational_root;  ///< R I^(-1/2)
 };
 
 /// R I^(-1/2) in the body frame.
@@ -56,8 +56,8 @@ BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian) {
     const InverseRoot &left = roots[static_cast<std::size_t>(row)], &right = roots[static_cast<std::size_t>(column)];
     block.topRows<3>() *= left.translation;
     block.leftCols<3>() *= right.translation;
-    block.bottomRows<3>() = (left.turn * block.bottomRows<3>()).eval();
-    block.rightCols<3>() = (block.rightCols<3>() * right.turn).eval();
+    block.bottomRows<3>() = (left.rotational_root * block.bottomRows<3>()).eval();
+    block.rightCols<3>() = (block.rightCols<3>() * right.rotational_root).eval();
   };
   for (int k = 0; k < hessian.size(); ++k) {
     Matrix6d& own = hessian.diagonal[static_cast<std::size_t>(k)];
@@ -79,8 +79,8 @@ Eigen::MatrixXd mode_displacements(const Packing& packing, Eigen::MatrixXd modes
   for (int k = 0; k < packing.size(); ++k) {
     const InverseRoot& root = roots[static_cast<std::size_t>(k)];
     modes.middleRows<3>(6 * Eigen::Index{k}) *= root.translation;
-    auto turns = modes.middleRows<3>(6 * Eigen::Index{k} + 3);
-    turns = (root.turn * turns).eval();
+    auto rotations = modes.middleRows<3>(6 * Eigen::Index{k} + 3);
+    rotations = (root.rotational_root * rotations).eval();
   }
   return modes;
 }
@@ -155,7 +155,7 @@ double rounding_bound(const BlockMatrix& matrix, double lambda_max) {
 }
 
 Eigen::MatrixXd difference_hessian(const Packing& packing, double h, Precision precision) {
-  if (!(h > 0)) throw std::invalid_argument("differences need a step");
+  if (!(h > 0)) throw std::invalid_argument("the step of differences must be positive");
   PackingEnergy energy;
   const Eigen::Index n = 6 * Eigen::Index{packing.size()};
   Eigen::MatrixXd slopes(n, n);

@@ -6,8 +6,8 @@
 
 namespace isojam {
 
-/// A symmetric operator in the form that Spectra needs. The single type for all operators lets its solvers be compiled
-/// once.
+/// A symmetric operator with the interface that Spectra needs. All operators have this one type, so that the solvers of
+/// Spectra are compiled only once.
 class LanczosOperation {
  public:
   using Scalar = double;
@@ -33,30 +33,31 @@ class LanczosOperation {
 enum class LanczosWanted { least, greatest };
 
 struct LanczosRequest {
-  LanczosWanted wanted = LanczosWanted::greatest;  ///< end of the spectrum; ignored with a shift
-  Eigen::Index modes = 1, subspace = 20;           ///< number of eigenpairs, and dimension of the Krylov space
-  /// If set, the operation is (A − σ)⁻¹, and the eigenvalues nearest to σ are computed.
+  /// end of the spectrum from which eigenvalues are computed; not used if there is a shift
+  LanczosWanted wanted = LanczosWanted::greatest;
+  Eigen::Index modes = 1, subspace = 20;  ///< number of eigenpairs, and dimension of the Krylov space
+  /// If there is a shift σ, the operation is (A − σ)⁻¹, and the eigenvalues nearest to σ are computed.
   std::optional<double> shift = std::nullopt;
-  double tolerance = 1e-10;  ///< relative accuracy of an eigenvalue (of 1/(λ − σ))
+  double tolerance = 1e-10;  ///< relative accuracy of an eigenvalue, or of 1/(λ − σ) if there is a shift
   int restarts = 300;
-  Eigen::VectorXd start{};  ///< rows() entries; if empty, Spectra's own random vector
+  Eigen::VectorXd start{};  ///< start vector with rows() entries; if it is empty, Spectra uses its own random vector
 };
 
 enum class LanczosEnd {
   converged,
   restarts_spent,
-  small_problem_failed  ///< the dense eigenproblem in the Krylov space did not converge
+  small_problem_failed  ///< the dense eigenvalue problem in the Krylov space did not converge
 };
 
 struct LanczosModes {
   LanczosEnd ended = LanczosEnd::restarts_spent;
-  Eigen::VectorXd eigenvalues;  ///< eigenvalues of A in Spectra's order; empty unless converged
-  Eigen::MatrixXd vectors;      ///< columns in the same order
-  long products = 0;            ///< operations performed
+  Eigen::VectorXd eigenvalues;  ///< eigenvalues of A in the order of Spectra; empty unless the method converged
+  Eigen::MatrixXd vectors;      ///< eigenvectors as columns, in the same order
+  long products = 0;            ///< number of operations
 };
 
-/// Implicitly restarted Lanczos method (Spectra). Exceptions of the operation, such as for a shift that is an
-/// eigenvalue, are passed on.
+/// Computes eigenpairs by the implicitly restarted Lanczos method (Spectra). If the operation throws an exception, for
+/// example because the shift is an eigenvalue, the exception leaves this function.
 LanczosModes lanczos(LanczosOperation operation, const LanczosRequest& request);
 
 }  // namespace isojam

@@ -6,7 +6,8 @@
 
 namespace isojam {
 
-/// Projects the three translations of the whole packing out of a vector of 6N entries. `root_masses` as in BlockMatrix.
+/// Subtracts the components along the three translations of the whole packing from a vector of 6N entries.
+/// `root_masses` is as in BlockMatrix.
 inline void remove_translations(const Eigen::VectorXd& root_masses, Eigen::Ref<Eigen::VectorXd> u) {
   if (root_masses.size() > 0) {
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
@@ -22,11 +23,12 @@ inline void remove_translations(const Eigen::VectorXd& root_masses, Eigen::Ref<E
   for (Eigen::Index k = 0; k < u.size(); k += 6) u.segment<3>(k) -= mean;
 }
 
-/// Start vector of the Lanczos method, the same for every matrix of 6N rows. It has no symmetry that could hide a mode.
+/// Start vector of the Lanczos method. It is the same for every matrix with 6N rows. It has no symmetry, because modes
+/// with another symmetry would not be found.
 Eigen::VectorXd lanczos_start(const BlockMatrix& matrix);
 
-/// Operator P op P, where P projects translations out, in the form that Spectra needs. `operation` and `matrix` must
-/// outlive it.
+/// The operator P op P with the interface that Spectra needs, where P is the projection that removes translations.
+/// `operation` and `matrix` must outlive it.
 template <class Operation>
 class Deflated {
  public:
@@ -49,7 +51,7 @@ class Deflated {
   const Eigen::VectorXd& root_masses_;
 };
 
-/// Operator x ↦ D x; D must outlive it.
+/// The operator x ↦ D x. D must outlive it.
 class Product {
  public:
   explicit Product(const BlockMatrix& matrix) : matrix_(matrix) {}

@@ -9,35 +9,37 @@
 
 namespace isojam {
 
-/// Participation ratio p = (Σ_i |u_i|²)² / (N Σ_i |u_i|⁴), u_i the six entries of particle i: 1 if all particles move
-/// equally, 1/N if only one moves. A mode has 6N entries, which must not all be 0.
+/// Participation ratio p = (Σ_i |u_i|²)² / (N Σ_i |u_i|⁴) of a mode, where u_i contains the six entries of particle i.
+/// It is 1 if all particles have the same amplitude, and 1/N if only one particle moves. A mode has 6N entries, which
+/// must not all be 0.
 double participation_ratio(const Eigen::Ref<const Eigen::VectorXd>& mode);
-/// Participation ratios of all modes, in their order.
+/// Participation ratios of all modes, in the order of the modes.
 Eigen::VectorXd participation_ratios(const ModeSet& modes);
 
-/// Mean frequency ⟨ω⟩ of a set of modes, ω = √λ in V_p^(-1/3)·√(Y/ρ), as in the paper's Fig. 1(b): ⟨ω_l⟩ of the lowest
-/// modes, ⟨ω_h⟩ of the highest. nullopt if the set is empty or some λ is not above `tolerance`, because such a mode has
-/// no frequency.
+/// Mean frequency ⟨ω⟩ of a set of modes, with ω = √λ in units of V_p^(-1/3)·√(Y/ρ). In the paper's Fig. 1(b) it is
+/// ⟨ω_l⟩ for the lowest modes and ⟨ω_h⟩ for the highest ones. nullopt if the set is empty, or if some λ is not above
+/// `tolerance`, because such a mode has no frequency.
 std::optional<double> mean_frequency(const ModeSet& modes, double tolerance);
 
-/// Amplitude of modes on a subset of the particles.
+/// Share of modes on a subset of the particles, the marked particles.
 struct AmplitudeShare {
-  double amplitude = 0;  ///< Σ |u_i|² over the marked particles, mean over the modes
-  double particles = 0;  ///< fraction of particles that are marked: the value of `amplitude` for uniform modes
+  double amplitude = 0;  ///< Σ |u_i|² over the marked particles, averaged over the modes
+  /// fraction of particles that are marked; `amplitude` has this value if all particles have the same amplitude
+  double particles = 0;
 };
-/// Amplitude on the `marked` particles; one entry per particle, nonzero if marked, for example those with a face-face
-/// contact. nullopt without modes.
+/// Computes the share of modes on marked particles, for example particles with a face-face contact. `marked` has one
+/// entry per particle, which is not 0 if the particle is marked. nullopt without modes.
 std::optional<AmplitudeShare> amplitude_share(const ModeSet& modes, std::span<const char> marked);
 
-/// Density of states as a function of log10 ω, for the modes with λ above a tolerance.
+/// Density of states as a function of log10 ω, from the modes with λ above a tolerance.
 struct DensityOfStates {
-  Eigen::VectorXd edges;       ///< edges of the bins, log10 ω, ascending; bins + 1 entries
+  Eigen::VectorXd edges;       ///< edges of the bins in log10 ω, ascending; one more than the number of bins
   Eigen::VectorXd density;     ///< fraction of all modes per unit of log10 ω
   Eigen::VectorXd cumulative;  ///< fraction of all modes below each edge, including modes without a frequency
-  int without_frequency = 0;   ///< number of modes with λ up to the tolerance
+  int without_frequency = 0;   ///< number of modes with λ at or below the tolerance
 };
-/// Density of states in `bins` of equal width from the lowest to the highest frequency. nullopt if bins < 1 or all
-/// frequencies are equal. All modes (dense_modes) give that of the packing.
+/// Computes the density of states in bins of equal width, from the lowest to the highest frequency. nullopt if bins < 1
+/// or if all frequencies are equal. To obtain the density of states of the packing, pass all modes, see dense_modes().
 std::optional<DensityOfStates> density_of_states(const Eigen::VectorXd& eigenvalues, double tolerance, int bins = 24);
 
 }  // namespace isojam

@@ -4,13 +4,13 @@
 
 namespace isojam {
 
-BlockMatrix pinned_matrix(const BlockMatrix& matrix, double held_diagonal, Pinning pinning) {
+BlockMatrix pinned_matrix(const BlockMatrix& matrix, double pinned_diagonal, Pinning pinning) {
   BlockMatrix pinned = matrix;
   if (matrix.size() == 0) return pinned;
   Matrix6d& first = pinned.diagonal[0];
   first.topRows<3>().setZero();
   first.leftCols<3>().setZero();
-  first.topLeftCorner<3, 3>().diagonal().setConstant(held_diagonal);
+  first.topLeftCorner<3, 3>().diagonal().setConstant(pinned_diagonal);
   if (matrix.strains() > 0) pinned.border.topRows<3>().setZero();
   std::vector<char> touched(matrix.diagonal.size(), 0);
   for (BlockMatrix::Block& block : pinned.off_diagonal) {
@@ -20,7 +20,7 @@ BlockMatrix pinned_matrix(const BlockMatrix& matrix, double held_diagonal, Pinni
   }
   if (pinning == Pinning::translations) return pinned;
   for (int k = 0; k < matrix.size(); ++k) {
-    if (!touched[k]) pinned.diagonal[k] = held_diagonal * Matrix6d::Identity();
+    if (!touched[k]) pinned.diagonal[k] = pinned_diagonal * Matrix6d::Identity();
   }
   return pinned;
 }

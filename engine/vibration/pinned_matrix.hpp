@@ -9,9 +9,10 @@ enum class Pinning {
   translations_and_untouched,  ///< also all coordinates of particles without contacts, which have no stiffness
 };
 
-/// D with some coordinates pinned: their rows and columns are 0, with `held_diagonal` on the diagonal. Since D is zero
-/// for translations, the rest is definite exactly if D is definite apart from translations. For a force f without
-/// resultant the solution u of this matrix solves D u = f, up to a translation.
-BlockMatrix pinned_matrix(const BlockMatrix& matrix, double held_diagonal, Pinning pinning);
+/// D with some coordinates pinned: their rows and columns are 0, except for `pinned_diagonal` on the diagonal.
+/// Translations are null vectors of D. The matrix is therefore positive definite if and only if D is positive definite
+/// apart from translations. If the sum of the forces f on all particles is 0, the solution u with this matrix also
+/// solves D u = f, up to a translation.
+BlockMatrix pinned_matrix(const BlockMatrix& matrix, double pinned_diagonal, Pinning pinning);
 
 }  // namespace isojam

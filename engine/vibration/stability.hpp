@@ -11,13 +11,13 @@
 
 namespace isojam {
 
-/// Stability according to the counts of modes.
+/// Stability according to the numbers of zero and negative modes.
 enum class Verdict {
   not_called,
-  stable,       ///< three zero modes, no negative one: a strict minimum apart from translations
-  marginal,     ///< more than three zero modes, no negative one
+  stable,       ///< three zero modes and no negative mode: a strict minimum apart from translations
+  marginal,     ///< more than three zero modes and no negative mode
   unstable,     ///< at least one negative mode
-  undetermined  ///< the inertia is unknown: D is not finite, or singular at every shift tried
+  undetermined  ///< the numbers of modes are unknown, because D is not finite or a factorisation failed
 };
 template <>
 inline constexpr std::array enum_names<Verdict>{
@@ -25,45 +25,49 @@ inline constexpr std::array enum_names<Verdict>{
     EnumName{Verdict::marginal, "marginal"}, EnumName{Verdict::unstable, "unstable"},
     EnumName{Verdict::undetermined, "undetermined"}};
 
-/// A particle that its contacts may not constrain.
+/// A near-rattler: a particle that its contacts possibly do not constrain.
 struct NearRattler {
   /// Reason for the classification.
   enum class Reason {
-    few_contacts,        ///< fewer than four contacts
-    vanishing_stiffness  ///< zero or negative: its own block of D, or a mode that is mostly its own
+    few_contacts,  ///< the particle has fewer than four contacts
+    /// the diagonal block of D of the particle has an eigenvalue that is not positive, or there is such a mode in which
+    /// mainly this particle moves
+    vanishing_stiffness
   };
   int particle = 0;                      ///< index of the particle
   Reason reason = Reason::few_contacts;  ///< reason for the classification
   int contacts = 0;                      ///< number of its contacts
-  double least_eigenvalue = 0;           ///< smallest eigenvalue of its own block of D
+  double least_eigenvalue = 0;           ///< smallest eigenvalue of the diagonal block of D of the particle
 };
 template <>
 inline constexpr std::array enum_names<NearRattler::Reason>{
     EnumName{NearRattler::Reason::few_contacts, "few_contacts"},
     EnumName{NearRattler::Reason::vanishing_stiffness, "vanishing_stiffness"}};
 
-/// Counts of all modes.
+/// Numbers of zero, negative and positive modes, and the near-rattlers.
 struct Stability {
-  Verdict verdict = Verdict::not_called;     ///< result
-  int zero = 0, negative = 0, positive = 0;  ///< numbers among all 6N modes and strains; exact by Sylvester's inertia
-  double tolerance = 0;                      ///< |λ| up to this counts as zero
-  double translation_error = 0;              ///< max ‖D t‖ over the three translations; below `tolerance`
-  std::vector<NearRattler> near_rattlers;    ///< sorted by particle; at most one entry per particle
+  Verdict verdict = Verdict::not_called;  ///< stability according to these numbers
+  /// numbers of modes among all coordinates of particles and strains; exact by Sylvester's law of inertia
+  int zero = 0, negative = 0, positive = 0;
+  double tolerance = 0;                    ///< an eigenvalue counts as zero if |λ| is at most this value
+  double translation_error = 0;            ///< largest ‖D t‖ of the three translations t; it is below `tolerance`
+  std::vector<NearRattler> near_rattlers;  ///< near-rattlers, sorted by particle; at most one entry per particle
 };
 
-/// Tolerance below which an eigenvalue counts as zero: rounding_bound(D, λ_max) + the largest |T_i|/R² of an unbalanced
-/// torque. The second term is needed because rotations do not commute: the Hessian of a particle with a torque T
-/// depends by up to T/2 on the parametrisation of small rotations.
+/// Tolerance below which an eigenvalue counts as zero: rounding_bound(D, λ_max) plus the largest |T_i|/R² of a net
+/// torque T_i. The second term is needed because rotations do not commute. If a net torque T acts on a particle, the
+/// Hessian depends by up to T/2 on the parametrisation of small rotations.
 double zero_tolerance(const BlockMatrix& matrix, double lambda_max, double unbalanced_torque = 0);
 
-/// Largest |T_i|/R² of an evaluation, the second term of zero_tolerance.
+/// The largest |T_i|/R² of a net torque in an evaluation, for the second term of zero_tolerance().
 double unbalanced_torque(const Evaluation& evaluation, const Composition& solids);
 
-/// Counts all modes of D from the numbers of eigenvalues below −tolerance and above +tolerance, and lists
-/// near-rattlers. If D with one particle pinned is above the tolerance, which a Cholesky factorisation shows, then 6N −
-/// 3 modes are positive, because eigenvalues interlace. Otherwise LDLᵀ counts them. For a matrix with a border the
-/// modes are those of particles and cell together. A particle needs at least four contacts: forces on fewer points
-/// balance only in a plane, and nothing opposes a motion out of it to first order.
+/// Counts the modes of D, that is, the eigenvalues below −tolerance, above +tolerance and between them, and finds the
+/// near-rattlers. If all eigenvalues of D with one pinned particle are above the tolerance, which a Cholesky
+/// factorisation shows, then 6N − 3 modes are positive, because eigenvalues interlace. Otherwise the modes are counted
+/// with an LDLᵀ factorisation. If the matrix has a border, the modes are those of particles and cell together. A
+/// particle with fewer than four contacts is a near-rattler, because the forces of fewer contacts balance only in a
+/// plane, and nothing opposes a motion out of this plane to first order.
 Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque = 0);
 
 }  // namespace isojam

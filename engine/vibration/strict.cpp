@@ -35,8 +35,8 @@ std::optional<SoftStrain> softest_strain(const BlockMatrix& hessian) {
   particles.border.resize(n, 0);
   particles.corner.resize(0, 0);
   BlockCholesky factor;
-  const double held = norm_bound(particles);
-  if (!factor.factorise(pinned_matrix(particles, held, Pinning::translations_and_untouched), 0)) return std::nullopt;
+  const double pinned = norm_bound(particles);
+  if (!factor.factorise(pinned_matrix(particles, pinned, Pinning::translations_and_untouched), 0)) return std::nullopt;
   Eigen::MatrixXd response(n, strains), reaction(n, strains);
   for (Eigen::Index k = 0; k < strains; ++k) {
     Eigen::VectorXd force = -hessian.border.col(k);
@@ -56,13 +56,13 @@ std::optional<SoftStrain> softest_strain(const BlockMatrix& hessian) {
 
 FreedCell free_cell(const Packing& packing, double distance, const MinimiseOptions& options) {
   PackingEnergy energy;
-  DownhillOptions downhill;
-  downhill.minimise = options;
-  downhill.minimise.control = strict_control(energy.evaluate(packing, Precision::double_double));
-  downhill.modes.lowest = 4;
+  MinimumSearchOptions search;
+  search.minimise = options;
+  search.minimise.control = strict_control(energy.evaluate(packing, Precision::double_double));
+  search.modes.lowest = 4;
   Packing freed = packing;
-  follow_load(freed, distance, energy, downhill.minimise);
-  FreedCell found{follow_downhill(freed, downhill)};
+  follow_load(freed, distance, energy, search.minimise);
+  FreedCell found{relax_to_minimum(freed, search)};
   const Packing& after = found.result.packing;
   const Evaluation value = energy.evaluate(after, Precision::double_double);
   const Eigen::Matrix3d f = after.cell.vectors().high * packing.cell.vectors().high.inverse();

@@ -5,49 +5,51 @@
 
 #include "engine/packing/enthalpy.hpp"
 #include "engine/solve/minimise/minimise.hpp"
-#include "engine/vibration/follow_downhill.hpp"
+#include "engine/vibration/relax_to_minimum.hpp"
 #include "engine/vibration/stability.hpp"
 
 namespace isojam {
 
-// A packing is collectively jammed if no particles can rearrange in a fixed cell. It is strictly jammed if they cannot
-// while the cell shape may change at the same pressure (Torquato, Stillinger 2001; for soft particles Smith,
-// Srivastava, Fisher, Alam 2014). Then E + p V_cell has a strict minimum in particles and all six strains, up to
-// translations.
+// A packing is collectively jammed if no particles can rearrange in a fixed cell. It is strictly jammed if particles
+// cannot rearrange even if the cell shape may change at the same pressure (Torquato, Stillinger 2001; for soft
+// particles Smith, Srivastava, Fisher, Alam 2014). In a strictly jammed state, E + p V_cell has a strict minimum with
+// respect to particles and all six strains, apart from translations.
 
-/// Second derivatives of the enthalpy with respect to particles and free strains, at the pressure of the control.
+/// Computes the second derivatives of the enthalpy with respect to particles and free strains, at the pressure of
+/// `control`.
 BlockMatrix enthalpy_hessian(const Packing& packing, const CellControl& control, Precision precision);
 
-/// The control for testing strict jamming: all strains free, at the packing's own pressure.
+/// The control of the cell for the test of strict jamming: all strains are free, at the pressure of the packing.
 CellControl strict_control(const Evaluation& evaluation);
 
-/// Counts modes of the Hessian bordered by the six strains. If the stress is not hydrostatic, the state is no
-/// equilibrium in the strains; the count is then that of the second derivatives with respect to logarithmic strain.
+/// Counts the modes of the Hessian with the border of the six strains. If the stress is not hydrostatic, the state is
+/// not an equilibrium with respect to the strains. The numbers then refer to the second derivatives with respect to
+/// logarithmic strain.
 Stability strict_stability(const Packing& packing, const Evaluation& evaluation, Precision precision);
 
-/// True if only near-rattlers are free: there is no negative mode, and the zero modes besides translations are at most
-/// as many as the near-rattlers' coordinates.
+/// True if a packing is strictly jammed apart from near-rattlers. The criterion is that there is no negative mode, and
+/// that the number of zero modes without translations is at most the number of coordinates of the near-rattlers.
 bool is_strictly_jammed(const Stability& stability);
 
-/// The direction with the smallest stiffness among those in which the cell is strained and the particles follow: a step
-/// in the form of moved(), with strains of unit length, and its second derivative. nullopt if the particles are
-/// unstable in the fixed cell.
+/// The strain of the cell with the smallest stiffness, if the particles relax.
 struct SoftStrain {
-  Eigen::VectorXd step;  ///< 6N entries, followed by the strains
-  double stiffness = 0;  ///< second derivative along the step
+  /// step of particles (6N entries) and strains, in the format of moved(); the strains have unit length
+  Eigen::VectorXd step;
+  double stiffness = 0;  ///< second derivative of the enthalpy along the step
 };
-/// The softest such direction of a Hessian bordered by strains.
+/// Computes the softest strain from a Hessian with the border of the strains. nullopt if the particles are unstable in
+/// the fixed cell.
 std::optional<SoftStrain> softest_strain(const BlockMatrix& hessian);
 
 /// Result of relaxing the cell shape and volume of an equilibrium at constant pressure.
 struct FreedCell {
-  DownhillResult result;  ///< descent of particles and cell together
-  double strain = 0;      ///< |½ (FᵀF − 1)|, F from the original cell to the new one
+  MinimumSearchResult result;  ///< result of the search for a minimum with respect to particles and cell together
+  double strain = 0;  ///< strain |½ (FᵀF − 1)|, where F is the deformation from the original cell to the new cell
   double density = 0, energy_per_particle = 0, pressure = 0, deviator = 0;  ///< values in the final state
 };
 
-/// Relaxes the cell of an equilibrium with φ − φ_J of about `distance`: first to the equilibrium found by the
-/// multiplier method (follow_load), then along negative modes if that is a saddle.
+/// Relaxes the cell of an equilibrium whose φ − φ_J is about `distance`. The method of multipliers (follow_load) finds
+/// an equilibrium. If it is a saddle, it is relaxed along its negative modes.
 FreedCell free_cell(const Packing& packing, double distance, const MinimiseOptions& options = {});
 
 }  // namespace isojam

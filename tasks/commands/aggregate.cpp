@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "tasks/commands/command.hpp"
-#include "tasks/json/place.hpp"
-#include "tasks/json/sealed.hpp"
+#include "tasks/io/atomic_file.hpp"
+#include "tasks/io/place.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/io/standard_streams.hpp"
 #include "tasks/manifest/base.hpp"
-#include "tasks/system/atomic_file.hpp"
-#include "tasks/system/standard_streams.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"
 
@@ -24,7 +24,7 @@ inline constexpr std::array enum_names<TableFormat>{
 
 namespace {
 
-struct Arguments {
+struct AggregateArguments {
   std::vector<std::string> directories;
   std::string output;  ///< path of tables.json to write; empty: none
   TableFormat format = TableFormat::text;
@@ -50,12 +50,7 @@ std::optional<std::string> read_exclude(const std::string& text, std::optional<s
     const auto to = std::min(text.find(',', from), text.size());
     const auto name = text.substr(from, to - from);
     const auto flag = from_string<Flag>(name);
-    if (!flag) {
-      const auto nearest = nearest_name(name, all_names<Flag>);
-      return fmt::format("no flag is called \"{}\"; {}", name,
-                         nearest.empty() ? "allowed: none, or " + quoted_list(all_names<Flag>)
-                                         : fmt::format("did you mean \"{}\"?", nearest));
-    }
+    if (!flag) return unknown_name("flag", name, all_names<Flag>, "none or ");
     if (std::find(flags.begin(), flags.end(), *flag) == flags.end()) flags.push_back(*flag);
     from = to + 1;
   }
@@ -65,7 +60,7 @@ std::optional<std::string> read_exclude(const std::string& text, std::optional<s
 }
 
 /// Writes no file except the requested output.
-ExitCode aggregate_directories(const Arguments& arguments, Console& console) {
+ExitCode aggregate_directories(const AggregateArguments& arguments, Console& console) {
   const Warn warn = [&](const std::string& message) { console.warn(message); };
   const auto table = table_of(arguments.directories, warn, arguments.choices);
   // A base of the command line that matches no row is a typing error. A base of the manifest may match rows that have
@@ -82,24 +77,25 @@ ExitCode aggregate_directories(const Arguments& arguments, Console& console) {
 }  // namespace
 
 void add_aggregate(CLI::App& app, Session& session) {
-  Arguments* arguments = nullptr;
-  auto options = add_command(app, session, "aggregate", "Make a table of the records in results directories",
+  AggregateArguments* arguments = nullptr;
+  auto options = add_command(app, session, "aggregate", "Print tables of the records in results directories",
                              aggregate_directories, arguments);
   options.texts("directories", arguments->directories, "Results directories", "DIR");
-  options.text("-o,--output", arguments->output, "Write the table as JSON to this file as well", "FILE");
-  options.choice("--format", arguments->format, "Format on stdout");
+  options.text("-o,--output", arguments->output, "Also write the tables to this file, as JSON", "FILE");
+  options.choice("--format", arguments->format, "Format of the tables on stdout");
   options.parsed(
       "--exclude", [arguments](const std::string& text) { return read_exclude(text, arguments->choices.exclude); },
       [] {},
-      "Leave replicates with these flags, between commas, out of the means, or none (default: as the manifest says)",
+      "Exclude replicates with these flags (separated by commas) from the means, or none (default: as in the manifest)",
       "FLAGS");
   options.parsed(
       "--base", [arguments](const std::string& text) { return parse_base(text, arguments->choices.base.emplace()); },
       [] {},
-      "Give the differences of rows from the one with these swept values, as step_fraction=0.35, several between "
-      "commas, or none (default: as the manifest says)",
+      "Print differences from the row with these swept values (such as step_fraction=0.35, separated by commas), or "
+      "none (default: as in the manifest)",
       "PARAMETER=VALUE");
-  options.flag("--series", arguments->series, "Quantities against the distance above jamming (JSON has both)");
+  options.flag("--series", arguments->series,
+               "Print the quantities against the distance above jamming (JSON contains both)");
 }
 
 }  // namespace isojam

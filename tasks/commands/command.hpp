@@ -1,16 +1,16 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/names/enum_names.hpp"
-#include "tasks/commands/shell/description.hpp"
-#include "tasks/system/console.hpp"
-#include "tasks/system/exit_codes.hpp"
+#include "tasks/commands/description.hpp"
+#include "tasks/io/console.hpp"
+#include "tasks/io/exit_codes.hpp"
 
 // CLI11 takes long to compile, so only command_line.cpp includes it.
 // NOLINTNEXTLINE(readability-identifier-naming): CLI11 is called so
@@ -20,14 +20,15 @@ class App;
 
 namespace isojam {
 
-/// The parsed command line: verbosity, and the work of the chosen command.
+/// The parsed command line: settings of the output, and the function of the chosen command.
 struct Session {
   ConsoleOptions console;
   std::function<ExitCode(Console&)> work;
-  ProgramDescription program;  ///< description of the whole command line
+  ProgramDescription program;  ///< description of all commands and options
 };
 
-/// Arguments and options of a command or of the program. References must live as long as the app.
+/// Defines arguments and options of a command or of the program. The variables that are passed by reference must exist
+/// as long as the app.
 class Options {
  public:
   enum class Need : bool { optional, required };
@@ -42,7 +43,8 @@ class Options {
              const std::string& type);
   void flag(const std::string& name, bool& value, const std::string& description);
   void positive(const std::string& name, double& value, const std::string& description, const std::string& type);
-  /// `read` parses the text and returns an error text if this fails. `absent` is called if the option is not given.
+  /// An option whose text the function `read` parses; it returns an error text if the text is wrong. `absent` is called
+  /// if the option is not given.
   void parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
               std::function<void()> absent, const std::string& description, const std::string& type);
   /// An option whose value is the name of an enumerator.
@@ -52,7 +54,7 @@ class Options {
         name, {all_names<Enum>.begin(), all_names<Enum>.end()},
         [&value](const std::string& choice) { value = *from_string<Enum>(choice); }, description, need);
   }
-  /// Two options that exclude each other.
+  /// Declares that the user may not give both options.
   void exclusive(const std::string& one, const std::string& other);
 
   void results_directory(std::string& directory);
@@ -65,11 +67,12 @@ class Options {
   CLI::App& app_;
 };
 
-/// Adds a command with the function to call if it is given.
+/// Adds a command. `work` is the function that runs if the user gives this command.
 Options add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                     std::function<ExitCode(Console&)> work);
 
-/// Adds a command whose work takes arguments. They are created here and passed to `work` once all are read.
+/// Adds a command whose function has arguments. This function creates the object of the arguments; `work` receives it
+/// after the command line was parsed.
 template <class Arguments>
 Options add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                     ExitCode (*work)(const Arguments&, Console&), Arguments*& arguments) {
@@ -79,7 +82,7 @@ Options add_command(CLI::App& app, Session& session, const std::string& name, co
                      [owned, work](Console& console) { return work(*owned, console); });
 }
 
-/// Adds a command with its options and its work to the program.
+/// A function that adds a command, with its options and its function, to the program.
 using AddCommand = void (*)(CLI::App& app, Session& session);
 
 void add_run(CLI::App& app, Session& session);
@@ -88,19 +91,13 @@ void add_aggregate(CLI::App& app, Session& session);
 void add_status(CLI::App& app, Session& session);
 void add_rerun(CLI::App& app, Session& session);
 void add_measure(CLI::App& app, Session& session);
-void add_export(CLI::App& app, Session& session);
-void add_report(CLI::App& app, Session& session);
-void add_chart(CLI::App& app, Session& session);
 void add_completions(CLI::App& app, Session& session);
 void add_manual(CLI::App& app, Session& session);
 
-/// Every command, in the order of the help.
-inline constexpr std::array<AddCommand, 11> all_commands{add_run,   add_validate,    add_aggregate, add_status,
-                                                         add_rerun, add_measure,     add_export,    add_report,
-                                                         add_chart, add_completions, add_manual};
-
-/// Parses the command line and stores the work in `session`. Returns an exit code if there is nothing to run (help,
-/// version or usage error); the help or the error is then printed.
-std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& session);
+/// Parses the command line and stores the function of the chosen command in `session`. The help lists `commands` in
+/// this order. If there is nothing to run, because the user asked for help or the version or made an error, prints the
+/// text and returns the exit code.
+std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<const AddCommand> commands,
+                                           Session& session);
 
 }  // namespace isojam

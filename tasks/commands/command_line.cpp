@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -9,24 +9,24 @@
 
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/json/place.hpp"
-#include "tasks/system/standard_streams.hpp"
-#include "tasks/system/version.hpp"
+#include "tasks/io/place.hpp"
+#include "tasks/io/standard_streams.hpp"
+#include "tasks/io/version.hpp"
 
 namespace isojam {
 
 namespace {
 
 constexpr auto exit_codes =
-    "Exit codes: 0 all done; 1 some replicates failed, or the machine lacked something, or output could not be "
-    "written; 2 usage, or a path on the command line that cannot be read or written; 65 bad manifest or record, or a "
-    "directory of another manifest; 75 interrupted, the same command continues.";
+    "Exit codes: 0 all done; 1 some replicates failed, a resource failed (memory, threads, disk), or an output could "
+    "not be written; 2 usage error, or a path on the command line cannot be read or written; 65 bad manifest, damaged "
+    "record, or directory of another manifest; 75 interrupted, repeat the command to resume.";
 
 void add_console_options(Options options, ConsoleOptions& console) {
-  options.flag("--quiet", console.quiet, "Errors only on stderr");
-  options.flag("-v,--verbose", console.verbose, "A line for each replicate");
-  options.choice("--color", console.colour, "Colour on stderr");
-  options.choice("--messages", console.form, "Form of messages on stderr; json: one object a line");
+  options.flag("--quiet", console.quiet, "Print only errors on stderr");
+  options.flag("-v,--verbose", console.verbose, "Print a line for each replicate");
+  options.choice("--color", console.colour, "Use colour on stderr");
+  options.choice("--messages", console.form, "Set the format of messages on stderr (json: one object per line)");
 }
 
 void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
@@ -53,9 +53,7 @@ std::string unknown_word(const CLI::App& app) {
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
     const auto unknown = word.substr(0, option ? word.find('=') : std::string::npos);
-    const auto suggestion = nearest_name(unknown, known);
-    return (option ? "unknown option \"" : "unknown command \"") + unknown + "\"; " +
-           (suggestion.empty() ? "allowed: " + quoted_list(known) : "did you mean \"" + suggestion + "\"?");
+    return unknown_name(option ? "option" : "command", unknown, known);
   }
   return "";
 }
@@ -106,11 +104,15 @@ ProgramDescription described_program(const CLI::App& app) {
   return program;
 }
 
+std::string not_accepted(const std::string& text, const std::string& allowed) {
+  return "\"" + text + "\" is not accepted; expected " + allowed;
+}
+
 /// Error text if the number is not positive and finite; empty if it is.
 std::string not_positive(const std::string& text) {
   double value = 0;
   const bool good = CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);
-  return good ? "" : "not a positive number: " + text;
+  return good ? "" : not_accepted(text, "a positive number");
 }
 
 }  // namespace
@@ -150,7 +152,10 @@ void Options::one_of(const std::string& name, const std::vector<std::string>& ch
   std::string list;
   for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice;
   app_.add_option_function<std::string>(name, take, description)
-      ->check(CLI::IsMember(std::set<std::string>(choices.begin(), choices.end())).description(""))
+      ->check([choices](const std::string& value) {
+        if (std::find(choices.begin(), choices.end(), value) != choices.end()) return std::string();
+        return unknown_name("value", value, std::vector<std::string_view>(choices.begin(), choices.end()));
+      })
       ->required(need == Need::required)
       ->type_name(list);
 }
@@ -164,8 +169,13 @@ void Options::results_directory(std::string& directory) {
 }
 
 void Options::threads(int& threads) {
-  app_.add_option("-j,--threads", threads, "Threads (default: as many as the machine gives)")
-      ->check(CLI::Range(1, 4096).description(""))
+  constexpr int most_threads = 4096;
+  app_.add_option("-j,--threads", threads, "Number of threads (default: as many as the machine has)")
+      ->check([](const std::string& text) {
+        int value = 0;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= 1 && value <= most_threads;
+        return good ? std::string() : not_accepted(text, integer_in({1, most_threads}));
+      })
       ->type_name("N");
 }
 
@@ -176,14 +186,15 @@ Options add_command(CLI::App& app, Session& session, const std::string& name, co
   return Options(*command);
 }
 
-std::optional<ExitCode> parse_command_line(int argc, char** argv, Session& session) {
-  CLI::App app("isojam: jammed packings of soft frictionless convex solids, in batches", "isojam");
+std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<const AddCommand> commands,
+                                           Session& session) {
+  CLI::App app("isojam: compute and analyse jammed packings of soft frictionless convex solids", "isojam");
   app.require_subcommand(1);
   app.fallthrough();
   app.set_version_flag("--version", version_text());
   app.footer(exit_codes);
   add_console_options(Options(app), session.console);
-  for (const AddCommand add : all_commands) add(app, session);
+  for (const AddCommand add : commands) add(app, session);
   session.program = described_program(app);
   try {
     app.parse(argc, argv);

@@ -5,12 +5,13 @@
 #include <algorithm>
 
 #include "tasks/commands/shared.hpp"
-#include "tasks/json/input_error.hpp"
+#include "tasks/io/console.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/standard_streams.hpp"
 #include "tasks/manifest/cost.hpp"
+#include "tasks/records/survey.hpp"
+#include "tasks/records/texts.hpp"
 #include "tasks/run/graph.hpp"
-#include "tasks/store/survey.hpp"
-#include "tasks/system/console.hpp"
-#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace {
@@ -36,7 +37,7 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
   const auto survey = survey_of(directory, plan, manifest.keep_path);
   if (!survey.others.empty())
     throw InputError({directory + "/records/" + survey.others.front() + ".json", "/provenance/manifest_digest",
-                      "belongs to another manifest", "results of this manifest: choose another directory with -o", ""});
+                      std::string(other_manifest), "", "", std::string(choose_another_directory)});
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   double least = 0, most = 0, disk = 0, largest = 0;
   std::string text = fmt::format("{}: {}, seed {}, results in {}\n", manifest.name,
@@ -54,27 +55,26 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
     const auto replicates = manifest.replicates.goal
                                 ? fmt::format("{} to {} replicates", manifest.replicates.min, manifest.replicates.max)
                                 : counted(static_cast<std::size_t>(manifest.replicates.max), "replicate");
-    text += fmt::format("  {}: {}, {} recorded, {} of CPU each\n", point_name(spec), replicates, recorded,
+    text += fmt::format("  {}: {}, {} recorded, {} of CPU time each\n", point_name(spec), replicates, recorded,
                         about_text(each));
   }
   if (manifest.replicates.goal)
-    text += fmt::format("  until the 95 % interval of {} is narrower than ± {:g}\n", manifest.replicates.goal->quantity,
-                        manifest.replicates.goal->half_width);
+    text += fmt::format("  until the 95 % confidence interval of {} is at most ± {:g}\n",
+                        manifest.replicates.goal->quantity, manifest.replicates.goal->half_width);
   if (survey.lacking > 0)
     text += fmt::format(
-        "  {} without measures that were added to the manifest: a run makes them again, isojam measure {} "
-        "adds to them\n",
+        "  {} without measures added later; run \"isojam measure {}\" to add them, or they are recomputed\n",
         counted(static_cast<std::size_t>(survey.lacking), "record"), directory);
   const int shards = arguments.shard.count;
   const double share = 1.0 / threads / shards;
-  text += fmt::format("left to do: {} on {}{}; at most {} on disk, about {} of memory per replicate\n",
+  text += fmt::format("remaining: {} on {}{}; at most {} on disk, about {} of memory per replicate\n",
                       left_text(least * share, most * share), counted(static_cast<std::size_t>(threads), "thread"),
                       shards > 1 ? fmt::format(" for each of {} shards", shards) : "", bytes_text(disk),
                       bytes_text(largest));
   text += survey.calibration_records > 0
-              ? fmt::format("(times from {} here)\n",
+              ? fmt::format("(times estimated from {} of this directory)\n",
                             counted(static_cast<std::size_t>(survey.calibration_records), "record"))
-              : "(times from the machine isojam was measured on: right to a factor of two or so)\n";
+              : "(times estimated from another machine, right within about a factor of two)\n";
   print(text);
   return ExitCode::done;
 }

@@ -4,17 +4,18 @@
 #include <optional>
 #include <utility>
 
-#include "tasks/commands/adding.hpp"
+#include "tasks/commands/add_measures.hpp"
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/json/input_error.hpp"
-#include "tasks/json/place.hpp"
+#include "tasks/io/directory_lock.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/interrupt.hpp"
+#include "tasks/io/place.hpp"
+#include "tasks/io/standard_streams.hpp"
 #include "tasks/manifest/cost.hpp"
+#include "tasks/records/texts.hpp"
 #include "tasks/run/graph.hpp"
-#include "tasks/system/directory_lock.hpp"
-#include "tasks/system/file.hpp"
-#include "tasks/system/interrupt.hpp"
-#include "tasks/system/standard_streams.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"
 
@@ -34,12 +35,7 @@ std::optional<std::string> read_measures(const std::string& text, std::vector<Me
     const auto end = std::min(text.find(',', from), text.size());
     const auto name = text.substr(from, end - from);
     const auto measure = from_string<Measure>(name);
-    if (!measure) {
-      const auto near = nearest_name(name, all_names<Measure>);
-      return fmt::format("no measure \"{}\"{}; there are {}", name,
-                         near.empty() ? "" : fmt::format(", did you mean \"{}\"?", near),
-                         quoted_list(all_names<Measure>));
-    }
+    if (!measure) return unknown_name("measure", name, all_names<Measure>);
     list.push_back(*measure);
     from = end + 1;
   }
@@ -51,9 +47,9 @@ std::optional<std::string> read_measures(const std::string& text, std::vector<Me
 void refuse_impossible(const std::vector<Additions::Impossible>& impossible, const std::string& directory) {
   if (impossible.empty()) return;
   const auto& [name, why] = impossible.front();
-  const auto others = impossible.size() == 1 ? "" : fmt::format(" ({} more cannot either)", impossible.size() - 1);
-  throw InputError({directory, "", fmt::format("{} cannot be measured: {}{}", name, why, others),
-                    "a directory all of whose replicates kept their expansions", ""});
+  const auto others = impossible.size() == 1 ? "" : fmt::format(" and {} more", impossible.size() - 1);
+  throw InputError({directory, "", fmt::format("cannot add measures to {}{}: {}", name, others, why), "", "",
+                    std::string(how_to_keep_states)});
 }
 
 /// Leaves out all replicates but one.
@@ -73,11 +69,9 @@ void write_table(const Store& store, Console& console) {
   print(to_text(table));
 }
 
-DirectoryLock hold(const std::string& directory) {
+DirectoryLock lock_results(const std::string& directory) {
   auto lock = DirectoryLock::take(directory, DirectoryLock::Kind::exclusive);
-  if (!lock)
-    throw FileError(fmt::format("{}: isojam runs or measures there now; measure when it has ended", directory),
-                    FileError::Reason::shortage);
+  if (!lock) throw FileError(in_use(directory), FileError::Reason::resource_failure);
   return std::move(*lock);
 }
 
@@ -87,7 +81,7 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   // Both throw: they report a wrong directory or name before anything is locked.
   recorded_names(arguments.directory);
   if (!arguments.only.empty()) recorded_name(arguments.directory, arguments.only);
-  const auto lock = hold(arguments.directory);
+  const auto lock = lock_results(arguments.directory);
   const auto before = own_manifest(arguments.directory);
   const auto manifest = with_measures(before, arguments.add);
   const Plan plan(manifest);
@@ -98,14 +92,14 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
   if (!arguments.only.empty()) keep_only(found, arguments.only);
   for (const auto& [name, why] : found.impossible)
-    console.warn(fmt::format("{}; isojam run makes {} again", why, name));
+    console.warn(fmt::format("{}: {}; \"isojam run\" recomputes this replicate", name, why));
   warn_about_kernels(console);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
-  console.info(fmt::format("{}: measures to add to {}", manifest.name,
+  console.info(fmt::format("{}: adding measures to {}", manifest.name,
                            counted(found.measured.size() + found.failed.size(), "record")));
   const auto tally = add_measures(store, found, threads, available_memory(), watcher.token(), console);
   if (watcher.token().stop_requested()) {
-    console.warn("interrupted; what was added is kept, and isojam measure continues");
+    console.warn("interrupted; added measures are kept; repeat the command to resume");
     return ExitCode::interrupted;
   }
   write_table(store, console);
@@ -116,14 +110,13 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
 
 void add_measure(CLI::App& app, Session& session) {
   MeasureArguments* arguments = nullptr;
-  auto options = add_command(app, session, "measure", "Measure stored packings: add to records what was not asked for",
-                             measure_stored, arguments);
+  auto options = add_command(app, session, "measure", "Compute additional measures for stored packings", measure_stored,
+                             arguments);
   options.results_directory(arguments->directory);
   options.parsed(
       "--add", [arguments](const std::string& text) { return read_measures(text, arguments->add); }, [] {},
-      "Measures to add, as a manifest calls them, with commas between (default: those that an interrupted call left)",
-      "MEASURES");
-  options.text("--only", arguments->only, "Of this replicate alone", "REPLICATE");
+      "Measures to add, separated by commas (default: those that an interrupted command left)", "MEASURES");
+  options.text("--only", arguments->only, "Process only this replicate", "REPLICATE");
   options.threads(arguments->threads);
 }
 

@@ -2,28 +2,23 @@
 
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/json/place.hpp"
-#include "tasks/json/sealed.hpp"
-#include "tasks/replicate/summary.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/interrupt.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/io/standard_streams.hpp"
+#include "tasks/records/store.hpp"
+#include "tasks/records/summary.hpp"
 #include "tasks/run/graph.hpp"
-#include "tasks/store/store.hpp"
-#include "tasks/system/file.hpp"
-#include "tasks/system/interrupt.hpp"
-#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace {
 
 ReplicateSpec planned(const Plan& plan, const std::string& name, const Store& store) {
   if (const auto place = plan.place_of(name)) return plan.at(place->point, place->replicate);
-  const auto known = names_in(store.directory() / "records");
-  const std::vector<std::string_view> names(known.begin(), known.end());
-  const auto nearest = nearest_name(name, names);
-  throw FileError(fmt::format("{}: plans no replicate \"{}\"{}", (store.directory() / "manifest.json").string(), name,
-                              nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+  throw_unknown_replicate(store.directory().string(), name, names_in(store.directory() / "records"));
 }
 
-struct Arguments {
+struct RerunArguments {
   std::string directory;
   std::string replicate;  ///< name, as its files are called
   int threads = 0;
@@ -31,15 +26,15 @@ struct Arguments {
 
 void compare(const std::optional<RecordSummary>& before, const RecordSummary& now, Console& console) {
   if (!before) {
-    console.info("there was no valid record of it");
+    console.info("there was no valid record to compare the result with");
   } else if (before->result_digest == now.result_digest) {
-    console.info("the same bits as recorded before");
+    console.info("the result has the same bits as the record");
   } else {
-    console.warn("the result differs from what was recorded before, bit for bit: another build, or a fault");
+    console.warn("the result differs from the record; another build computed the record, or the machine is faulty");
   }
 }
 
-ExitCode redo(const Arguments& arguments, const Store& store, const ReplicateSpec& spec, Console& console) {
+ExitCode redo(const RerunArguments& arguments, const Store& store, const ReplicateSpec& spec, Console& console) {
   const InterruptWatcher watcher;
   warn_about_kernels(console);
   const auto before = store.recorded(spec);
@@ -58,13 +53,14 @@ ExitCode redo(const Arguments& arguments, const Store& store, const ReplicateSpe
     failed = outcome.failure.has_value();
   });
   if (!stored) {
-    console.warn("interrupted; the record is as it was");
+    console.warn("interrupted; the record is unchanged");
     return ExitCode::interrupted;
   }
   const auto now = store.recorded(spec);
   if (!now)
-    throw FileError(store.record_path(spec).string() + ": has gone or changed since it was written",
-                    FileError::Reason::shortage);
+    throw FileError(
+        store.record_path(spec).string() + ": was removed or changed after it was written; repeat the command",
+        FileError::Reason::resource_failure);
   compare(before, *now, console);
   print(read_file(store.record_path(spec)));
   return failed ? ExitCode::some_failed : ExitCode::done;
@@ -72,7 +68,7 @@ ExitCode redo(const Arguments& arguments, const Store& store, const ReplicateSpe
 
 /// Recomputes a replicate from the start, replaces its record and reports whether the bits are identical. The record
 /// goes to stdout.
-ExitCode rerun(const Arguments& arguments, Console& console) {
+ExitCode rerun(const RerunArguments& arguments, Console& console) {
   auto manifest = own_manifest(arguments.directory);
   load_start(manifest);
   const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
@@ -88,12 +84,13 @@ ExitCode rerun(const Arguments& arguments, Console& console) {
 }  // namespace
 
 void add_rerun(CLI::App& app, Session& session) {
-  Arguments* arguments = nullptr;
-  auto options =
-      add_command(app, session, "rerun", "Redo one replicate, with a line for every strain step", rerun, arguments);
+  RerunArguments* arguments = nullptr;
+  auto options = add_command(app, session, "rerun",
+                             "Repeat one replicate, print every strain step, and compare the result with the record",
+                             rerun, arguments);
   options.results_directory(arguments->directory);
-  options.text("replicate", arguments->replicate, "Its name, as its files are called", "REPLICATE",
-               Options::Need::required);
+  options.text("replicate", arguments->replicate, "Name of the replicate: its file in records/ without .json",
+               "REPLICATE", Options::Need::required);
   options.threads(arguments->threads);
 }
 

@@ -9,12 +9,13 @@
 #include "tasks/commands/dry_run.hpp"
 #include "tasks/commands/run.hpp"
 #include "tasks/commands/shared.hpp"
+#include "tasks/io/directory_lock.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/interrupt.hpp"
+#include "tasks/io/standard_streams.hpp"
+#include "tasks/io/texts.hpp"
 #include "tasks/run/campaign.hpp"
 #include "tasks/run/graph.hpp"
-#include "tasks/system/directory_lock.hpp"
-#include "tasks/system/file.hpp"
-#include "tasks/system/interrupt.hpp"
-#include "tasks/system/standard_streams.hpp"
 #include "tasks/tables/table_of.hpp"
 #include "tasks/tables/tables.hpp"
 
@@ -85,12 +86,12 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
     // Rounds of earlier runs are processed again without a message.
     const auto size = campaign.round_size();
     if (round > 0 && size.replicates > size.recorded)
-      console.info(
-          fmt::format("not known well enough yet: {}", counted(size.replicates - size.recorded, "more replicate")));
+      console.info(fmt::format("confidence interval still too wide: running {}",
+                               counted(size.replicates - size.recorded, "more replicate")));
     const auto tally = run_round(campaign, store, stages, options, console);
     failed += tally.failed;
     if (options.stop.stop_requested()) {
-      console.warn("interrupted; what was recorded is kept, and the same command continues");
+      console.warn(interrupted_run);
       return ExitCode::interrupted;
     }
   }
@@ -99,13 +100,13 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
 
 /// Returns whether everything that this run made or found still exists, and reports it if not. `seen` answers for each
 /// name.
-bool all_there(const Campaign& campaign, const std::function<bool(const std::string&)>& seen, Console& console) {
+bool all_recorded(const Campaign& campaign, const std::function<bool(const std::string&)>& seen, Console& console) {
   const auto missing = campaign.without(seen);
   if (missing.empty()) return true;
-  console.error(
-      fmt::format("of {} that this run made or found, records, packings or paths have gone or changed since, "
-                  "{} the first; the same command makes them again",
-                  counted(missing.size(), "replicate"), missing.front()));
+  console.error(fmt::format(
+      "files of {} were removed or changed during the run, the first is {}; repeat the command to recompute "
+      "them",
+      counted(missing.size(), "replicate"), missing.front()));
   return false;
 }
 
@@ -118,11 +119,11 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
   };
   if (!shard.whole()) {
     whole = names_of("records");
-    if (!all_there(
+    if (!all_recorded(
             campaign, [&](const auto& name) { return whole.contains(name); }, console))
       return ExitCode::some_failed;
-    console.info(fmt::format("shard {}/{} is done; when all are: isojam aggregate {} -o {}", shard.index + 1,
-                             shard.count, directory, store.tables_path().string()));
+    console.info(fmt::format("shard {}/{} is done; when all shards are done, run \"isojam aggregate {} -o {}\"",
+                             shard.index + 1, shard.count, directory, store.tables_path().string()));
     return code;
   }
   const auto packings = names_of("packings"), paths = names_of("paths");
@@ -132,7 +133,7 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
         const bool kept = packings.contains(held.name) && (!store.kept().keep_path || paths.contains(held.name));
         if (held.summary.failed || kept) whole.insert(held.name);
       });
-  if (!all_there(
+  if (!all_recorded(
           campaign, [&](const auto& name) { return whole.contains(name); }, console))
     return ExitCode::some_failed;
   store.write_tables(to_json(table));
@@ -147,7 +148,7 @@ void take_added_measures(const std::string& directory, Manifest& manifest, Conso
   if (!kept || kept->measures == manifest.measures || !is_same_sweep(manifest, *kept)) return;
   if (with_measures(manifest, kept->measures).measures != kept->measures) return;
   manifest.measures = kept->measures;
-  console.info(fmt::format("{} has measures that were added to it, and so will what is run now", directory));
+  console.info(fmt::format("{}: new replicates also get the measures that were added to this directory", directory));
 }
 
 /// Validates, plans, runs the missing replicates and aggregates. The table goes to stdout. A shard prints none: the
@@ -169,27 +170,23 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   warn_about_kernels(console);
   const Store store(directory, manifest, warn);
   const auto lock = DirectoryLock::take(directory, DirectoryLock::Kind::shared);
-  if (!lock)
-    throw FileError(fmt::format("{}: isojam measure works there now; run when it has ended", directory),
-                    FileError::Reason::shortage);
+  if (!lock) throw FileError(in_use(directory), FileError::Reason::resource_failure);
   Campaign campaign(plan, manifest.replicates, arguments.shard, store);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();
   GraphOptions options{threads, replicates_in_flight(threads, campaign.largest_memory(), memory), watcher.token(), {}};
   const auto begun = names_in(store.directory() / "checkpoints").size();
   console.info(fmt::format(
-      "{}: {}{}{}, {} recorded already{}, results in {}", manifest.name, manifest.replicates.goal ? "up to " : "",
+      "{}: {}{}{}, {} recorded{}, results in {}", manifest.name, manifest.replicates.goal ? "up to " : "",
       counted(plan.size(), "replicate"),
-      arguments.shard.whole()
-          ? ""
-          : fmt::format(" in shards, of which this is {}/{}", arguments.shard.index + 1, arguments.shard.count),
-      names_in(store.directory() / "records").size(), begun > 0 ? fmt::format(" and {} begun", begun) : "", directory));
+      arguments.shard.whole() ? "" : fmt::format(", shard {}/{}", arguments.shard.index + 1, arguments.shard.count),
+      names_in(store.directory() / "records").size(), begun > 0 ? fmt::format(", {} started", begun) : "", directory));
   try {
     const auto code = run_campaign(campaign, store, options, console);
     return code == ExitCode::interrupted ? code : finish(campaign, store, arguments.shard, code, console);
   } catch (const FileError& error) {
     console.end();
-    console.error(fmt::format("{}; what was recorded is kept, and the same command continues", error.what()));
+    console.error(fmt::format("{}; {}", error.what(), how_to_resume));
     return ExitCode::some_failed;
   }
 }
@@ -198,24 +195,24 @@ ExitCode run(const RunArguments& arguments, Console& console) {
 
 void add_run(CLI::App& app, Session& session) {
   RunArguments* arguments = nullptr;
-  auto options = add_command(app, session, "run",
-                             "Run what a manifest plans and the results directory does not hold yet", run, arguments);
-  options.text("manifest", arguments->manifest, "Manifest of the sweep; - is standard input", "MANIFEST",
+  auto options = add_command(app, session, "run", "Run the missing replicates of a manifest", run, arguments);
+  options.text("manifest", arguments->manifest, "Manifest of the sweep (-: standard input)", "MANIFEST",
                Options::Need::required);
   options.text("-o,--output", arguments->directory, "Results directory (default: results/<name>)", "DIR");
   options.threads(arguments->threads);
   const auto read_shard = [arguments](const std::string& text) -> std::optional<std::string> {
     const auto shard = parse_shard(text);
-    if (!shard) return "not I/N with whole numbers 1 <= I <= N <= 100000: " + text;
+    if (!shard) return "\"" + text + "\" is not accepted; expected I/N with integers 1 <= I <= N <= 100000";
     arguments->shard = *shard;
     return std::nullopt;
   };
   options.parsed(
       "--shard", read_shard, [arguments] { arguments->shard = shard_of_environment(); },
-      "Run part I of N of the sweep; within a Slurm array, by default, the part of the task", "I/N");
-  options.positive("--memory", arguments->memory_gib, "Memory for replicates in flight (default: what is available)",
+      "Run part I of N of the sweep (default in a Slurm array: the part of the task)", "I/N");
+  options.positive("--memory", arguments->memory_gib,
+                   "Limit the memory of the replicates that run at the same time (default: the available memory)",
                    "GIB");
-  options.flag("--dry-run", arguments->dry_run, "Print the plan and what it will cost, and do nothing");
+  options.flag("--dry-run", arguments->dry_run, "Print the plan with its cost, and do nothing");
 }
 
 }  // namespace isojam

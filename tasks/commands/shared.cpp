@@ -7,12 +7,12 @@
 #include <filesystem>
 
 #include "engine/geometry/overlap/overlap.hpp"
-#include "tasks/json/place.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/place.hpp"
+#include "tasks/io/version.hpp"
 #include "tasks/manifest/warnings.hpp"
-#include "tasks/replicate/record.hpp"
-#include "tasks/store/store.hpp"
-#include "tasks/system/file.hpp"
-#include "tasks/system/version.hpp"
+#include "tasks/records/record.hpp"
+#include "tasks/records/store.hpp"
 #include "tasks/tables/tables.hpp"
 
 namespace isojam {
@@ -24,8 +24,7 @@ void warn_about(const Manifest& manifest, const std::string& file, Console& cons
 void warn_about_kernels(Console& console) {
   if (!uses_avx2())
     console.warn(
-        "this processor or this build has no AVX2 and FMA: the portable kernels run, with the same results, "
-        "about five times slower");
+        "this processor or build has no AVX2 and FMA; the program is about five times slower, with the same results");
 }
 
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {
@@ -43,11 +42,21 @@ std::vector<std::string> recorded_names(const std::string& directory) {
 std::string recorded_name(const std::string& directory, const std::string& name) {
   const auto names = recorded_names(directory);
   if (std::find(names.begin(), names.end(), name) != names.end()) return name;
+  throw_unknown_replicate(directory, name, names);
+}
+
+void throw_unknown_replicate(const std::string& directory, const std::string& name,
+                             const std::vector<std::string>& names) {
   const std::vector<std::string_view> candidates(names.begin(), names.end());
-  const auto near = nearest_name(name, candidates);
-  throw FileError(fmt::format("{}: holds no replicate \"{}\"{}", directory, name,
-                              near.empty() ? fmt::format("; there are {}, \"{}\" the first", names.size(), names[0])
-                                           : fmt::format("; did you mean \"{}\"?", near)));
+  const auto nearest = nearest_name(name, candidates);
+  const auto correction = names.empty()     ? std::string()
+                          : nearest.empty() ? fmt::format("; expected a name such as \"{}\"", names[0])
+                                            : fmt::format("; did you mean \"{}\"?", nearest);
+  throw FileError(fmt::format("{}: unknown replicate \"{}\"{}", directory, name, correction));
+}
+
+std::string in_use(const std::string& directory) {
+  return directory + ": another process of isojam is using this directory; repeat the command when it has ended";
 }
 
 std::string version_text() {

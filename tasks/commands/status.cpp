@@ -5,10 +5,10 @@
 
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
+#include "tasks/io/standard_streams.hpp"
 #include "tasks/manifest/cost.hpp"
-#include "tasks/store/recorded.hpp"
-#include "tasks/store/survey.hpp"
-#include "tasks/system/standard_streams.hpp"
+#include "tasks/records/recorded.hpp"
+#include "tasks/records/survey.hpp"
 
 namespace isojam {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// A step may take minutes. A replicate on another machine without progress for longer than this is probably abandoned.
 constexpr double patience_seconds = 600;
 
-struct Arguments {
+struct StatusArguments {
   std::string directory;
 };
 
@@ -49,13 +49,14 @@ std::string time_left(const Survey& survey, const Totals& totals, bool has_goal)
   const auto* at_most = has_goal ? "at most " : "";
   if (totals.cpu_left == 0) return "";
   if (moving == 0)
-    return fmt::format("nobody is working on it; {}{} of CPU time left\n", at_most, about_text(totals.cpu_left));
-  return fmt::format("{}{} left at {} at a time\n", at_most, about_text(totals.cpu_left / static_cast<double>(moving)),
+    return fmt::format("no process is working on it; {}{} of CPU time left\n", at_most, about_text(totals.cpu_left));
+  return fmt::format("{}{} left with {} at a time\n", at_most,
+                     about_text(totals.cpu_left / static_cast<double>(moving)),
                      counted(static_cast<std::size_t>(moving), "replicate"));
 }
 
 /// Lists the contents of a results directory and the replicates that any process is working on. Writes nothing.
-ExitCode status(const Arguments& arguments, Console&) {
+ExitCode status(const StatusArguments& arguments, Console&) {
   const auto manifest = own_manifest(arguments.directory);
   const Plan plan(manifest);
   const auto survey = survey_of(arguments.directory, plan, manifest.keep_path);
@@ -63,19 +64,21 @@ ExitCode status(const Arguments& arguments, Console&) {
   const auto moving = std::count_if(survey.under_way.begin(), survey.under_way.end(), is_moving);
   const auto stopped = static_cast<std::ptrdiff_t>(survey.under_way.size()) - moving;
   auto text =
-      fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged, {} under way{}\n", manifest.name, totals.recorded,
+      fmt::format("{}: {} of {}{} recorded, {} failed, {} flagged, {} running{}\n", manifest.name, totals.recorded,
                   manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"), totals.failed,
-                  totals.flagged, moving, stopped > 0 ? fmt::format(", {} stopped half way", stopped) : "");
+                  totals.flagged, moving, stopped > 0 ? fmt::format(", {} interrupted", stopped) : "");
   if (survey.unplanned > 0)
-    text += fmt::format("{} beyond the plan\n", counted(static_cast<std::size_t>(survey.unplanned), "record"));
+    text += fmt::format("  {} not planned by the manifest\n",
+                        counted(static_cast<std::size_t>(survey.unplanned), "record"));
   if (survey.lacking > 0)
-    text += fmt::format("  {} without measures that were added to the manifest: isojam measure {} adds them\n",
+    text += fmt::format("  {} without measures added later; run \"isojam measure {}\" to add them\n",
                         counted(static_cast<std::size_t>(survey.lacking), "record"), arguments.directory);
   for (const auto& [flag, count] : survey.flags) text += fmt::format("  flagged {}: {}\n", to_string(flag), count);
   for (const auto& replicate : survey.under_way) {
-    text += fmt::format("  {}: {}{}, density {:.4f}, {} steps, {} of CPU, last step {} ago\n", replicate.name,
-                        is_moving(replicate) ? "" : "stopped in ", replicate.stage, replicate.density, replicate.steps,
-                        duration_text(replicate.cpu_seconds), duration_text(replicate.seconds_since_step));
+    text +=
+        fmt::format("  {}: {}{}, density {:.4f}, {} steps, {} of CPU, last step {} ago\n", replicate.name,
+                    is_moving(replicate) ? "" : "interrupted in ", replicate.stage, replicate.density, replicate.steps,
+                    duration_text(replicate.cpu_seconds), duration_text(replicate.seconds_since_step));
   }
   for (const auto& line : survey.damaged) text += fmt::format("  damaged: {}\n", line);
   print(text + time_left(survey, totals, manifest.replicates.goal.has_value()));
@@ -85,8 +88,8 @@ ExitCode status(const Arguments& arguments, Console&) {
 }  // namespace
 
 void add_status(CLI::App& app, Session& session) {
-  Arguments* arguments = nullptr;
-  auto options = add_command(app, session, "status", "Say what a results directory holds and what is under way in it",
+  StatusArguments* arguments = nullptr;
+  auto options = add_command(app, session, "status", "Show the progress and the contents of a results directory",
                              status, arguments);
   options.results_directory(arguments->directory);
 }

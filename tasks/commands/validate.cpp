@@ -2,17 +2,17 @@
 
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
+#include "tasks/io/standard_streams.hpp"
 #include "tasks/manifest/plan.hpp"
-#include "tasks/system/standard_streams.hpp"
 
 namespace isojam {
 namespace {
 
-struct Arguments {
+struct ValidateArguments {
   std::string manifest;
 };
 
-ExitCode validate(const Arguments& arguments, Console& console) {
+ExitCode validate(const ValidateArguments& arguments, Console& console) {
   const auto manifest = read_manifest(arguments.manifest);
   warn_about(manifest, arguments.manifest, console);
   const Plan plan(manifest);
@@ -26,10 +26,10 @@ ExitCode validate(const Arguments& arguments, Console& console) {
 }  // namespace
 
 void add_validate(CLI::App& app, Session& session) {
-  Arguments* arguments = nullptr;
-  auto options = add_command(app, session, "validate", "Check a manifest and say how many replicates it plans",
-                             validate, arguments);
-  options.text("manifest", arguments->manifest, "Manifest of the sweep; - is standard input", "MANIFEST",
+  ValidateArguments* arguments = nullptr;
+  auto options =
+      add_command(app, session, "validate", "Check a manifest and print its number of replicates", validate, arguments);
+  options.text("manifest", arguments->manifest, "Manifest of the sweep (-: standard input)", "MANIFEST",
                Options::Need::required);
 }
 

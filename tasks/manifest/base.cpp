@@ -37,7 +37,7 @@ void check_value(const JsonPlace& place, const Json& value, const SweptField& sw
   if (std::find(swept.values.begin(), swept.values.end(), value) != swept.values.end()) return;
   std::string allowed;
   for (const auto& each : swept.values) allowed += (allowed.empty() ? "" : ", ") + compact(each);
-  place.refuse(fmt::format("{} is not among the swept values", compact(value)), allowed);
+  place.refuse(fmt::format("{} is not a swept value", compact(value)), "one of " + allowed);
 }
 
 void check_parameter(const JsonPlace& place, const std::string& name, const Json& value,
@@ -46,9 +46,9 @@ void check_parameter(const JsonPlace& place, const std::string& name, const Json
   if (found != swept.end()) return check_value(place, value, *found);
   std::vector<std::string_view> names;
   for (const auto& each : swept) names.push_back(each.name);
-  place.refuse("the parameter is not swept",
-               names.empty() ? "no base where nothing but solid and particles is swept" : quoted_list(names),
-               nearest_name(name, names));
+  constexpr auto problem = "the parameter is not swept";
+  if (names.empty()) place.refuse_with_remedy(problem, "remove the base, which needs a swept parameter");
+  place.refuse(problem, one_of(names), nearest_name(name, names));
 }
 
 /// Parses the value of a parameter from a command-line word.
@@ -63,24 +63,22 @@ Json value_of(const std::string& word, const Field& field) {
 std::string unknown_parameter(const std::string& name) {
   const auto names = field_names();
   const auto now = new_name(name);
-  const auto nearest = now.empty() ? nearest_name(name, names) : std::string(now);
-  return fmt::format("no parameter is called \"{}\"; {}", name,
-                     nearest.empty() ? "allowed: none, or values of " + quoted_list(names)
-                                     : fmt::format("did you mean \"{}\"?", nearest));
+  if (!now.empty()) return fmt::format("parameter \"{}\" was renamed; use \"{}\"", name, now);
+  return unknown_name("parameter", name, names, "none or ");
 }
 
 /// Parses one "parameter=value"; returns an error text if this fails.
 std::optional<std::string> parse_part(const std::string& part, std::map<std::string, Json>& values) {
   const auto equals = part.find('=');
   if (equals == std::string::npos)
-    return fmt::format("\"{}\" names no value; allowed: none, or parameter=value between commas", part);
+    return fmt::format("\"{}\" has no value; expected none, or PARAMETER=VALUE separated by commas", part);
   const auto name = part.substr(0, equals);
   const auto* field = find_field(name);
   if (!field) return unknown_parameter(name);
   const auto value = value_of(part.substr(equals + 1), *field);
   try {
     if (!values.emplace(name, read_value({value, name}, *field)).second)
-      return fmt::format("\"{}\" is given twice", name);
+      return fmt::format("\"{}\" is given twice; give each parameter once", name);
   } catch (const InputError& error) {
     return one_line(error.details());
   }
@@ -92,7 +90,7 @@ std::optional<std::string> parse_part(const std::string& part, std::map<std::str
 Json read_base(const JsonPlace& place) {
   const auto names = field_names();
   place.expect_keys(names);
-  if (place.value().empty()) place.refuse("no parameter is named", "one or more swept parameters, each with a value");
+  if (place.value().empty()) place.refuse("the base is empty", "one or more swept parameters with their values");
   std::map<std::string, Json> values;
   for (const auto name : names) {
     const std::string key(name);

@@ -4,26 +4,29 @@
 #include <string>
 #include <vector>
 
-#include "tasks/json/place.hpp"
+#include "tasks/io/place.hpp"
 #include "tasks/manifest/manifest.hpp"
 
 namespace isojam {
 
-// The base identifies the row with which the other rows of the same solid and size are compared. It is an object of
-// swept parameters and their values, canonical and sorted by name. A parameter that is left out takes each row's own
-// value. An empty base means no comparison.
+// The base selects the row with which the other rows of the same solid and number of particles are compared. It is a
+// JSON object with swept parameters and their values, in canonical form and sorted by name. For a parameter that the
+// base does not contain, each row is compared with the base row that has the same value. If the base is empty, no rows
+// are compared.
 
-/// The base of a manifest. Throws InputError for an unknown parameter or an invalid value. check_base checks that the
-/// parameter is swept.
+/// Reads the base of a manifest. Throws InputError for an unknown parameter or an invalid value. It does not check
+/// whether the parameter is swept, see check_base().
 Json read_base(const JsonPlace& place);
 
-/// Refuses a base at `place` if one of its parameters is not swept, or not over that value.
+/// Throws InputError for the base at `place` if one of its parameters is not swept, or if the sweep does not contain
+/// the value of the base.
 void check_base(const JsonPlace& place, const Json& base, const std::vector<SweptField>& swept);
 
-/// Parses "none" or comma-separated "parameter=value" from a command line; returns an error text if this fails.
+/// Parses the text of an option: "none", or "parameter=value" with commas between several. Returns an error text if the
+/// text is wrong.
 std::optional<std::string> parse_base(const std::string& text, Json& base);
 
-/// "method = newton, step_fraction = 0.35"
+/// The base as text, such as "method = newton, step_fraction = 0.35".
 std::string base_text(const Json& base);
 
 }  // namespace isojam

@@ -68,7 +68,7 @@ double available_of_control_group() {
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path) {
   const auto& law = law_of(spec.solid);
   const double n = spec.particles;
-  const double consolidation = consolidation_share * measured_step / spec.options.consolidation_step;
+  const double consolidation = consolidation_share * measured_step / spec.options.compression.step;
   Cost cost;
   cost.cpu_seconds = law.at_100 * nearest::pow(n / 100, law.power) * (1 - consolidation_share + consolidation);
   cost.memory_bytes = particle_bytes * n + factor_bytes * nearest::pow(n, factor_power);

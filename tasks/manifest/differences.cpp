@@ -33,7 +33,8 @@ void compare(const Json& theirs, const Json& ours, const std::string& pointer, s
     if (both && theirs.at(key).is_object() && ours.at(key).is_object()) {
       compare(theirs.at(key), ours.at(key), at, lines);
     } else {
-      lines.push_back(fmt::format("{}: {} there, {} here", at, shown(theirs, key), shown(ours, key)));
+      lines.push_back(
+          fmt::format("{}: {} in the directory, {} in this manifest", at, shown(theirs, key), shown(ours, key)));
     }
   }
 }

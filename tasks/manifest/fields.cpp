@@ -4,7 +4,7 @@
 #include <array>
 #include <type_traits>
 
-#include "tasks/json/options.hpp"
+#include "tasks/io/options.hpp"
 
 namespace isojam {
 namespace {
@@ -12,53 +12,53 @@ namespace {
 constexpr Range positive_to(double high) { return {0, high, true, false}; }
 constexpr Range none{};
 
-template <class>
-struct MemberOf;
-template <class T, class S>
-struct MemberOf<T S::*> {
-  using Struct = S;
-};
-
-template <auto member>
-constexpr Field field(std::string_view name, Range range) {
-  constexpr bool outer = std::is_same_v<typename MemberOf<decltype(member)>::Struct, JamOptions>;
-  const auto slot = [](JamOptions& options) -> Slot {
-    if constexpr (outer) {
-      return &(options.*member);
-    } else {
-      return &(options.minimise.*member);
-    }
-  };
-  return {name, outer ? Group::protocol : Group::minimiser, slot, range};
+template <class Value, class Struct>
+auto& holder(JamOptions& options, Value Struct::*) {
+  if constexpr (std::is_same_v<Struct, Compression>) {
+    return options.compression;
+  } else if constexpr (std::is_same_v<Struct, Decompression>) {
+    return options.decompression;
+  } else if constexpr (std::is_same_v<Struct, MinimiseOptions>) {
+    return options.minimise;
+  } else {
+    return options;
+  }
 }
 
+template <auto member>
+constexpr Field field(std::string_view name, Range range, Group group = Group::protocol) {
+  return {name, group, [](JamOptions& options) -> Slot { return &(holder(options, member).*member); }, range};
+}
+
+using C = Compression;
+using D = Decompression;
 using P = JamOptions;
 using M = MinimiseOptions;
 
 constexpr std::array fields{
-    field<&P::initial_density>("initial_density", positive_to(1)),
-    field<&P::consolidation_step>("consolidation_step", positive_to(1)),
-    field<&P::target_energy>("target_energy", positive_to(1)),
-    field<&P::target_before_relaxation>("target_before_relaxation", none),
-    field<&P::max_density>("max_density", positive_to(2)),
-    field<&P::step_fraction>("step_fraction", {0, 1, true, true}),
-    field<&P::longest_step>("longest_step", positive_to(1)),
-    field<&P::event_resolution>("event_resolution", {0, 1}),
-    field<&P::final_distance>("final_distance", positive_to(1)),
-    field<&P::fit_window>("fit_window", positive_to(1)),
+    field<&C::initial_density>("initial_density", positive_to(1)),
+    field<&C::step>("consolidation_step", positive_to(1)),
+    field<&C::target_energy>("target_energy", positive_to(1)),
+    field<&C::target_before_relaxation>("target_before_relaxation", none),
+    field<&C::max_density>("max_density", positive_to(2)),
+    field<&D::step_fraction>("step_fraction", {0, 1, true, true}),
+    field<&D::longest_step>("longest_step", positive_to(1)),
+    field<&D::event_resolution>("event_resolution", {0, 1}),
+    field<&D::final_distance>("final_distance", positive_to(1)),
+    field<&D::fit_window>("fit_window", positive_to(1)),
     field<&P::max_steps>("max_steps", {1, 1e6}),
-    field<&P::consolidation_residual>("consolidation_residual", positive_to(1)),
-    field<&P::consolidation_energy>("consolidation_energy", {0, 1}),
-    field<&P::consolidation_evaluations>("consolidation_evaluations", {1, 1e9}),
-    field<&P::consolidation>("consolidation", none),
-    field<&P::control>("control", none),
+    field<&C::residual>("consolidation_residual", positive_to(1)),
+    field<&C::unjammed_energy>("consolidation_energy", {0, 1}),
+    field<&C::evaluations>("consolidation_evaluations", {1, 1e9}),
+    field<&C::relaxation>("consolidation", none),
+    field<&D::control>("control", none),
     field<&P::cell>("cell", none),
-    field<&M::method>("method", none),
-    field<&M::residual>("residual", positive_to(1)),
-    field<&M::energy_change>("energy_change", {0, 1}),
-    field<&M::unjammed_energy>("unjammed_energy", {0, 1}),
-    field<&M::max_evaluations>("max_evaluations", {1, 1e9}),
-    field<&M::history>("history", {1, 1000}),
+    field<&M::method>("method", none, Group::minimiser),
+    field<&M::residual>("residual", positive_to(1), Group::minimiser),
+    field<&M::energy_change>("energy_change", {0, 1}, Group::minimiser),
+    field<&M::unjammed_energy>("unjammed_energy", {0, 1}, Group::minimiser),
+    field<&M::max_evaluations>("max_evaluations", {1, 1e9}, Group::minimiser),
+    field<&M::history>("history", {1, 1000}, Group::minimiser),
 };
 
 /// A key of an earlier version and its present name.

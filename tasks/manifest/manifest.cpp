@@ -8,18 +8,18 @@
 #include <iterator>
 #include <set>
 
-#include "tasks/json/hash.hpp"
-#include "tasks/json/input_error.hpp"
-#include "tasks/json/options.hpp"
-#include "tasks/json/parse.hpp"
-#include "tasks/json/sealed.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/hash.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/options.hpp"
+#include "tasks/io/parse.hpp"
+#include "tasks/io/sealed.hpp"
 #include "tasks/manifest/base.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tasks/manifest/particles.hpp"
-#include "tasks/manifest/shear.hpp"
+#include "tasks/manifest/shear_settings.hpp"
 #include "tasks/measure/quantity.hpp"
-#include "tasks/solids/mixture_json.hpp"
-#include "tasks/system/file.hpp"
+#include "tasks/packings/mixture_json.hpp"
 
 namespace isojam {
 namespace {
@@ -57,7 +57,7 @@ std::string read_name(const JsonPlace& place) {
   const auto allowed =
       fmt::format("1 to {} letters, digits, '.', '_' and '-', the first a letter or digit", longest_name);
   auto name = place.text(allowed);
-  if (!is_safe(name)) place.refuse("the name cannot serve as the name of a directory", allowed);
+  if (!is_safe(name)) place.refuse("the name cannot be used as the name of a directory", allowed);
   return name;
 }
 
@@ -67,7 +67,7 @@ void refuse_renamed(const JsonPlace& place) {
   for (const auto& item : place.value().items()) {
     const auto now = new_name(item.key());
     place.attempt([&] {
-      if (!now.empty()) place.at(item.key()).refuse(fmt::format("the key has a new name, \"{}\"", now));
+      if (!now.empty()) place.at(item.key()).refuse_with_remedy("the key was renamed", fmt::format("use \"{}\"", now));
     });
   }
 }
@@ -84,8 +84,8 @@ void check_own_seal(std::string_view text, const std::string& file) {
   try {
     check_seal(text, file);
   } catch (const InputError&) {
-    throw InputError({file, "/checksum", "the file has changed since isojam wrote it",
-                      "the file as it was written; in a manifest of your own, no checksum", ""});
+    throw InputError({file, "/checksum", "the file was changed after isojam wrote it", "", "",
+                      "restore it, or remove the checksum to use it as a manifest of your own"});
   }
 }
 
@@ -109,7 +109,8 @@ void read_sweep(const JsonPlace& place, const SolidDefinitions& definitions, Man
     std::set<std::string_view> taken;
     for (const auto& mixture : manifest.solids) {
       if (!taken.insert(to_string(mixture)).second)
-        list.refuse(fmt::format("two entries have the name {}", to_string(mixture)), "names that differ");
+        list.refuse_with_remedy(fmt::format("two entries have the name {}", to_string(mixture)),
+                                "give them different names");
     }
   });
   place.read("particles", [&](const JsonPlace& list) {
@@ -141,8 +142,7 @@ Replicates read_replicates(const JsonPlace& place) {
   Replicates replicates;
   if (!place.value().is_object()) {
     if (!place.value().is_number())
-      place.refuse(
-          "neither a number nor an object",
+      place.not_accepted(
           fmt::format("{}, or {{\"min\", \"max\", \"quantity\", \"half_width\"}}", integer_in(replicate_range)));
     replicates.min = replicates.max = static_cast<int>(place.integer(replicate_range));
     return replicates;
@@ -169,14 +169,15 @@ void read_group(const JsonPlace& root, const JsonPlace& place, Group group, Mani
     const std::string name(field.name);
     place.read_if_any(name, [&](const JsonPlace& value) {
       if (root.has("sweep") && root.at("sweep").has(name))
-        value.refuse("the parameter is swept as well", fmt::format("either here or at /sweep/{}", name));
+        value.refuse_with_remedy("the parameter is also swept",
+                                 fmt::format("set it either here or in /sweep/{}", name));
       read_field(value, field, manifest.protocol);
     });
   }
 }
 
 std::vector<Flag> read_exclude(const JsonPlace& place) {
-  auto flags = read_list(place, fmt::format("a list, each entry {}", quoted_list(all_names<Flag>)),
+  auto flags = read_list(place, fmt::format("a list, each entry {}", one_of(all_names<Flag>)),
                          [](const JsonPlace& entry) { return entry.choice<Flag>(); });
   std::sort(flags.begin(), flags.end());
   return flags;
@@ -192,7 +193,7 @@ void check_count(const JsonPlace& root, const Manifest& manifest) {
   double count = static_cast<double>(manifest.solids.size() * manifest.particles.size()) * manifest.replicates.max;
   for (const auto& swept : manifest.swept) count *= static_cast<double>(swept.values.size());
   if (count > most_replicates_in_all) {
-    root.at("sweep").refuse(fmt::format("the sweep makes {:.0f} replicates", count),
+    root.at("sweep").refuse(fmt::format("the sweep has {:.0f} replicates", count),
                             fmt::format("at most {:.0f}", most_replicates_in_all));
   }
 }
@@ -205,18 +206,19 @@ void check_goal(const JsonPlace& root, const Manifest& manifest) {
   if (needed && std::find(measures.begin(), measures.end(), *needed) == measures.end()) {
     root.at("replicates")
         .at("quantity")
-        .refuse(fmt::format("{} is not measured", quantity.name),
-                fmt::format("a quantity that is measured; this one is with \"{}\" in /measure", to_string(*needed)));
+        .refuse_with_remedy(fmt::format("{} is not measured", quantity.name),
+                            fmt::format("add \"{}\" to /measure", to_string(*needed)));
   }
 }
 
 void check_densities(const JsonPlace& root, const std::vector<OptionSet>& sets) {
   for (const auto& set : sets) {
     const auto& options = set.options;
-    if (options.initial_density >= options.max_density) {
+    if (options.compression.initial_density >= options.compression.max_density) {
       place_of_field(root, "protocol", "initial_density")
-          .refuse(fmt::format("initial_density {} does not lie below max_density {}", options.initial_density,
-                              options.max_density));
+          .refuse_with_remedy(fmt::format("initial_density {} is not below max_density {}",
+                                          options.compression.initial_density, options.compression.max_density),
+                              "decrease initial_density or increase max_density");
     }
   }
 }
@@ -249,7 +251,7 @@ void read_values(const JsonPlace& root, Manifest& manifest) {
   }
   manifest.measures = default_measures();
   root.read_if_any("measure", [&](const JsonPlace& place) {
-    manifest.measures = read_list(place, fmt::format("a list, each entry {}", quoted_list(all_names<Measure>)),
+    manifest.measures = read_list(place, fmt::format("a list, each entry {}", one_of(all_names<Measure>)),
                                   [](const JsonPlace& entry) { return entry.choice<Measure>(); });
     std::sort(manifest.measures.begin(), manifest.measures.end());
   });

@@ -38,8 +38,9 @@ void check_kinds(const JsonPlace& root, const Manifest& manifest) {
       if (*std::min_element(counts.begin(), counts.end()) > 0) continue;
       root.attempt([&] {
         place_of_particles(root, particles)
-            .refuse(fmt::format("of {} particles of {} none is of its rarest kind", particles, to_string(mixture)),
-                    fmt::format("{:.0f} or more", std::ceil(1 / rarest - 1e-9)));
+            .refuse_with_remedy(fmt::format("{} is too small for {}: its rarest kind would have no particle", particles,
+                                            to_string(mixture)),
+                                fmt::format("use at least {:.0f} particles", std::ceil(1 / rarest - 1e-9)));
       });
     }
   }
@@ -51,8 +52,8 @@ void check_particles(const JsonPlace& root, const Manifest& manifest, const std:
   check_kinds(root, manifest);
   double density = 0, start = 0;
   for (const auto& set : sets) {
-    density = std::max(density, set.options.max_density);
-    start = std::max(start, set.options.initial_density);
+    density = std::max(density, set.options.compression.max_density);
+    start = std::max(start, set.options.compression.initial_density);
   }
   const auto needs = [&](const Mixture& mixture) { return least_particles(mixture, density); };
   const auto neediest = *std::max_element(manifest.solids.begin(), manifest.solids.end(),
@@ -62,11 +63,10 @@ void check_particles(const JsonPlace& root, const Manifest& manifest, const std:
     const double allowed = densest(neediest, particles);
     root.attempt([&] {
       place_of_particles(root, particles)
-          .refuse(fmt::format("{} particles are too few for the periodic cell: at max_density {} one {} would touch "
-                              "two images of another",
-                              particles, density, to_string(neediest)),
-                  fmt::format("{} or more{}", needs(neediest),
-                              allowed > start ? fmt::format(", or a max_density of {} or less", allowed) : ""));
+          .refuse_with_remedy(
+              fmt::format("{} is too small for {} at max_density {}", particles, to_string(neediest), density),
+              fmt::format("use at least {} particles{}", needs(neediest),
+                          allowed > start ? fmt::format(" or set max_density to {} or less", allowed) : ""));
     });
   }
 }

@@ -2,13 +2,14 @@
 
 #include <vector>
 
-#include "tasks/json/place.hpp"
+#include "tasks/io/place.hpp"
 #include "tasks/manifest/manifest.hpp"
 
 namespace isojam {
 
-/// Refuses numbers of particles for which a kind of a mixture has no particle, or for which the cell would be too small
-/// at the greatest density. The error names the solid that needs most particles. `root`: of the manifest.
+/// Throws InputError if a number of particles is too small: a kind of a mixture would have no particle, or the cell at
+/// the largest density would be so small that a particle could touch two images of another one. The error names the
+/// solid that needs most particles. `root` is the whole manifest.
 void check_particles(const JsonPlace& root, const Manifest& manifest, const std::vector<OptionSet>& sets);
 
 }  // namespace isojam

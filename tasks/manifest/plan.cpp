@@ -6,10 +6,10 @@
 #include <cassert>
 #include <charconv>
 
-#include "tasks/json/hash.hpp"
+#include "tasks/io/hash.hpp"
 #include "tasks/manifest/fields.hpp"
-#include "tasks/manifest/shear.hpp"
-#include "tasks/solids/mixture_json.hpp"
+#include "tasks/manifest/shear_settings.hpp"
+#include "tasks/packings/mixture_json.hpp"
 
 namespace isojam {
 namespace {

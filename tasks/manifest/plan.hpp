@@ -12,34 +12,34 @@
 
 namespace isojam {
 
-/// Everything that one replicate depends on, as a value that can be run anywhere.
+/// Everything on which one replicate depends. It is a value type, so that a replicate can run in any thread or process.
 struct ReplicateSpec {
   Mixture solid = SolidKind::tetrahedron;
   int particles = 0;
-  Json parameters = Json::object();  ///< the other swept values of its sweep point
+  Json parameters = Json::object();  ///< values of the swept parameters other than solid and particles
   int replicate = 0;
   std::uint64_t seed = 0;  ///< of the manifest
   std::string manifest_digest;
-  std::string sweep_digest;  ///< of the manifest without its measures
+  std::string sweep_digest;  ///< digest of the manifest without its measures
   JamOptions options;
   std::vector<Measure> measures;
   MeasureOptions measuring;
   std::optional<Start> start{};
 };
 
-/// Identity of a sweep point: solid, particles and the other swept values. It does not depend on the position in the
-/// sweep.
+/// Text that identifies a sweep point by its solid, its number of particles and its swept parameters. It does not
+/// depend on the position of the point in the sweep.
 std::string point_text(const Mixture& solid, int particles, const Json& parameters);
 std::string point_text(const ReplicateSpec& spec);
 
-/// Every replicate that a manifest can ask for, in canonical order: by sweep point (solid, particles, parameters), then
-/// by replicate. Specifications are made on request, so a plan of any length costs nothing.
+/// The list of all replicates of a manifest, sorted by sweep point (solid, particles, parameters) and then by replicate
+/// number. A specification is made only when it is requested, so the length of a plan needs no memory.
 class Plan {
  public:
   explicit Plan(const Manifest& manifest);
 
   std::size_t points() const { return points_; }
-  int replicates() const { return manifest_.replicates.max; }  ///< maximum of each point
+  int replicates() const { return manifest_.replicates.max; }  ///< largest number of replicates of each sweep point
   std::size_t size() const { return points_ * static_cast<std::size_t>(replicates()); }
   const Manifest& manifest() const { return manifest_; }
   const std::string& manifest_digest() const { return digest_; }  ///< of the manifest
@@ -51,7 +51,7 @@ class Plan {
     std::size_t point;
     int replicate;
   };
-  /// Position of the replicate with that name; nullopt if the plan has none.
+  /// Position of the replicate with this name; nullopt if the plan does not contain it.
   std::optional<Place> place_of(std::string_view name) const;
 
  private:
@@ -59,19 +59,23 @@ class Plan {
   std::string digest_, sweep_digest_;
   std::vector<OptionSet> sets_;
   std::size_t points_;
-  std::map<std::string, std::size_t, std::less<>> point_of_prefix_;  ///< by the common prefix of its replicates' names
+  /// index of a sweep point, by the common prefix of the names of its replicates
+  std::map<std::string, std::size_t, std::less<>> point_of_prefix_;
 };
 
-/// A safe file name without extension: <solid>-N<particles>[-<parameter><value>]…-r<replicate>. A hash of the point
-/// replaces the parameters if they are too long.
+/// Name of a replicate, which is also a safe file name without extension:
+/// <solid>-N<particles>[-<parameter><value>]…-r<replicate>. If the parameters are too long, a hash of the sweep point
+/// replaces them.
 std::string replicate_name(const ReplicateSpec& spec);
 
-/// Random stream of (manifest seed, solid, particles, replicate, purpose). It is the same alone, in a sweep and with
-/// any number of threads. The other swept values are no part of it: replicates with the same number have the same
-/// initial configuration at each of them, so that the spread between packings does not hide the effect of a parameter.
+/// Random stream of a replicate. It depends on the seed of the manifest, the solid, the number of particles, the
+/// replicate number and the purpose. It is the same if the replicate runs alone, in a sweep, or with any number of
+/// threads. It does not depend on the other swept parameters. Replicates with the same number therefore have the same
+/// initial configuration for all values of a parameter, so that the spread between packings does not hide the effect of
+/// the parameter.
 RandomStream replicate_stream(const ReplicateSpec& spec, Purpose purpose);
 
-/// The specification as written to a record.
+/// The specification, as it is written to a record.
 Json to_json(const ReplicateSpec& spec);
 
 }  // namespace isojam

@@ -24,7 +24,7 @@ std::optional<int> variable(const char* name) {
   const char* text = std::getenv(name);
   if (!text || !*text) return std::nullopt;
   const auto value = whole_number(text);
-  if (!value) throw std::invalid_argument(fmt::format("{}={} is no whole number", name, text));
+  if (!value) throw std::invalid_argument(fmt::format("{}={} is not an integer", name, text));
   return value;
 }
 
@@ -49,9 +49,8 @@ Shard shard_of_environment() {
   const bool gaps = last && count && step > 0 && (*last - first) / step + 1 != *count;
   if (!count || *count < 1 || *count > most_shards || index < 0 || index >= *count || gaps)
     throw std::invalid_argument(
-        "SLURM_ARRAY_TASK_ID, _COUNT, _MIN, _MAX and _STEP do not describe an array of evenly spaced tasks: give "
-        "--shard "
-        "I/N");
+        "SLURM_ARRAY_TASK_ID, _COUNT, _MIN, _MAX and _STEP do not describe an array of evenly spaced tasks; choose the "
+        "part with --shard I/N");
   return {index, *count};
 }
 

@@ -7,13 +7,13 @@
 #include <filesystem>
 
 #include "engine/packing/energy.hpp"
+#include "tasks/io/file.hpp"
 #include "tasks/manifest/manifest.hpp"
-#include "tasks/system/file.hpp"
 
 namespace isojam {
 namespace {
 
-constexpr std::string_view allowed_file = "the path of a packing: isojam's own JSON, GSD or extended XYZ";
+constexpr std::string_view allowed_file = "the path of a packing in GSD, extended XYZ or the JSON of isojam";
 /// In units of the smaller particle. Deeper overlaps are no packing, and no minimiser can recover the intended one.
 constexpr double deepest_overlap = 0.5;
 constexpr std::size_t most_files = 10000;
@@ -25,7 +25,8 @@ StartFile read_file_place(const JsonPlace& place) {
   // The manifest's own path may contain bytes that are invalid in JSON.
   constexpr auto ignored = Json::error_handler_t::ignore;
   if (Json::parse(Json(whole).dump(-1, ' ', false, ignored)) != Json(whole))
-    place.refuse("the path of the file is no UTF-8, so that no record could name it", "a path in UTF-8");
+    place.refuse_with_remedy("the path is not valid UTF-8, so records could not name it",
+                             "rename the file or its folder");
   return {whole, -1, "", {}};
 }
 
@@ -35,12 +36,12 @@ void refuse_overlaps(const JsonPlace& place, const Packing& packing) {
       const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
       const double least = std::min(packing.solids[a].volume(), packing.solids[b].volume());
       if (contact.overlap.volume <= deepest_overlap * least) continue;
-      place.refuse(fmt::format("particles {} and {} overlap by {:.0f} % of the smaller", a, b,
+      place.refuse(fmt::format("particles {} and {} overlap by {:.0f} % of the volume of the smaller", a, b,
                                100 * contact.overlap.volume / least),
-                   "a packing whose particles overlap by no more than half of one");
+                   fmt::format("overlaps of at most {:.0f} % of the smaller", 100 * deepest_overlap));
     }
   } catch (const std::invalid_argument& error) {
-    place.refuse(error.what(), fmt::format("a cell whose translations are longer than {}, two diameters",
+    place.refuse(error.what(), fmt::format("lattice translations longer than {} (two diameters)",
                                            least_side(packing.solids.widest())));
   }
 }
@@ -52,24 +53,27 @@ void load_file(const JsonPlace& place, StartFile& file, const Manifest& manifest
   } catch (const NoPackingFile& error) {
     place.refuse(fmt::format("{}: {}", file.path, error.what()), std::string(allowed_file));
   } catch (const FileError& error) {
-    if (error.reason() == FileError::Reason::shortage) throw;  // a resource failure, not an error of the manifest
+    if (error.reason() == FileError::Reason::resource_failure)
+      throw;  // a resource failure, not an error of the manifest
     place.refuse(error.what(), std::string(allowed_file));
   }
   if (!expected.empty() && file.digest != expected)
-    place.refuse(fmt::format("{}: the file has changed", file.path), "the file that the first replicates began from");
+    place.refuse_with_remedy(fmt::format("{}: the file has changed since the first run", file.path),
+                             "restore it, or choose another results directory");
 }
 
 void check_density(const JsonPlace& place, const Start& start, const Packing& packing, const Manifest& manifest) {
   const double density = start.density.value_or(packing.density());
   for (const auto& set : option_sets(manifest)) {
-    if (density < set.options.max_density) continue;
-    place.refuse(fmt::format("it begins at density {:.6g}, max_density is {}", density, set.options.max_density),
-                 "a density below max_density");
+    if (density < set.options.compression.max_density) continue;
+    place.refuse_with_remedy(fmt::format("the initial density {:.6g} is not below max_density {}", density,
+                                         set.options.compression.max_density),
+                             "increase max_density, or set a lower /start/density");
   }
   if (packing.cell.is_cube()) return;
   for (const auto& set : option_sets(manifest)) {
     if (set.options.cell == CellShape::free) continue;
-    place.refuse("its cell is no cube", "a packing in a cube, or /protocol/cell \"free\"");
+    place.refuse_with_remedy("the cell of the packing is not a cube", "set /protocol/cell to \"free\"");
   }
 }
 
@@ -80,8 +84,7 @@ Start read_start(const JsonPlace& place) {
   Start start;
   const auto packing = place.at("packing");
   if (packing.value().is_array()) {
-    const auto count = packing.expect_list("paths of packings");
-    if (count < 1 || count > most_files) packing.refuse("the list has another length", "one or more paths");
+    const auto count = packing.expect_entries(most_files, fmt::format("1 to {} paths", most_files));
     for (std::size_t k = 0; k < count; ++k) start.files.push_back(read_file_place(packing.at(k)));
   } else {
     start.files.push_back(read_file_place(packing));
@@ -90,8 +93,7 @@ Start read_start(const JsonPlace& place) {
   for (auto& file : start.files) file.frame = frame;
   if (place.has("digests")) {
     const auto digests = place.at("digests");
-    if (digests.expect_list("one for each file") != start.files.size())
-      digests.refuse("the list has another length", "one for each file");
+    digests.expect_length(start.files.size(), "one digest for each file");
     for (std::size_t k = 0; k < start.files.size(); ++k) start.files[k].digest = digests.at(k).text();
   }
   if (place.has("density")) start.density = place.at("density").number({0, 1, true});
@@ -113,9 +115,10 @@ void load_start(const JsonPlace& place, Manifest& manifest) {
   auto& start = *manifest.start;
   const auto packing = place.at("packing");
   if (manifest.solids.size() != 1 || manifest.particles.size() != 1)
-    place.refuse("a start is of particles of one kind and number", "one entry in /sweep/solid and in /sweep/particles");
+    place.refuse_with_remedy("a start needs exactly one solid and one number of particles",
+                             "give one entry in /sweep/solid and one in /sweep/particles");
   if (static_cast<int>(start.files.size()) < manifest.replicates.max)
-    packing.refuse(fmt::format("{} files for {} replicates", start.files.size(), manifest.replicates.max),
+    packing.refuse(fmt::format("too few files ({}) for {} replicates", start.files.size(), manifest.replicates.max),
                    "a file for each replicate");
   for (std::size_t k = 0; k < start.files.size(); ++k) {
     auto& file = start.files[k];
@@ -123,7 +126,7 @@ void load_start(const JsonPlace& place, Manifest& manifest) {
     const auto here = packing.value().is_array() ? packing.at(k) : packing;
     load_file(here, file, manifest);
     check_density(here, start, *file.packing, manifest);
-    refuse_overlaps(here, begun_from(start, static_cast<int>(k)));
+    refuse_overlaps(here, initial_packing(start, static_cast<int>(k)));
   }
 }
 
@@ -134,7 +137,7 @@ void load_start(Manifest& manifest) {
   load_start(JsonPlace(document, manifest.name).at("start"), manifest);
 }
 
-Packing begun_from(const Start& start, int replicate) {
+Packing initial_packing(const Start& start, int replicate) {
   const Packing& packing = *start.files[static_cast<std::size_t>(replicate)].packing;
   return start.density ? strained_to(packing, *start.density) : packing;
 }

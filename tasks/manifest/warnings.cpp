@@ -31,7 +31,7 @@ constexpr double scatter = 0.03;
 
 /// Methods other than Newton's use this many evaluations at Δφ = 0.008 and still end with residuals of 3e-4 and more.
 /// At 0.03 most reach 1e-6.
-constexpr long spent_in_vain = 60000;
+constexpr long insufficient_evaluations = 60000;
 constexpr double near_jamming = 0.01, residual_left = 3e-4;
 
 /// Tetrahedra that are relaxed less during compression jam at lower densities: docs/protocol.md.
@@ -43,7 +43,7 @@ class Warnings {
 
   /// Adds the first warning of a key, or the first for each solid if it depends on the solid.
   void add(std::string_view name, const std::string& solid, const std::string& text) {
-    if (!told_.emplace(name, solid).second) return;
+    if (!warned_.emplace(name, solid).second) return;
     const bool swept = std::any_of(manifest_.swept.begin(), manifest_.swept.end(),
                                    [&](const SweptField& field) { return field.name == name; });
     const auto group = swept ? std::string_view("sweep") : to_string(find_field(name)->group);
@@ -54,26 +54,28 @@ class Warnings {
 
  private:
   const Manifest& manifest_;
-  std::set<std::pair<std::string, std::string>> told_;
+  std::set<std::pair<std::string, std::string>> warned_;
   std::vector<std::string> lines_;
 };
 
 /// Warns if φ_J will have no states to be fitted to.
 void look_at_window(const JamOptions& options, Warnings& warnings) {
   // The expansion ends with a state within final_distance. The previous state may be one step farther.
-  const double last = options.final_distance;
-  const double before = std::min(last / (1 - options.step_fraction), last + options.longest_step);
-  if (last >= options.fit_window) {
-    warnings.add("final_distance", "",
-                 fmt::format("{} is not below fit_window {}: no state would lie in the window, and phi_j would be "
-                             "fitted to states outside it",
-                             last, options.fit_window));
-  } else if (before >= options.fit_window) {
+  const double last = options.decompression.final_distance;
+  const double before =
+      std::min(last / (1 - options.decompression.step_fraction), last + options.decompression.longest_step);
+  if (last >= options.decompression.fit_window) {
+    warnings.add(
+        "final_distance", "",
+        fmt::format("{} is not below fit_window {}: no state would be in the window, and phi_j would be fitted "
+                    "to states outside it; increase fit_window",
+                    last, options.decompression.fit_window));
+  } else if (before >= options.decompression.fit_window) {
     warnings.add(
         "fit_window", "",
-        fmt::format("{} may hold one state alone, and phi_j is fitted to two or more: with step_fraction {} the "
-                    "last two lie up to {:.3g} and {} above jamming",
-                    options.fit_window, options.step_fraction, before, last));
+        fmt::format("{} may contain only one state, but phi_j is fitted to two or more: with step_fraction {} the "
+                    "last two states are up to {:.3g} and {} above jamming; increase fit_window",
+                    options.decompression.fit_window, options.decompression.step_fraction, before, last));
   }
 }
 
@@ -82,25 +84,25 @@ void look_at_minimiser(const JamOptions& options, const std::vector<Flag>& exclu
   if (minimise.energy_change > 0 && std::find(exclude.begin(), exclude.end(), Flag::not_balanced) != exclude.end()) {
     warnings.add(
         "energy_change", "",
-        fmt::format("{} lets states pass that are not balanced, and /exclude leaves such replicates out of every "
-                    "mean: few or none may be left",
+        fmt::format("{} accepts states that are not balanced, and /exclude removes such replicates from all means; few "
+                    "or none may remain",
                     minimise.energy_change));
   }
   const bool second_order = minimise.method == Method::newton || minimise.method == Method::multipliers;
   if (!second_order && minimise.energy_change == 0 && minimise.residual < residual_left &&
-      minimise.max_evaluations <= spent_in_vain && options.final_distance < near_jamming) {
-    warnings.add(
-        "method", "",
-        fmt::format("{} does not reach residual {} in {} evaluations as near jamming as final_distance {}; "
-                    "multipliers does",
-                    to_string(minimise.method), minimise.residual, minimise.max_evaluations, options.final_distance));
+      minimise.max_evaluations <= insufficient_evaluations && options.decompression.final_distance < near_jamming) {
+    warnings.add("method", "",
+                 fmt::format("{} does not reach residual {} in {} evaluations at final_distance {}; use multipliers",
+                             to_string(minimise.method), minimise.residual, minimise.max_evaluations,
+                             options.decompression.final_distance));
   }
-  for (const auto& [name, energy] : {std::pair("consolidation_energy", options.consolidation_energy),
+  for (const auto& [name, energy] : {std::pair("consolidation_energy", options.compression.unjammed_energy),
                                      std::pair("unjammed_energy", minimise.unjammed_energy)}) {
-    if (energy < options.target_energy) continue;
+    if (energy < options.compression.target_energy) continue;
     warnings.add(name, "",
-                 fmt::format("{} is not below target_energy {}: a state at the target would count as unjammed", energy,
-                             options.target_energy));
+                 fmt::format("{} is not below target_energy {}: a state at the target would count as unjammed; "
+                             "decrease it",
+                             energy, options.compression.target_energy));
   }
 }
 
@@ -108,51 +110,54 @@ void look_at_minimiser(const JamOptions& options, const std::vector<Flag>& exclu
 void look_at_density(const JamOptions& options, const Known& solid, Warnings& warnings) {
   const std::string name(to_string(solid.kind));
   // With the other meaning of the target the consolidation ends just above jamming.
-  const double distance =
-      options.target_before_relaxation ? 0 : nearest::pow(options.target_energy / solid.stiffness, 1.0 / 6);
+  const double distance = options.compression.target_before_relaxation
+                              ? 0
+                              : nearest::pow(options.compression.target_energy / solid.stiffness, 1.0 / 6);
   const double needed = solid.density + distance;
   const auto where = distance == 0 ? fmt::format("{} packings jam at about {:.3g}", name, solid.density)
                                    : fmt::format(
-                                         "{} packings jam at about {:.3g} and have target_energy {} from about "
-                                         "{:.2f} on",
-                                         name, solid.density, options.target_energy, needed);
+                                         "{} packings jam at about {:.3g} and reach target_energy {} at about "
+                                         "{:.2f}",
+                                         name, solid.density, options.compression.target_energy, needed);
   // The margin is needed because a density that suffices on average is too low for some packings. Jamming itself is
   // certain enough without a margin.
-  if (options.max_density < needed + (distance == 0 ? 0 : scatter))
+  if (options.compression.max_density < needed + (distance == 0 ? 0 : scatter))
     warnings.add("max_density", name,
-                 fmt::format("{} is too low{}: {}", options.max_density,
-                             options.max_density < needed ? "" : " for some packings", where));
-  const double reached = options.initial_density + (options.max_steps - 1) * options.consolidation_step;
+                 fmt::format("{} is too low{}: {}; increase it", options.compression.max_density,
+                             options.compression.max_density < needed ? "" : " for some packings", where));
+  const double reached = options.compression.initial_density + (options.max_steps - 1) * options.compression.step;
   if (reached < needed - scatter) {
-    warnings.add("max_steps", name,
-                 fmt::format("{} strain steps of {} lead from density {} to {:.2f} at most: {}", options.max_steps,
-                             options.consolidation_step, options.initial_density, reached, where));
+    warnings.add(
+        "max_steps", name,
+        fmt::format("{} strain steps of {} from density {} reach at most {:.2f}: {}; increase max_steps",
+                    options.max_steps, options.compression.step, options.compression.initial_density, reached, where));
   }
-  if (distance > 0 && distance <= options.final_distance) {
+  if (distance > 0 && distance <= options.decompression.final_distance) {
     warnings.add(
         "target_energy", name,
-        fmt::format("at {} {} packings are about {:.2g} above jamming: expansion to final_distance {} would end "
-                    "where it begins",
-                    options.target_energy, name, distance, options.final_distance));
+        fmt::format("at {} {} packings are only about {:.2g} above jamming: the decompression to final_distance {} "
+                    "would have no step; increase target_energy",
+                    options.compression.target_energy, name, distance, options.decompression.final_distance));
   }
 }
 
 void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warnings) {
   const std::string name(to_string(solid.kind));
   look_at_density(options, solid, warnings);
-  const double last = solid.stiffness * nearest::pow(options.final_distance, 6);
+  const double last = solid.stiffness * nearest::pow(options.decompression.final_distance, 6);
   // Multipliers estimate the energy themselves.
   if (options.minimise.method != Method::multipliers && options.minimise.unjammed_energy >= last) {
     warnings.add("unjammed_energy", name,
-                 fmt::format("{} is not below the E/N of {} packings at final_distance {}, about {:.1g}: they would "
-                             "count as unjammed",
-                             options.minimise.unjammed_energy, name, options.final_distance, last));
+                 fmt::format("{} is not below the E/N of {} packings at final_distance {}, which is about {:.1g}: they "
+                             "would count as unjammed; decrease it",
+                             options.minimise.unjammed_energy, name, options.decompression.final_distance, last));
   }
-  if (solid.kind == SolidKind::tetrahedron && options.consolidation == Consolidation::relaxed &&
-      options.consolidation_evaluations < relaxed_evaluations) {
+  if (solid.kind == SolidKind::tetrahedron && options.compression.relaxation == Consolidation::relaxed &&
+      options.compression.evaluations < relaxed_evaluations) {
     warnings.add("consolidation_evaluations", name,
-                 fmt::format("{} are too few for tetrahedra, which then jam at lower densities: {} or more",
-                             options.consolidation_evaluations, relaxed_evaluations));
+                 fmt::format("{} evaluations are too few for tetrahedra, which then jam at lower densities; use at "
+                             "least {}",
+                             options.compression.evaluations, relaxed_evaluations));
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace isojam {
 
-/// Settings that are allowed but are known to give no good result. Each line begins with its JSON pointer. For a sweep
-/// only the first value concerned is named.
+/// Warnings about settings that are allowed but cannot give a good result. Each text begins with the JSON pointer of
+/// the setting. If several values of a sweep have the same problem, only the first one is named.
 std::vector<std::string> warnings_of(const Manifest& manifest);
 
 }  // namespace isojam

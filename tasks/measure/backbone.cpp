@@ -2,7 +2,7 @@
 
 #include "engine/rigidity/rigidity.hpp"
 #include "engine/vibration/mode_statistics.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {

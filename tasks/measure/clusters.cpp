@@ -1,6 +1,6 @@
 #include "engine/analysis/cluster_statistics.hpp"
 #include "engine/packing/energy.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {

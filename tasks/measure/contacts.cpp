@@ -8,27 +8,29 @@
 #include "engine/analysis/order.hpp"
 #include "engine/packing/energy.hpp"
 #include "tasks/measure/flag.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {
 
 constexpr std::string_view per_particle = "per particle";
-constexpr Quantity Z{"Z", "/Z", main_group, per_particle, "Z"};
-constexpr Quantity Z_ff{"Z_ff", "/Z_ff", main_group, per_particle, "Z_{ff}"};
-constexpr Quantity Z_ef{"Z_ef", "/Z_ef", main_group, per_particle, "Z_{ef}"};
-constexpr Quantity Z_l{"Z_l", "/Z_l", main_group, per_particle, "Z_l"};
-constexpr Quantity C{"C", "/C", main_group, per_particle, "C"};
-constexpr Quantity Z_ff_gap{"Z_ff_gap", "/Z_ff_gap", contact_group, per_particle, "Z_{ff}^{gap}"};
-constexpr Quantity Z_ff_fixed{"Z_ff_fixed", "/fixed_cutoffs/Z_ff", contact_group, per_particle, "Z_{ff}^{fixed}"};
-constexpr Quantity Z_ef_fixed{"Z_ef_fixed", "/fixed_cutoffs/Z_ef", contact_group, per_particle, "Z_{ef}^{fixed}"};
-constexpr Quantity Z_l_fixed{"Z_l_fixed", "/fixed_cutoffs/Z_l", contact_group, per_particle, "Z_l^{fixed}"};
-constexpr Quantity C_fixed{"C_fixed", "/fixed_cutoffs/C", contact_group, per_particle, "C^{fixed}"};
+constexpr Quantity Z{"Z", "/contacts/Z", main_group, per_particle, "Z"};
+constexpr Quantity Z_ff{"Z_ff", "/contacts/Z_ff", main_group, per_particle, "Z_{ff}"};
+constexpr Quantity Z_ef{"Z_ef", "/contacts/Z_ef", main_group, per_particle, "Z_{ef}"};
+constexpr Quantity Z_l{"Z_l", "/contacts/Z_l", main_group, per_particle, "Z_l"};
+constexpr Quantity C{"C", "/contacts/C", main_group, per_particle, "C"};
+constexpr Quantity Z_ff_gap{"Z_ff_gap", "/contacts/Z_ff_gap", contact_group, per_particle, "Z_{ff}^{gap}"};
+constexpr Quantity Z_ff_fixed{"Z_ff_fixed", "/contacts/fixed_cutoffs/Z_ff", contact_group, per_particle,
+                              "Z_{ff}^{fixed}"};
+constexpr Quantity Z_ef_fixed{"Z_ef_fixed", "/contacts/fixed_cutoffs/Z_ef", contact_group, per_particle,
+                              "Z_{ef}^{fixed}"};
+constexpr Quantity Z_l_fixed{"Z_l_fixed", "/contacts/fixed_cutoffs/Z_l", contact_group, per_particle, "Z_l^{fixed}"};
+constexpr Quantity C_fixed{"C_fixed", "/contacts/fixed_cutoffs/C", contact_group, per_particle, "C^{fixed}"};
 constexpr std::string_view kind_group = "kinds of a mixture";
-constexpr Quantity Z_1{"Z_1", "/kind_1/Z", kind_group, per_particle, "Z_1"};
-constexpr Quantity Z_2{"Z_2", "/kind_2/Z", kind_group, per_particle, "Z_2"};
-constexpr Quantity Z_3{"Z_3", "/kind_3/Z", kind_group, per_particle, "Z_3"};
-constexpr Quantity Z_4{"Z_4", "/kind_4/Z", kind_group, per_particle, "Z_4"};
+constexpr Quantity Z_1{"Z_1", "/contacts/kind_1/Z", kind_group, per_particle, "Z_1"};
+constexpr Quantity Z_2{"Z_2", "/contacts/kind_2/Z", kind_group, per_particle, "Z_2"};
+constexpr Quantity Z_3{"Z_3", "/contacts/kind_3/Z", kind_group, per_particle, "Z_3"};
+constexpr Quantity Z_4{"Z_4", "/contacts/kind_4/Z", kind_group, per_particle, "Z_4"};
 constexpr std::array quantities{Z,          Z_ff,      Z_ef,    Z_l, C,   Z_ff_gap, Z_ff_fixed,
                                 Z_ef_fixed, Z_l_fixed, C_fixed, Z_1, Z_2, Z_3,      Z_4};
 
@@ -76,9 +78,9 @@ void put_numbers(Json& json, const ContactNumbers& n, const Known& known) {
 }
 
 /// For a mixture: the numbers of each kind, and the basis of the classes for each pair of shapes.
-void put_mixture(Json& state, const ContactAnalysis& analysis, const Known& known) {
+void put_mixture(Json& contacts, const ContactAnalysis& analysis, const Known& known) {
   for (std::size_t k = 0; k < analysis.of_kinds.size(); ++k)
-    put_numbers(state["kind_" + std::to_string(k + 1)], analysis.of_kinds[k], known);
+    put_numbers(contacts["kind_" + std::to_string(k + 1)], analysis.of_kinds[k], known);
   for (const auto& pair : analysis.pairs) {
     Json json;
     json["solids"] = {pair.a->name(), pair.b->name()};
@@ -87,7 +89,7 @@ void put_mixture(Json& state, const ContactAnalysis& analysis, const Known& know
     json["edge_face_fit"] = fit_record(pair.cutoffs.edge_face);
     json["face_face_gap"] = gap_record(pair.cutoffs.face_face_gap);
     json["edge_face_gap"] = gap_record(pair.cutoffs.edge_face_gap);
-    state["shape_pairs"].push_back(std::move(json));
+    contacts["shape_pairs"].push_back(std::move(json));
   }
 }
 
@@ -97,7 +99,8 @@ Json contact_record(const ContactAnalysis& analysis) {
   Json state;
   const auto& n = analysis.numbers;
   put(state, Z, n.Z);
-  put_number(state, "Q6", analysis.Q6);
+  Json& contacts = state["contacts"];
+  put_number(contacts, "Q6", analysis.Q6);
   // Without a fitted cut-off there is no classification: numbers that depend on it are absent rather than zero.
   const auto why = undecided(analysis);
   const auto put_known = [&](const Quantity& quantity, double value, bool known) {
@@ -107,15 +110,15 @@ Json contact_record(const ContactAnalysis& analysis) {
   put_known(Z_ef, n.Z_ef, !why);
   put_known(Z_l, n.Z_l, !why);
   put_known(C, n.C, !why);
-  state["face_face_fit"] = fit_record(analysis.face_face);
-  state["edge_face_fit"] = fit_record(analysis.edge_face);
-  state["face_face_gap"] = gap_record(analysis.face_face_gap);
-  state["edge_face_gap"] = gap_record(analysis.edge_face_gap);
+  contacts["face_face_fit"] = fit_record(analysis.face_face);
+  contacts["edge_face_fit"] = fit_record(analysis.edge_face);
+  contacts["face_face_gap"] = gap_record(analysis.face_face_gap);
+  contacts["edge_face_gap"] = gap_record(analysis.edge_face_gap);
   put(state, Z_ff_gap, analysis.Z_ff_gap, to_string(analysis.face_face_gap.verdict));
-  put_optional(state, "Z_ff_disagreement", analysis.disagreement(), "one of the methods gives no cut-off");
+  put_optional(contacts, "Z_ff_disagreement", analysis.disagreement(), "one of the methods gives no cut-off");
   put_fixed(state, analysis.fixed_cutoffs);
-  state["pooled_over"] = analysis.pooled_over;
-  put_mixture(state, analysis, {analysis.face_face.has_cutoff(), !why, why.value_or("")});
+  contacts["pooled_over"] = analysis.pooled_over;
+  put_mixture(contacts, analysis, {analysis.face_face.has_cutoff(), !why, why.value_or("")});
   return state;
 }
 
@@ -274,7 +277,7 @@ Measurement measure_contacts(const JamResult& jam, const MeasureOptions&) {
     measurement.states.push_back(contact_record(classified.analysis));
     if (k != nearest) continue;
     measurement.flags = contact_flags(classified.analysis);
-    measurement.states.back()["angles"] = angle_record(jam.states[k], classified);
+    measurement.states.back()["contacts"]["angles"] = angle_record(jam.states[k], classified);
   }
   return measurement;
 }

@@ -2,7 +2,7 @@
 
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "engine/vibration/stability.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {

@@ -11,12 +11,12 @@ namespace isojam {
 /// Warnings in the record of a replicate that did not fail.
 enum class Flag : std::uint8_t {
   crystalline,         ///< Q6 of the contacts has the value of a crystal
-  not_balanced,        ///< minimiser.energy_change accepted states with unbalanced forces
+  not_balanced,        ///< states whose forces do not balance were accepted because of minimiser.energy_change
   goal_not_reached,    ///< the decompression ended farther from jamming than requested
-  outside_fit_window,  ///< φ_J was fitted to states farther from jamming than requested
+  outside_fit_window,  ///< φ_J was fitted to two states, because fewer than two are in the fit window
   not_stable,          ///< some state has a negative mode, or a number of zero modes other than three
   classes_undecided,   ///< a fit of the alignment angles gave no cut-off
-  classes_doubtful     ///< a fit gave a cut-off that its curve does not support
+  classes_doubtful     ///< a fit gave a cut-off, but the fitted curve does not support it
 };
 template <>
 inline constexpr std::array enum_names<Flag>{EnumName{Flag::crystalline, "crystalline"},
@@ -27,7 +27,7 @@ inline constexpr std::array enum_names<Flag>{EnumName{Flag::crystalline, "crysta
                                              EnumName{Flag::classes_undecided, "classes_undecided"},
                                              EnumName{Flag::classes_doubtful, "classes_doubtful"}};
 
-/// Flags excluded from means by default: means are for disordered packings in equilibrium.
+/// Flags that exclude a replicate from means by default, because means are for disordered packings in equilibrium.
 inline std::vector<Flag> usually_excluded() { return {Flag::crystalline, Flag::not_balanced}; }
 
 }  // namespace isojam

@@ -5,7 +5,7 @@
 
 #include "engine/analysis/contact_force.hpp"
 #include "engine/arithmetic/elementary.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -79,19 +79,19 @@ void put_forces(Json& state, const Packing& packing, const ClassifiedContacts& c
   double sum = 0;
   for (const auto& force : forces) sum += force.force_a.norm();
   const double mean = forces.empty() ? 0 : sum / static_cast<double>(forces.size());
-  const bool told = !undecided(classified.analysis) && mean > 0;
+  const bool classified_all = !undecided(classified.analysis) && mean > 0;
   long few = 0;
   std::vector<Histogram> by_class(3, Histogram(least_force, force_bins));
   for (std::size_t k = 0; k < forces.size() && mean > 0; ++k) {
     const double f = forces[k].force_a.norm() / mean;
     few += f < weak;
-    by_class[told ? static_cast<std::size_t>(classified.analysis.classes[k]) : 2].add(f);
+    by_class[classified_all ? static_cast<std::size_t>(classified.analysis.classes[k]) : 2].add(f);
   }
   put(state, weak_forces,
       mean > 0 ? std::optional(static_cast<double>(few) / static_cast<double>(forces.size())) : std::nullopt,
       "nothing touches");
   Json& json = state["gaps"];
-  json["classes_told"] = told;
+  json["classes_told"] = classified_all;
   json["log10_force"] = edges(least_force, force_bins);
   json["face_face"] = by_class[0].record();
   json["edge_face"] = by_class[1].record();

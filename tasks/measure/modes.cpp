@@ -6,7 +6,7 @@
 #include "engine/vibration/mode_statistics.hpp"
 #include "engine/vibration/stability.hpp"
 #include "tasks/measure/flag.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -20,10 +20,10 @@ constexpr Quantity p_l{"p_l", "/modes/lowest/participation", mode_group, "1", "p
 constexpr Quantity p_h{"p_h", "/modes/highest/participation", mode_group, "1", "p_h"};
 constexpr Quantity face_face_amplitude{"face_face_amplitude", "/modes/face_face_amplitude", mode_group, "1", "a_{ff}"};
 constexpr Quantity face_face_particles{"face_face_particles", "/modes/face_face_particles", mode_group, "1", "n_{ff}"};
-constexpr Quantity x_omega_l{"x_omega_l",     "/mode_scaling/omega_l/exponent", exponent_group, "1",
-                             "x_{\\omega_l}", Quantity::Of::replicate};
-constexpr Quantity x_omega_h{"x_omega_h",     "/mode_scaling/omega_h/exponent", exponent_group, "1",
-                             "x_{\\omega_h}", Quantity::Of::replicate};
+constexpr Quantity x_omega_l{
+    "x_omega_l", "/modes/scaling/omega_l/exponent", exponent_group, "1", "x_{\\omega_l}", Quantity::Of::replicate};
+constexpr Quantity x_omega_h{
+    "x_omega_h", "/modes/scaling/omega_h/exponent", exponent_group, "1", "x_{\\omega_h}", Quantity::Of::replicate};
 constexpr std::array quantities{omega_l,   omega_h,  zero_modes,          negative_modes,
                                 p_l,       p_h,      face_face_amplitude, face_face_particles,
                                 x_omega_l, x_omega_h};

@@ -1,6 +1,6 @@
 #include "engine/vibration/moduli.hpp"
 #include "engine/packing/energy.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -11,9 +11,9 @@ constexpr Quantity G_min{"G_min", "/moduli/G_min", group, "Y", "G_{min}"};
 constexpr Quantity G_2{"G_2", "/moduli/G_2", group, "Y", "G_2"}, G_3{"G_3", "/moduli/G_3", group, "Y", "G_3"};
 constexpr Quantity G_4{"G_4", "/moduli/G_4", group, "Y", "G_4"};
 constexpr Quantity G_max{"G_max", "/moduli/G_max", group, "Y", "G_{max}"};
-constexpr Quantity x_E{"x_E", "/moduli_scaling/E/exponent", exponent_group, "1", "x_E", Quantity::Of::replicate};
-constexpr Quantity x_p{"x_p", "/moduli_scaling/p/exponent", exponent_group, "1", "x_p", Quantity::Of::replicate};
-constexpr Quantity x_K{"x_K", "/moduli_scaling/K/exponent", exponent_group, "1", "x_K", Quantity::Of::replicate};
+constexpr Quantity x_E{"x_E", "/moduli/scaling/E/exponent", exponent_group, "1", "x_E", Quantity::Of::replicate};
+constexpr Quantity x_p{"x_p", "/moduli/scaling/p/exponent", exponent_group, "1", "x_p", Quantity::Of::replicate};
+constexpr Quantity x_K{"x_K", "/moduli/scaling/K/exponent", exponent_group, "1", "x_K", Quantity::Of::replicate};
 constexpr std::array quantities{K, G, G_min, G_2, G_3, G_4, G_max, x_E, x_p, x_K};
 
 constexpr std::string_view no_response = "the Hessian is not positive definite: no response is defined";

@@ -7,7 +7,7 @@
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "engine/vibration/mode_statistics.hpp"
 #include "engine/vibration/stability.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -114,7 +114,7 @@ Modes modes_of(const Packing& packing, PackingEnergy& energy, int wanted) {
 }
 
 /// Support of the modes of a state that double precision resolves.
-struct Held {
+struct PrestressSupport {
   int resolved = 0;
   std::array<int, normal_shares.size()> by_second{};  ///< by share of normals
   std::array<int, thresholds.size()> by_prestress{};  ///< by threshold of stiff tilts
@@ -126,47 +126,47 @@ constexpr int listed_modes = 50;
 
 constexpr auto chosen = std::find(thresholds.begin(), thresholds.end(), threshold) - thresholds.begin();
 
-Held held_by(const StateStiffness& stiffness, const Modes& modes) {
-  Held held;
+PrestressSupport support_by(const StateStiffness& stiffness, const Modes& modes) {
+  PrestressSupport support;
   for (Eigen::Index k = 0; k < modes.set.size(); ++k) {
     const double value = modes.set.eigenvalues[k];
     if (value <= modes.tolerance) continue;
     StiffnessShares shares;
     for (std::size_t t = 0; t < thresholds.size(); ++t) {
       const auto here = stiffness_shares(stiffness.contacts, stiffness.pairs, thresholds[t], modes.set.vectors.col(k));
-      held.by_prestress[t] += here.normal + here.tilt < value / 2;
+      support.by_prestress[t] += here.normal + here.tilt < value / 2;
       if (t == chosen) shares = here;
     }
     for (std::size_t t = 0; t < normal_shares.size(); ++t)
-      held.by_second[t] += shares.normal < normal_shares[t] * value;
-    held.worst_sum = std::max(held.worst_sum, std::abs(shares.total() - value) / value);
-    if (shares.normal + shares.tilt < value / 2) held.sum_of_logs += nearest::log(value);
-    if (held.resolved++ >= listed_modes) continue;
-    held.lambda.push_back(to_digits(value, 5));
-    held.normal.push_back(to_digits(shares.normal / value, 4));
-    held.tilt.push_back(to_digits(shares.tilt / value, 4));
+      support.by_second[t] += shares.normal < normal_shares[t] * value;
+    support.worst_sum = std::max(support.worst_sum, std::abs(shares.total() - value) / value);
+    if (shares.normal + shares.tilt < value / 2) support.sum_of_logs += nearest::log(value);
+    if (support.resolved++ >= listed_modes) continue;
+    support.lambda.push_back(to_digits(value, 5));
+    support.normal.push_back(to_digits(shares.normal / value, 4));
+    support.tilt.push_back(to_digits(shares.tilt / value, 4));
   }
-  return held;
+  return support;
 }
 
 constexpr std::string_view more = "all modes that were looked at are, and others may be";
 
 /// The number of modes, or nullopt if there may be more than were examined.
-std::optional<double> known(const Modes& modes, const Held& held, int count) {
-  return modes.all || count < held.resolved ? std::optional<double>(count) : std::nullopt;
+std::optional<double> known(const Modes& modes, const PrestressSupport& support, int count) {
+  return modes.all || count < support.resolved ? std::optional<double>(count) : std::nullopt;
 }
 
 /// Adds these numbers for the other choices of share and threshold.
-void put_choices(Json& json, const Modes& modes, const Held& held) {
+void put_choices(Json& json, const Modes& modes, const PrestressSupport& support) {
   Json shares = Json::array(), stiff = Json::array();
   for (std::size_t t = 0; t < normal_shares.size(); ++t) {
     Json entry{{"normals_below", normal_shares[t]}};
-    put_optional(entry, "modes", known(modes, held, held.by_second[t]), more);
+    put_optional(entry, "modes", known(modes, support, support.by_second[t]), more);
     shares.push_back(std::move(entry));
   }
   for (std::size_t t = 0; t < thresholds.size(); ++t) {
     Json entry{{"threshold", thresholds[t]}};
-    put_optional(entry, "modes", known(modes, held, held.by_prestress[t]), more);
+    put_optional(entry, "modes", known(modes, support, support.by_prestress[t]), more);
     stiff.push_back(std::move(entry));
   }
   json["second_by_share"] = std::move(shares);
@@ -174,21 +174,21 @@ void put_choices(Json& json, const Modes& modes, const Held& held) {
 }
 
 void put_modes(Json& state, const StateStiffness& stiffness, const Modes& modes) {
-  Held held = held_by(stiffness, modes);
-  put(state, held_by_second, known(modes, held, held.by_second.front()), more);
-  put(state, held_by_prestress, known(modes, held, held.by_prestress[chosen]), more);
+  PrestressSupport support = support_by(stiffness, modes);
+  put(state, held_by_second, known(modes, support, support.by_second.front()), more);
+  put(state, held_by_prestress, known(modes, support, support.by_prestress[chosen]), more);
   Json& json = state["prestress"]["modes"];
-  put_choices(json, modes, held);
+  put_choices(json, modes, support);
   json["looked_at"] = modes.set.size();
-  json["unresolved"] = modes.set.size() - held.resolved;
-  put_number(json, "worst_sum", held.worst_sum);
-  const int by_prestress = held.by_prestress[chosen];
+  json["unresolved"] = modes.set.size() - support.resolved;
+  put_number(json, "worst_sum", support.worst_sum);
+  const int by_prestress = support.by_prestress[chosen];
   put_optional(json, "prestress_lambda",
-               by_prestress > 0 ? std::optional(nearest::exp(held.sum_of_logs / by_prestress)) : std::nullopt,
+               by_prestress > 0 ? std::optional(nearest::exp(support.sum_of_logs / by_prestress)) : std::nullopt,
                "no such modes");
-  json["lambda"] = std::move(held.lambda);
-  json["normal"] = std::move(held.normal);
-  json["tilt"] = std::move(held.tilt);
+  json["lambda"] = std::move(support.lambda);
+  json["normal"] = std::move(support.normal);
+  json["tilt"] = std::move(support.tilt);
 }
 
 /// s of every normal and tilt, ascending, for plots of the bands.

@@ -22,7 +22,7 @@ std::span<const Quantity> rearrangement_quantities() { return quantities; }
 
 void put_rearrangements(Json& record, std::span<const JamStep> path) {
   const auto found = rearrangements(path);
-  put(record, rearrangement_count, found.gave_way);
+  put(record, rearrangement_count, found.is_rearranged);
   put(record, expansion_steps, found.steps);
   constexpr std::string_view none = "the packing gave way in no step that led to another equilibrium";
   put(record, particles_moved, found.particles_moved, none);

@@ -7,11 +7,11 @@
 
 namespace isojam {
 
-/// Quantities of the expansion itself, which need no measure: the number of rearrangements, the steps that they took,
-/// the particles that moved, and the contacts lost and gained.
+/// Quantities of the decompression itself, which belong to no measure: the number of rearrangements, the number of
+/// steps, the number of particles that moved, and the numbers of contacts that were lost and gained.
 std::span<const Quantity> rearrangement_quantities();
 
-/// Writes them to the record of a replicate with this path; see rearrangements() of the engine.
+/// Writes these quantities to the record of a replicate with this path; see rearrangements() of the engine.
 void put_rearrangements(Json& record, std::span<const JamStep> path);
 
 }  // namespace isojam

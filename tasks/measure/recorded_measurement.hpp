@@ -4,8 +4,8 @@
 
 namespace isojam {
 
-/// The part of the record of a successful replicate that this measure wrote. Joining it with those of the other
-/// measures gives the same bytes again.
+/// The part of the record of a successful replicate that this measure wrote. Combining the parts of all measures gives
+/// the same bytes again.
 Measurement recorded_measurement(Measure what, const Json& record);
 
 }  // namespace isojam

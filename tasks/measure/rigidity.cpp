@@ -1,6 +1,6 @@
 #include "engine/rigidity/rigidity.hpp"
 #include "engine/packing/energy.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {

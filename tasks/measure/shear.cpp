@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {

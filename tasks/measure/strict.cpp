@@ -1,7 +1,7 @@
 #include "engine/vibration/strict.hpp"
 
 #include "engine/solve/rearrangement.hpp"
-#include "tasks/measure/parts.hpp"
+#include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -14,9 +14,9 @@ constexpr Quantity strictly_jammed{"strictly_jammed", "/strict/jammed", group, "
 constexpr Quantity negative{"strict_negative", "/strict/negative", group, "1", "n_-^{strict}"};
 constexpr Quantity deviator{"deviator", "/strict/deviator", group, "1", "\\max|\\sigma+p|/p"};
 constexpr auto of_replicate = Quantity::Of::replicate;
-constexpr Quantity freed_jammed{"freed_jammed", "/freed/jammed", group, "1", "n_{freed}", of_replicate};
-constexpr Quantity freed_strain{"freed_strain", "/freed/strain", group, "1", "\\epsilon_{freed}", of_replicate};
-constexpr Quantity freed_phi_j{"freed_phi_j", "/freed/phi_j", group, "1", "\\phi_J^{freed}", of_replicate};
+constexpr Quantity freed_jammed{"freed_jammed", "/strict/freed/jammed", group, "1", "n_{freed}", of_replicate};
+constexpr Quantity freed_strain{"freed_strain", "/strict/freed/strain", group, "1", "\\epsilon_{freed}", of_replicate};
+constexpr Quantity freed_phi_j{"freed_phi_j", "/strict/freed/phi_j", group, "1", "\\phi_J^{freed}", of_replicate};
 constexpr std::array quantities{strictly_jammed, negative, deviator, freed_jammed, freed_strain, freed_phi_j};
 
 constexpr std::string_view no_verdict = "inertia could not be had",
@@ -39,8 +39,8 @@ Json strict_record(const Packing& packing, PackingEnergy& energy) {
 Json nothing_freed(std::string_view why) {
   Json replicate;
   for (const auto& quantity : {freed_jammed, freed_strain, freed_phi_j}) put(replicate, quantity, std::nullopt, why);
-  Json& json = replicate["freed"];
-  json["ended"] = to_string(DownhillEnd::not_called);
+  Json& json = replicate["strict"]["freed"];
+  json["ended"] = to_string(MinimumSearchEnd::not_called);
   json["stopped"] = to_string(StopReason::not_called);
   put_absent(json, "phi", why);
   put_absent(json, "deviator", why);
@@ -63,7 +63,7 @@ Json freed_record(const Packing& packing, const JamStep& step, PackingEnergy& en
   const auto phi_j =
       found && freed.pressure > 0 ? std::optional(freed.density - distance_to_jamming(after)) : std::nullopt;
   put(replicate, freed_phi_j, phi_j, no_freed);
-  Json& json = replicate["freed"];
+  Json& json = replicate["strict"]["freed"];
   json["ended"] = to_string(freed.result.ended);
   json["stopped"] = to_string(freed.result.summary.reason);
   put_number(json, "phi", freed.density);

@@ -47,7 +47,7 @@ std::vector<Match> matches_of(const ForeignPacking& foreign, const Mixture& mixt
     const auto match = match_of(foreign.types[t], mixture);
     if (used && !match)
       throw NoPackingFile(
-          fmt::format("its particles \"{}\" are none of {}", foreign.types[t].name, to_string(mixture)));
+          fmt::format("particles of type \"{}\" do not match {}", foreign.types[t].name, to_string(mixture)));
     matches.push_back(match.value_or(Match{}));
   }
   return matches;
@@ -68,11 +68,9 @@ std::vector<Particle> assigned(const Mixture& mixture, const std::vector<Particl
   for (std::size_t k = 0; k < order.size(); ++k) {
     auto& particle = result[order[k]];
     if (particle.unit != own[k].unit || !(std::abs(particle.scale - own[k].scale) <= size_tolerance * own[k].scale))
-      throw NoPackingFile(
-          fmt::format("its {} particles are not those of {}: one is a {} of size {:.6g}, which has {} of "
-                      "size {:.6g}",
-                      in_file.size(), to_string(mixture), particle.unit->name(), particle.scale, own[k].unit->name(),
-                      own[k].scale));
+      throw NoPackingFile(fmt::format(
+          "its {} particles do not match {}: one is a {} of size {:.6g} instead of a {} of size {:.6g}", in_file.size(),
+          to_string(mixture), particle.unit->name(), particle.scale, own[k].unit->name(), own[k].scale));
     particle = own[k];
   }
   return result;
@@ -100,7 +98,7 @@ Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
     volume += cubed(particles.back().scale);
   }
   const double unit = nearest::cbrt(volume / static_cast<double>(particles.size()));
-  if (!std::isfinite(unit) || !(unit > 0)) throw NoPackingFile("its particles have no size that a number can hold");
+  if (!std::isfinite(unit) || !(unit > 0)) throw NoPackingFile("the sizes of its particles overflow or underflow");
   for (auto& particle : particles) particle.scale /= unit;
   try {
     Packing packing{Composition(assigned(mixture, particles)), cell_of(foreign.cell / unit), {}};
@@ -111,12 +109,13 @@ Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
       pose.orientation = (body.orientation * place.rotation).normalized();
       // Written so that NaN is refused too.
       if (!(packing.cell.fractional(pose.position).cwiseAbs().maxCoeff() <= most_cells))
-        throw NoPackingFile(fmt::format("particle {} lies more than {} cells away", packing.size(), most_cells));
+        throw NoPackingFile(
+            fmt::format("particle {} is more than {} cells away from the origin", packing.size(), most_cells));
       packing.poses.push_back(pose);
     }
     return packing;
   } catch (const std::invalid_argument& error) {
-    throw NoPackingFile(fmt::format("its cell is none: {}", error.what()));
+    throw NoPackingFile(fmt::format("its cell is not valid: {}", error.what()));
   }
 }
 

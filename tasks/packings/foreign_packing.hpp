@@ -11,15 +11,15 @@
 
 namespace isojam {
 
-/// A packing read from another program's file, in that file's units and body frames.
+/// A packing that was read from a file of another program. Units and body frames are those of the file.
 struct ForeignPacking {
   struct Type {
     std::string name;
-    std::vector<Eigen::Vector3d> vertices;  ///< in the body frame; empty if the file gives no shape
+    std::vector<Eigen::Vector3d> vertices;  ///< vertices in the body frame; empty if the file contains no shape
   };
   struct Body {
     int type = 0;
-    double size = 1;  ///< ratio of its lengths to those of its type
+    double size = 1;  ///< size of the particle: its lengths divided by those of its type
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   };
@@ -28,17 +28,18 @@ struct ForeignPacking {
   std::vector<Body> bodies;
 };
 
-/// Reads a frame (−1: the last) of a GSD file with HOOMD-blue's schema: box, positions, orientations, and shapes of
-/// types if there are any. Throws NoPackingFile.
+/// Reads a frame of a GSD file with the schema of HOOMD-blue: box, positions, orientations, and the shapes of types if
+/// there are any. Frame −1 is the last one. Throws NoPackingFile.
 ForeignPacking read_gsd_packing(const std::string& bytes, int frame);
 
-/// Reads a frame (−1: the last) of an extended XYZ file: Lattice, species (the name of a solid), pos, orientation (x,
-/// y, z, w), and size if there are several. Throws NoPackingFile.
+/// Reads a frame of an extended XYZ file: Lattice, species (the name of a solid), pos, orientation (x, y, z, w), and
+/// size if particles have different sizes. Frame −1 is the last one. Throws NoPackingFile.
 ForeignPacking read_xyz_packing(std::string_view text, int frame);
 
-/// The packing in terms of the mixture's particles. Types are matched to solids by shape, up to rotation and shift, or
-/// by name if the file has no shape. Lengths are scaled so that the mean volume is 1. Sizes, which files hold in single
-/// precision, are replaced by those of the mixture. Throws NoPackingFile for other particles.
+/// Converts a packing of another program to a packing with the particles of a mixture. A type is identified with the
+/// solid that has the same shape, up to rotation and shift, or with the solid of the same name if the file contains no
+/// shape. Lengths are scaled so that the mean volume is 1. Sizes, which files contain in single precision, are replaced
+/// by the sizes of the mixture. Throws NoPackingFile if the particles are not those of the mixture.
 Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture);
 
 }  // namespace isojam

@@ -9,9 +9,7 @@
 namespace isojam {
 namespace {
 
-constexpr std::uint64_t magic = 0x65DF65DF65DF65DF;
 constexpr std::uint32_t layer_version = 2 << 16;
-constexpr std::size_t header_size = 256, name_size = 64;
 
 template <std::unsigned_integral T>
 void append(std::string& bytes, T value) {
@@ -22,9 +20,9 @@ void append(std::string& bytes, float value) { append(bytes, std::bit_cast<std::
 void append(std::string& bytes, double value) { append(bytes, std::bit_cast<std::uint64_t>(value)); }
 
 void append_padded(std::string& bytes, const std::string& text) {
-  if (text.size() >= name_size) throw std::invalid_argument("too long for a GSD header: " + text);
+  if (text.size() >= gsd_name_size) throw std::invalid_argument("too long for a GSD header: " + text);
   bytes += text;
-  bytes.append(name_size - text.size(), '\0');
+  bytes.append(gsd_name_size - text.size(), '\0');
 }
 
 std::size_t size_of(GsdType type) {
@@ -78,7 +76,7 @@ struct NameList {
 
 void check(const GsdChunk& chunk) {
   if (chunk.data.empty() || chunk.data.size() != chunk.rows * chunk.columns * size_of(chunk.type)) {
-    throw std::invalid_argument("GSD chunk " + chunk.name + ": its data are not of its shape");
+    throw std::invalid_argument("GSD chunk " + chunk.name + ": the data do not match the shape");
   }
 }
 
@@ -95,7 +93,7 @@ void append_frame(std::uint64_t number, const std::vector<GsdChunk>& chunks, Nam
   std::sort(begin, index.end(), [](const IndexEntry& a, const IndexEntry& b) { return a.name < b.name; });
   const auto twin =
       std::adjacent_find(begin, index.end(), [](const IndexEntry& a, const IndexEntry& b) { return a.name == b.name; });
-  if (twin != index.end()) throw std::invalid_argument("a frame of a GSD file names a chunk twice");
+  if (twin != index.end()) throw std::invalid_argument("a frame of a GSD file contains a chunk twice");
 }
 
 void pad_to_multiple(std::string& bytes, std::size_t size) { bytes.append((size - bytes.size() % size) % size, '\0'); }
@@ -134,23 +132,23 @@ GsdChunk gsd_chunk(std::string name, std::span<const std::string> rows) {
 std::string gsd_bytes(const GsdIdentity& identity, std::span<const std::vector<GsdChunk>> frames) {
   NameList names;
   std::vector<IndexEntry> index;
-  std::string bytes(header_size, '\0');  // filled in once the rest is known
+  std::string bytes(gsd_header_size, '\0');  // filled in once the rest is known
   for (std::size_t k = 0; k < frames.size(); ++k) append_frame(k, frames[k], names, index, bytes);
 
   // Readers map the index into memory, which requires alignment.
   pad_to_multiple(bytes, sizeof(std::uint64_t));
   const auto names_at = bytes.size();
-  pad_to_multiple(names.text, name_size);
+  pad_to_multiple(names.text, gsd_name_size);
   bytes += names.text;
   const auto index_at = bytes.size();
   for (const auto& entry : index) append(bytes, entry);
 
   std::string header;
-  append(header, magic);
+  append(header, gsd_magic);
   append(header, std::uint64_t{index_at});
   append(header, std::uint64_t{index.size()});
   append(header, std::uint64_t{names_at});
-  append(header, std::uint64_t{names.text.size() / name_size});
+  append(header, std::uint64_t{names.text.size() / gsd_name_size});
   append(header, std::uint32_t{identity.schema_major} << 16 | identity.schema_minor);
   append(header, layer_version);
   append_padded(header, identity.application);

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tasks/json/json.hpp"
+#include "tasks/io/json.hpp"
 #include "tasks/packings/foreign_packing.hpp"
+#include "tasks/packings/packing_json.hpp"
 
 namespace isojam {
 namespace {
-
-constexpr std::size_t most_particles = 1000000;
 
 /// Lattice vectors (Lx, 0, 0), (xy·Ly, Ly, 0) and (xz·Lz, yz·Lz, Lz).
 Eigen::Matrix3d cell_of(const std::vector<double>& box) {
@@ -27,11 +26,11 @@ std::vector<Eigen::Vector3d> vertices_of(const std::string& text) {
   for (const auto& vertex : shape.at("vertices")) {
     if (!vertex.is_array() || vertex.size() != 3 ||
         !std::all_of(vertex.begin(), vertex.end(), [](const Json& x) { return x.is_number(); }))
-      throw NoPackingFile("a vertex of its shapes is not three numbers");
+      throw NoPackingFile("a vertex of a shape is not three numbers");
     vertices.emplace_back(vertex[0].get<double>(), vertex[1].get<double>(), vertex[2].get<double>());
   }
   if (shape.contains("rounding_radius") && shape.at("rounding_radius") != 0)
-    throw NoPackingFile("its shapes are rounded");
+    throw NoPackingFile("rounded shapes are not supported");
   return vertices;
 }
 
@@ -46,9 +45,10 @@ std::vector<double> of_all(const GsdFile& file, std::uint64_t frame, const std::
     return same;
   }
   if (values->size() != count * columns)
-    throw NoPackingFile(fmt::format("its chunk particles/{} is not of {} particles", name, count));
+    throw NoPackingFile(
+        fmt::format("its chunk particles/{} does not have a row for each of {} particles", name, count));
   if (!std::all_of(values->begin(), values->end(), [](double x) { return std::isfinite(x); }))
-    throw NoPackingFile(fmt::format("its chunk particles/{} holds what is no number", name));
+    throw NoPackingFile(fmt::format("its chunk particles/{} contains a value that is not a finite number", name));
   return *values;
 }
 
@@ -56,10 +56,11 @@ std::vector<double> of_all(const GsdFile& file, std::uint64_t frame, const std::
 
 ForeignPacking read_gsd_packing(const std::string& bytes, int frame) {
   const GsdFile file(bytes);
-  if (file.schema() != "hoomd") throw NoPackingFile(fmt::format("its schema is \"{}\", not \"hoomd\"", file.schema()));
+  if (file.schema() != "hoomd")
+    throw NoPackingFile(fmt::format("its schema is \"{}\" instead of \"hoomd\"", file.schema()));
   const auto frames = static_cast<std::int64_t>(file.frames());
   const auto index = frame < 0 ? frames + frame : frame;
-  if (index < 0 || index >= frames) throw NoPackingFile(fmt::format("it has {} frames", frames));
+  if (index < 0 || index >= frames) throw NoPackingFile(fmt::format("it has only {} frames", frames));
   const auto which = static_cast<std::uint64_t>(index);
 
   ForeignPacking packing;
@@ -80,7 +81,7 @@ ForeignPacking read_gsd_packing(const std::string& bytes, int frame) {
   const auto types = of_all(file, which, "typeid", n, {0});
   for (std::size_t i = 0; i < n; ++i) {
     if (!(types[i] >= 0 && types[i] < static_cast<double>(names.size())))
-      throw NoPackingFile("a particle has a type that is none");
+      throw NoPackingFile("a particle has an undefined type");
     const double *x = &positions[3 * i], *q = &orientations[4 * i];
     const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
     if (!(orientation.norm() > 0.5)) throw NoPackingFile(fmt::format("particle {} has no orientation", i));

@@ -8,14 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "tasks/solids/solid_json.hpp"
+#include "tasks/packings/solid_json.hpp"
 
 namespace isojam {
 namespace {
 
 /// Far beyond any cell, and far from overflow.
 constexpr double greatest_length = 1e9;
-constexpr double most_particles = 1e6;
 
 template <class Vector>
 Json numbers(const Vector& v) {
@@ -27,8 +26,7 @@ Json quaternion(const Eigen::Vector4d& xyzw) { return {xyzw[3], xyzw[0], xyzw[1]
 
 template <int size>
 Eigen::Matrix<double, size, 1> read_vector(const JsonPlace& place, double greatest) {
-  const auto allowed = fmt::format("a list of {} numbers", size);
-  if (place.expect_list(allowed) != size) place.refuse("the list has another length", allowed);
+  place.expect_length(size, fmt::format("a list of {} numbers", size));
   Eigen::Matrix<double, size, 1> v;
   for (std::size_t c = 0; c < size; ++c) v[static_cast<Eigen::Index>(c)] = place.at(c).number({-greatest, greatest});
   return v;
@@ -62,9 +60,7 @@ DoubleDoubleMatrix read_vectors(const JsonPlace& place) {
     return vectors;
   }
   const auto cell = place.at("cell"), cell_low = place.at("cell_low");
-  for (const auto& list : {cell, cell_low}) {
-    if (list.expect_list("three vectors") != 3) list.refuse("the list has another length", "three vectors");
-  }
+  for (const auto& list : {cell, cell_low}) list.expect_length(3, "three vectors");
   for (std::size_t c = 0; c < 3; ++c) {
     vectors.high.col(static_cast<Eigen::Index>(c)) = read_vector<3>(cell.at(c), greatest_length);
     vectors.low.col(static_cast<Eigen::Index>(c)) = read_vector<3>(cell_low.at(c), greatest_length);
@@ -83,15 +79,14 @@ PeriodicCell read_cell(const JsonPlace& place, const ConvexSolid& solid) {
   }
   if (!cell || !is_legal(*cell, solid)) {
     place.at(place.has("cell") ? "cell" : "side")
-        .refuse(why, fmt::format("right-handed vectors, no translation of theirs {} or shorter", least_side(solid)));
+        .refuse(why, fmt::format("right-handed vectors whose translations are all longer than {}", least_side(solid)));
   }
   return *cell;
 }
 
 JsonPlace list_of(const JsonPlace& place, const std::string& key, std::size_t size) {
   auto list = place.at(key);
-  const auto allowed = fmt::format("a list with an entry for each of {} particles", size);
-  if (list.expect_list(allowed) != size) list.refuse("the list has another length", allowed);
+  list.expect_length(size, fmt::format("a list with an entry for each of {} particles", size));
   return list;
 }
 
@@ -119,7 +114,7 @@ void put_solids(Json& json, const Composition& solids) {
 /// Reads the solids of n particles.
 Composition read_solids(const JsonPlace& place, std::size_t n) {
   if (!place.has("kinds")) return *read_solid(place);
-  constexpr Range size_range{0, 1e3, true};
+  constexpr Range listed_sizes{0, 1e3, true};
   // Sums of as many volumes as there can be are right to this.
   constexpr double rounding = 1e-9;
   const auto list = place.at("kinds");
@@ -130,7 +125,7 @@ Composition read_solids(const JsonPlace& place, std::size_t n) {
   double volume = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const auto which = kind.at(i).integer({0, static_cast<double>(units.size()) - 1});
-    const double scale = size.at(i).number(size_range);
+    const double scale = size.at(i).number(listed_sizes);
     particles.push_back({units[static_cast<std::size_t>(which)], scale, static_cast<int>(which)});
     volume += scale * scale * scale;
   }
@@ -157,9 +152,8 @@ Json to_json(const Packing& packing) {
 }
 
 Packing read_packing(const JsonPlace& place) {
-  const auto n = place.at("positions").expect_list("a list of positions");
-  if (n == 0 || static_cast<double>(n) > most_particles)
-    place.at("positions").refuse("no packing", fmt::format("1 to {:.0f} particles", most_particles));
+  const auto n =
+      place.at("positions").expect_entries(most_particles, fmt::format("a list of 1 to {} positions", most_particles));
   const auto solids = read_solids(place, n);
   Packing packing{solids, read_cell(place, solids.widest()), {}};
   const auto positions = list_of(place, "positions", n), positions_low = list_of(place, "positions_low", n);
@@ -174,7 +168,7 @@ Packing read_packing(const JsonPlace& place) {
     pose.orientation_low = read_quaternion(orientations_low.at(i));
     // |q| is 1 to rounding in all that is written; what is far from it is no orientation.
     if (!(pose.orientation.squaredNorm() > 0.5))
-      orientations.at(i).refuse("not an orientation", "four numbers, the sum of squares 1");
+      orientations.at(i).refuse("not an orientation", "four numbers whose squares sum to 1");
   }
   return packing;
 }

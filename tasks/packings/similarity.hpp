@@ -9,15 +9,15 @@
 
 namespace isojam {
 
-/// Placement of a solid of unit volume in another frame: y = shift + scale·rotation·x.
+/// Similarity transformation of a solid of unit volume to another frame: y = shift + scale·rotation·x.
 struct Similarity {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   double scale = 1;
 };
 
-/// The similarity that maps the solid to the hull of these points, which are its vertices in any order, to 1e-4 of its
-/// size. nullopt if there is none; a mirror image does not count.
+/// Finds the similarity that maps the vertices of a solid to these points, which may be in any order, with an error of
+/// at most 1e-4 of the size of the solid. nullopt if there is none. Reflections are not allowed.
 std::optional<Similarity> similarity(const ConvexSolid& solid, std::span<const Eigen::Vector3d> points);
 
 }  // namespace isojam

@@ -7,12 +7,12 @@
 #include <tuple>
 #include <vector>
 
-#include "tasks/json/hash.hpp"
-#include "tasks/json/input_error.hpp"
-#include "tasks/json/sealed.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/hash.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/sealed.hpp"
 #include "tasks/packings/foreign_packing.hpp"
 #include "tasks/packings/packing_json.hpp"
-#include "tasks/system/file.hpp"
 
 namespace isojam {
 namespace {
@@ -46,7 +46,8 @@ void load(StartFile& file, const Mixture& mixture, int n) {
   const auto bytes = read_text(file.path);
   auto packing = read_any(bytes, file, mixture);
   if (packing.size() != n || !are_particles_of(packing, mixture)) {
-    throw NoPackingFile(fmt::format("its {} particles are not {} of {}", packing.size(), n, to_string(mixture)));
+    throw NoPackingFile(
+        fmt::format("its {} particles do not match {} particles of {}", packing.size(), n, to_string(mixture)));
   }
   file.digest = hex_hash(bytes);
   file.packing = std::make_shared<const Packing>(std::move(packing));

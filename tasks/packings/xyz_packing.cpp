@@ -6,11 +6,10 @@
 #include <map>
 
 #include "tasks/packings/foreign_packing.hpp"
+#include "tasks/packings/packing_json.hpp"
 
 namespace isojam {
 namespace {
-
-constexpr std::size_t most_particles = 1000000;
 
 std::string_view next_line(std::string_view& text) {
   const auto end = text.find('\n');
@@ -59,7 +58,8 @@ struct Columns {
   const std::pair<std::size_t, std::size_t>* find(std::string_view name, std::size_t width) const {
     const auto found = of.find(name);
     if (found == of.end()) return nullptr;
-    if (found->second.second != width) throw NoPackingFile(fmt::format("its property {} has other columns", name));
+    if (found->second.second != width)
+      throw NoPackingFile(fmt::format("its property {} has the wrong number of columns", name));
     return &found->second;
   }
 };
@@ -71,7 +71,7 @@ Columns columns_of(std::string_view properties) {
     parts.push_back(properties.substr(0, end));
     properties.remove_prefix(end == std::string_view::npos ? properties.size() : end + 1);
   }
-  if (parts.size() % 3 != 0) throw NoPackingFile("its Properties are not name:type:columns");
+  if (parts.size() % 3 != 0) throw NoPackingFile("its Properties do not have the form name:type:columns");
   Columns columns;
   for (std::size_t k = 0; k < parts.size(); k += 3) {
     const double width = number(parts[k + 2]);
@@ -86,7 +86,7 @@ std::size_t particles_in(std::string_view line) {
   const auto words = words_of(line);
   const double count = words.size() == 1 ? number(words[0]) : 0;
   if (!(count >= 1 && count <= static_cast<double>(most_particles)) || count != std::floor(count))
-    throw NoPackingFile("its first line is no number of particles");
+    throw NoPackingFile("its first line is not a number of particles");
   return static_cast<std::size_t>(count);
 }
 
@@ -99,7 +99,7 @@ std::string_view at_frame(std::string_view text, int frame) {
     for (std::size_t k = 0; k < lines; ++k) next_line(rest);
   }
   const auto count = static_cast<int>(frames.size()), index = frame < 0 ? count + frame : frame;
-  if (index < 0 || index >= count) throw NoPackingFile(fmt::format("it has {} frames", count));
+  if (index < 0 || index >= count) throw NoPackingFile(fmt::format("it has only {} frames", count));
   return frames[static_cast<std::size_t>(index)];
 }
 
@@ -116,11 +116,12 @@ ForeignPacking read_xyz_packing(std::string_view text, int frame) {
   const auto columns = columns_of(value_of(head, "Properties"));
   const auto *species = columns.find("species", 1), *pos = columns.find("pos", 3),
              *orientation = columns.find("orientation", 4), *size = columns.find("size", 1);
-  if (!species || !pos || !orientation) throw NoPackingFile("it lacks one of species, pos and orientation");
+  if (!species || !pos || !orientation) throw NoPackingFile("its Properties lack species, pos or orientation");
   std::map<std::string, int, std::less<>> types;
   for (std::size_t i = 0; i < n; ++i) {
     const auto words = words_of(next_line(rest));
-    if (words.size() != columns.count) throw NoPackingFile(fmt::format("the line of particle {} has other columns", i));
+    if (words.size() != columns.count)
+      throw NoPackingFile(fmt::format("the line of particle {} has the wrong number of columns", i));
     const auto [type, added] = types.try_emplace(std::string(words[species->first]), static_cast<int>(types.size()));
     if (added) packing.types.push_back({type->first, {}});
     const auto at = [&](const auto* column, std::size_t k) { return number(words[column->first + k]); };

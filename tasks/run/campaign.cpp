@@ -4,8 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "tasks/io/file.hpp"
 #include "tasks/measure/quantity.hpp"
-#include "tasks/system/file.hpp"
 
 namespace isojam {
 
@@ -24,7 +24,9 @@ void Campaign::learn(std::size_t point) {
   for (int replicate = state.done; replicate < state.wanted; ++replicate) {
     const auto spec = plan_.at(point, replicate);
     const auto summary = store_.recorded(spec);
-    if (!summary) throw FileError(store_.record_path(spec).string() + ": is there no longer, or damaged");
+    if (!summary)
+      throw FileError(store_.record_path(spec).string() +
+                      ": was removed or damaged during the run; repeat the command");
     state.values.push_back(has_any(*summary, plan_.exclude()) ? std::nullopt : summary->values[index]);
   }
 }

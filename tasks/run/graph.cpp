@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "tasks/system/shortage.hpp"
-#include "tasks/system/thread_clock.hpp"
+#include "tasks/io/resource_failure.hpp"
+#include "tasks/io/thread_clock.hpp"
 
 namespace isojam {
 namespace {
@@ -37,7 +37,7 @@ struct StageResult {
   Timing timing;
 };
 
-struct Begun {
+struct Started {
   ReplicateSpec spec;
   StageResult<Checkpoint> start;
 };
@@ -93,31 +93,32 @@ class Run {
   ReplicateSpec next(tbb::flow_control& control) {
     std::optional<ReplicateSpec> spec;
     if (!stop_.stop_requested()) {
-      sheltered([&] { spec = next_(); });
+      catch_callback_error([&] { spec = next_(); });
     }
     if (spec) return *std::move(spec);
     control.stop();
     return {};
   }
 
-  std::shared_ptr<const Begun> begin(const ReplicateSpec& spec) {
-    return std::make_shared<Begun>(Begun{spec, guarded<Checkpoint>("begin", [&] { return stages_.begin(spec); })});
+  std::shared_ptr<const Started> begin(const ReplicateSpec& spec) {
+    return std::make_shared<Started>(
+        Started{spec, run_stage<Checkpoint>("begin", [&] { return stages_.begin(spec); })});
   }
 
-  std::shared_ptr<const Jammed> jam(const Begun& begun) {
-    const auto& start = begun.start;
-    if (!start.value) return std::make_shared<Jammed>(Jammed{begun.spec, {{}, start.failure, start.timing}});
+  std::shared_ptr<const Jammed> jam(const Started& started) {
+    const auto& start = started.start;
+    if (!start.value) return std::make_shared<Jammed>(Jammed{started.spec, {{}, start.failure, start.timing}});
     const auto before = start.timing + start.value->spent;
     const Stopwatch watch;
     const OnProgress on_progress = [&](const JamProgress& progress) {
       if (!options_.on_step) return;
-      sheltered([&] { options_.on_step(begun.spec, {progress, before + watch.elapsed()}); });
+      catch_callback_error([&] { options_.on_step(started.spec, {progress, before + watch.elapsed()}); });
     };
-    auto jam = guarded<JamResult>(
-        "jam", [&] { return stages_.jam(begun.spec, start.value->progress, stop_.get_token(), on_progress); });
+    auto jam = run_stage<JamResult>(
+        "jam", [&] { return stages_.jam(started.spec, start.value->progress, stop_.get_token(), on_progress); });
     if (jam.value && jam.value->status != JamStatus::interrupted) jam.failure = failure_of(*jam.value);
     jam.timing = jam.timing + before;
-    return std::make_shared<Jammed>(Jammed{begun.spec, std::move(jam)});
+    return std::make_shared<Jammed>(Jammed{started.spec, std::move(jam)});
   }
 
   void measure(const MeasureTask& task) {
@@ -126,7 +127,7 @@ class Run {
     if (task.slot == results.size() || stop_.stop_requested()) return;
     const auto what = jammed.spec.measures[task.slot];
     results[task.slot] =
-        guarded<Measurement>(to_string(what), [&] { return stages_.measure(jammed.spec, what, *jammed.jam.value); });
+        run_stage<Measurement>(to_string(what), [&] { return stages_.measure(jammed.spec, what, *jammed.jam.value); });
   }
 
   void store(const Measuring& measuring) {
@@ -148,7 +149,7 @@ class Run {
       if (!outcome.failure) outcome.failure = result.failure;
       outcome.interrupted |= is_missing(result);
     }
-    sheltered([&] { on_outcome_(outcome); });
+    catch_callback_error([&] { on_outcome_(outcome); });
   }
 
   void end() { stop_.request_stop(); }
@@ -160,13 +161,13 @@ class Run {
   /// Runs a stage of a replicate, measures its time and turns an exception into a failure. A resource failure is no
   /// failure of the replicate: it ends the run and leaves the result without value and failure.
   template <class T, class Stage>
-  StageResult<T> guarded(std::string_view where, const Stage& stage) {
+  StageResult<T> run_stage(std::string_view where, const Stage& stage) {
     StageResult<T> result;
     const Stopwatch watch;
     try {
       result.value = stage();
     } catch (const std::exception& error) {
-      if (is_shortage(error)) {
+      if (is_resource_failure(error)) {
         keep(std::current_exception());
       } else {
         result.failure = Failure{std::string(where), error.what()};
@@ -179,7 +180,7 @@ class Run {
   }
 
   /// Exceptions of the caller's functions must not cross the graph.
-  void sheltered(const std::function<void()>& call) {
+  void catch_callback_error(const std::function<void()>& call) {
     try {
       call();
     } catch (...) {
@@ -232,15 +233,15 @@ std::vector<MeasureTask> measure_tasks(std::shared_ptr<const Jammed> jammed) {
 }
 
 void build_and_wait(Run& run, int in_flight) {
-  using JamNode = flow::multifunction_node<std::shared_ptr<const Begun>, std::tuple<MeasureTask>>;
+  using JamNode = flow::multifunction_node<std::shared_ptr<const Started>, std::tuple<MeasureTask>>;
   using MeasureNode = flow::multifunction_node<MeasureTask, std::tuple<std::shared_ptr<const Measuring>>>;
   flow::graph graph;
   flow::input_node<ReplicateSpec> input(graph, [&](tbb::flow_control& control) { return run.next(control); });
   flow::limiter_node<ReplicateSpec> limiter(graph, static_cast<std::size_t>(in_flight));
-  flow::function_node<ReplicateSpec, std::shared_ptr<const Begun>> begin(
+  flow::function_node<ReplicateSpec, std::shared_ptr<const Started>> begin(
       graph, flow::unlimited, [&](const ReplicateSpec& spec) { return run.begin(spec); });
-  JamNode jam(graph, flow::unlimited, [&](const auto& begun, JamNode::output_ports_type& ports) {
-    for (const auto& task : measure_tasks(run.jam(*begun))) std::get<0>(ports).try_put(task);
+  JamNode jam(graph, flow::unlimited, [&](const auto& started, JamNode::output_ports_type& ports) {
+    for (const auto& task : measure_tasks(run.jam(*started))) std::get<0>(ports).try_put(task);
   });
   MeasureNode measure(graph, flow::unlimited, [&](const MeasureTask& task, MeasureNode::output_ports_type& ports) {
     run.measure(task);

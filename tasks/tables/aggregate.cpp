@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "engine/arithmetic/elementary.hpp"
-#include "tasks/json/input_error.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/manifest/base.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/measure/quantity.hpp"
-#include "tasks/replicate/summary.hpp"
+#include "tasks/records/summary.hpp"
 #include "tasks/tables/stopping.hpp"
 
 namespace isojam {
@@ -103,11 +103,16 @@ void Aggregation::add(const RecordSummary& record) {
     point.first = describe(record);
   } else if (point.settings != record.settings) {
     throw InputError({describe(record), difference(point.settings, record.settings),
-                      "differs from the setting of " + point.first, "one table of records with the same settings", ""});
+                      "differs from the setting of " + point.first, "", "",
+                      "aggregate only records with the same settings"});
   }
   const auto [place, added] = point.replicates.try_emplace({record.manifest_digest, record.replicate}, kept(record));
+  for (const auto flag : record.flags) {
+    if (added && std::find(exclude_.begin(), exclude_.end(), flag) != exclude_.end()) ++excluded_[flag];
+  }
   if (!added && place->second.result_digest != record.result_digest) {
-    throw InputError({describe(record), "/result_digest", "is recorded twice with different results", "", ""});
+    throw InputError({describe(record), "/result_digest", "two records of this replicate have different results", "",
+                      "", "remove one of them"});
   }
 }
 
@@ -180,7 +185,7 @@ std::optional<Differences> Aggregation::differences(const PointKey& key, const P
 }
 
 Table Aggregation::table(const std::optional<Replicates>& rule) const {
-  Table table{{}, exclude_, base_, builds_};
+  Table table{{}, exclude_, excluded_, base_, builds_};
   for (const auto& [key, point] : points_) {
     table.rows.push_back(row(key, point, rule));
     table.rows.back().differences = differences(key, point);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "tasks/json/rows.hpp"
+#include "tasks/io/rows.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/tables/lines.hpp"
 #include "tasks/tables/tables.hpp"

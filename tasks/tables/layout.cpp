@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
 #include "engine/arithmetic/elementary.hpp"
@@ -62,13 +63,13 @@ std::string estimate_text(const Estimate& estimate, std::string_view plus_minus,
 std::string residual_text(const Row& row) { return row.residual ? fmt::format("{:.1e}", *row.residual) : "-"; }
 
 /// The quantities of a group, as indices in all_quantities().
-struct Group {
+struct ColumnGroup {
   std::string_view name;
   std::vector<std::size_t> quantities;
 };
 
-std::vector<Group> groups_in(const std::vector<TableLine>& lines, View view) {
-  std::vector<Group> groups;
+std::vector<ColumnGroup> groups_in(const std::vector<TableLine>& lines, View view) {
+  std::vector<ColumnGroup> groups;
   const auto all = all_quantities();
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (view == View::series && all[i].of == Quantity::Of::replicate) continue;
@@ -116,9 +117,11 @@ std::string symbol(std::string_view text, std::string_view latex, Format format)
 std::string_view plus_minus(Format format) { return format == Format::text ? " ± " : " $\\pm$ "; }
 
 /// The replicates behind a line are counted in the first table only.
-bool counts_replicates(const Group& group, View view) { return group.name == main_group && view == View::nearest; }
+bool counts_replicates(const ColumnGroup& group, View view) {
+  return group.name == main_group && view == View::nearest;
+}
 
-Cells head_of(const Group& group, const std::vector<std::string>& parameters, View view, Format format) {
+Cells head_of(const ColumnGroup& group, const std::vector<std::string>& parameters, View view, Format format) {
   Cells head{"solid", symbol("N", "N", format)};
   for (const auto& name : parameters) head.push_back(spelt(parameter_head(name), format));
   if (view == View::series) head.push_back(symbol("delta_phi", "\\Delta\\phi", format));
@@ -129,7 +132,7 @@ Cells head_of(const Group& group, const std::vector<std::string>& parameters, Vi
   return head;
 }
 
-Cells cells_of(const TableLine& line, const Group& group, const std::vector<std::string>& parameters, View view,
+Cells cells_of(const TableLine& line, const ColumnGroup& group, const std::vector<std::string>& parameters, View view,
                Format format) {
   const Row& row = *line.row;
   const std::string indent = format == Format::text ? "  " : "\\quad ";
@@ -204,7 +207,7 @@ std::vector<Cells> difference_lines(const Table& table, const std::vector<std::s
 /// Progress of the rows towards the goal; only the heading without a goal.
 std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{point_head(parameters, format)};
-  lines[0].insert(lines[0].end(), {"quantity", "half width", "aim", "replicates used", "met"});
+  lines[0].insert(lines[0].end(), {"quantity", "half width", "goal", "replicates used", "met"});
   for (const auto& row : table.rows) {
     if (!row.goal) continue;
     const auto& goal = *row.goal;
@@ -212,7 +215,7 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
     cells.push_back(spelt(goal.goal.quantity, format));
     cells.push_back(goal.half_width ? fmt::format("{:.3g}", *goal.half_width) : "-");
     cells.push_back(fmt::format("{:.3g}", goal.goal.half_width));
-    cells.push_back(goal.needed ? std::to_string(*goal.needed) : "more to come");
+    cells.push_back(goal.needed ? std::to_string(*goal.needed) : "more needed");
     cells.emplace_back(goal.met ? "yes" : "no");
     lines.push_back(std::move(cells));
   }
@@ -221,7 +224,6 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
 
 struct LaidOut {
   std::string title;
-  bool of_replicates;        ///< false: of the solids
   std::vector<Cells> lines;  ///< heading first
 };
 
@@ -229,9 +231,9 @@ struct LaidOut {
 void add_below(std::vector<LaidOut>& tables, const Table& table, const std::vector<std::string>& parameters,
                Format format) {
   auto goals = goal_lines(table, parameters, format);
-  if (goals.size() > 1) tables.push_back({"goal", true, std::move(goals)});
+  if (goals.size() > 1) tables.push_back({"goal", std::move(goals)});
   auto differences = difference_lines(table, parameters, format);
-  if (differences.size() > 1) tables.push_back({difference_title(table), true, std::move(differences)});
+  if (differences.size() > 1) tables.push_back({difference_title(table), std::move(differences)});
 }
 
 /// The tables of all groups.
@@ -239,13 +241,13 @@ std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
   const auto parameters = parameter_names(table);
   const auto lines = lines_of(table, view);
   std::vector<LaidOut> tables;
-  for (const Group& group : groups_in(lines, view)) {
+  for (const ColumnGroup& group : groups_in(lines, view)) {
     std::vector<Cells> cells{head_of(group, parameters, view, format)};
     for (const TableLine& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
-    tables.push_back({std::string(group.name), true, std::move(cells)});
+    tables.push_back({std::string(group.name), std::move(cells)});
     if (counts_replicates(group, view)) add_below(tables, table, parameters, format);
     if (group.name == contact_group && view == View::nearest)
-      tables.push_back({"critical angles, degrees", false, critical_angle_lines(table, format)});
+      tables.push_back({"critical angles, degrees", critical_angle_lines(table, format)});
   }
   return tables;
 }
@@ -275,25 +277,21 @@ std::string aligned(const std::vector<Cells>& lines) {
 }  // namespace
 
 std::string to_text(const Table& table, View view) {
-  const auto excluded = exclusion_text(table);
-  std::string text;
-  for (const auto& [title, of_replicates, lines] : laid_out(table, view, Format::text)) {
-    Cells told;
-    if (!text.empty()) told.emplace_back(title);
-    if (of_replicates && !excluded.empty()) told.push_back(excluded);
-    if (!text.empty()) text += '\n';
-    if (!told.empty()) text += joined(told, ", ") + '\n';
+  std::string text = exclusion_text(table);
+  if (!text.empty()) text += '\n';
+  bool first = true;
+  for (const auto& [title, lines] : laid_out(table, view, Format::text)) {
+    if (!std::exchange(first, false)) text += '\n' + title + '\n';
     text += aligned(lines);
   }
   return text;
 }
 
 std::string to_latex(const Table& table, View view) {
-  const auto excluded = exclusion_text(table);
-  std::string text;
-  for (const auto& [title, of_replicates, lines] : laid_out(table, view, Format::latex)) {
-    const auto told = of_replicates && !excluded.empty() ? ", " + excluded : "";
-    text += fmt::format("% {}{}\n\\begin{{tabular}}{{l{}}}\n\\hline\n{} \\\\\n\\hline\n", title, told,
+  std::string text = exclusion_text(table);
+  if (!text.empty()) text = "% " + text + '\n';
+  for (const auto& [title, lines] : laid_out(table, view, Format::latex)) {
+    text += fmt::format("% {}\n\\begin{{tabular}}{{l{}}}\n\\hline\n{} \\\\\n\\hline\n", title,
                         std::string(lines.front().size() - 1, 'r'), joined(lines.front(), " & "));
     for (std::size_t k = 1; k < lines.size(); ++k) text += joined(lines[k], " & ") + " \\\\\n";
     text += "\\hline\n\\end{tabular}\n";

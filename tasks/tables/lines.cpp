@@ -38,9 +38,12 @@ std::string parameter_text(const Row& row, const std::string& name) {
 }
 
 std::string exclusion_text(const Table& table) {
-  Cells names;
-  for (const auto flag : table.exclude) names.emplace_back(to_string(flag));
-  return names.empty() ? "" : "without replicates flagged " + joined(names, ", ");
+  Cells counts;
+  for (const auto flag : table.exclude) {
+    const auto found = table.excluded.find(flag);
+    counts.push_back(fmt::format("{} ({})", to_string(flag), found == table.excluded.end() ? 0 : found->second));
+  }
+  return counts.empty() ? "" : "excluded from means: " + joined(counts, ", ");
 }
 
 std::string difference_title(const Table& table) {

@@ -12,54 +12,55 @@
 
 namespace isojam {
 
-// Common parts of tables as text, LaTeX and CSV.
+// Common parts of tables in the formats text, LaTeX and CSV.
 
 using Cells = std::vector<std::string>;
 
-/// The last column of main tables.
+/// Name of the last column of main tables.
 inline constexpr std::string_view residual_column = "residual";
 
 std::string joined(const Cells& cells, std::string_view separator);
 
-/// Names of all swept parameters, in order.
+/// Names of all swept parameters of a table, in order.
 std::vector<std::string> parameter_names(const Table& table);
-/// Heading of a parameter's column: its name in a manifest, except for a name that another column of every table
-/// already has.
+/// Heading of the column of a parameter. It is the name of the parameter in manifests, except if another column of
+/// every table already has this name.
 std::string parameter_head(const std::string& name);
-/// Value of the parameter at a sweep point; empty if it was not swept.
+/// Value of a parameter at a sweep point, as text. Empty if the parameter was not swept.
 std::string parameter_text(const Row& row, const std::string& name);
 
-/// "differences from step_fraction = 0.35"; empty if no row is compared.
+/// Title of the table of differences, such as "differences from step_fraction = 0.35". Empty if no row is compared.
 std::string difference_title(const Table& table);
 
-/// "without replicates flagged crystalline, not_balanced"; empty if the table excludes none.
+/// "excluded from means: crystalline (2), not_balanced (0)", with numbers of replicates; empty if the table excludes no
+/// flag. It precedes the first table.
 std::string exclusion_text(const Table& table);
 
-/// Basis of a line: replicates that are not excluded, all replicates, or pairs of a replicate of the row and one of its
-/// base.
+/// The replicates over which the estimates of a line are taken. kept: replicates that are not excluded. all: all
+/// replicates. difference: pairs of a replicate of the row and a replicate of its base row.
 enum class Over : std::uint8_t { kept, all, difference };
 template <>
 inline constexpr std::array enum_names<Over>{EnumName{Over::kept, "kept"}, EnumName{Over::all, "all"},
                                              EnumName{Over::difference, "difference"}};
 
-/// A line of a table: a row, or one of its series points, without the excluded replicates. If there are any, a second
-/// line includes them.
+/// A line of a table: a row, or one point of the series of a row. If replicates are excluded, there are two lines, one
+/// without and one with these replicates.
 struct TableLine {
   const Row* row = nullptr;
   std::optional<double> delta_phi;
   const Estimates* estimates = nullptr;
   Over over = Over::kept;
 
-  /// Number of replicates or pairs that count in this line.
+  /// Number of replicates or pairs that are used for the estimates of this line.
   int counted() const {
     if (over == Over::difference) return row->differences->pairs;
     return row->replicates - row->failed - (over == Over::all ? 0 : row->excluded);
   }
 };
 
-/// The lines refer to the table. Lines of differences are omitted.
+/// All lines of a table, except the lines of differences. They refer to the table, which must outlive them.
 std::vector<TableLine> lines_of(const Table& table, View view);
-/// The differences of a row from its base. The row must have them.
+/// The line with the differences of a row from its base row. The row must have differences.
 TableLine difference_line(const Row& row);
 
 }  // namespace isojam

@@ -7,12 +7,12 @@
 #include <optional>
 #include <set>
 
-#include "tasks/json/input_error.hpp"
-#include "tasks/json/options.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/options.hpp"
 #include "tasks/manifest/base.hpp"
-#include "tasks/replicate/summary.hpp"
-#include "tasks/store/recorded.hpp"
-#include "tasks/store/store.hpp"
+#include "tasks/records/recorded.hpp"
+#include "tasks/records/store.hpp"
+#include "tasks/records/summary.hpp"
 
 namespace isojam {
 namespace {
@@ -46,8 +46,8 @@ Choice common_choice(const std::vector<std::string>& directories, const std::vec
   for (std::size_t k = 1; k < manifests.size(); ++k) {
     if (of(k) == of(0)) continue;
     throw InputError({manifest_path(directories[k]), "/" + key,
-                      fmt::format("is {}, and {} of {}", json(of(k)), json(of(0)), directories[0]),
-                      fmt::format("directories of which it is the same, or a choice by --{}", key), ""});
+                      fmt::format("{} here, but {} in {}", json(of(k)), json(of(0)), directories[0]), "", "",
+                      fmt::format("choose one value with --{}, or aggregate the directories separately", key)});
   }
   return manifests.empty() ? usual : of(0);
 }
@@ -76,7 +76,7 @@ std::vector<SweptField> swept_in(const Table& table) {
 
 Table told(Table table, const Warn& warn) {
   if (table.builds.size() > 1)
-    warn(fmt::format("the records are of {} builds of isojam, which may round differently: {}", table.builds.size(),
+    warn(fmt::format("the records come from {} builds of isojam, which may round differently: {}", table.builds.size(),
                      fmt::join(table.builds, "; ")));
   return table;
 }

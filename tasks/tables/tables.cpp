@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
-#include "tasks/json/options.hpp"
+#include "tasks/io/options.hpp"
 #include "tasks/measure/quantity.hpp"
 
 namespace isojam {

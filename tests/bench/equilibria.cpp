@@ -45,7 +45,7 @@ double distance_of(const Packing& packing, const Evaluation& value) {
 Packing placed(SolidKind kind, int n, int seed, const JamOptions& options) {
   RandomStream random{static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(kind),
                       static_cast<std::uint64_t>(n)};
-  return random_packing(platonic(kind), n, options.initial_density, random);
+  return random_packing(platonic(kind), n, options.compression.initial_density, random);
 }
 
 /// Costs of the steps of one kind, one entry per step.
@@ -116,7 +116,7 @@ void compare(const Packing& state, bool with_newton, Comparison& found) {
 /// Expands with the default protocol to Δφ < 0.13 and further, and tries every state in between.
 void states_of(SolidKind kind, int n, int seed, bool with_newton, Comparison& found) {
   JamOptions options;
-  options.final_distance = final_distance;
+  options.decompression.final_distance = final_distance;
   JamProgress progress = begin_jam(placed(kind, n, seed, options), options);
   std::size_t seen = 0;
   while (!progress.ended()) {
@@ -166,7 +166,7 @@ void law(const std::vector<int>& sizes) {
   std::vector<double> n, seconds;
   for (const int size : sizes) {
     JamOptions options;
-    options.final_distance = final_distance;
+    options.decompression.final_distance = final_distance;
     JamProgress progress = begin_jam(placed(SolidKind::octahedron, size, 1, options), options);
     const double begin = now();
     double expanding = 0;

@@ -14,12 +14,12 @@ namespace {
 void replicate(benchmark::State& state, SolidKind kind, int n) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   JamOptions options;
-  options.final_distance = kind == SolidKind::tetrahedron ? .01 : .004;
+  options.decompression.final_distance = kind == SolidKind::tetrahedron ? .01 : .004;
   std::uint64_t number = 0;
   JamResult result;
   for (auto _ : state) {
     RandomStream random{31, static_cast<std::uint64_t>(kind), static_cast<std::uint64_t>(n), number++};
-    result = jam(random_packing(platonic(kind), n, options.initial_density, random), options);
+    result = jam(random_packing(platonic(kind), n, options.compression.initial_density, random), options);
   }
   state.SetLabel(std::string(to_string(result.status)));
   if (result.status != JamStatus::jammed) state.SkipWithError("did not reach the distance asked for");

@@ -173,7 +173,7 @@ class Chart(unittest.TestCase):
         self.assertEqual(told, [line.replace("phi_J", "φJ") for line in self.data["conclusion"]])
         self.assertIn("residual of 1e-06", told[0])
         self.assertIn("residual of 1e-09", told[1])
-        self.assertIn("asked for", told[2])
+        self.assertIn("requested residuals", told[2])
 
     def test_the_atlas_is_all_there(self):
         rows = self.data["atlas"]["rows"]

@@ -54,7 +54,7 @@ class Report(ChartTests, ManyTests, Case):
 
     def test_forces_are_drawn_and_the_view_is_saved(self):
         self.open(self.page)
-        self.assertIn("All 4 packings are here.", self.find("#view-choice").text)
+        self.assertIn("All 4 packings are included.", self.find("#view-choice").text)
         self.assertEqual(len(Select(self.find("#view-replicate")).options), 4)
         self.view()
         plain = self.browser.run(DRAWN)
@@ -166,11 +166,11 @@ class Report(ChartTests, ManyTests, Case):
     def test_what_was_not_measured_is_left_out_with_its_reason(self):
         self.open(self.pages.report(self.swept()))
         self.assertEqual(self.charts(), [name for name in CHARTS if name not in ("spectrum", "scaling", "moduli", "shear")])
-        self.assertIn('add "modes" to the manifest’s "measure"', self.find(".absent").text)
+        self.assertIn('add "modes" to "measure" in the manifest', self.find(".absent").text)
         nothing = self.pages.run("bare", measure=[], replicates=1)
         self.open(self.pages.report(nothing))
         self.assertEqual(self.charts(), ["density", "extrapolation", "evaluations", "time", "stops"])
-        self.assertIn('add "contacts" to the manifest’s "measure"', self.find(".absent").text)
+        self.assertIn('add "contacts" to "measure" in the manifest', self.find(".absent").text)
 
     def test_cubes(self):
         self.open(self.pages.report(self.pages.by_hand("cubes", self.full, "cube", 64, 0.5)))

@@ -92,7 +92,7 @@ class ChartTests:
         self.assertEqual([all(panel["one"]) for panel in panels], [False, True])
         self.assertEqual([panel["joined"] for panel in panels], [True, False])
         self.assertIn("2, 1 excluded", self.find("#table").text)
-        self.assertIn("without replicates flagged crystalline, not_balanced", self.find("#table").text)
+        self.assertIn("Excluded from means: crystalline (1), not_balanced (0).", self.find("#table").text)
 
     def test_charts_are_saved_in_every_form(self):
         self.open(self.page)

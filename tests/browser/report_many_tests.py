@@ -49,7 +49,7 @@ class ManyTests:
         for line in ("crystalline: 40 replicates, excluded from means", "not_stable: 40 replicates",
                      "icosahedron, N = 28, 20 of 200: icosahedron-N28-r0009, icosahedron-N28-r0019"):
             self.assertIn(line, text)
-        self.assertIn("2 of 400 packings are here. 398 have no packing in the results directory.",
+        self.assertIn("2 of 400 packings are included. 398 have no packing in the results directory.",
                       self.find("#view-choice").text)
 
     def expect_crystals_at_the_ends(self):

@@ -2,6 +2,8 @@
 
 - every page, and all that it links to, has a place in the site that `make docs` makes, links go along, code is left as
   it is, and a link that leads nowhere ends it;
+- in the site no comment is left that could end a paragraph, `\\|` in code of a table is `|`, and a value and its first
+  error stay in one line;
 - docs/site/mkdocs.yml has every page in its menu, and nothing else;
 - what Doxygen reads of a header has its lines, each declaration of a line with the comment of that line, overloads with
   that of the first, and still none where there is none;
@@ -47,12 +49,22 @@ class Site(unittest.TestCase):
             root = pathlib.Path(here).resolve()
             (root / "docs").mkdir()
             page = pathlib.Path("docs/a.md")
-            text = "[b](../README.md#x)\n\n```json\n[b](../README.md)\n```\n\n    [b](../README.md)\n"
+            text = "[b](../README.md#x)\n\n```json\n[b](../README.md) <!-- c -->\n```\n\n    `a\\|b` 1 ± 2\n"
             (root / page).write_text(text, encoding="utf-8")
             with self.assertRaisesRegex(SystemExit, "there is no ../README.md"):
                 rewritten(root, page, set())
             (root / "README.md").write_text("# A\n", encoding="utf-8")
             self.assertEqual(rewritten(root, page, set()), text.replace("[b](../README.md#x)", "[b](index.md#x)"))
+
+    def test_comments_and_signs(self):
+        with tempfile.TemporaryDirectory() as here:
+            root, page = pathlib.Path(here).resolve(), pathlib.Path("a.md")
+            (root / page).write_text("Of\n<!-- = n -->8<!-- / --> more\n\n<!-- end -->\n| `a\\|b` | 1 ± .2 ± < .3 (4) |\n",
+                                     encoding="utf-8")
+            self.assertEqual(rewritten(root, page, set()),
+                             "Of\n8 more\n\n\n| `a|b` | 1\u00a0±\u00a0.2 ±\u00a0<\u00a0.3 (4) |\n")
+        for page in self.pages:
+            self.assertNotIn("<!--", page.read_text(encoding="utf-8"), page)
 
     def test_the_menu(self):
         menu = re.findall(r"^ +- [^:]+: (\S+)$|^  - [^:]+: (\S+)$", (self.build / "mkdocs.yml").read_text(), re.M)

@@ -1,13 +1,13 @@
-"""These tests prove: python3 paper_blocks_test.py examples/paper
+"""These tests prove: paper_blocks_test.py examples/paper
 
-- states are counted as minima, near-rattlers, unresolved and negative as by hand, crystals in none; a rank of the rest
-  that its rows do not allow is none; φ_J of the paper's rule is compared with the same replicates;
-- the exponent of ⟨ω_l⟩/√K is that of ⟨ω_l⟩ less half that of K; the least excess of contacts that a test sees is that
-  of sums of binomial terms, what emerges first and stays is told, and shares of random contacts are those of
-  directions drawn at random;
-- C carries the range of cut-offs as its error, where it is known of the states that C is taken from, Z_ff half of what
-  fits and gaps differ by; solids are distinguished by both errors; where rests have more than three zero modes is told;
-  deviates of offsets know the paper's interval as well as ours; solids stand in order of what they have.
+- states are counted as minima, unresolved, or with near-rattlers or negative modes as by hand, without crystals;
+- a rank that the remaining rows do not allow is left out, and φ_J of the paper's rule is compared by replicate;
+- the exponent of ⟨ω_l⟩/√K is that of ⟨ω_l⟩ less half that of K;
+- the smallest excess of contacts that a test detects agrees with sums of binomial terms, the order of emergence is
+  found, and shares of random contacts agree with directions drawn at random;
+- the error of C from cut-offs uses the states of C, and that of Z_ff is half the difference between fits and gaps;
+- intervals of solids are compared with both errors, packings with more than three zero modes are counted, deviates of
+  offsets contain the paper's interval and ours, and solids are put in ascending order.
 """
 
 import math
@@ -42,7 +42,7 @@ class Made(Data):
 
 
 def replicate(number, states, solid="octahedron", particles=100, flags=(), **more):
-    """At Δφ = .1 · .5^i of φ_J = .7, with E ∝ Δφ⁶."""
+    """At Δφ = 0.1 · 0.5^i of φ_J = 0.7, with E ∝ Δφ⁶."""
     count = len(next(iter(states.values())))
     x = [0.1 * 0.5 ** i for i in range(count)]
     return {"solid": solid, "particles": particles, "replicate": number, "status": "done", "flags": list(flags),
@@ -59,7 +59,7 @@ class States(unittest.TestCase):
         self.assertEqual(minima.state_counts(data), {"states": 5, "descents": 1, "negative": 1, "loose": 3,
                                                      "unresolved": 1, "three": 2, "loose_three": 1,
                                                      "loose_negative": 1})
-        near = minima.state_counts(data, nearest=0.02)  # Δφ = .1, .05, .025
+        near = minima.state_counts(data, nearest=0.02)  # Δφ = 0.1, 0.05, 0.025
         self.assertEqual((near["states"], near["loose"], near["unresolved"]), (3, 2, 0))
         self.assertEqual(minima.every_count(data, "states"), "10")
 
@@ -122,10 +122,11 @@ class States(unittest.TestCase):
                                    of(2, [9, 10.0, 11.0, 12.0, 20], 0.9)]})
         self.assertAlmostEqual(constraints.with_cutoffs(data, "octahedron", 100, "C")["systematic"], (1 + 1.5 + 1) / 3)
         self.assertAlmostEqual(constraints.with_cutoffs(data, "octahedron", 100, "Z_ff")["systematic"], 0.05)
-        self.assertEqual(constraints.half_value(data, "octahedron", 100, "rows"), "58")
+        self.assertEqual(constraints.error_of_rows(data, "octahedron", 100), "± 58")
 
     def test_cutoffs_of_the_same_states(self):
-        # Δφ = .1, .05, .025; at .04 C is between the last two, and by other cut-offs known of the first and last alone.
+        # Δφ = 0.1, 0.05, 0.025. At 0.04 C is interpolated between the last two. With other cut-offs it is known only
+        # for the first and the last.
         def of(number, middle):
             known = [[9, 10.0, 11.0, 12.0, 20], 0.7]
             entries = [known, [[11.0 if middle else None] * 5, 0.7 if middle else None], known]
@@ -140,7 +141,7 @@ class States(unittest.TestCase):
         by_factor, fitted, gaps, _ = constraints.cutoff_range(data, "octahedron", 100, 0.04)
         self.assertEqual((by_factor[2]["n"], fitted["n"], gaps["n"]), (2, 2, 2))
         self.assertEqual(constraints.cutoff_range(data, "octahedron", 100)[0][2]["n"], 3)
-        self.assertEqual(constraints.cut_missing(data, "octahedron", "100", ".04"), "1 of 3")
+        self.assertEqual(constraints.cut_missing(data, "octahedron", "100", "0.04"), "1 of 3")
         # Without C by other cut-offs Z_ff keeps its error.
         data = Made({"paper-100": [replicate(i, {"Z_ff": [0.8], "C": [11.0]}, network={"by_cutoffs": [[[None] * 5, 1]]})
                                    for i in range(3)]})
@@ -148,21 +149,21 @@ class States(unittest.TestCase):
         self.assertNotIn("systematic", constraints.with_cutoffs(data, "octahedron", 100, "C"))
 
     def test_rests_between_states(self):
-        # At Δφ = .04, by ln Δφ .32 of the way from .05 to .025.
+        # At Δφ = 0.04, by ln Δφ 0.32 of the way from 0.05 to 0.025.
         data = Made({"paper-100": [replicate(i, {"backbone_zero": zero})
                                    for i, zero in enumerate(([3, 3, 4], [3, 3, 3], [3, 5, 3]))]})
-        self.assertEqual([minima.rest_between(data, what, ".04") for what in ("all", "farther", "most")],
+        self.assertEqual([minima.rest_between(data, what, "0.04") for what in ("all", "farther", "most")],
                          ["2", "1", "4.4"])
 
-    def test_solids_told_apart(self):
+    def test_intervals_of_solids(self):
         figures = [{"place": "Table IV", "solid": solid, "particles": 400, "column": "S", "value": 2.0, "digits": 1}
                    for solid in ("octahedron", "icosahedron")]
-        for values, said, undecided in (((2.0, 2.1, 2.2), "not told apart", "0"), ((4.0, 4.1, 4.2), "told apart", "0"),
-                                        ((2.0, 4.0, 6.0), "not told apart", "1")):
+        for values, said, undecided in (((2.0, 2.1, 2.2), "overlap", "0"), ((4.0, 4.1, 4.2), "do not overlap", "0"),
+                                        ((2.0, 4.0, 6.0), "overlap", "1")):
             data = Made({"paper-400": [replicate(i, {"S": [s]}, solid, 400)
                                        for solid, some in (("octahedron", (2.0, 2.1, 2.2)), ("icosahedron", values))
                                        for i, s in enumerate(some)]}, figures=figures)
-            self.assertEqual(contacts.told_apart(data, "IV", "S", "octahedron", "icosahedron"), said)
+            self.assertEqual(contacts.separated(data, "IV", "S", "octahedron", "icosahedron"), said)
             self.assertEqual(contacts.lies(data, "IV", "undecided"), undecided)
 
     def test_solids_in_order(self):
@@ -170,8 +171,8 @@ class States(unittest.TestCase):
                    for solid, value in (("octahedron", 3.0), ("icosahedron", 1.0))]
         data = Made({"paper-400": [replicate(i, {"S": [s]}, solid, 400) for i in range(3)
                                    for solid, s in (("octahedron", 2.0), ("icosahedron", 4.0))]}, figures=figures)
-        self.assertEqual(contacts.ordered(data, "IV", "S"), "octahedra 2.000 in all, icosahedra 4.000 in all")
-        self.assertEqual(contacts.ordered(data, "IV", "S", "paper"), "icosahedra 1.0, octahedra 3.0")
+        self.assertEqual(contacts.ordered(data, "IV", "S"), "octahedra, icosahedra")
+        self.assertEqual(contacts.ordered(data, "IV", "S", "paper"), "icosahedra, octahedra")
         self.assertEqual(contacts.lies(data, "IV", "above"), "1 of 2")
 
 

@@ -1,16 +1,16 @@
-"""These tests prove: python3 paper_test.py examples/paper ISOJAM
+"""These tests prove: paper_test.py examples/paper ISOJAM
 
-- the committed page, and what the project's first page has of it, are what the committed data say, to every block and
-  every number in a sentence; a page with one of them changed, without a block or with one twice, is refused;
-- a figure of the paper lies in the mean's interval, as one packing, or outside, by however little; with fewer than
-  three packings, or where they spread by half of the figure, that is undecided;
-- contacts are classed by cut-offs as the program classes them; regions, what has emerged, and how face-face contacts
-  are spread are as counted by hand, and contacts drawn at random neither hinder nor favour each other;
-- shifts of φ_J are differences of the same replicates, crystals left out; settings are ranked by χ², and one that gives
-  the paper's values is the first; which means' intervals hold them is as by hand; windows are chosen with the smaller
-  size, one with the larger is marked; the base of the search is the compression protocol of the studies;
-- gathering the results of a small run gives means, and φ_J, of the tables that the program makes of them;
-- two replicates of the studies, run anew, have the figures of the committed data: these are of this program.
+- the committed page and its table on the project's first page agree with the committed data, in every block and every
+  number in a sentence; a page with a changed number, without a block or with one twice, is rejected;
+- a value of the paper lies in the confidence interval, in the prediction interval, or outside; with fewer than three
+  packings, or a prediction interval wider than ± half of the value, the comparison is undecided;
+- contacts are classified by cut-offs as in the program; regions, emergence and the distribution of face-face contacts
+  agree with counts by hand, and contacts drawn at random do not hinder each other;
+- shifts of φ_J are differences of paired replicates without crystals; settings are ranked by χ², and one that has the
+  paper's values is the first; confidence intervals agree with those by hand; windows are chosen with the smaller
+  size, and one chosen with the larger is marked; the base of the search is the protocol of the studies;
+- gathering the results of a small run gives the means and the φ_J of the program's tables;
+- two replicates of the studies, run again, have the values of the committed data.
 """
 
 import json
@@ -52,16 +52,14 @@ class Page(unittest.TestCase):
 
     def test_is_refused_if_a_figure_was_changed(self):
         text = (PAPER / "README.md").read_text(encoding="utf-8")
-        for mark in ("| octahedron 100 | .", "<!-- = C octahedron 100 .01 -->", "<!-- = limit octahedron 100 -->"):
-            at = text.find(mark) + len(mark)
-            if at < len(mark):
-                continue
+        for mark in ("| octahedron 100 | 16 | 0.", "<!-- = total states -->"):
+            at = text.index(mark) + len(mark)
             with tempfile.TemporaryDirectory() as here:
                 changed = Path(here) / "README.md"
                 changed.write_text(text[:at] + str((int(text[at]) + 1) % 10) + text[at + 1:], encoding="utf-8")
                 result = self.check(changed)
             self.assertEqual(result.returncode, 1)
-            self.assertIn("a block is not what", result.stderr)
+            self.assertIn("differs from", result.stderr)
 
     def test_is_refused_without_a_block(self):
         text = (PAPER / "README.md").read_text(encoding="utf-8")
@@ -101,7 +99,7 @@ class Verdicts(unittest.TestCase):
     def test_what_is_undecided(self):
         self.assertEqual(verdict(None, {"value": 1}), UNDECIDED)
         self.assertEqual(verdict(of(1, 0.1, n=2), {"value": 1}), UNDECIDED)
-        self.assertEqual(verdict(of(1, 0.2), {"value": 1}), UNDECIDED)  # single packings spread by .82
+        self.assertEqual(verdict(of(1, 0.2), {"value": 1}), UNDECIDED)  # single packings spread by 0.82
         self.assertEqual(verdict(of(1, 0.1), {"value": 1}), MEAN)
 
     def test_single_packings_are_covered(self):
@@ -197,7 +195,8 @@ class Search(unittest.TestCase):
         self.assertAlmostEqual(estimate_of([0, 1, 5])["half_width"] ** 2 * 4 / 4.302653 ** 2,
                                densities.deviation_of(estimate_of([0, 1, 5])) ** 2, places=5)
         self.assertEqual({e.setting["budget"] for e in search.all_inside(entries)}, {50})
-        # By 2000 octahedra are .6876, .6896, .6916 and .65, .6797 ± .0316; tetrahedra .637 … .65, .6418 ± .0091.
+        # With 2000 evaluations octahedra are 0.6876, 0.6896, 0.6916 and 0.65, that is 0.6797 ± 0.0316. Tetrahedra are
+        # 0.637 … 0.65, that is 0.6418 ± 0.0091.
         self.assertEqual((base.inside["octahedron"], base.inside["tetrahedron"]), (True, False))
 
     def test_inside_is_give_or_take_the_papers_interval(self):
@@ -206,9 +205,9 @@ class Search(unittest.TestCase):
         for error, inside in ((0.0, False), (0.001, True)):
             figures = [{"place": "Table I", "solid": "octahedron", "particles": 100, "value": 0.6055, "error": error}]
             entries = search.ranked(type("Data", (), {"search": {"one": made}, "figures": figures}))
-            # The mean's interval is ± 4.303 · .002/√3 = .00497.
+            # The mean's interval is ± 4.303 · 0.002/√3 = 0.00497.
             self.assertEqual({e.inside["octahedron"] for e in entries}, {inside})
-        self.assertEqual(search.ended(data, "octahedron", 100, "after", ".020", "50"), "4 of 4")
+        self.assertEqual(search.completed(data, "octahedron", 100, "after", "0.020", "50"), "4 of 4")
 
     def test_shifts_are_of_pairs(self):
         setting = {"before": False, "step": 0.02, "budget": 50, "target": 3.2e-5}
@@ -231,10 +230,10 @@ class Search(unittest.TestCase):
         unknown = search.least_first([(entry("a", None), 1.0), (entry("b", None), None)], 1)
         self.assertEqual([e.window for e, *_ in unknown], ["a"])
 
-    def test_the_base_is_the_way_up_of_the_studies(self):
-        base = ", ".join(search.name_of({**search.BASE[0], "target": search.TARGET}))
+    def test_the_base_is_the_protocol_of_the_studies(self):
+        base = search.in_words({**search.BASE[0], "target": search.TARGET})
         for study in ("n100", "n100-tetrahedra", "n400", "n400-tetrahedra"):
-            self.assertEqual(search.way_value(None, study), base)
+            self.assertEqual(search.protocol_value(None, study), base)
 
 
 class Gathered(unittest.TestCase):

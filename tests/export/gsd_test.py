@@ -109,7 +109,7 @@ class Gsd(check.RoundTrip):
             self.assertEqual(log["isojam/phi"][0], state.phi)
             self.assertEqual(log["isojam/side"][0], state.side)
             self.assertEqual(log["isojam/delta_phi"][0], state.delta_phi)
-            self.assert_near(log["particles/isojam/Z"].mean(), values["Z"], 8 * results.DOUBLE * values["Z"], "Z")
+            self.assert_near(log["particles/isojam/Z"].mean(), values["contacts"]["Z"], 8 * results.DOUBLE * values["contacts"]["Z"], "Z")
             cluster = log["particles/isojam/cluster"]
             seen.update(cluster < 0)
             if values["clusters"]["S"] is None:

@@ -76,7 +76,8 @@ class Network(unittest.TestCase):
                                  else "" if value is None else str(value), key)
 
     def test_counts_are_the_record_s(self):
-        for _, _, rows, packing, record in self.states():
+        for _, _, rows, packing, state in self.states():
+            record = state["contacts"]
             self.assertEqual(2 * len(rows) / packing.n, record["Z"])
             for name, key in (("face_face", "Z_ff"), ("edge_face", "Z_ef"), ("lower_order", "Z_l")):
                 count = sum(row["class"] == name for row in rows)

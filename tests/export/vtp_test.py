@@ -146,7 +146,8 @@ class Vtp(check.RoundTrip):
             if re.search(r"_(?!0000)\d{4}\.vtp$", file):
                 continue  # both ends of an expansion do: each takes a second
             z = picture.cell["Z"][::len(picture.faces[0])]
-            self.assert_near(z.mean(), values["Z"], 8 * results.DOUBLE * values["Z"], "mean Z")
+            numbers = values["contacts"]
+            self.assert_near(z.mean(), numbers["Z"], 8 * results.DOUBLE * numbers["Z"], "mean Z")
             images = state.side * numpy.array(list(itertools.product((-1, 0, 1), repeat=3)))
             self.assertEqual(list(count_contacts(picture, images)), list(z), file)
 
@@ -156,14 +157,15 @@ class Vtp(check.RoundTrip):
             per_particle = len(picture.faces[0])
             clusters = picture.cell["cluster"][::per_particle]
             classes = picture.cell["contact_class"].reshape(state.n, per_particle)
-            if values["Z_ff"] is None or values["Z_ef"] is None:
+            numbers = values["contacts"]
+            if numbers["Z_ff"] is None or numbers["Z_ef"] is None:
                 self.assertEqual((set(clusters), set(classes[classes != 0])), ({-2}, {-1}), file)
                 continue
             marked = numpy.argwhere(classes == CLASSES["face_face"])
             marked_in_all += len(marked)
-            self.assertLessEqual(len(marked), round(values["Z_ff"] * state.n), "one face on either side of a contact")
+            self.assertLessEqual(len(marked), round(numbers["Z_ff"] * state.n), "one face on either side of a contact")
             self.assertEqual({i for i, _ in marked}, set(numpy.flatnonzero(clusters >= 0)), file)
-            self.check_partners(picture, state, marked, values["face_face_fit"]["cutoff"], clusters)
+            self.check_partners(picture, state, marked, numbers["face_face_fit"]["cutoff"], clusters)
             if "labels" in values["clusters"]:
                 self.assertEqual(list(clusters), list(results.clusters_of(values["clusters"]["labels"])))
         self.assertGreater(marked_in_all, 0)

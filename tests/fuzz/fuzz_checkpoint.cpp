@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tasks/json/input_error.hpp"
-#include "tasks/json/parse.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/parse.hpp"
 #include "tasks/manifest/plan.hpp"
-#include "tasks/replicate/checkpoint.hpp"
-#include "tasks/replicate/record.hpp"
+#include "tasks/records/checkpoint.hpp"
+#include "tasks/records/record.hpp"
 
 namespace {
 

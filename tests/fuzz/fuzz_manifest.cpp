@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "tasks/json/input_error.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/manifest/manifest.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -21,8 +21,8 @@ import sys
 MAX_LINES = 400
 FOLDERS = {
     "engine": "names arithmetic random parallel geometry packing solve analysis vibration shear rigidity".split(),
-    "tasks": "system json solids packings measure manifest replicate store tables run page report export chart "
-             "commands python".split(),
+    "tasks": "io packings measure manifest records tables run commands extras/page extras/report extras/export "
+             "extras/chart extras/commands extras/python".split(),
 }
 TOP = set("engine tasks schemas tests examples docs CMakeLists.txt CMakePresets.json Containerfile Makefile README.md "
           "LICENSE CITATION.cff CHANGELOG.md CONTRIBUTING.md .ci .git .gitignore .clang-format .clang-tidy".split())
@@ -54,8 +54,12 @@ def sources(root):
 
 def rank(path):
     """Place of a path's folder in the order of its half; None outside of the order."""
-    half, folder = path.split("/")[:2]
-    return FOLDERS[half].index(folder) if folder in FOLDERS[half] else None
+    half, *folders = path.split("/")[:-1]
+    for depth in (1, 2):
+        folder = "/".join(folders[:depth])
+        if folder in FOLDERS[half]:
+            return FOLDERS[half].index(folder)
+    return None
 
 
 def order_breach(file, header):

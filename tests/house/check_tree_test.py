@@ -21,7 +21,7 @@ GOOD = {
     "tasks/run/graph.cpp": '#include <oneapi/tbb/flow_graph.h>\n#include <chrono>\n#include "engine/solve/jam.hpp"\n',
     "tasks/main.cpp": '#include "tasks/commands/command.hpp"\n',
     "tasks/commands/command_line.cpp": '#include <CLI/CLI.hpp>\n#include "tasks/commands/command.hpp"\n',
-    "tasks/store/store.hpp": '#include "tasks/system/file.hpp"\n#include "tasks/json/json.hpp"\n',
+    "tasks/records/store.hpp": '#include "tasks/io/file.hpp"\n#include "tasks/io/json.hpp"\n',
     "tests/threads_test.cpp": "#include <tbb/global_control.h>\n",
 }
 
@@ -62,9 +62,9 @@ UPWARDS = (
     ("engine/geometry/overlap.cpp", '#include "engine/packing/packing.hpp"'),
     ("engine/packing/energy.cpp", '#include "engine/solve/jam.hpp"'),
     ("engine/solve/minimise/lbfgs.cpp", '#include "engine/analysis/contacts.hpp"'),
-    ("tasks/store/store.hpp", '#include "tasks/run/graph.hpp"'),
-    ("tasks/json/place.hpp", '#include "tasks/manifest/plan.hpp"'),
-    ("tasks/system/file.hpp", '  # include "tasks/json/json.hpp"'),
+    ("tasks/records/store.hpp", '#include "tasks/run/graph.hpp"'),
+    ("tasks/io/place.hpp", '#include "tasks/manifest/plan.hpp"'),
+    ("tasks/io/file.hpp", '  # include "tasks/packings/solid_json.hpp"'),
 )
 
 TBB = (
@@ -74,8 +74,8 @@ TBB = (
     ("engine/solve/jam.cpp", "#include <oneapi/tbb/task_arena.h>"),
     ("engine/solve/jam.cpp", '#include "tbb/task_arena.h"'),
     ("tasks/run/graph.hpp", "#include <oneapi/tbb/flow_graph.h>"),
-    ("tasks/store/store.cpp", "#include <tbb/global_control.h>"),
-    ("tasks/store/store.cpp", "#include <execution>"),
+    ("tasks/records/store.cpp", "#include <tbb/global_control.h>"),
+    ("tasks/records/store.cpp", "#include <execution>"),
 )
 
 
@@ -144,8 +144,8 @@ class CheckTree(unittest.TestCase):
         self.accept("every folder includes the one below it")
 
     def test_sources_stand_in_a_folder_of_the_order(self):
-        for file, header in (("tasks/odds/ends.cpp", "tasks/json/json.hpp"), ("tasks/loose.cpp", "tasks/json/json.hpp"),
-                             ("tasks/json/json.cpp", "tasks/odds/ends.hpp")):
+        for file, header in (("tasks/odds/ends.cpp", "tasks/io/json.hpp"), ("tasks/loose.cpp", "tasks/io/json.hpp"),
+                             ("tasks/io/json.cpp", "tasks/odds/ends.hpp")):
             self.reject(file, f'#include "{header}"', "folder of tasks/ without a place in the order")
         self.reject("engine/extra/thing.cpp", '#include "engine/geometry/pose.hpp"',
                     "folder of engine/ without a place in the order")
@@ -165,7 +165,7 @@ class CheckTree(unittest.TestCase):
 
     def test_length_of_files(self):
         for file in ("engine/solve/long.cpp", "engine/solve/long.hpp", "engine/solve/long.h", "tasks/run/long.cpp",
-                     "tests/long.cpp", "tests/house/run.sh", "tasks/page/embed.cmake", "tests/CMakeLists.txt"):
+                     "tests/long.cpp", "tests/house/run.sh", "tasks/extras/page/embed.cmake", "tests/CMakeLists.txt"):
             self.write(file, "// line\n" * 401)
             status, said = run(self.root)
             self.assertEqual(status, 1)

@@ -34,6 +34,14 @@ WORDS = (
     (r"for whose sake|unheard of|be it\b", "plain words"),
     (r"(it|them|that) says nothing", "does not state"),
     (r"no more than [^.]* but|nothing but|none but", "only"),
+    (r"shortages?", "resource failure"),
+    (r"reservations?", "warning"),
+    (r"certified", "minimum"),
+    (r"(follow(s|ed|ing)?|way) downhill", "relaxed along the negative mode"),
+    (r"loose particles?", "near-rattler"),
+    (r"seldom", "rarely"),
+    (r"rooms as|same rooms", "folders"),
+    (r"the machine has no (more|other)", "out of memory"),
 )
 WORDS = tuple((re.compile(rf"\b(?:{pattern})", re.I), better) for pattern, better in WORDS)
 MAX_WORDS, MAX_NUMBERS = 35, 4

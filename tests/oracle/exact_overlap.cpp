@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "tasks/chart/pairs/clip_polytope.hpp"
+#include "tasks/extras/chart/pairs/clip_polytope.hpp"
 #include "tests/oracle/exact_solid.hpp"
 
 namespace isojam::oracle {

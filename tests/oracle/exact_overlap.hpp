@@ -8,7 +8,7 @@
 
 #include "engine/geometry/convex_solid.hpp"
 #include "engine/geometry/pose.hpp"
-#include "tasks/chart/pairs/pair_cases.hpp"
+#include "tasks/extras/chart/pairs/pair_cases.hpp"
 
 namespace isojam::oracle {
 

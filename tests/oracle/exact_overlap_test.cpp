@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/random/stream.hpp"
-#include "tasks/chart/pairs/pair_cases.hpp"
+#include "tasks/extras/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 #include "tests/oracle/overlap_checks.hpp"
 

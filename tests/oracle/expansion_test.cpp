@@ -23,8 +23,9 @@ TEST_P(Expansion, EveryStateIsAnEquilibriumInQuadruplePrecision) {
   RandomStream random{83, static_cast<std::uint64_t>(GetParam())};
   JamOptions options;
   options.minimise.residual = asked;
-  options.final_distance = GetParam() == SolidKind::tetrahedron ? .01 : .004;
-  const JamResult result = jam(random_packing(platonic(GetParam()), 100, options.initial_density, random), options);
+  options.decompression.final_distance = GetParam() == SolidKind::tetrahedron ? .01 : .004;
+  const JamResult result =
+      jam(random_packing(platonic(GetParam()), 100, options.compression.initial_density, random), options);
   ASSERT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
   std::printf("%s: phi_J %.4f\n", std::string(to_string(GetParam())).c_str(), result.phi_j->density);
   for (std::size_t k = 0; k < result.states.size(); ++k) {

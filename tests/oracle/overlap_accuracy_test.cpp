@@ -24,7 +24,7 @@
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
 #include "engine/geometry/overlap/overlap.hpp"
-#include "tasks/chart/pairs/pair_cases.hpp"
+#include "tasks/extras/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 #include "tests/oracle/overlap_checks.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/geometry/overlap/overlap.hpp"
-#include "tasks/chart/pairs/pair_cases.hpp"
+#include "tasks/extras/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 
 namespace isojam::oracle {

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tasks/chart/pairs/pair_cases.hpp"
+#include "tasks/extras/chart/pairs/pair_cases.hpp"
 #include "tests/oracle/exact_overlap.hpp"
 #include "tests/oracle/overlap_checks.hpp"
 

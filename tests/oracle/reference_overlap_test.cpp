@@ -1,7 +1,7 @@
 // Property tested here: volumes and area vectors in 50 digits agree with exact rational arithmetic, for pairs whose
 // faces do not coincide.
 
-#include "tasks/chart/pairs/reference_overlap.hpp"
+#include "tasks/extras/chart/pairs/reference_overlap.hpp"
 
 #include <gtest/gtest.h>
 

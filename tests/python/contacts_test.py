@@ -96,7 +96,7 @@ class Contacts(support.Case):
             if not row["nearest"]:
                 continue
             directory = next(d for d in support.ALL if packing.name in support.study(d).names)
-            angles = support.document(directory, "records", packing.name)["nearest"]["angles"]
+            angles = support.document(directory, "records", packing.name)["nearest"]["contacts"]["angles"]
             for column, key in (("theta_ff", "face_face"), ("theta_ef", "edge_face")):
                 values = numpy.sort(of[column][~numpy.isnan(of[column])])
                 self.near(values, angles[key], 1e-12, f"{packing.name} {key}")

@@ -71,7 +71,7 @@ sys.exit(75)
 
     def test_a_program_that_was_interrupted_by_others_is_an_interruption(self):
         for start in (lambda stub: isojam.run("m.json", "r", program=stub), lambda stub: isojam.measure("r", program=stub)):
-            self.assertRaisesRegex(KeyboardInterrupt, "resumes", start, self.stub("exit 75\n"))
+            self.assertRaisesRegex(KeyboardInterrupt, "to resume", start, self.stub("exit 75\n"))
 
     def test_a_plain_message_is_an_error_of_a_program_that_failed_and_else_a_warning(self):
         for code in (1, 2, 65, 134):

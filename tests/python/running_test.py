@@ -166,7 +166,7 @@ class Failures(Case):
         for start, says in ((lambda: isojam.run({**MANIFEST, "seed": 4}, "r"), "another manifest"),
                             (lambda: isojam.run(MANIFEST, "file/r"), "file"),
                             (lambda: isojam.run("none.json", "r"), "none.json"),
-                            (lambda: isojam.measure("r", "colour"), 'no measure "colour"'),
+                            (lambda: isojam.measure("r", "colour"), 'unknown measure "colour"'),
                             (lambda: isojam.measure("none", "order"), "none"),
                             (lambda: isojam.aggregate("none"), "none")):
             with self.assertRaisesRegex(isojam.ProgramError, says) as caught:

@@ -76,7 +76,7 @@ class Seals(support.Case):
         whole = packing.read_bytes()
         for content in (b"", whole[:len(whole) // 2], b"\xff" * 300):
             packing.write_bytes(content)
-            self.refused(lambda: isojam.load(where).packing(name), str(packing), "whole")
+            self.refused(lambda: isojam.load(where).packing(name), str(packing), "written by isojam")
         packing.write_bytes(record.read_bytes())
         self.assertEqual(self.refused(lambda: isojam.load(where).packing(name), "isojam.packing").place, "/schema")
         packing.unlink()

@@ -6,6 +6,7 @@
 - swept parameters, flags, failures and their reasons stand in columns; `residual` swept is apart from the one reached;
 - all but frames is there without pandas; a frame has the columns and values of its rows;
 - rows are chosen by masks and by values; a column that is not there is refused, with a near one;
+- records of the earlier version have the columns of this one;
 - a directory without records, one that is none, and names that are not there are refused."""
 
 import json
@@ -16,6 +17,9 @@ import tempfile
 
 import support
 from support import ALL, CUBES, MIXED, isojam, numpy
+
+from isojam import facts
+from isojam.record import upgraded
 
 
 def rows_of_tables(directory):
@@ -118,12 +122,34 @@ class States(support.Case):
         self.assertEqual(study.replicates[0]["failed_in"], "modes")
 
     def test_names_that_clash(self):
-        """A state's own Q6 is not the quantity of that name, which is /order/Q6."""
+        """The Q6 of contacts is not the quantity of that name, which is /order/Q6."""
         states = support.study(CUBES).states
         records = [support.document(CUBES, "records", name) for name in support.done(CUBES)]
-        expected = [state["Q6"] for record in records for state in record["states"]]
-        self.assertEqual(list(states["state.Q6"]), expected)
+        expected = [state["contacts"]["Q6"] for record in records for state in record["states"]]
+        self.assertEqual(list(states["contacts.Q6"]), expected)
         self.assertNotIn("Q6", states)
+
+
+class EarlierRecords(support.Case):
+    MOVED = {"modes": "mode_scaling", "moduli": "moduli_scaling", "strict": "freed"}
+
+    def earlier(self, record):
+        """Version 3 of a record: keys of the measures moved back to where that version has them."""
+        def state(now):
+            return {key: value for name, each in now.items()
+                    for key, value in (each.items() if name == "contacts" else [(name, each)])}
+        before = {self.MOVED.get(key, key): next(iter(value.values())) if key in self.MOVED and value else value
+                  for key, value in record.items()}
+        return {**before, "schema": facts.earlier_record, "nearest": state(record["nearest"]),
+                "states": [state(each) for each in record["states"]]}
+
+    def test_rows_are_those_of_this_version(self):
+        for directory in ALL:
+            now = support.document(directory, "records", support.done(directory)[0])
+            before = self.earlier(now)
+            self.assertNotEqual(before, now)
+            self.assertEqual(upgraded(before), now)
+            self.assertIs(upgraded(now), now)
 
 
 class Columns(support.Case):
@@ -164,13 +190,13 @@ class Columns(support.Case):
 class Directories(support.Case):
     def test_what_holds_no_results(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.refused(lambda: isojam.load(folder), folder, "holds no records")
+            self.refused(lambda: isojam.load(folder), folder, "contains no results")
             self.refused(lambda: isojam.load(folder + "/none"), "/none", "no such directory")
 
     def test_names(self):
         study = support.study(CUBES)
         self.refused(lambda: study.packing("tetrahedron-N64-r0001"), "tetrahedron-N64-r0000")
-        self.refused(lambda: study.record("../records/tetrahedron-N64-r0000"), "holds no replicate")
+        self.refused(lambda: study.record("../records/tetrahedron-N64-r0000"), "unknown replicate")
         failed = next(name for name in support.study(MIXED).names if name not in support.done(MIXED))
         self.assertEqual(self.refused(lambda: support.study(MIXED).packing(failed), "max_density").place, "/status")
         self.refused(lambda: support.study(MIXED).path(support.done(MIXED)[0]), "keep_path")

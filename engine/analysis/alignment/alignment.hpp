@@ -7,24 +7,30 @@
 
 namespace isojam {
 
-/// Alignment angles θ_ff and θ_ef of a contact (as in the paper, radians), and the features that determine them.
+/// Alignment angles θ_ff and θ_ef of a contact as defined in the paper, in radians, and the features between which they
+/// are measured.
 struct Alignment {
-  double face_face = 0;  ///< θ_ff = π − arccos(min n_i·n_j) over the faces of the intersection, from cross products
-  double edge_face = 0;          ///< θ_ef = arcsin(min |e·n|), the smaller one of A's edges on B and B's edges on A
-  int face_a = -1, face_b = -1;  ///< faces of θ_ff
-  int edge = -1, face = -1;      ///< edge and face of θ_ef; −1 if no edge has a segment inside the other body
-  bool edge_of_a = true;         ///< true if the edge belongs to A and the face to B; false for the opposite case
+  /// θ_ff = π − arccos(min n_i·n_j), over the faces i of A and j of B that bound the intersection; computed with cross
+  /// products
+  double face_face = 0;
+  /// θ_ef = arcsin(min |e·n|), the smaller value of the edges of A on faces of B and the edges of B on faces of A
+  double edge_face = 0;
+  int face_a = -1, face_b = -1;  ///< indices of the two faces of θ_ff; −1 if there are none
+  /// indices of the edge and the face of θ_ef; −1 if no edge has a segment inside the other body
+  int edge = -1, face = -1;
+  /// true if the edge belongs to A and the face to B; false if the edge belongs to B and the face to A
+  bool edge_of_a = true;
 };
 
-/// The angles of one contact. θ_ef = π/2 if no edge of either body has a segment inside the other. θ_ff = π if a body
-/// has no face in the contact (one inside the other).
+/// Computes the angles of one contact. If no edge of A or B has a segment inside the other body, θ_ef is π/2. If no
+/// face of A or no face of B bounds the intersection, because one body is inside the other, θ_ff is π.
 Alignment alignment(const ConvexSolid& a, const ConvexSolid& b, const Contact& contact);
-/// The angles of a contact of two equal solids.
+/// Computes the angles of a contact of two particles with the same solid.
 inline Alignment alignment(const ConvexSolid& solid, const Contact& contact) {
   return alignment(solid, solid, contact);
 }
 
-/// Alignments of all contacts, in their order.
+/// Computes the angles of all contacts, in the order of `contacts`.
 std::vector<Alignment> alignments(const Composition& solids, std::span<const Contact> contacts);
 
 }  // namespace isojam

@@ -14,7 +14,7 @@ double EmpiricalCdf::operator()(double x) const {
 EmpiricalCdf empirical_cdf(std::span<const double> values) {
   std::vector<double> sorted(values.begin(), values.end());
   if (std::any_of(sorted.begin(), sorted.end(), [](double value) { return std::isnan(value); }))
-    throw std::invalid_argument("an empirical CDF needs numbers");
+    throw std::invalid_argument("the values of an empirical CDF must be numbers");
   std::sort(sorted.begin(), sorted.end());
   EmpiricalCdf cdf;
   for (std::size_t k = 0; k < sorted.size(); ++k) {

@@ -190,7 +190,7 @@ Randomness compare_with_random(std::span<const double> angles, const std::functi
                                double largest, const RandomnessOptions& options) {
   const auto proper = [](double part) { return part > 0 && part < 1; };
   if (!proper(options.fraction) || !proper(options.level))
-    throw std::invalid_argument("fraction and level of a comparison with random contacts lie between 0 and 1");
+    throw std::invalid_argument("fraction and level of a comparison with random contacts must be between 0 and 1");
   const auto n = static_cast<long>(angles.size());
   double low = 0, high = largest;
   while (low + (high - low) / 2 > low && low + (high - low) / 2 < high) {

@@ -12,40 +12,43 @@
 
 namespace isojam {
 
-/// Ideal random contacts of a solid, as a reference for alignment angles (the paper's Figure 2): the solid touches the
-/// face of another one. Angles in radians; each function is a distribution function.
+/// Distributions of the alignment angles for ideal random contacts, as a reference (the paper's Figure 2). In these
+/// contacts, a solid touches the face of another one. Angles are in radians; each function is a cumulative
+/// distribution. There are two cases:
 ///   Unconstrained: all orientations are equally likely, and a vertex touches. Then p(θ_ff) ∝ sin θ_ff up to the angle
 ///   where the regions of two faces meet, and p(θ_ef) → const at 0.
 ///   Edge-face constrained: an edge lies in the face; all edges and all rotations about the edge are equally likely.
 ///   For a regular solid θ_ff is then uniform on [0, π/2 − δ/2], δ the dihedral angle, and θ_ef = 0.
-/// Distributions are in closed form if all faces, edges and vertices are equivalent. Otherwise they come from a
-/// stratified sample, except for θ_ff below half the smallest angle between two face normals, which has a closed form
-/// for any solid.
+/// If all faces, edges and vertices of the solid are equivalent, the distributions have a closed form. Otherwise they
+/// are computed from a stratified sample. For any solid, θ_ff has a closed form below half of the smallest angle
+/// between two face normals.
 class RandomAlignment {
  public:
-  /// Method to compute distributions.
+  /// Method to compute the distributions.
   enum class Way { closed_where_regular, sampled };
-  /// Distributions for contacts of this solid with itself.
+  /// Computes the distributions for contacts between particles with this solid.
   explicit RandomAlignment(const ConvexSolid& solid, Way way = Way::closed_where_regular);
 
-  /// Distribution of θ_ff, the angle from a random direction to the nearest face normal: the fraction of the sphere
-  /// within θ of a normal, as caps clipped to the polygons that the faces subtend.
+  /// Distribution of θ_ff, the angle between a random direction and the nearest face normal. It is the fraction of the
+  /// sphere that is within θ of a normal. This area consists of spherical caps that are clipped by the spherical
+  /// polygons of the faces.
   double face_face(double theta) const;
   /// Distribution of θ_ef, the smallest angle from a random direction to the sides of the polygon that the normal cone
   /// of the vertex forms on the sphere: 1 − the fraction of that polygon farther than θ from all sides, by the
   /// Gauss–Bonnet theorem.
   double edge_face(double theta) const;
-  /// Distribution of θ_ff if an edge lies in the face.
+  /// Distribution of θ_ff for the case that an edge lies in the face.
   double constrained_face_face(double theta) const;
-  /// Distribution of θ_ef in that case: θ_ef is always 0.
+  /// Distribution of θ_ef for the case that an edge lies in the face; θ_ef is then always 0.
   double constrained_edge_face(double theta) const { return theta < 0 ? 0 : 1; }
 
   double ff_max() const { return ff_max_; }                          ///< angle where face_face reaches 1
   double ef_max() const { return ef_max_; }                          ///< angle where edge_face reaches 1
   double constrained_ff_max() const { return constrained_ff_max_; }  ///< angle where constrained_face_face reaches 1
 
-  /// True if the solid is not regular, so that its distributions come from a sample: n = 65 536 directions, one in each
-  /// of n cells of a sphere. The standard deviation of a distribution function is then n^(-3/4) up to a factor near 1.
+  /// True if the solid is not regular, so that the distributions are computed from a sample. The sample consists of n =
+  /// 65 536 directions, one in each of n cells of the sphere. The standard deviation of a distribution is then
+  /// n^(-3/4), times a factor near 1.
   bool is_sampled() const { return !face_face_.empty(); }
 
  private:
@@ -59,13 +62,13 @@ class RandomAlignment {
   std::vector<double> face_face_, edge_face_, constrained_;  ///< ascending; empty in closed form
 };
 
-/// Result of comparing angles with random ones.
+/// Result of a comparison of angles with those of random contacts.
 enum class RandomnessVerdict {
   not_called,
-  hyper_random,  ///< significantly more angles near 0 than for random contacts
-  random,        ///< no significant difference
-  sub_random,    ///< significantly fewer
-  too_few        ///< with so few contacts no result would be significant
+  hyper_random,  ///< there are significantly more angles near 0 than for random contacts
+  random,        ///< there is no significant difference
+  sub_random,    ///< there are significantly fewer angles near 0 than for random contacts
+  too_few        ///< there are so few contacts that no result would be significant
 };
 template <>
 inline constexpr std::array enum_names<RandomnessVerdict>{
@@ -73,23 +76,24 @@ inline constexpr std::array enum_names<RandomnessVerdict>{
     EnumName{RandomnessVerdict::random, "random"}, EnumName{RandomnessVerdict::sub_random, "sub_random"},
     EnumName{RandomnessVerdict::too_few, "too_few"}};
 
-/// Definitions of "near 0" and of significance.
+/// Parameters: the definition of angles near 0, and the level of significance.
 struct RandomnessOptions {
-  double fraction = 0.1;  ///< "near 0" is where the random CDF is below this: so small that the CDF is almost linear
-  double level = 0.01;    ///< significance level of the test, on each side
+  double fraction = 0.1;  ///< angles are near 0 where the random distribution is below this; there it is almost linear
+  double level = 0.01;    ///< significance level of each side of the test
 };
 
-/// Number of angles near 0, compared with the expected number for random contacts.
+/// Comparison of the number of angles near 0 with the expected number for random contacts.
 struct Randomness {
   RandomnessVerdict verdict = RandomnessVerdict::not_called;  ///< result of the test
-  double angle = 0;                                           ///< end of the range near 0
-  long below = 0;                                             ///< number of angles in that range
+  double angle = 0;                                           ///< upper end of the range near 0, radians
+  long below = 0;                                             ///< number of angles in this range
   double expected = 0;                                        ///< expected number for random contacts
-  double probability = 1;  ///< binomial probability of at least or at most this number, the smaller of both
+  /// binomial probability of at least this number, or of at most this number of angles; the smaller of both
+  double probability = 1;
 };
 
-/// Compares angles (radians) with `distribution`, one of RandomAlignment, which reaches 1 at `largest`. Throws
-/// std::invalid_argument unless fraction and level are between 0 and 1.
+/// Compares angles (radians) with a distribution of RandomAlignment, which reaches 1 at `largest`. Throws
+/// std::invalid_argument unless `fraction` and `level` are between 0 and 1.
 Randomness compare_with_random(std::span<const double> angles, const std::function<double(double)>& distribution,
                                double largest, const RandomnessOptions& options = {});
 

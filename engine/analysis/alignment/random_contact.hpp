@@ -8,28 +8,28 @@
 
 namespace isojam {
 
-// Two convex solids with random orientations that touch like isotropic ones: all positions in which B touches A are
-// equally likely. These positions form the surface of the Minkowski sum of A and −B. It consists of faces of either
-// solid, on which a vertex of the other lies, and of parallelograms from an edge of each. Its mean area over all
-// rotations of B is S_A + S_B + M_A M_B/2π. S is the surface area, and M = ½ Σ ℓ α the integral of the mean curvature,
-// over edges of length ℓ and exterior angle α (principal kinematic formula). In RandomAlignment, in contrast, a vertex
-// always touches a face.
+// Model of random contacts of two convex solids A and B with random orientations: all positions in which B touches A
+// are equally likely. These positions form the surface of the Minkowski sum of A and −B. This surface consists of two
+// kinds of faces: faces of A or B, on which a vertex of the other solid lies, and parallelograms, which an edge of A
+// and an edge of B span. The mean area of the surface, over all rotations of B, is S_A + S_B + M_A M_B/2π (principal
+// kinematic formula). S is the surface area of a solid. M = ½ Σ ℓ α is its integral of the mean curvature, with the sum
+// over the edges of length ℓ and exterior angle α. In RandomAlignment, in contrast, a vertex always touches a face.
 
-/// Quantities that determine the frequency of a solid's contacts.
+/// Quantities of a solid that determine how often it has contacts of each type.
 struct ContactSize {
   double surface = 0;         ///< S
   double mean_curvature = 0;  ///< M
 };
-/// The quantities of a solid.
+/// Computes the quantities of a solid.
 ContactSize contact_size(const ConvexSolid& solid);
 
-/// Fractions of all contacts of two solids; their sum is 1.
+/// Fractions of the types of contacts of two solids. Their sum is 1.
 struct ContactShares {
   double vertex_of_a = 0;  ///< vertex of A on a face of B
   double vertex_of_b = 0;  ///< vertex of B on a face of A
-  double edge_edge = 0;    ///< crossed edges of both
+  double edge_edge = 0;    ///< an edge of A crosses an edge of B
 };
-/// Fractions for solids with these sizes, from the mean area of the Minkowski sum.
+/// Computes the fractions from the mean area of the Minkowski sum.
 ContactShares contact_shares(const ContactSize& a, const ContactSize& b);
 
 /// Distributions of alignment angles if an edge of A touches an edge of B. The probability of an edge is proportional

@@ -76,8 +76,8 @@ const Eigen::Vector3d& rounded(const DoubleDoubleVector& r) { return r.high; }
 /// Contributions of four segments to H_AB: rows of n_i, of its torque vector and of d×n_i, and the columns by which
 /// they are multiplied.
 struct Terms {
-  Lanes push[4], arm[4], turn[4];
-  alignas(32) double push_b[3][4], arm_b[3][4], turn_b[3][4];
+  Lanes push[4], lever[4], lever_change[4];
+  alignas(32) double push_b[3][4], lever_b[3][4], lever_change_b[3][4];
 };
 
 void store(const Four& a, double (*rows)[4]) { a.x.store(rows[0]), a.y.store(rows[1]), a.z.store(rows[2]); }
@@ -95,12 +95,12 @@ void terms_of(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r,
   // The mask is negative where sine > 0.
   const Lanes weight = where_negative(none - parallel, length(along) / parallel, none);
   rows_of(n.x, n.y, n.z, terms.push);
-  const Four arm = cross(middle + from_a, n), turn = cross(along, n);
-  rows_of(arm.x, arm.y, arm.z, terms.arm);
-  rows_of(turn.x, turn.y, turn.z, terms.turn);
+  const Four lever = cross(middle + from_a, n), lever_change = cross(along, n);
+  rows_of(lever.x, lever.y, lever.z, terms.lever);
+  rows_of(lever_change.x, lever_change.y, lever_change.z, terms.lever_change);
   store(weight * m, terms.push_b);
-  store(weight * cross(middle + from_b, m), terms.arm_b);
-  store(weight * Lanes::all(1.0 / 12) * cross(along, m), terms.turn_b);
+  store(weight * cross(middle + from_b, m), terms.lever_b);
+  store(weight * Lanes::all(1.0 / 12) * cross(along, m), terms.lever_change_b);
 }
 
 /// The columns of H_AB, each as two halves of three rows.
@@ -109,12 +109,12 @@ struct Columns {
 
   void add(const Terms& terms, int k) {
     const auto factor = [k](const double(*rows)[4], int c) { return Lanes::all(rows[c][k]); };
-    const Lanes push = terms.push[k], arm = terms.arm[k], turn = terms.turn[k];
+    const Lanes push = terms.push[k], lever = terms.lever[k], lever_change = terms.lever_change[k];
     repeat(std::integral_constant<int, 3>{}, [&](int c) {
-      const Lanes push_b = factor(terms.push_b, c), arm_b = factor(terms.arm_b, c);
-      upper[c] = fma(push, push_b, upper[c]), lower[c] = fma(arm, push_b, lower[c]);
-      upper[3 + c] = fma(push, arm_b, upper[3 + c]);
-      lower[3 + c] = fma(turn, factor(terms.turn_b, c), fma(arm, arm_b, lower[3 + c]));
+      const Lanes push_b = factor(terms.push_b, c), lever_b = factor(terms.lever_b, c);
+      upper[c] = fma(push, push_b, upper[c]), lower[c] = fma(lever, push_b, lower[c]);
+      upper[3 + c] = fma(push, lever_b, upper[3 + c]);
+      lower[3 + c] = fma(lever_change, factor(terms.lever_change_b, c), fma(lever, lever_b, lower[3 + c]));
     });
   }
 

@@ -9,32 +9,38 @@
 
 namespace isojam {
 
-/// The parts of two solids that lie, at least partly, between the supports of both along the line of centres. The
-/// intersection lies in this slab, so no other edge reaches it and no other face bounds it. Empty if the solids are
-/// separated along that line.
+/// The slab between two planes perpendicular to the line of centres: the plane through the vertex of A that is farthest
+/// in the direction of B, and the plane through the vertex of B that is farthest in the direction of A. The
+/// intersection lies in the slab. `of_a` and `of_b` are the vertices, edges and faces that are at least partly in the
+/// slab; no other features belong to the intersection. Empty if the solids are separated along the line of centres.
 struct Slab {
   Parts of_a, of_b;
 };
 
-/// The slab of A and B, with B's centre at r from A's.
+/// The slab of A and B, where r = x_B − x_A.
 Slab slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
 
-/// Signed distances (V_p^(1/3)) of the vertices of one solid from the planes of the other, > 0 outside. A vertex may
-/// lack a row if it and all edges that end in it are certainly outside. Columns exist only for planes that can bound
-/// the intersection.
+/// Table of the signed distances (V_p^(1/3)) of the vertices of one solid from the face planes of the other solid,
+/// positive outside. A vertex may have no row if the vertex and all its edges are certainly outside. A plane has a
+/// column only if it can bound the intersection.
 struct Distances {
-  static constexpr int max_size = SolidArrays::capacity * SolidArrays::capacity;  ///< entries of a table
+  /// largest number of entries of a table
+  static constexpr int max_size = SolidArrays::capacity * SolidArrays::capacity;
 
-  int planes = 0;                ///< number of columns, padded to a multiple of 4 with planes that change no result
-  const std::uint8_t* face;      ///< face of the other solid, by column
-  std::uint64_t rows = 0;        ///< bits of the vertices that have a row
-  std::uint64_t candidates = 0;  ///< bits of the edges with an end that is not certainly outside; both ends have rows
-  std::uint64_t edges = 0;       ///< bits of the candidates, without those that have both ends outside the same plane
-  double nearest = 0;            ///< smallest |distance| in the table
-  int least_penetrated = 0;      ///< column of the plane with the smallest penetration by the vertices
-  double least_penetration = 0;  ///< that penetration; not positive if the plane separates. Its last bits are a tag
-  double* of = nullptr;          ///< the distances, vertices × planes
-  std::uint8_t near_face[SolidArrays::capacity];  ///< storage of `face` if it lists only some faces
+  int planes = 0;  ///< number of columns, a multiple of 4; unused columns are planes that do not change the result
+  const std::uint8_t* face;  ///< index of the face of the other solid, for each column
+  std::uint64_t rows = 0;    ///< set of the vertices that have a row, as bits
+  /// set of the edges of which at least one end is not certainly outside; both ends have rows
+  std::uint64_t candidates = 0;
+  std::uint64_t edges = 0;   ///< set of the candidates, without the edges whose two ends are outside of the same plane
+  double nearest = 0;        ///< smallest absolute value of a distance in the table
+  int least_penetrated = 0;  ///< column of the plane with the smallest penetration
+  /// penetration of this plane by the vertices; not positive if the plane separates the solids. Its last bits are an
+  /// index, see lanes.hpp
+  double least_penetration = 0;
+  double* of = nullptr;  ///< the distances, as a matrix of vertices × planes
+  /// memory for `face` if the table has columns for only some of the faces
+  std::uint8_t near_face[SolidArrays::capacity];
 
   static int size(const PlacedSolid& body, const PlacedSolid& other) {
     return body.vertices() * ((other.faces() + 3) / 4 * 4);
@@ -43,18 +49,19 @@ struct Distances {
   int least_penetrated_face() const { return face[least_penetrated]; }
 };
 
-/// Fills the table d.of for `body`, with the centre of `other` at `to_other` from its own.
+/// Computes all distances d.of of the vertices of `body` from the planes of `other`. `to_other` is the centre of
+/// `other` relative to the centre of `body`.
 void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
                         Distances& d);
 
-/// The same for the parts in the slab only, where `body` is the slab's A.
+/// Computes only the distances for features in the slab. `body` must be the solid A of the slab.
 void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
                              const Slab& slab, Distances& d);
 
-/// Recomputes everything except the rows and the table, after entries of the table have changed.
+/// Recomputes all members except the rows and the table, after entries of the table have changed.
 void classify(const ConvexSolid& body, Distances& d);
 
-/// Numbers of vertices, of vectors of 4 planes, and of edges; known to the compiler for the Platonic solids.
+/// Numbers of vertices, of vectors of 4 planes, and of edges. For the Platonic solids they are compile-time constants.
 template <int v, int p, int e>
 struct Counts {
   static constexpr std::integral_constant<int, v> vertices{};
@@ -88,7 +95,8 @@ inline void with_counts(const SolidArrays& body, int planes, const Function& fun
   function(AnyCounts{body.vertices, vectors, body.edges});
 }
 
-/// Calls function(k) for k < n, unrolled if n is known, so that accumulators stay in registers.
+/// Calls function(k) for every k < n. If n is a compile-time constant, the loop is unrolled, so that sums stay in
+/// registers.
 template <int n, class Function>
 inline void repeat(std::integral_constant<int, n>, const Function& function) {
   [&]<int... k>(std::integer_sequence<int, k...>) { (function(k), ...); }
@@ -99,7 +107,8 @@ inline void repeat(int n, const Function& function) {
   for (int k = 0; k < n; ++k) function(k);
 }
 
-/// Calls function with the number of vectors, which is known to the compiler if a Platonic solid has that number.
+/// Calls `function` with the number of vectors. The number is a compile-time constant if a Platonic solid has this
+/// number.
 template <class Function>
 void with_vectors(int vectors, const Function& function) {
   switch (vectors) {

@@ -11,8 +11,8 @@
 
 namespace isojam {
 
-/// Four doubles, in one vector register where the build allows it. The portable version gives the same bits, but is far
-/// slower where std::fma is a function of the C library.
+/// Four doubles (lanes). If the build uses AVX2, they are in one vector register. The portable version gives the same
+/// bits, but it is much slower if std::fma is a function of the C library.
 #ifdef ISOJAM_AVX2
 
 struct Lanes {
@@ -38,14 +38,14 @@ inline Lanes fma_minus(Lanes a, Lanes b, Lanes c) { return {_mm256_fmsub_pd(a.v,
 inline Lanes min(Lanes a, Lanes b) { return {_mm256_min_pd(a.v, b.v)}; }
 inline Lanes max(Lanes a, Lanes b) { return {_mm256_max_pd(a.v, b.v)}; }
 inline Lanes absolute(Lanes a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
-/// Per lane: a where the sign bit of s is set, else b.
+/// Selects for each lane: a if the sign bit of s is set, otherwise b.
 inline Lanes where_negative(Lanes s, Lanes a, Lanes b) { return {_mm256_blendv_pd(b.v, a.v, s.v)}; }
-/// Negative (all bits set) where a = b.
+/// Compares each lane: all bits are set if a = b, otherwise none.
 inline Lanes equal(Lanes a, Lanes b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ)}; }
-/// Lanes 0 and 1 of a, lanes 2 and 3 of b.
+/// Joins lanes 0 and 1 of a with lanes 2 and 3 of b.
 inline Lanes halves(Lanes a, Lanes b) { return {_mm256_blend_pd(a.v, b.v, 0b1100)}; }
 inline Lanes without_fourth(Lanes a) { return {_mm256_blend_pd(a.v, _mm256_setzero_pd(), 0b1000)}; }
-/// Bit k: the sign bit of lane k.
+/// A number whose bit k is the sign bit of lane k.
 inline unsigned sign_bits(Lanes a) { return static_cast<unsigned>(_mm256_movemask_pd(a.v)); }
 inline Lanes operator&(Lanes a, Lanes b) { return {_mm256_and_pd(a.v, b.v)}; }  ///< bitwise
 inline Lanes operator|(Lanes a, Lanes b) { return {_mm256_or_pd(a.v, b.v)}; }
@@ -68,11 +68,11 @@ inline void rows_of(Lanes x, Lanes y, Lanes z, Lanes* rows) {
 }
 inline Lanes square_root(Lanes a) { return {_mm256_sqrt_pd(a.v)}; }
 inline Lanes yzx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b11001001)}; }
-/// Lanes 1, 2, 3, 0.
+/// The lanes in the order 1, 2, 3, 0.
 inline Lanes yzwx(Lanes a) { return {_mm256_permute4x64_pd(a.v, 0b00111001)}; }
-/// Lanes 1, 0, 3, 2.
+/// The lanes in the order 1, 0, 3, 2.
 inline Lanes swapped_pairs(Lanes a) { return {_mm256_permute_pd(a.v, 0b0101)}; }
-/// Lanes 2, 3, 0, 1.
+/// The lanes in the order 2, 3, 0, 1.
 inline Lanes swapped_halves(Lanes a) { return {_mm256_permute2f128_pd(a.v, a.v, 1)}; }
 template <int k>
 Lanes lane(Lanes a) {
@@ -191,8 +191,8 @@ inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail,
 
 #endif
 
-/// Indices stored in the last 6 of a double's 52 mantissa bits, so that an extreme carries the index where it was
-/// found.
+/// Functions that store an index in the last 6 of the 52 mantissa bits of a double. The minimum or maximum of such
+/// doubles then contains the index of the element where it was found.
 inline constexpr std::uint64_t tag_bits = 63;
 struct Tags {
   alignas(32) std::uint64_t mask[4] = {~tag_bits, ~tag_bits, ~tag_bits, ~tag_bits};
@@ -203,11 +203,11 @@ struct Tags {
 };
 inline constexpr Tags tags;
 
-/// Tags lane k with first + k; `first` is a multiple of 4 below 64.
+/// Stores the index first + k in lane k. `first` must be a multiple of 4 below 64.
 inline Lanes tagged(Lanes a, int first) { return (a & Lanes::load(tags.mask)) | Lanes::load(tags.number + first); }
 inline std::uint32_t tag_of(double x) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(x) & tag_bits); }
 
-/// Minimum, maximum or sum of all lanes, in every lane.
+/// The minimum, maximum or sum of all lanes, copied to every lane.
 inline Lanes least(Lanes a) {
   const Lanes pairs = min(a, swapped_pairs(a));
   return min(pairs, swapped_halves(pairs));
@@ -221,7 +221,8 @@ inline Lanes sum(Lanes a) {
   return pairs + swapped_halves(pairs);
 }
 
-/// Lanes z, x, y of a×b: a cross product without its last permutation, which a sum of such products needs only once.
+/// The components of a×b in the order z, x, y. For a sum of such products, the permutation to x, y, z is needed only
+/// once, at the end.
 inline Lanes cross_zxy(Lanes a, Lanes b) { return fma_minus(a, yzx(b), yzx(a) * b); }
 
 }  // namespace isojam

@@ -5,16 +5,18 @@
 
 namespace isojam {
 
-/// Penetration depth of A and B, and its axis: the shortest translation that separates them has length `depth` and this
-/// direction.
+/// Penetration depth of A and B. The shortest translation that separates the two solids has the length `depth` and the
+/// direction of `axis`.
 struct Penetration {
   SeparatingAxis axis;  ///< axis with the smallest depth
-  Quad depth = 0;  ///< V_p^(1/3); negative if the solids are separated, and then −depth is at most their distance
+  /// depth in units of V_p^(1/3). If the solids are separated, it is negative, and −depth is at most their distance
+  Quad depth = 0;
 };
 
-/// The axis with the smallest depth among all face normals and edge-edge products. Quadruple precision decides where
-/// doubles cannot. Products of edges are tried in the direction from A to B, which is correct unless the centres nearly
-/// coincide. Slow: it tries every axis.
+/// Finds the axis with the smallest depth among all face normals and all vector products of two edges. If double
+/// precision cannot decide between two axes, quadruple precision is used. Vector products are used only in the
+/// direction from A to B, which is correct unless the centres nearly coincide. The function is slow, because it
+/// computes the depth for every axis.
 Penetration penetration(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose);
 
 }  // namespace isojam

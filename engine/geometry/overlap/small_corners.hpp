@@ -5,10 +5,10 @@
 
 namespace isojam {
 
-/// Recomputes the corners of a closed loop in double-double, if the contact is so small or slender that rounding of the
-/// corners would change its vector area `area` by more than about 1e-13. Corners and heights are then stored relative
-/// to one of the corners, loop.origin, and are correct to their last bits. Returns true if this was done. Both solids
-/// must be placed in double-double.
+/// Recomputes the corners of a closed loop in double-double if the contact is very small or narrow. The criterion is
+/// whether rounding errors of the corners would change the vector area `area` by more than about 1e-13. Corners and
+/// heights are then stored relative to one of the corners, loop.origin, and are correct to their last bits. Returns
+/// true if the corners were recomputed. Both solids must have been placed in double-double.
 bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
                           const Eigen::Vector3d& area, ContactLoop& loop);
 

@@ -8,12 +8,13 @@
 
 namespace isojam {
 
-/// Strains of the cell that are degrees of freedom, in addition to positions and orientations.
+/// Strains of the cell that are degrees of freedom in addition to positions and orientations. They are called the free
+/// strains.
 enum class CellFreedom {
   fixed,      ///< no strain
-  isotropic,  ///< the volume, at a prescribed pressure
-  shape,      ///< the five strains that preserve the volume: the minimum has hydrostatic stress
-  free        ///< all six strains: the stress at the minimum is the prescribed one
+  isotropic,  ///< only the volume, at a prescribed pressure
+  shape,      ///< the five strains that preserve the volume; at the minimum the stress is hydrostatic
+  free        ///< all six strains; at the minimum the stress is equal to the prescribed stress
 };
 template <>
 inline constexpr std::array enum_names<CellFreedom>{
@@ -23,25 +24,27 @@ inline constexpr std::array enum_names<CellFreedom>{
 /// True if the volume is a degree of freedom.
 inline bool frees_volume(CellFreedom cell) { return cell == CellFreedom::isotropic || cell == CellFreedom::free; }
 
-/// Freedom and load of the cell while a packing is minimised: the variable-cell method (Smith, Srivastava, Fisher, Alam
-/// 2014, PRE 89, 042203). Energy becomes enthalpy, E + p V_cell.
+/// Free strains of the cell and load on the cell while a packing is minimised: the variable-cell method (Smith,
+/// Srivastava, Fisher, Alam 2014, PRE 89, 042203). If strains are free, the enthalpy E + p V_cell is minimised instead
+/// of the energy.
 struct CellControl {
-  CellFreedom cell = CellFreedom::fixed;  ///< strains that are free
-  double pressure = 0;                    ///< p > 0 (Y), if the volume is free
-  /// τ, symmetric and traceless. If all strains are free, the prescribed stress is −p·1 + τ.
+  CellFreedom cell = CellFreedom::fixed;  ///< the free strains
+  double pressure = 0;                    ///< prescribed pressure p > 0 (Y); used only if the volume is free
+  /// Deviator τ of the prescribed stress, symmetric and traceless (Y). If all strains are free, the prescribed stress
+  /// is −p·1 + τ.
   Eigen::Matrix3d deviator = Eigen::Matrix3d::Zero();
 };
 
-/// Orthonormal basis of the strains that are degrees of freedom: columns in Mandel's components (strain.hpp).
+/// Orthonormal basis of the free strains. Each column is a strain in Mandel's components (strain.hpp).
 using StrainBasis = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
-/// Basis of the free strains; no columns for a fixed cell.
+/// The basis of the free strains. It has no columns for a fixed cell.
 StrainBasis strain_basis(CellFreedom cell);
-/// The CellFreedom with this number of strains: 0, 1, 5 or 6.
+/// The CellFreedom that has this number of free strains: 0, 1, 5 or 6.
 CellFreedom freedom_of(Eigen::Index strains);
 
-/// Steps and gradients contain strains as ℓ·ε with ℓ = √N V_p^(1/3), which makes them similar to the coordinates of
-/// particles (Sheppard et al. 2012): an affine strain moves N particles, and its stiffness is then that of a single
-/// particle.
+/// The length ℓ = √N V_p^(1/3). Steps and gradients contain a strain ε as the coordinate ℓ·ε. An affine strain moves
+/// all N particles; with the factor ℓ, its stiffness is similar to that of a coordinate of a single particle (Sheppard
+/// et al. 2012).
 double strain_length(int particles);
 
 }  // namespace isojam

@@ -96,7 +96,8 @@ PeriodicCell::PeriodicCell(double side) : PeriodicCell(cube_of(side)) {}
 PeriodicCell::PeriodicCell(const DoubleDoubleMatrix& vectors) : vectors_(vectors) {
   measure();
   if (!(std::isfinite(volume_) && volume_ > 0 && vectors.low.allFinite()))
-    throw std::invalid_argument("the vectors of a cell are finite and right-handed, the side of a cube positive");
+    throw std::invalid_argument(
+        "the vectors of a cell must be finite and right-handed, and the side of a cube positive");
 }
 
 void PeriodicCell::measure() {

@@ -7,32 +7,32 @@
 
 namespace isojam {
 
-/// Periodic cell, spanned by three lattice vectors, each in double-double. It is a cube of side L unless constructed or
-/// deformed otherwise. Lengths in V_p^(1/3).
+/// Periodic cell, spanned by three lattice vectors in double-double. It can be a cube of side L or have any other
+/// shape. Lengths are in units of V_p^(1/3).
 class PeriodicCell {
  public:
-  /// A cube. Throws std::invalid_argument unless side is finite and positive.
+  /// Makes a cube. Throws std::invalid_argument unless `side` is finite and positive.
   explicit PeriodicCell(double side);
-  /// A cell with these lattice vectors as columns. Throws std::invalid_argument unless they are finite and
-  /// right-handed.
+  /// Makes a cell whose lattice vectors are the columns of `vectors`. Throws std::invalid_argument unless the vectors
+  /// are finite and right-handed.
   explicit PeriodicCell(const DoubleDoubleMatrix& vectors);
 
   bool operator==(const PeriodicCell& other) const;
 
   /// True if the lattice vectors are exactly L x̂, L ŷ, L ẑ.
   bool is_cube() const { return is_cube_; }
-  /// L for a cube; V_cell^(1/3) for other cells.
+  /// The side L of a cube, or V_cell^(1/3) for any other cell.
   double side() const { return side_; }
-  double volume() const { return volume_; }                       ///< V_cell, V_p
-  DoubleDouble volume_double_double() const;                      ///< V_cell with an error of at most 1e-31
+  double volume() const { return volume_; }                       ///< volume V_cell, in units of V_p
+  DoubleDouble volume_double_double() const;                      ///< V_cell with a relative error of at most 1e-31
   const DoubleDoubleMatrix& vectors() const { return vectors_; }  ///< the lattice vectors, as columns
-  /// Distances between opposite faces of the cell. Points that are n cells apart along a lattice vector have at least n
-  /// times this distance.
+  /// Distances between opposite faces of the cell, one for each lattice vector. Two points that are n cells apart along
+  /// a lattice vector have a distance of at least n times its height.
   const Eigen::Vector3d& heights() const { return heights_; }
-  /// Coordinates of d in units of the lattice vectors.
+  /// Coordinates of the vector d in the basis of the lattice vectors.
   Eigen::Vector3d fractional(const Eigen::Vector3d& d) const;
 
-  /// Σ_c shift_c·(lattice vector c).
+  /// The lattice translation Σ_c shift_c·(lattice vector c).
   Eigen::Vector3d translation(const Eigen::Vector3i& shift) const {
     const Eigen::Vector3d s = shift.cast<double>();
     if (is_cube_) return side_ * s;
@@ -41,17 +41,18 @@ class PeriodicCell {
   /// One component of translation() in double-double.
   DoubleDouble translation_double_double(int component, const Eigen::Vector3i& shift) const;
 
-  /// Integers k such that fractional(d) + k is in [−½, ½) along each lattice vector.
+  /// The integers k for which fractional(d) + k is in [−½, ½) along each lattice vector.
   Eigen::Vector3i nearest_shift(const Eigen::Vector3d& d) const;
-  /// The shortest of all periodic images of d.
+  /// The shortest vector among all periodic images of d.
   Eigen::Vector3d nearest_image(const Eigen::Vector3d& d) const;
   /// Length of the shortest lattice translation.
   double shortest_translation() const;
 
-  /// The cell with lattice vectors F·(lattice vectors). Throws std::invalid_argument like the constructor.
+  /// The cell whose lattice vectors are F times the lattice vectors of this cell. Throws std::invalid_argument unless
+  /// the new vectors are finite and right-handed.
   PeriodicCell deformed(const DoubleDoubleMatrix& f) const;
-  /// A cell of the same lattice with the shortest spanning vectors (Minkowski reduction), which have the largest
-  /// heights and angles. A cell that is already reduced is returned unchanged.
+  /// The cell of the same lattice with the shortest lattice vectors (Minkowski reduction). This cell has the largest
+  /// heights and angles. If this cell is already reduced, it is returned unchanged.
   PeriodicCell reduced() const;
 
  private:
@@ -64,18 +65,21 @@ class PeriodicCell {
   bool is_cube_;
 };
 
-/// Length that every lattice translation must exceed so that no particle touches two images of another one. Images of B
-/// that touch A lie in A ⊕ (−B), whose diameter is at most diameter(A) + diameter(B), and two of them differ by a
-/// lattice translation. So the shortest translation, which is the side of a cube, must exceed 2·diameter.
+/// Length of two diameters of the solid. If every lattice translation is longer than this, no particle touches two
+/// images of another particle. Reason: the centres of all images of B that touch A lie in the Minkowski sum A ⊕ (−B),
+/// whose diameter is at most diameter(A) + diameter(B). Two images of B differ by a lattice translation. If it is
+/// longer than this diameter, at most one of the images touches A. The shortest lattice translation of a cube is its
+/// side.
 double least_side(const ConvexSolid& solid);
 
-/// True if no particle can touch two images of another one: shortest_translation() > least_side(solid).
+/// True if the cell is so large that no particle can touch two images of another one: shortest_translation() >
+/// least_side(solid). In comments, such a cell is called legal.
 bool is_legal(const PeriodicCell& cell, const ConvexSolid& solid);
 
-/// Side of the cubic cell of n particles of unit volume at density φ: (n/φ)^(1/3).
+/// Side (n/φ)^(1/3) of the cubic cell with n particles of unit volume at density φ.
 double side_at(int n, double density);
 
-/// Smallest number of particles whose cubic cell is legal up to density φ.
+/// Smallest number of particles of unit volume for which is_legal() is true for a cubic cell at density φ and below.
 int least_particles(const ConvexSolid& solid, double density);
 
 }  // namespace isojam

@@ -5,31 +5,22 @@
 #include <limits>
 #include <utility>
 
+#include "engine/packing/pair_search.hpp"
 #include "engine/packing/strain_border.hpp"
+#include "engine/parallel/parallel.hpp"
 
 namespace isojam {
 
 namespace {
 
-/// The multiplier of each listed pair, by merging two lists in canonical order; null if it has none.
+/// The multiplier of each listed pair; null if it has none.
 std::vector<const ContactMultiplier*> by_pair(const std::vector<NeighbourPair>& pairs,
                                               std::span<const ContactMultiplier> forces) {
-  std::vector<const ContactMultiplier*> found(pairs.size(), nullptr);
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    while (next < forces.size() && canonical_key(forces[next].pair) < canonical_key(pairs[k])) ++next;
-    if (next < forces.size() && canonical_key(forces[next].pair) == canonical_key(pairs[k])) found[k] = &forces[next];
-  }
+  std::vector<const ContactMultiplier*> found;
+  found.reserve(pairs.size());
+  PairSearch search(forces, &ContactMultiplier::pair);
+  for (const NeighbourPair& pair : pairs) found.push_back(search.find(pair));
   return found;
-}
-
-bool apart(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis) {
-  const double reach = a.solid().circumradius() + b.solid().circumradius();
-  if (r.squaredNorm() >= reach * reach || separates(a, b, r, axis)) return true;
-  if (overlap(a, b, r, axis).touching()) return false;
-  // No face separates the pair, so a product of edges does; a single search for it pays off.
-  if (axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
-  return true;
 }
 
 void add(const EnvelopeContact& contact, EnvelopeEvaluation& sum) {
@@ -69,7 +60,7 @@ void EnvelopeEnergy::place(const Packing& packing) {
   make_room(packing, Precision::double_double, placed_);
   solids_ = packing.solids;
   poses_.resize(n);
-  for_each_slot(n, [&](std::size_t k) {
+  for_each_small(n, [&](std::size_t k) {
     if (same && poses_[k] == packing.poses[k]) return;
     placed_.place(k, rotation_matrix(packing.poses[k]));
     poses_[k] = packing.poses[k];
@@ -82,11 +73,10 @@ std::vector<std::size_t> EnvelopeEnergy::near_pairs(const Packing& packing,
                                                     std::span<const char> only) {
   const std::vector<NeighbourPair>& pairs = list_.pairs();
   std::vector<char> near(pairs.size(), 0);
-  for_each_slot(pairs.size(), [&](std::size_t k) {
+  for_each_small(pairs.size(), [&](std::size_t k) {
     const NeighbourPair& pair = pairs[k];
     if (!only.empty() && !only[pair.a] && !only[pair.b]) return;
-    near[k] = force_of[k] != nullptr ||
-              !apart(placed_[pair.a], placed_[pair.b], displacement(packing, pair), list_.axes()[k]);
+    near[k] = force_of[k] != nullptr || overlap_listed(packing, placed_, pair, list_.axes()[k]).touching();
   });
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < near.size(); ++k) {
@@ -99,7 +89,7 @@ template <class Find>
 EnvelopeEvaluation EnvelopeEnergy::evaluate_pairs(const Packing& packing, const std::vector<std::size_t>& near,
                                                   const Find& find) {
   std::vector<EnvelopeContact> contacts(near.size());
-  for_each_slot(near.size(), [&](std::size_t slot) {
+  for_each_small(near.size(), [&](std::size_t slot) {
     EnvelopeContact& out = contacts[slot];
     out.pair = list_.pairs()[near[slot]];
     const DoubleDoubleVector r = displacement_double_double(packing, out.pair);
@@ -144,21 +134,20 @@ EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char
 EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEvaluation& part,
                              std::span<const char> only) {
   std::vector<EnvelopeContact> contacts;
-  contacts.reserve(before.contacts.size());
-  auto moved = part.contacts.begin();
+  contacts.reserve(before.contacts.size() + part.contacts.size());
   for (const EnvelopeContact& contact : before.contacts) {
-    if (only[contact.pair.a] || only[contact.pair.b]) continue;
-    while (moved != part.contacts.end() && canonical_key(moved->pair) < canonical_key(contact.pair))
-      contacts.push_back(*moved++);
-    contacts.push_back(contact);
+    if (!only[contact.pair.a] && !only[contact.pair.b]) contacts.push_back(contact);
   }
-  contacts.insert(contacts.end(), moved, part.contacts.end());
+  const auto middle = contacts.insert(contacts.end(), part.contacts.begin(), part.contacts.end());
+  std::inplace_merge(contacts.begin(), middle, contacts.end(), [](const auto& one, const auto& other) {
+    return canonical_key(one.pair) < canonical_key(other.pair);
+  });
   return summed(std::move(contacts), static_cast<int>(only.size()));
 }
 
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellFreedom cell) {
   std::vector<PairHessian> terms(evaluation.contacts.size());
-  for_each_slot(terms.size(), [&](std::size_t k) { terms[k] = evaluation.contacts[k].at.curvature(); });
+  for_each_small(terms.size(), [&](std::size_t k) { terms[k] = evaluation.contacts[k].at.curvature(); });
   BlockMatrix sum;
   sum.diagonal.assign(static_cast<std::size_t>(particles), Matrix6d::Zero());
   StrainBorder border(cell, particles, sum);

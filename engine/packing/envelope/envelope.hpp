@@ -11,46 +11,49 @@
 
 namespace isojam {
 
-/// Known data of a contact before its envelope is computed: its multiplier μ, and an estimate of its shift w; see
-/// ProximalTerms.
+/// Data of a contact from which its envelope is computed: its multiplier μ, and an estimate of its shift w.
+/// proximal_contact.hpp defines these terms.
 struct ContactMultiplier {
   NeighbourPair pair;                      ///< the particles, and the image of b
-  Vector6d multiplier = Vector6d::Zero();  ///< μ, in B's body frame
-  Vector6d shift = Vector6d::Zero();       ///< w, in B's body frame
+  Vector6d multiplier = Vector6d::Zero();  ///< multiplier μ, in the body frame of B
+  Vector6d shift = Vector6d::Zero();       ///< estimate of the shift w, in the body frame of B
 };
 
-/// A contact of an envelope: A touches the ghost of B, or the contact has a multiplier.
+/// A contact of an envelope: a pair in which A touches the ghost of B, or which has a multiplier.
 struct EnvelopeContact {
   NeighbourPair pair;                                      ///< the particles, and the image of b
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< x_b − x_a for the touching image, lab frame
-  Vector6d multiplier = Vector6d::Zero();                  ///< μ, in B's body frame
-  ProximalContact at;                                      ///< its envelope in this state
+  Vector6d multiplier = Vector6d::Zero();                  ///< multiplier μ, in the body frame of B
+  ProximalContact at;                                      ///< envelope of the contact in this state
 };
 
-/// Φ(x; μ) = Σ_contacts min_w [ e(w) + ½ ρ |w|² − μ·w ] of a packing: its energy with the stiffness of every contact
-/// limited to ρ. If all shifts are 0, its value and gradient equal those of the energy.
+/// Envelope of a packing, Φ(x; μ) = Σ_contacts min_w [ e(w) + ½ ρ |w|² − μ·w ]. It is a modified energy in which the
+/// stiffness of every contact is at most ρ. If all shifts w are 0, its value and gradient are equal to those of the
+/// energy.
 struct EnvelopeEvaluation {
-  double value = 0;                       ///< Φ, Y·V_p
-  double noise = 0;                       ///< differences of Φ due to rounding
-  Eigen::VectorXd gradient;               ///< 6N entries as in Evaluation::gradient; Enthalpy appends those of strains
+  double value = 0;  ///< value Φ, in units of Y·V_p
+  double noise = 0;  ///< error of Φ that rounding can cause
+  /// gradient with 6N entries, as in Evaluation::gradient; Enthalpy appends the derivatives with respect to strains
+  Eigen::VectorXd gradient;
   std::vector<EnvelopeContact> contacts;  ///< sorted by (a, b, shift)
-  /// Σ (∂Φ/∂r) rᵀ over contacts, r = x_b − x_a. It replaces V_cell·stress of an Evaluation in derivatives with respect
-  /// to strains.
+  /// Virial Σ (∂Φ/∂r) rᵀ over all contacts, r = x_b − x_a. For the derivatives with respect to strains, it replaces
+  /// V_cell·stress of an Evaluation.
   Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
-  double mean_force = 0;        ///< mean |F| over contacts where A and the ghost touch
-  double multiplier_error = 0;  ///< largest |∇e − μ| of a contact
-  long touching = 0;            ///< number of contacts where A touches the ghost
-  long overlaps = 0;            ///< number of overlaps with Hessian for finding the shifts
+  double mean_force = 0;        ///< mean |F| over the contacts in which A touches the ghost of B
+  double multiplier_error = 0;  ///< largest |∇e − μ| of all contacts
+  long touching = 0;            ///< number of contacts in which A touches the ghost of B
+  long overlaps = 0;            ///< number of overlaps with Hessian that were computed to find the shifts
 };
 
-/// Evaluates envelopes of packings. Holds only caches, like PackingEnergy.
+/// Computes envelopes of packings. Like PackingEnergy, an object contains only caches.
 class EnvelopeEnergy {
  public:
-  /// `forces` must be sorted by (a, b, shift); for other pairs μ = 0. `only` has one flag per particle: contacts
-  /// without a flagged particle are skipped. Throws std::invalid_argument unless is_legal(cell, solids.widest()).
+  /// Computes the envelope. `forces` must be sorted by (a, b, shift); pairs that are not in it have μ = 0. If `only` is
+  /// given, it has one flag per particle, and contacts without a flagged particle are skipped. Throws
+  /// std::invalid_argument unless is_legal(cell, solids.widest()) is true.
   EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactMultiplier> forces, double stiffness,
                               std::span<const char> only = {});
-  /// The touching pairs in their present state, each with the multiplier ∇e, so that all shifts are 0 and Φ = E.
+  /// The contacts of a packing with the multipliers ∇e. With these multipliers all shifts are 0 and Φ = E.
   EnvelopeEvaluation unshifted(const Packing& packing, double stiffness);
 
  private:
@@ -63,21 +66,21 @@ class EnvelopeEnergy {
   NeighbourList list_;
   PlacedSolids placed_;
   std::optional<Composition> solids_;
-  std::vector<Pose> poses_;  ///< poses for which placed_ is valid
+  std::vector<Pose> poses_;  ///< poses from which placed_ was computed
 };
 
-/// The result that evaluate() with `only` would give, taken from a full evaluation: the contacts of flagged particles.
+/// The part of a full evaluation that evaluate() with `only` would compute: the contacts of flagged particles.
 EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only);
 
-/// The full evaluation of a packing in which only flagged particles have moved since `before`: their contacts come from
-/// `part`, the others from `before`.
+/// The full evaluation of a packing in which only flagged particles have moved since the evaluation `before`. The
+/// contacts of flagged particles are taken from `part`, and all other contacts from `before`.
 EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEvaluation& part,
                              std::span<const char> only);
 
-/// Second derivatives of Φ with respect to the particles, bordered by the free strains.
+/// Second derivatives of Φ with respect to the particles, with a border for the free strains.
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellFreedom cell = CellFreedom::fixed);
 
-/// The present multipliers and shifts of all contacts.
+/// The multipliers and shifts of all contacts in this evaluation.
 std::vector<ContactMultiplier> forces_of(const EnvelopeEvaluation& evaluation);
 
 }  // namespace isojam

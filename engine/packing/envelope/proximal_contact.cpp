@@ -52,7 +52,7 @@ struct Ghost {
   Vector6d gradient = Vector6d::Zero();  ///< gradient of F with respect to (x, R·θ) of the ghost
   /// Derivative of the rotational part of w with respect to R·θ of the ghost; the translational part of w is the
   /// ghost's.
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double value = 0;  ///< F
 };
 
@@ -89,15 +89,15 @@ class Proximal {
     Ghost ghost;
     ghost.shift = shift;
     const Eigen::Vector3d half = shift.tail<3>() / (2 * radius_);
-    const Pose pose = moved_by_half_turn(b_, Eigen::Vector3d::Zero(), half);
+    const Pose pose = moved_by_half_rotation(b_, Eigen::Vector3d::Zero(), half);
     placed_.place(0, rotation_matrix(pose));
     DoubleDoubleVector r = r_;
     for (int c = 0; c < 3; ++c) r.set(c, short_sum(r_[c], shift[c]));
     ghost.pair = pair_energy(a_, placed_[0], r);
     // q → exp(dθ) q changes the vector part v by ½ (q₀ dθ + dθ×v).
-    ghost.turn = std::sqrt(1 - half.squaredNorm()) * Eigen::Matrix3d::Identity() - cross_matrix(half);
+    ghost.rotation = std::sqrt(1 - half.squaredNorm()) * Eigen::Matrix3d::Identity() - cross_matrix(half);
     const Vector6d spring = stiffness_ * shift - multiplier_;
-    ghost.gradient = ghost.pair.gradient_b + joined(spring.head<3>(), ghost.turn.transpose() * spring.tail<3>());
+    ghost.gradient = ghost.pair.gradient_b + joined(spring.head<3>(), ghost.rotation.transpose() * spring.tail<3>());
     ghost.value = ghost.pair.energy + (stiffness_ / 2 * shift - multiplier_).dot(shift);
     return ghost;
   }
@@ -116,7 +116,7 @@ class Proximal {
   Matrix6d matrix(const Ghost& ghost) const {
     Matrix6d m = ghost.pair.hessian.bb;
     m.diagonal().head<3>().array() += stiffness_;
-    m.bottomRightCorner<3, 3>() += stiffness_ * ghost.turn.transpose() * ghost.turn;
+    m.bottomRightCorner<3, 3>() += stiffness_ * ghost.rotation.transpose() * ghost.rotation;
     return m;
   }
 
@@ -130,7 +130,7 @@ class Proximal {
   /// ∇_w e.
   static Vector6d wrench(const Ghost& ghost) {
     const Vector6d& gradient = ghost.pair.gradient_b;
-    return joined(gradient.head<3>(), ghost.turn.transpose().inverse() * gradient.tail<3>());
+    return joined(gradient.head<3>(), ghost.rotation.transpose().inverse() * gradient.tail<3>());
   }
 
   /// Slope of F along a change of w.
@@ -139,7 +139,7 @@ class Proximal {
   }
 
   Ghost step(const Ghost& here) {
-    const Vector6d local = newton(here), along = joined(local.head<3>(), here.turn * local.tail<3>());
+    const Vector6d local = newton(here), along = joined(local.head<3>(), here.rotation * local.tail<3>());
     Ghost next = at(here.shift + along);
     const double from = slope(here, along);
     double to = slope(next, along);

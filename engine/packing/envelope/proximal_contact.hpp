@@ -8,60 +8,63 @@
 
 namespace isojam {
 
-// Notation. A contact has the energy e of its relative pose, V²/4 (Smith, Fisher, Alam 2011). The ghost of B is B
-// displaced rigidly by a shift w = (translation, R_B times twice the vector part of the unit quaternion) in B's body
-// frame, R_B its radius of gyration. The ghost is fixed to B: moving A and B together as one body moves the ghost too
-// and does not change w. A wrench is conjugate to w, and is therefore given in B's body frame too; in Y·V_p^(2/3).
+// Terms. A contact of A and B has the energy e = V²/4, which depends on the relative pose (Smith, Fisher, Alam 2011).
+// The ghost of B is a copy of B that is displaced from B by a rigid motion, the shift w. The components of w are the
+// translation, and R_B times twice the vector part of the unit quaternion, both in the body frame of B; R_B is the
+// radius of gyration of B. The ghost is fixed to B. If A and B move together as one rigid body, the ghost moves too,
+// and w does not change. A wrench (force and torque) is conjugate to w. It is therefore also given in the body frame of
+// B, in units of Y·V_p^(2/3).
 
-/// Parameters of the Moreau envelope of a contact: its multiplier μ, a force, and a stiffness ρ that limits the
-/// stiffness of the contact,
+/// Parameters of the Moreau envelope Φ of a contact: the multiplier μ, an estimate of the wrench, and ρ, an upper limit
+/// of the stiffness:
 ///   Φ = min_w [ e(w) + ½ ρ |w|² − μ·w ].
-/// If the contact has exactly the force μ, ∇e = μ, then the ghost coincides with B, w = 0 and Φ = e. A contact much
-/// stiffer than ρ behaves like a spring ρ about the force μ; a much softer one is unchanged (Moreau 1965; multiplier
-/// method of Hestenes and Powell 1969 in the form of Rockafellar 1973).
+/// If the wrench of the contact is exactly the multiplier, ∇e = μ, then the ghost coincides with B, w = 0 and Φ = e.
+/// The envelope of a contact that is much stiffer than ρ is a spring of stiffness ρ with the force μ. The envelope of a
+/// much softer contact is equal to its energy (Moreau 1965; method of multipliers of Hestenes and Powell 1969 in the
+/// form of Rockafellar 1973).
 struct ProximalTerms {
-  Vector6d multiplier = Vector6d::Zero();  ///< μ
-  double stiffness = 0;                    ///< ρ > 0, Y·V_p^(1/3)
+  Vector6d multiplier = Vector6d::Zero();  ///< multiplier μ
+  double stiffness = 0;                    ///< stiffness ρ > 0, in units of Y·V_p^(1/3)
 };
 
-/// The envelope of one contact in one pose, with its derivatives with respect to the poses of both bodies: per particle
-/// (x, R·θ), lab frame, as in Evaluation::gradient.
+/// The envelope of one contact in one state, and its derivatives with respect to the coordinates (x, R·θ) of both
+/// particles, lab frame, as in Evaluation::gradient.
 struct ProximalContact {
   PairHessian ghost;                     ///< second derivatives of e with respect to A and the ghost
-  Matrix6d root = Matrix6d::Identity();  ///< L of H_ww + ρ = L Lᵀ, lab frame
+  Matrix6d root = Matrix6d::Identity();  ///< Cholesky factor L of H_ww + ρ = L Lᵀ, lab frame
   Vector6d gradient_a = Vector6d::Zero(), gradient_b = Vector6d::Zero();  ///< gradient of Φ
-  Vector6d shift = Vector6d::Zero();                                      ///< w at the minimum
-  Vector6d wrench = Vector6d::Zero();                                     ///< ∇_w e = μ − ρ w at the minimum
-  double value = 0;                                                       ///< Φ, Y·V_p
-  double energy = 0;                                                      ///< e at the ghost
-  int iterations = 0;                                                     ///< number of overlaps with Hessian
-  bool touching = false;                                                  ///< true if A and the ghost touch
-  bool converged = true;                                                  ///< false if Newton's method found no minimum
+  Vector6d shift = Vector6d::Zero();                                      ///< shift w at the minimum
+  Vector6d wrench = Vector6d::Zero();  ///< wrench ∇_w e = μ − ρ w at the minimum
+  double value = 0;                    ///< Φ, Y·V_p
+  double energy = 0;                   ///< energy e of A and the ghost of B
+  int iterations = 0;                  ///< number of overlaps with Hessian that were computed
+  bool touching = false;               ///< true if A touches the ghost of B
+  bool converged = true;               ///< false if Newton's method found no minimum
 
   /// Second derivatives of Φ: the Schur complement of H_ww + ρ in the second derivatives of e, to first order in w.
   PairHessian curvature() const;
-  /// The same for another stiffness ρ and w = 0.
+  /// Second derivatives of Φ for another stiffness ρ and w = 0.
   PairHessian curvature(double stiffness) const;
-  /// Φ after steps of A and B (x, R·θ), by its Taylor series to second order.
+  /// Φ after steps (x, R·θ) of A and B, by the Taylor series to second order.
   double predicted(const Vector6d& a, const Vector6d& b) const;
-  /// First-order change of w in the lab frame due to steps of A and B.
+  /// Change of w in the lab frame due to steps of A and B, to first order.
   Vector6d shift_change(const Vector6d& a, const Vector6d& b) const;
 };
 
-/// Computes the envelope of the contact of A with `solid_b`, whose centre is at r = x_B − x_A. `b` gives its
-/// orientation. A must be placed in double-double. `start` is an estimate of the shift. Uses Newton's method in six
-/// unknowns. Everything except its linear algebra is in double-double, because flat contacts transmit their force at a
+/// Computes the envelope of a contact of A and `solid_b`, where r = x_B − x_A and `b` is the orientation of B. A must
+/// have been placed in double-double. `start` is an estimate of the shift. The function finds w by Newton's method for
+/// six unknowns. It uses double-double, except for the linear algebra, because flat contacts carry their force at a
 /// depth of 1e-10.
 ProximalContact proximal_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
                                  const DoubleDoubleVector& r, const ProximalTerms& terms, const Vector6d& start);
 
-/// The contact in its present state: with the multiplier ∇e, for which the shift is 0.
+/// The envelope of a contact with the multiplier ∇e, for which the shift is 0.
 ProximalContact unshifted_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
                                   const DoubleDoubleVector& r, double stiffness);
 
-/// Transforms a shift or wrench from B's body frame to the lab frame.
+/// Transforms a shift or wrench from the body frame of B to the lab frame.
 Vector6d to_lab(const Pose& b, const Vector6d& w);
-/// The inverse transformation.
+/// Transforms a shift or wrench from the lab frame to the body frame of B.
 Vector6d to_body(const Pose& b, const Vector6d& w);
 
 }  // namespace isojam

@@ -40,7 +40,7 @@ void Composition::measure(Mixed& mixed) {
     mixed.least_inradius = std::min(mixed.least_inradius, solid.inradius());
     mixed.greatest_circumradius = std::max(mixed.greatest_circumradius, solid.circumradius());
     mixed.mean_circumradius += solid.circumradius() / static_cast<double>(mixed.solids.size());
-    mixed.greatest_lever = std::max(mixed.greatest_lever, solid.circumradius() / solid.gyration_radius());
+    mixed.greatest_lever_arm = std::max(mixed.greatest_lever_arm, solid.circumradius() / solid.gyration_radius());
   }
 }
 

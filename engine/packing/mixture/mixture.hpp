@@ -13,40 +13,42 @@ namespace isojam {
 
 /// One kind of particles in a mixture.
 struct MixtureKind {
-  Solid solid = SolidKind::tetrahedron;  ///< its shape
-  double fraction = 1;                   ///< fraction of the particles, by number
-  Sizes sizes{};                         ///< distribution of its sizes
+  Solid solid = SolidKind::tetrahedron;  ///< shape of the particles
+  double fraction = 1;                   ///< fraction of all particles, by number
+  Sizes sizes{};                         ///< distribution of the sizes of this kind
 
   // NOLINTNEXTLINE(modernize-use-nullptr): the check mistakes the 0 of a defaulted comparison for a pointer
   friend auto operator<=>(const MixtureKind&, const MixtureKind&) = default;
 };
 
-/// The solids and sizes from which packings are made: one solid, or several kinds. A value.
+/// The solids and sizes of the particles of a packing: one solid, or several kinds of particles. It is a value type.
 class Mixture {
  public:
-  /// All particles are the same solid.
+  /// All particles have the same solid and size.
   Mixture(Solid solid) : Mixture({{solid}}, "") {}  // NOLINT(google-explicit-constructor): the simplest mixture
-  /// All particles are the same Platonic solid.
+  /// All particles have the same Platonic solid and size.
   Mixture(SolidKind kind) : Mixture(Solid(kind)) {}  // NOLINT(google-explicit-constructor)
-  /// Kinds whose fractions sum to 1. An empty name is replaced by a description of the kinds.
+  /// Several kinds; their fractions must sum to 1. If the name is empty, the name of the mixture is made from its
+  /// kinds.
   Mixture(std::vector<MixtureKind> kinds, std::string name);
 
   /// True if all particles are identical.
   bool is_one_solid() const;
   /// The solid of all particles; requires is_one_solid().
   const Solid& solid() const { return kinds_.front().solid; }
-  const std::vector<MixtureKind>& kinds() const { return kinds_; }  ///< in the order given
+  const std::vector<MixtureKind>& kinds() const { return kinds_; }  ///< kinds in the order in which they were given
   const std::string& name() const { return name_; }                 ///< name in files and messages
 
-  /// n particles, kind by kind. The number of each kind is its fraction of n, rounded by the method of largest
-  /// remainders. The sizes of the m particles of a kind are the quantiles (k + ½)/m of its distribution. Sizes are
-  /// scaled so that the mean volume is 1; if all are equal, every volume is exactly 1.
+  /// Makes a list of n particles, sorted by kind. The number of particles of a kind is its fraction times n, rounded by
+  /// the method of largest remainders. The sizes of the m particles of a kind are the quantiles (k + ½)/m of its
+  /// distribution. All sizes are scaled so that the mean volume is 1. If all particles are equal, every volume is
+  /// exactly 1.
   std::vector<Particle> particles(int n) const;
-  /// Number of particles of each kind among n.
+  /// Number of particles of each kind in a packing of n particles.
   std::vector<int> counts(int n) const;
 
   friend bool operator==(const Mixture&, const Mixture&) = default;
-  /// Single solids first, in their order, then mixtures by their kinds.
+  /// Order: first single solids in the order of Solid, then mixtures by their kinds.
   friend std::strong_ordering operator<=>(const Mixture& a, const Mixture& b);
 
  private:
@@ -57,7 +59,8 @@ class Mixture {
 /// Name of the mixture.
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
-/// Smallest number of particles of a mixture whose cubic cell is legal up to density φ; 2^17 if that is too few.
+/// Smallest number of particles of a mixture for which is_legal() is true for a cubic cell at density φ and below. 2^17
+/// if more particles would be needed.
 int least_particles(const Mixture& mixture, double density);
 
 }  // namespace isojam

@@ -12,21 +12,21 @@
 
 namespace isojam {
 
-/// Cholesky factorisation of H + shift·1 for a sparse symmetric matrix of 6×6 blocks, by the multifrontal method on the
-/// graph of particles (Duff & Reid 1983, Liu 1992). Supernodes are eliminated as dense fronts, and each passes its
-/// update matrix to its parent. Large matrices use several threads, which share the tree of fronts and the rows of the
-/// largest fronts. The bits are the same for any number of threads. The symbolic part is kept while the pattern of the
-/// matrix stays the same. The strains that border the matrix come last: one solve for each strain, and the Cholesky
-/// factor of the Schur complement.
+/// Cholesky factorisation of H + shift·1 for a sparse symmetric matrix H of 6×6 blocks, by the multifrontal method on
+/// the graph of particles (Duff & Reid 1983, Liu 1992). Each supernode is eliminated as a dense front, and passes its
+/// update matrix to its parent. For large matrices several threads work on the tree of fronts and on the rows of the
+/// largest fronts. The result has the same bits for any number of threads. The symbolic factorisation is reused as long
+/// as the pattern of the matrix does not change. If the matrix has a border of strains, the strains are eliminated
+/// last. This needs one solution for each strain, and a Cholesky factorisation of the Schur complement.
 ///
 ///   BlockCholesky factor;
 ///   if (factor.factorise(energy.hessian(packing), 1e-9)) step = -factor.solve(gradient);
 class BlockCholesky {
  public:
-  /// Factorises. Returns false if the shifted matrix is not positive definite in working precision; solve() must then
-  /// not be called.
+  /// Factorises the matrix. Returns false if the shifted matrix is not positive definite in double precision. solve()
+  /// must then not be called.
   bool factorise(const BlockMatrix& matrix, double shift);
-  /// Solution (H + shift·1)⁻¹ b; b has matrix.rows() entries.
+  /// The solution (H + shift·1)⁻¹ b. b must have matrix.rows() entries.
   Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& b) const;
 
  private:

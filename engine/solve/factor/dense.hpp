@@ -5,18 +5,20 @@
 
 namespace isojam {
 
-// Eigen's dense decompositions, each compiled only once: including them costs half a minute of template instantiation.
+// Dense decompositions of Eigen. They are compiled only here, because including them takes half a minute of
+// compilation.
 
-/// Eigenvalues of a symmetric matrix in ascending order; reads only the lower half.
+/// Computes the eigenvalues of a symmetric matrix in ascending order. Reads only the lower half of the matrix.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
 struct SymmetricEigen {
-  Eigen::VectorXd values;   ///< ascending; empty if the iteration did not converge
-  Eigen::MatrixXd vectors;  ///< columns, orthonormal
+  Eigen::VectorXd values;   ///< eigenvalues in ascending order; empty if the iteration did not converge
+  Eigen::MatrixXd vectors;  ///< orthonormal eigenvectors, as columns
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
-/// An orthonormal basis of the span of independent columns, by Householder reflections; same number of columns.
+/// Computes an orthonormal basis of the space that independent columns span, by Householder reflections. It has the
+/// same number of columns.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
 /// An orthogonal basis of the whole space whose first vectors span the given independent columns.
@@ -37,19 +39,20 @@ class CompletedBasis {
   std::unique_ptr<const Reflections> reflections_;
 };
 
-/// R of the Householder QR of a matrix with at least as many rows as columns; size columns × columns.
+/// Computes the factor R of the Householder QR decomposition of a matrix with at least as many rows as columns. R has
+/// the size columns × columns.
 Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& matrix);
 
-/// A⁻¹ b for a positive definite A, by Cholesky factorisation.
+/// Computes A⁻¹ b for a positive definite A, by Cholesky factorisation.
 Eigen::VectorXd solve_positive_definite(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 struct RightSingular {
-  Eigen::VectorXd values;   ///< descending, min(rows, columns)
-  Eigen::MatrixXd vectors;  ///< V, columns × columns
+  Eigen::VectorXd values;   ///< singular values in descending order, min(rows, columns)
+  Eigen::MatrixXd vectors;  ///< right singular vectors V, columns × columns
 };
 RightSingular right_singular(const Eigen::MatrixXd& matrix);
 
-/// Singular values in descending order, min(rows, columns).
+/// Computes the singular values in descending order; their number is min(rows, columns).
 Eigen::VectorXd singular_values_of(const Eigen::MatrixXd& matrix);
 
 }  // namespace isojam

@@ -6,16 +6,17 @@
 
 namespace isojam {
 
-/// Particles that are eliminated together: positions first … first + columns − 1 of the elimination order.
+/// A supernode: particles that are eliminated together. They have the positions first … first + columns − 1 in the
+/// elimination order.
 struct Supernode {
   int first = 0, columns = 0;
-  std::vector<int> rows;      ///< later positions that they couple to, directly or by fill-in; ascending
-  std::vector<int> children;  ///< supernodes whose first row is one of these columns; ascending
+  std::vector<int> rows;      ///< later positions to which these particles couple, directly or by fill-in; ascending
+  std::vector<int> children;  ///< indices of the supernodes whose first row is one of these columns; ascending
 };
 
-/// Order in which a Cholesky factorisation eliminates the particles, and the supernodes.
+/// The order in which a Cholesky factorisation eliminates the particles, and the supernodes.
 struct Elimination {
-  std::vector<int> node_of;           ///< particle at each position
+  std::vector<int> node_of;           ///< index of the particle at each position
   std::vector<Supernode> supernodes;  ///< children before parents, sorted by `first`
 };
 

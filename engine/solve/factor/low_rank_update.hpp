@@ -6,9 +6,10 @@
 
 namespace isojam {
 
-/// Solution (A + U Uᵀ)⁻¹ b from the factors of A only, y − A⁻¹U (1 + Uᵀ A⁻¹U)⁻¹ Uᵀy with y = A⁻¹b (Woodbury). Costs a
-/// solve for b and one for each column of U, which may have none. On the span of U the relative error is about ε |U
-/// Uᵀ|/|A|, with the norm of A on that span; if this matters, the sum must be factorised.
+/// Computes (A + U Uᵀ)⁻¹ b from the factorisation of A with the Woodbury formula: y − A⁻¹U (1 + Uᵀ A⁻¹U)⁻¹ Uᵀy with y =
+/// A⁻¹b. It solves one linear system for b and one for each column of U; U may have no column. In the space that the
+/// columns of U span, the relative error is about ε |U Uᵀ|/|A|, where |A| is the norm of A in this space. If this error
+/// is too large, factorise the sum A + U Uᵀ instead.
 Eigen::VectorXd solve_updated(const BlockCholesky& factor, const Eigen::MatrixXd& u, const Eigen::VectorXd& b);
 
 }  // namespace isojam

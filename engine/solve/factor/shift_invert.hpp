@@ -8,9 +8,9 @@
 
 namespace isojam {
 
-/// Operator (H − σ·1)⁻¹ for any σ that is not an eigenvalue: by BlockCholesky if the shifted matrix is positive
-/// definite, otherwise by Eigen's SimplicialLDLT. It has the interface required by Spectra's shift-invert solvers. H
-/// must outlive it.
+/// The operator (H − σ·1)⁻¹ for any σ that is not an eigenvalue of H. It uses BlockCholesky if the shifted matrix is
+/// positive definite, and otherwise SimplicialLDLT of Eigen. It has the interface that the shift-invert solvers of
+/// Spectra require. H must outlive the operator.
 ///
 ///   ShiftInvert operation(hessian);
 ///   Spectra::SymEigsShiftSolver<ShiftInvert> solver(operation, 53, 120, -1e-9 * lambda_max);
@@ -22,10 +22,10 @@ class ShiftInvert {
 
   Eigen::Index rows() const { return matrix_.rows(); }
   Eigen::Index cols() const { return rows(); }
-  /// Factorises. Throws std::domain_error if a pivot is zero or not finite: σ is an eigenvalue (of a leading part) of H
-  /// in working precision, or H contains NaN.
+  /// Factorises H − σ·1. Throws std::domain_error if a pivot is zero or not finite. This happens if σ is an eigenvalue
+  /// of H, or of a leading part of H, in double precision, or if H contains NaN.
   void set_shift(double sigma);
-  /// Sets y = (H − σ·1)⁻¹ x, both of rows() entries.
+  /// Computes y = (H − σ·1)⁻¹ x. x and y have rows() entries.
   void perform_op(const double* x, double* y) const;
 
   bool positive_definite() const { return positive_definite_; }  ///< true if H − σ·1 is positive definite
@@ -40,7 +40,7 @@ class ShiftInvert {
   int negative_pivots_ = 0;
 };
 
-/// Lower half of H + shift·1.
+/// The lower half of H + shift·1 as a sparse matrix.
 Eigen::SparseMatrix<double> lower_half(const BlockMatrix& matrix, double shift);
 
 }  // namespace isojam

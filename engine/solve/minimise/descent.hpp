@@ -10,8 +10,8 @@
 
 namespace isojam {
 
-/// State that every minimiser shares: the current state, the best one found, the number of evaluations, and the reasons
-/// to stop. Only downhill steps are accepted, so the current state is the best one.
+/// State of a minimisation, which all minimisers use: the current packing, the number of evaluations, and the stopping
+/// criteria. Only steps to a lower energy are accepted, so the current packing is always the best one found.
 class Descent {
  public:
   Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop);
@@ -21,23 +21,24 @@ class Descent {
   const MinimiseOptions& options() const { return options_; }
   long evaluations() const { return evaluations_; }
 
-  /// Reason to stop in this state, if there is one. Changes to double-double if the decision needs it.
+  /// The reason to stop in the current state, or nullopt if there is none. Changes to Precision::double_double if the
+  /// decision requires it.
   std::optional<StopReason> verdict();
   /// Moves along `direction` (a descent direction) by a line search that starts with the step `first_step`·direction.
   /// Returns false if no lower energy was found. last_step() is the step taken, as a multiple of `direction`.
   bool advance(const Eigen::VectorXd& direction, double first_step, double curvature);
   double last_step() const { return last_step_; }
-  /// Upper limit of every particle's displacement in one trial step (V_p^(1/3)).
+  /// Upper limit of the displacement of a particle in one trial step (V_p^(1/3)).
   double longest_displacement() const;
-  /// Second derivatives in any state, and its incipient contacts within `probe_distance` (V_p^(1/3)).
+  /// Computes the second derivatives of any state, and its incipient contacts within `probe_distance` (V_p^(1/3)).
   SecondOrder second_order(const Packing& packing, double probe_distance);
-  /// Evaluates the state after `step` from `from` without moving the current state. Returns infinite energy if the cell
-  /// would be too small; the minimisation then stops with cell_limit.
+  /// Evaluates the state `there` that is reached from `from` by `step`, without moving the current state. If the cell
+  /// of this state would be too small, returns an infinite energy; the minimisation then stops with cell_limit.
   Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
-  /// Moves to a state that probe() evaluated.
+  /// Moves the current state to a state that probe() has evaluated.
   void accept(Packing there, Evaluation value);
 
-  /// Adds the work of the solver to the summary.
+  /// Adds factorisations and updates of a factorisation to the summary.
   void count_factorisations(long factorisations, long updates);
 
   MinimiseSummary finish(StopReason reason) const;
@@ -60,7 +61,7 @@ class Descent {
   MinimiseWork work_;
 };
 
-/// Largest particle displacement |dx| or R|dθ| in a step; strains ℓ·ε count in the same way.
+/// Largest displacement |dx| or R|dθ| of a particle in a step. Strains ℓ·ε count as displacements.
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);

@@ -4,7 +4,7 @@
 
 namespace isojam {
 
-/// A point of the energy along a line: step t, energy f(t), slope f'(t).
+/// A point on a line of states: step t, energy f(t) and slope f'(t).
 struct LinePoint {
   double step = 0, value = 0, slope = 0;
 };
@@ -12,20 +12,21 @@ struct LinePoint {
 struct LineSearchOptions {
   double decrease = 1e-4;   ///< sufficient decrease: f(t) ≤ f(0) + decrease·t·f'(0)
   double curvature = 0.1;   ///< |f'(t)| ≤ curvature·|f'(0)|
-  double longest_step = 1;  ///< upper limit of steps
-  double noise = 0;         ///< smaller differences of f are not significant
+  double longest_step = 1;  ///< upper limit of the step t
+  double noise = 0;         ///< rounding error of f; smaller differences of f are not significant
   int max_evaluations = 20;
 };
 
 struct LineSearchResult {
-  bool found = false;  ///< if false, `point` is the lowest point found, possibly the start
+  /// true if a step was found. If false, `point` is the point with the lowest energy, possibly the start
+  bool found = false;
   LinePoint point;
   int evaluations = 0;
 };
 
 /// Finds a step that satisfies the strong Wolfe conditions, by bracketing and cubic interpolation. If energies differ
-/// only by rounding, slopes decide instead (approximate Wolfe conditions of Hager and Zhang). Requires start.slope < 0
-/// and first_step > 0.
+/// only by rounding errors, the slopes are used instead (approximate Wolfe conditions of Hager and Zhang). Requires
+/// start.slope < 0 and first_step > 0.
 LineSearchResult line_search(const std::function<LinePoint(double)>& at, const LinePoint& start, double first_step,
                              const LineSearchOptions& options);
 

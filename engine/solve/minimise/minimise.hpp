@@ -11,9 +11,9 @@
 
 namespace isojam {
 
-/// Method of minimisation. `multipliers` follows an equilibrium through a strain step (solve/multipliers/), which jam()
-/// uses near jamming. Without an equilibrium to follow, and in minimise(), it is the same as `newton`. The other
-/// methods are for comparison; near jamming they do not converge.
+/// Method of minimisation. With `multipliers`, jam() follows an equilibrium through each strain step near jamming
+/// (solve/multipliers/). If there is no equilibrium to follow, and in minimise(), `multipliers` is the same as
+/// `newton`. The other methods exist for comparison; near jamming they do not converge.
 enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
 inline constexpr std::array enum_names<Method>{
@@ -22,23 +22,23 @@ inline constexpr std::array enum_names<Method>{
 
 /// Method of minimisation, and criteria to stop it.
 struct MinimiseOptions {
-  Method method = Method::multipliers;  ///< minimiser
-  /// Residual at which to stop: forces balance to this fraction of the mean contact force.
+  Method method = Method::multipliers;  ///< method of minimisation
+  /// Largest residual of an equilibrium: the minimisation stops when Evaluation::residual is at most this value.
   double residual = 1e-6;
-  /// Energy rule: stop when an iteration changes the energy by less than this fraction; 0 switches the rule off. The
-  /// paper uses only this rule, with 1e-12. Near jamming it does not indicate equilibrium, but jam() accepts such
-  /// states.
+  /// Stopping rule of the paper, which uses 1e-12: the minimisation stops when an iteration changes the energy by less
+  /// than this fraction. 0 switches the rule off. Near jamming, a state that satisfies the rule is not necessarily an
+  /// equilibrium, but jam() accepts it.
   double energy_change = 0;
-  /// Energy per particle (Y·V_p) below which a state whose energy still decreases counts as unjammed. A state with
-  /// balanced forces never counts as unjammed, for any energy.
+  /// Energy per particle (Y·V_p) below which a state counts as unjammed, if its energy still decreases. A state whose
+  /// forces balance never counts as unjammed, for any energy.
   double unjammed_energy = 1e-20;
-  long max_evaluations = 20000;  ///< evaluations of energy and forces in one minimisation
-  int history = 20;              ///< number of pairs that L-BFGS stores
-  CellControl control{};         ///< fixed cell, or free strains and their load
+  long max_evaluations = 20000;  ///< largest number of evaluations of energy and forces in one minimisation
+  int history = 20;              ///< number of pairs of steps and gradient changes that L-BFGS stores
+  CellControl control{};         ///< free strains of the cell and load on the cell; by default the cell is fixed
 };
 
-/// Moves `packing` to a local minimum of the energy, or of the enthalpy for a variable cell. On return it is the best
-/// state found.
+/// Moves `packing` towards a local minimum of the energy, or of the enthalpy for a variable cell. On return, `packing`
+/// is the state with the lowest energy that was found.
 MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options,
                          std::stop_token stop = {});
 

@@ -71,7 +71,7 @@ constexpr double updates_per_particle = 1.0 / 6;
 constexpr double steeper = 2;
 
 double tilt_energy(const IncipientContact& pair, const Eigen::VectorXd& step) {
-  const Eigen::Vector3d tilt = pair.relative_turn(step);
+  const Eigen::Vector3d tilt = pair.relative_rotation(step);
   return tilt.dot(pair.tilt * tilt);
 }
 
@@ -89,9 +89,9 @@ bool contains(const std::vector<std::pair<int, int>>& sorted, const IncipientCon
 
 void add_tilt(double weight, const IncipientContact& pair, BlockMatrix& matrix, BlockMatrix::Block& block) {
   const Eigen::Matrix3d stiffness = weight * pair.tilt;
-  matrix.diagonal[block.row].bottomRightCorner<3, 3>() += pair.turn_a * pair.turn_a * stiffness;
-  matrix.diagonal[block.column].bottomRightCorner<3, 3>() += pair.turn_b * pair.turn_b * stiffness;
-  block.value.bottomRightCorner<3, 3>() -= pair.turn_a * pair.turn_b * stiffness;
+  matrix.diagonal[block.row].bottomRightCorner<3, 3>() += pair.rotation_scale_a * pair.rotation_scale_a * stiffness;
+  matrix.diagonal[block.column].bottomRightCorner<3, 3>() += pair.rotation_scale_b * pair.rotation_scale_b * stiffness;
+  block.value.bottomRightCorner<3, 3>() -= pair.rotation_scale_a * pair.rotation_scale_b * stiffness;
 }
 
 /// The vectors v of S = Σ v vᵀ.
@@ -216,9 +216,9 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
     if (states_[k].closing && !before[k].closing) terms.emplace_back(column(pair, pair.closed) / std::sqrt(2.0));
     const double extra = tilt_weight(pair, states_[k], shift) - tilt_weight(pair, before[k], shift);
     if (extra > 0) {
-      for (const Eigen::Vector3d& turn : roots(extra * pair.tilt)) {
-        const Vector6d turned = joined(Eigen::Vector3d::Zero(), turn);
-        terms.push_back(column(pair, {0, -turned, turned, {}}));
+      for (const Eigen::Vector3d& axis : roots(extra * pair.tilt)) {
+        const Vector6d rotation = joined(Eigen::Vector3d::Zero(), axis);
+        terms.push_back(column(pair, {0, -rotation, rotation, {}}));
       }
     }
     if (terms.size() > most) return std::nullopt;

@@ -10,42 +10,46 @@
 
 namespace isojam {
 
-/// Sorted pairs of particles that a step is predicted to close or to tilt; the initial estimate for the next model.
+/// Sorted pairs of particles that will touch in a step, or whose flat contact will tilt, according to the model of the
+/// step. They are the initial estimate for the next model.
 struct ActivePairs {
   std::vector<std::pair<int, int>> closing, tilted;
 };
 
-/// The factor shared by all models of one minimisation, which reuses its symbolic part, and counts of its use.
+/// The factorisation that all models of one minimisation share, so that its symbolic part is computed once, and numbers
+/// of its uses.
 struct StepFactor {
   BlockCholesky cholesky;
   long factorisations = 0;
-  long updates = 0;  ///< systems solved by a low-rank update instead
+  long updates = 0;  ///< linear systems that were solved by a low-rank update of a factorisation
 };
 
-/// A step s in the form of moved(), and the decrease in energy (Y·V_p) that the model predicts for it.
+/// A step in the format of moved(), and the decrease of the energy (Y·V_p) that the model predicts for it.
 struct ModelStep {
   Eigen::VectorXd displacement;
   double decrease = 0;
 };
 
-/// Model of the energy for a step s: E + g·s + ½ s·H s, and two effects that occur before this series fails. Pairs
-/// close: V = max(0, now, closed), the tangents of an incipient contact. Flat contacts tilt until their section line
-/// crosses the face: they get a stiffness against tilt. The pairs affected, the active set, are determined together
-/// with the step. step_model.cpp explains the terms, with a sketch.
+/// Model of the energy for a step s: the series E + g·s + ½ s·H s, and two effects that this series does not contain.
+/// First, pairs can begin to touch. Their overlap volume is V = max(0, now, closed), with the two tangents of an
+/// incipient contact. Second, a flat contact can tilt until the line in which its face planes intersect crosses the
+/// face. It then has a stiffness against the tilt. The pairs with one of these effects, the active set, are determined
+/// together with the step. step_model.cpp explains the terms with a sketch.
 class StepModel {
  public:
-  /// Maximum number of systems that one minimise() solves, each by a factorisation or an update.
+  /// Largest number of linear systems that one call of minimise() solves, each by a factorisation or an update.
   static constexpr int most_rounds = 4;
 
-  /// Model at the state with `gradient`. Steps that move a particle farther than `longest` (V_p^(1/3)) are scaled down.
+  /// Makes the model of a state with this gradient and these second derivatives. Steps that would move a particle
+  /// farther than `longest` (V_p^(1/3)) are shortened.
   StepModel(SecondOrder second, Eigen::VectorXd gradient, double longest);
 
   /// Largest diagonal entry of the Hessian: the spring constant of the stiffest coordinate.
   double largest_diagonal() const { return largest_diagonal_; }
-  /// Keeps only the present contacts: E + g·s + ½ s·H s, and tilt.
+  /// Removes the pairs that can begin to touch from the model. The series and the tilt of flat contacts remain.
   void forget_closing_pairs();
-  /// Minimises the model plus ½ shift·s². `active` is the initial estimate, then the result. Returns nullopt if the
-  /// shifted matrix is not positive definite.
+  /// Minimises the model plus ½ shift·s². `active` is an estimate of the active set on entry, and the active set on
+  /// return. Returns nullopt if the shifted matrix is not positive definite.
   std::optional<ModelStep> minimise(double shift, StepFactor& factor, ActivePairs& active);
 
  private:

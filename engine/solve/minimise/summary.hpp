@@ -11,16 +11,17 @@ namespace isojam {
 /// Reason for the end of a minimisation.
 enum class StopReason {
   not_called,        ///< nothing was minimised
-  residual_reached,  ///< forces balance to the requested residual
-  /// Relative energy change below the requested tolerance, the paper's rule; not an equilibrium by itself.
+  residual_reached,  ///< the residual is at most the requested one
+  /// The relative change of the energy was below the requested limit (the stopping rule of the paper). The state is not
+  /// necessarily an equilibrium.
   energy_change,
-  unjammed,            ///< energy and forces are below the limits for unjammed states
-  precision_floor,     ///< not even double-double resolves a smaller residual
-  budget,              ///< evaluations spent
-  line_search_failed,  ///< no direction led to a lower energy
-  cell_limit,          ///< the cell became so small or skew that a particle could touch two images of another one
-  not_finite,          ///< energy or gradient is not finite
-  interrupted          ///< stop requested from outside
+  unjammed,            ///< the packing is unjammed: energy and forces are below the limits
+  precision_floor,     ///< the residual is as small as the precision of double-double allows
+  budget,              ///< the largest number of evaluations was reached
+  line_search_failed,  ///< no state with a lower energy was found in any direction
+  cell_limit,          ///< the cell became so small or skew that a particle could touch two images of another particle
+  not_finite,          ///< the energy or the gradient is not finite
+  interrupted          ///< the caller requested a stop
 };
 template <>
 inline constexpr std::array enum_names<StopReason>{EnumName{StopReason::not_called, "not_called"},
@@ -34,36 +35,37 @@ inline constexpr std::array enum_names<StopReason>{EnumName{StopReason::not_call
                                                    EnumName{StopReason::not_finite, "not_finite"},
                                                    EnumName{StopReason::interrupted, "interrupted"}};
 
-/// Work of a minimisation in addition to its evaluations.
+/// Numbers of operations of a minimisation in addition to its evaluations.
 struct MinimiseWork {
-  long double_double_evaluations = 0;  ///< evaluations in double-double, included in `evaluations`
-  long hessians = 0;                   ///< second derivatives of the packing, with touching and near pairs
+  long double_double_evaluations = 0;  ///< evaluations in double-double; MinimiseSummary::evaluations includes them
+  long hessians = 0;                   ///< computations of the second derivatives of the whole packing
   long factorisations = 0;             ///< factorisations of a shifted Hessian, including failed ones
-  long factor_updates = 0;             ///< systems solved by updating a factor
-  long envelopes = 0;                  ///< evaluations of the multiplier method, EnvelopeEvaluation
-  long envelope_overlaps = 0;          ///< overlaps with Hessian in these evaluations
-  long local_factorisations = 0;       ///< factorisations of the Hessian of a few particles
+  long factor_updates = 0;             ///< linear systems that were solved by updating a factorisation
+  long envelopes = 0;             ///< evaluations of the envelope in the method of multipliers (EnvelopeEvaluation)
+  long envelope_overlaps = 0;     ///< overlaps with Hessian that these evaluations computed
+  long local_factorisations = 0;  ///< factorisations of the Hessian of a few particles
 
   /// Adds the work of another minimisation.
   MinimiseWork& operator+=(const MinimiseWork& term);
   bool operator==(const MinimiseWork&) const = default;
 };
 
-/// Result of one minimisation; by default that of none.
+/// Result of one minimisation. A default-constructed object describes that nothing was minimised.
 struct MinimiseSummary {
-  StopReason reason = StopReason::not_called;  ///< reason for its end
-  double energy = 0;                           ///< E, without the work against a pressure
-  double residual = 0;                         ///< as Evaluation::residual
-  double residual_floor = 0;                   ///< as Evaluation::residual_floor, in the same state
-  Precision precision = Precision::working;    ///< precision of the last evaluation
-  long evaluations = 0;                        ///< evaluations of energy and forces
-  long iterations = 0;                         ///< iterations of the minimiser
-  MinimiseWork work;                           ///< work in addition to the evaluations
+  StopReason reason = StopReason::not_called;  ///< reason for the end of the minimisation
+  double energy = 0;                           ///< energy E, without the load energy of a variable cell
+  double residual = 0;                         ///< residual, as Evaluation::residual
+  double residual_floor = 0;  ///< smallest residual that rounding allows in this state, as Evaluation::residual_floor
+  Precision precision = Precision::working;  ///< precision of the last evaluation
+  long evaluations = 0;                      ///< number of evaluations of energy and forces
+  long iterations = 0;                       ///< number of iterations of the minimiser
+  MinimiseWork work;                         ///< numbers of operations in addition to the evaluations
 
-  bool converged() const { return reason == StopReason::residual_reached; }  ///< true if the residual was reached
+  /// true if the requested residual was reached
+  bool converged() const { return reason == StopReason::residual_reached; }
 };
 
-/// True if forces balance to the requested residual, or as well as double-double resolves.
+/// True if the residual is at most the requested one, or as small as the precision of double-double allows.
 inline bool is_equilibrium(const MinimiseSummary& summary) {
   return summary.converged() || summary.reason == StopReason::precision_floor;
 }

@@ -76,9 +76,9 @@ std::vector<ContactMultiplier> forces_after(const EnvelopeState& state, const Ei
   return forces;
 }
 
-bool acceptable(const EnvelopeEvaluation& from, const EnvelopeEvaluation& to, double promised) {
+bool acceptable(const EnvelopeEvaluation& from, const EnvelopeEvaluation& to, double predicted_decrease) {
   const double actual = from.value - to.value;
-  if (promised > resolved * from.noise) return actual > 1e-4 * promised;
+  if (predicted_decrease > resolved * from.noise) return actual > 1e-4 * predicted_decrease;
   return actual > -resolved * from.noise && to.gradient.norm() < from.gradient.norm();
 }
 

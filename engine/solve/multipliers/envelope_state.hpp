@@ -11,29 +11,30 @@
 
 namespace isojam {
 
-/// A packing and its envelope.
+/// A packing and the evaluation of its envelope.
 struct EnvelopeState {
   Packing packing;
   EnvelopeEvaluation value;
 };
 
-/// Evaluates envelopes with one stiffness ρ (Y·V_p^(1/3)) under the load of the cell, and counts the work.
+/// Evaluates envelopes with one stiffness ρ (Y·V_p^(1/3)), including the load on the cell, and counts the work.
 class EnvelopeEvaluator {
  public:
   EnvelopeEvaluator(Enthalpy load, MinimiseWork& work) : load_(std::move(load)), work_(work) {}
 
   const Enthalpy& load() const { return load_; }
-  /// True if a requested state had a cell that is not legal. Its Φ is infinite.
+  /// True if the cell of a requested state was so small that a particle could touch two images of another one. The Φ of
+  /// such a state is infinite.
   bool cell_limit() const { return cell_limit_; }
 
   double stiffness() const { return stiffness_; }
   void set_stiffness(double value) { stiffness_ = value; }
 
-  /// `only` as in EnvelopeEnergy::evaluate(); if given, the load is not included.
+  /// Evaluates the envelope. `only` is as in EnvelopeEnergy::evaluate(); if it is given, the load is not included.
   EnvelopeState at(Packing packing, const std::vector<ContactMultiplier>& forces, const std::vector<char>& only = {});
   EnvelopeState unshifted(Packing packing);
 
-  /// Second derivatives, including those of the load.
+  /// Second derivatives of Φ, including those of the load.
   BlockMatrix curvature(const EnvelopeState& state) const;
 
  private:
@@ -44,23 +45,23 @@ class EnvelopeEvaluator {
   bool cell_limit_ = false;
 };
 
-/// Strain ε of the cell in a step of a packing of `particles`.
+/// The strain ε of the cell in a step of a packing with this number of particles.
 Eigen::Matrix3d strain_of(const Eigen::VectorXd& step, int particles);
-/// The step (x, R·θ) of B relative to A's frame, with its image strained by ε.
+/// The step (x, R·θ) of B relative to the frame of A, including the motion of the image of B due to the strain ε.
 Vector6d step_of_b(const EnvelopeContact& contact, const Eigen::VectorXd& step, const Eigen::Matrix3d& strain);
 
-/// Initial values for evaluating the state after `step` (in the form of moved()): unchanged multipliers, and shifts as
-/// the step changes them to first order.
+/// Multipliers and estimates of the shifts for the state after `step`, which is in the format of moved(). The
+/// multipliers do not change; the changes of the shifts are computed to first order.
 std::vector<ContactMultiplier> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step);
 
-/// True if the decrease from one state to the other is sufficient compared with the predicted one. If Φ does not
-/// resolve it, the forces decide.
-bool acceptable(const EnvelopeEvaluation& from, const EnvelopeEvaluation& to, double promised);
+/// True if the decrease of Φ from one state to the other is large enough, compared with the predicted decrease. If
+/// rounding errors of Φ are larger than the decrease, the forces of both states are compared instead.
+bool acceptable(const EnvelopeEvaluation& from, const EnvelopeEvaluation& to, double predicted_decrease);
 
-/// The Levenberg–Marquardt shift λ after a step, from the ratio of its actual to its predicted decrease (Nielsen).
+/// The Levenberg–Marquardt shift λ after a step, from the ratio of the actual to the predicted decrease (Nielsen).
 double adapted_shift(double shift, double ratio);
 
-/// The step, scaled down so that no particle moves farther than `longest`.
+/// The step, multiplied by a factor of at most 1 so that no particle moves farther than `longest`.
 Eigen::VectorXd limited(const Eigen::VectorXd& step, double longest);
 
 }  // namespace isojam

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/packing/pair_search.hpp"
 #include "engine/solve/factor/block_cholesky.hpp"
 
 namespace isojam {
@@ -11,32 +12,30 @@ namespace isojam {
 namespace {
 
 /// A contact is mispredicted if the error of its Φ exceeds this fraction of the total predicted decrease.
-constexpr double wrong_by = 0.05;
+constexpr double misprediction_tolerance = 0.05;
 
 constexpr int most_steps = 12;
 
 /// The relaxation ends when the predicted decrease of a step is below this fraction of the total one; the second value
 /// applies after a failed step.
-constexpr double enough = 0.01, enough_after_failure = 0.001;
+constexpr double end_fraction = 0.01, end_fraction_after_failure = 0.001;
 
 constexpr double growth = 4;
 constexpr double longest_step = 0.1;  ///< inradii
 
 std::vector<NeighbourPair> mispredictions(const EnvelopeState& here, const EnvelopeState& there,
                                           const Eigen::VectorXd& step, double tolerance) {
-  std::vector<NeighbourPair> wrong;
+  std::vector<NeighbourPair> found;
   const Eigen::Matrix3d strain = strain_of(step, here.packing.size());
-  std::size_t k = 0;
-  const std::vector<EnvelopeContact>& before = here.value.contacts;
+  PairSearch before(std::span<const EnvelopeContact>(here.value.contacts), &EnvelopeContact::pair);
   for (const EnvelopeContact& contact : there.value.contacts) {
     const NeighbourPair& pair = contact.pair;
-    while (k < before.size() && canonical_key(before[k].pair) < canonical_key(pair)) ++k;
-    double promised = 0;
-    if (k < before.size() && canonical_key(before[k].pair) == canonical_key(pair))
-      promised = before[k].at.predicted(step.segment<6>(6 * pair.a), step_of_b(before[k], step, strain));
-    if (std::abs(contact.at.value - promised) > tolerance) wrong.push_back(pair);
+    const EnvelopeContact* same = before.find(pair);
+    const double predicted_decrease =
+        same ? same->at.predicted(step.segment<6>(6 * pair.a), step_of_b(*same, step, strain)) : 0;
+    if (std::abs(contact.at.value - predicted_decrease) > tolerance) found.push_back(pair);
   }
-  return wrong;
+  return found;
 }
 
 /// The part of a packing that moves.
@@ -81,10 +80,10 @@ class Part {
 }  // namespace
 
 std::vector<char> mispredicted(const EnvelopeState& here, const EnvelopeState& there, const Eigen::VectorXd& step,
-                               double promised) {
-  const auto wrong = mispredictions(here, there, step, wrong_by * promised);
+                               double predicted_decrease) {
+  const auto found = mispredictions(here, there, step, misprediction_tolerance * predicted_decrease);
   std::vector<char> core(here.packing.poses.size(), 0);
-  for (const NeighbourPair& pair : wrong) core[pair.a] = core[pair.b] = 1;
+  for (const NeighbourPair& pair : found) core[pair.a] = core[pair.b] = 1;
   std::vector<char> flags = core;
   for (const EnvelopeContact& contact : there.value.contacts) {
     const NeighbourPair& pair = contact.pair;
@@ -93,8 +92,8 @@ std::vector<char> mispredicted(const EnvelopeState& here, const EnvelopeState& t
   return flags;
 }
 
-bool relax_locally(const std::vector<char>& flags, double shift, double promised, EnvelopeEvaluator& evaluator,
-                   EnvelopeState& state, MinimiseWork& work) {
+bool relax_locally(const std::vector<char>& flags, double shift, double predicted_decrease,
+                   EnvelopeEvaluator& evaluator, EnvelopeState& state, MinimiseWork& work) {
   const Part part(flags);
   if (part.empty()) return false;
   const double longest = longest_step * state.packing.solids.least_inradius();
@@ -118,10 +117,10 @@ bool relax_locally(const std::vector<char>& flags, double shift, double promised
       shift = adapted_shift(shift, actual / decrease);
       here = std::move(there);
       moved_at_all = true;
-      if (decrease < enough * promised) break;
+      if (decrease < end_fraction * predicted_decrease) break;
     } else {
       shift *= growth;
-      if (decrease < enough_after_failure * promised) break;
+      if (decrease < end_fraction_after_failure * predicted_decrease) break;
     }
   }
   if (!moved_at_all) return false;

@@ -80,7 +80,7 @@ constexpr int damped_after = 3, most_renewals = 15;
 constexpr double damped_part = 0.5;
 constexpr double least_fall = 1e-4;
 
-/// If the mean force differs from the scale by more than the first factor, scales are set anew. If it falls to the
+/// If the mean force differs from the scale by more than the first factor, scales are set again. If it falls to the
 /// second fraction of the expected one, the packing is unjammed.
 constexpr double off_scale = 3, unjammed_force = 1e-9;
 /// Energy per particle of an unjammed packing, divided by force times φ − φ_J. This relative limit is needed because
@@ -89,7 +89,7 @@ constexpr double unjammed_energy = 1e-6;
 
 /// Number of consecutive states with too few contacts for rigidity after which the packing counts as unjammed. Newton's
 /// method then decides.
-constexpr int most_loose = 10;
+constexpr int most_nonrigid_states = 10;
 
 /// Limits far above the need of all states, except those at the end of their branch, which slide a long way.
 constexpr long most_factorisations = 600, most_envelopes = 3000;
@@ -97,11 +97,11 @@ constexpr long most_factorisations = 600, most_envelopes = 3000;
 /// Maxwell's count: even with three constraints for every contact, as for two faces, there are fewer constraints than
 /// degrees of freedom of the particles that have contacts.
 bool cannot_be_rigid(const EnvelopeEvaluation& value) {
-  std::vector<char> bears(static_cast<std::size_t>(value.gradient.size() / 6), 0);
+  std::vector<char> touched(static_cast<std::size_t>(value.gradient.size() / 6), 0);
   for (const EnvelopeContact& contact : value.contacts) {
-    if (contact.at.touching) bears[contact.pair.a] = bears[contact.pair.b] = 1;
+    if (contact.at.touching) touched[contact.pair.a] = touched[contact.pair.b] = 1;
   }
-  return 3 * value.touching < 6 * std::count(bears.begin(), bears.end(), 1) - 3;
+  return 3 * value.touching < 6 * std::count(touched.begin(), touched.end(), 1) - 3;
 }
 
 class Multipliers {
@@ -193,7 +193,8 @@ class Multipliers {
     const EnvelopeEvaluation& value = here_.value;
     if (evaluator_.cell_limit()) return StopReason::cell_limit;
     if (!std::isfinite(value.value) || !value.gradient.allFinite()) return StopReason::not_finite;
-    if (value.touching == 0 || value.mean_force < unjammed_force * expected_force_ || loose_ > most_loose) {
+    if (value.touching == 0 || value.mean_force < unjammed_force * expected_force_ ||
+        nonrigid_states_ > most_nonrigid_states) {
       // Under a pressure a packing is always jammed; Newton's method then decides.
       return frees_volume(options_.control.cell) ? StopReason::line_search_failed : StopReason::unjammed;
     }
@@ -256,13 +257,14 @@ class Multipliers {
       }
       const Eigen::VectorXd& gradient = here_.value.gradient;
       const Eigen::VectorXd step = limited(-factor_.solve(gradient), longest_step * packing_.solids.least_inradius());
-      const double promised = -gradient.dot(step) - step.dot(matrix * step) / 2;
+      const double predicted_decrease = -gradient.dot(step) - step.dot(matrix * step) / 2;
       EnvelopeState there = evaluator_.at(moved(here_.packing, step), forces_after(here_, step));
       bool relaxed = false;
-      if (here_.value.value - there.value.value < relaxed_below * promised)
-        relaxed = relax_locally(mispredicted(here_, there, step, promised), shift_, promised, evaluator_, there,
-                                summary_.work);
-      if (acceptable(here_.value, there.value, promised)) return accept(std::move(there), promised, relaxed);
+      if (here_.value.value - there.value.value < relaxed_below * predicted_decrease)
+        relaxed = relax_locally(mispredicted(here_, there, step, predicted_decrease), shift_, predicted_decrease,
+                                evaluator_, there, summary_.work);
+      if (acceptable(here_.value, there.value, predicted_decrease))
+        return accept(std::move(there), predicted_decrease, relaxed);
       shift_ *= growth;
       growth *= 2;
     }
@@ -276,13 +278,14 @@ class Multipliers {
     return false;
   }
 
-  void accept(EnvelopeState there, double promised, bool relaxed) {
-    const double ratio = promised > here_.value.noise ? (here_.value.value - there.value.value) / promised : 1;
+  void accept(EnvelopeState there, double predicted_decrease, bool relaxed) {
+    const double ratio =
+        predicted_decrease > here_.value.noise ? (here_.value.value - there.value.value) / predicted_decrease : 1;
     if (!relaxed || ratio > trusted_above) shift_ = adapted_shift(shift_, ratio);
     shift_ = std::max({shift_, least_shift * k0_, above_indefinite * indefinite_});
     indefinite_ *= forgotten;
     here_ = std::move(there);
-    loose_ = cannot_be_rigid(here_.value) ? loose_ + 1 : 0;
+    nonrigid_states_ = cannot_be_rigid(here_.value) ? nonrigid_states_ + 1 : 0;
     ++summary_.iterations;
   }
 
@@ -359,7 +362,7 @@ class Multipliers {
   double best_ = std::numeric_limits<double>::infinity();  ///< smallest error over mean force that counted as progress
   double lowest_ = std::numeric_limits<double>::infinity();  ///< Φ then
   int renewals_ = 0;                                         ///< renewals of multipliers since then
-  int loose_ = 0;                                            ///< consecutive states that cannot be rigid
+  int nonrigid_states_ = 0;                                  ///< consecutive states that cannot be rigid
 };
 
 }  // namespace

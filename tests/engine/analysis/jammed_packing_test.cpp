@@ -34,11 +34,11 @@ const ConvexSolid& solid() { return platonic(SolidKind::octahedron); }
 const JamResult& jammed() {
   static const JamResult result = [] {
     JamOptions options;
-    options.initial_density = 0.2;
-    options.consolidation_step = 0.03;
-    options.final_distance = 0.015;
+    options.compression.initial_density = 0.2;
+    options.compression.step = 0.03;
+    options.decompression.final_distance = 0.015;
     RandomStream random{81};
-    return jam(random_packing(solid(), particles, options.initial_density, random), options);
+    return jam(random_packing(solid(), particles, options.compression.initial_density, random), options);
   }();
   return result;
 }

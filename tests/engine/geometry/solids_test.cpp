@@ -157,14 +157,14 @@ TEST(Hull, IsRefusedWithMoreThanSixtyFourFeatures) {
   // All faces except the top are triangles: E = 3V − 6 − (corners − 3).
   EXPECT_EQ(refusal(with_top(1)), "") << "63 edges";
   points.erase(points.end() - 1);
-  EXPECT_EQ(refusal(with_top(3)), "a solid has at most 64 faces and edges, not 44 and 66");
+  EXPECT_EQ(refusal(with_top(3)), "a solid may have at most 64 faces and edges instead of 44 and 66");
   points.erase(points.end() - 1);
-  EXPECT_EQ(refusal(with_top(4)), "a solid has at most 64 faces and edges, not 43 and 65");
+  EXPECT_EQ(refusal(with_top(4)), "a solid may have at most 64 faces and edges instead of 43 and 65");
   points.erase(points.end() - 1);
   EXPECT_EQ(refusal(with_top(5)), "") << "64 edges";
   Points many;
   for (int k = 0; k < 65; ++k) many.emplace_back(std::cos(k), std::sin(k), .01 * k);
-  EXPECT_EQ(refusal(many), "a solid has 4 to 64 vertices, not 65");
+  EXPECT_EQ(refusal(many), "a solid needs 4 to 64 vertices instead of 65");
 }
 
 TEST(Inertia, OfABoxIsThatOfTextbooks) {

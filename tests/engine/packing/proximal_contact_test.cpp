@@ -81,8 +81,8 @@ double minimand(const Pair& pair, const ProximalTerms& terms, const Vector6d& w)
   const Eigen::Vector3d half = w.tail<3>() / (2 * pair.radius());
   const Eigen::Quaterniond turn(std::sqrt(1 - half.squaredNorm()), half[0], half[1], half[2]);
   const Eigen::Quaterniond q = pair.b.orientation * turn;
-  ghost = moved_by_half_turn(ghost, pair.b.orientation * Eigen::Vector3d(w.head<3>()),
-                             (q * pair.b.orientation.conjugate()).vec());
+  ghost = moved_by_half_rotation(ghost, pair.b.orientation * Eigen::Vector3d(w.head<3>()),
+                                 (q * pair.b.orientation.conjugate()).vec());
   const double e =
       pair_energy(placed(pair), LonePlacedSolid(*pair.solid, rotation_matrix(ghost)), displacement(pair.a, ghost))
           .energy;

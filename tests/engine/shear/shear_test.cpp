@@ -33,14 +33,14 @@ const Packing& jammed(SolidKind kind) {
   const auto found = made.find(kind);
   if (found != made.end()) return found->second;
   JamOptions options;
-  options.initial_density = .2;
-  options.consolidation_step = .03;
-  options.final_distance = .03;
-  options.control = Control::pressure;
+  options.compression.initial_density = .2;
+  options.compression.step = .03;
+  options.decompression.final_distance = .03;
+  options.decompression.control = Control::pressure;
   options.cell = CellShape::free;
   options.minimise.residual = 1e-9;
   RandomStream random{23, static_cast<std::uint64_t>(kind)};
-  JamResult result = jam(random_packing(platonic(kind), 60, options.initial_density, random), options);
+  JamResult result = jam(random_packing(platonic(kind), 60, options.compression.initial_density, random), options);
   settle(result, options);
   // Minimised as far as possible, because the remaining stress is part of every difference.
   Packing packing = result.states.back();

@@ -31,12 +31,12 @@ Packing start_of(SolidKind kind, int n) {
 
 JamOptions options_of(Control control, CellShape cell) {
   JamOptions options;
-  options.initial_density = .3;
-  options.consolidation_step = .04;
-  options.consolidation_evaluations = 300;
-  options.target_energy = 1e-5;
-  options.final_distance = .02;
-  options.control = control;
+  options.compression.initial_density = .3;
+  options.compression.step = .04;
+  options.compression.evaluations = 300;
+  options.compression.target_energy = 1e-5;
+  options.decompression.final_distance = .02;
+  options.decompression.control = control;
   options.cell = cell;
   return options;
 }
@@ -152,7 +152,7 @@ TEST(FreeCellTest, EveryMinimiserFindsTheMinimumOfTheEnthalpy) {
 
 TEST(FreeCellTest, GoesOnFromAnyStepWithTheSameBits) {
   JamOptions options = options_of(Control::pressure, CellShape::free);
-  options.final_distance = .05;
+  options.decompression.final_distance = .05;
   std::vector<JamProgress> steps;
   const JamResult whole = jam(start_of(SolidKind::octahedron, 64), options, {},
                               [&](const JamProgress& progress) { steps.push_back(progress); });

@@ -14,13 +14,13 @@ struct System {
 /// Large steps and a coarse goal.
 inline JamOptions lax() {
   JamOptions options;
-  options.initial_density = 0.2;
-  options.consolidation_step = 0.03;
-  options.step_fraction = 0.25;
-  options.final_distance = 0.02;
-  options.longest_step = 0.025;
-  options.fit_window = 0.06;
-  options.consolidation_evaluations = 200;
+  options.compression.initial_density = 0.2;
+  options.compression.step = 0.03;
+  options.decompression.step_fraction = 0.25;
+  options.decompression.final_distance = 0.02;
+  options.decompression.longest_step = 0.025;
+  options.decompression.fit_window = 0.06;
+  options.compression.evaluations = 200;
   options.minimise.residual = 1e-5;
   options.minimise.max_evaluations = 2000;
   return options;
@@ -28,7 +28,7 @@ inline JamOptions lax() {
 
 inline Packing start_of(const System& system, std::uint64_t seed, const JamOptions& options) {
   RandomStream random{seed};
-  return random_packing(platonic(system.kind), system.n, options.initial_density, random);
+  return random_packing(platonic(system.kind), system.n, options.compression.initial_density, random);
 }
 
 inline const System small{SolidKind::dodecahedron, 24};

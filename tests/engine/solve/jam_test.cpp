@@ -43,9 +43,10 @@ void expect_path(const JamResult& result, const JamOptions& options) {
   const auto last_up = std::find_if(result.path.begin(), result.path.end(),
                                     [](const JamStep& step) { return step.stage == JamStage::expansion; }) -
                        1;
-  EXPECT_GE(last_up->energy_per_particle, options.target_energy);
+  EXPECT_GE(last_up->energy_per_particle, options.compression.target_energy);
   for (auto step = result.path.begin(); step != last_up; ++step)
-    EXPECT_TRUE(step->energy_per_particle < options.target_energy || step->summary.reason == StopReason::unjammed)
+    EXPECT_TRUE(step->energy_per_particle < options.compression.target_energy ||
+                step->summary.reason == StopReason::unjammed)
         << "went on beyond the target at " << step->density;
 }
 
@@ -79,9 +80,9 @@ void expect_jamming_point(const JamResult& result, const JamOptions& options) {
   EXPECT_LT(result.phi_j->density, 0.8);
   EXPECT_LT(result.phi_j->density, nearest);
   EXPECT_LT(result.phi_j->single_state, nearest);
-  EXPECT_LE(nearest - result.phi_j->single_state, options.final_distance * (1 + 1e-12));
+  EXPECT_LE(nearest - result.phi_j->single_state, options.decompression.final_distance * (1 + 1e-12));
   // Two extrapolations over the same distance agree to a fraction of it.
-  EXPECT_NEAR(result.phi_j->density, result.phi_j->single_state, options.final_distance / 2);
+  EXPECT_NEAR(result.phi_j->density, result.phi_j->single_state, options.decompression.final_distance / 2);
 }
 
 TEST_P(Jam, EndsAtTheEdgeOfJamming) {
@@ -131,7 +132,7 @@ std::vector<std::pair<int, int>> touching(const Packing& packing) {
 
 TEST(JamTest, StartsDecideTheOutcome) {
   JamOptions options = lax();
-  options.initial_density = 0.7;
+  options.compression.initial_density = 0.7;
   options.max_steps = 3;
   const std::vector<std::uint64_t> seeds{72, 73, 74, 75, 72, 75};
   std::vector<Packing> ends;
@@ -203,7 +204,7 @@ TEST(JamTest, StopsBeforeItBegins) {
   std::stop_source source;
   source.request_stop();
   JamOptions dense = options;
-  dense.initial_density = 0.75;
+  dense.compression.initial_density = 0.75;
   const JamResult result = jam(start_of(small, 71, dense), dense, source.get_token());
   EXPECT_EQ(result.status, JamStatus::interrupted);
   EXPECT_TRUE(result.path.empty());
@@ -213,12 +214,12 @@ TEST(JamTest, StopsBeforeItBegins) {
 
 TEST(JamTest, DensityLimit) {
   JamOptions options = lax();
-  options.target_energy = 1e3;
-  options.max_density = 0.75;
+  options.compression.target_energy = 1e3;
+  options.compression.max_density = 0.75;
   const JamResult result = jam(start_of(small, 71, options), options);
   EXPECT_EQ(result.status, JamStatus::density_limit) << to_string(result.status);
-  EXPECT_LE(result.path.back().density, options.max_density);
-  EXPECT_GT(result.path.back().density, options.max_density - options.consolidation_step * (1 + 1e-9));
+  EXPECT_LE(result.path.back().density, options.compression.max_density);
+  EXPECT_GT(result.path.back().density, options.compression.max_density - options.compression.step * (1 + 1e-9));
   EXPECT_TRUE(result.states.empty());
   EXPECT_FALSE(result.phi_j);
 }
@@ -233,7 +234,7 @@ TEST(JamTest, StepLimit) {
 
 TEST(JamTest, NotFinite) {
   JamOptions options = lax();
-  options.initial_density = 0.6;
+  options.compression.initial_density = 0.6;
   Packing start = start_of(small, 71, options);
   start.poses[3].orientation.w() = std::numeric_limits<double>::quiet_NaN();
   const JamResult result = jam(start, options);
@@ -269,16 +270,16 @@ TEST(JamTest, TheRuleOnTheEnergyLetsStatesPass) {
 TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
   JamOptions options = lax();
   // "Minimisation no longer removes the energy" must not be caused by too few evaluations.
-  options.consolidation_evaluations = 6000;
+  options.compression.evaluations = 6000;
   const auto top_of = [](const JamResult& result) {
     return result.path[static_cast<std::size_t>(result.state_steps.front())];
   };
   // With the other interpretation rounding decides which starts do not jam and relax below φ_J.
   int jammed = 0;
   for (const std::uint64_t seed : {71, 72, 73, 74, 75, 76}) {
-    options.target_before_relaxation = false;
+    options.compression.target_before_relaxation = false;
     const JamResult usual = jam(start_of(small, seed, options), options);
-    options.target_before_relaxation = true;
+    options.compression.target_before_relaxation = true;
     const JamResult gentle = jam(start_of(small, seed, options), options);
     ASSERT_EQ(usual.status, JamStatus::jammed) << to_string(usual.status);
     if (gentle.status != JamStatus::jammed) continue;
@@ -286,10 +287,10 @@ TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
     std::printf("expansion starts at φ %.3f, E/N %.1e; by the other reading at %.3f, %.1e, φ_J %.3f\n",
                 top_of(usual).density, top_of(usual).energy_per_particle, top_of(gentle).density,
                 top_of(gentle).energy_per_particle, gentle.phi_j->density);
-    EXPECT_LT(top_of(gentle).density, top_of(usual).density - options.consolidation_step);
-    EXPECT_LT(top_of(gentle).energy_per_particle, options.target_energy / 100);
+    EXPECT_LT(top_of(gentle).density, top_of(usual).density - options.compression.step);
+    EXPECT_LT(top_of(gentle).energy_per_particle, options.compression.target_energy / 100);
     // One strain step beyond the last state that could relax, which is below φ_J.
-    EXPECT_LT(top_of(gentle).density - gentle.phi_j->density, 1.5 * options.consolidation_step);
+    EXPECT_LT(top_of(gentle).density - gentle.phi_j->density, 1.5 * options.compression.step);
   }
   EXPECT_GE(jammed, 2);
 }

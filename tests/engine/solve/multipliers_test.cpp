@@ -45,11 +45,11 @@ const std::vector<State>& states(SolidKind kind) {
   const auto [place, is_new] = all.try_emplace(kind);
   if (!is_new) return place->second;
   JamOptions options;
-  options.initial_density = 0.3;
-  options.final_distance = 0.01;
+  options.compression.initial_density = 0.3;
+  options.decompression.final_distance = 0.01;
   options.minimise.method = Method::newton;
   options.minimise.residual = 1e-7;
-  const JamResult result = jam(small_packing(kind, options.max_density, 321, 64), options);
+  const JamResult result = jam(small_packing(kind, options.compression.max_density, 321, 64), options);
   for (const Packing& packing : result.states) {
     const double distance = distance_of(packing);
     if (distance < 0.13) place->second.push_back({packing, distance});

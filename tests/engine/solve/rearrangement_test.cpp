@@ -27,15 +27,15 @@ JamStep without_state(JamStage stage, bool lost = false) {
 }
 
 TEST(GaveWay, BelowHalfOfTheEnergyExpected) {
-  EXPECT_TRUE(gave_way(followed(0.499)));
-  EXPECT_TRUE(gave_way(followed(0)));
-  EXPECT_TRUE(gave_way(followed(-1e-9))) << "an energy lost to rounding";
-  EXPECT_FALSE(gave_way(followed(0.5)));
-  EXPECT_FALSE(gave_way(followed(1)));
-  EXPECT_FALSE(gave_way(followed(3))) << "a jump to a stiffer branch loses nothing";
-  EXPECT_TRUE(gave_way(without_state(JamStage::expansion, true)));
-  EXPECT_FALSE(gave_way(without_state(JamStage::expansion)));
-  EXPECT_FALSE(gave_way(without_state(JamStage::consolidation)));
+  EXPECT_TRUE(is_rearranged(followed(0.499)));
+  EXPECT_TRUE(is_rearranged(followed(0)));
+  EXPECT_TRUE(is_rearranged(followed(-1e-9))) << "an energy lost to rounding";
+  EXPECT_FALSE(is_rearranged(followed(0.5)));
+  EXPECT_FALSE(is_rearranged(followed(1)));
+  EXPECT_FALSE(is_rearranged(followed(3))) << "a jump to a stiffer branch loses nothing";
+  EXPECT_TRUE(is_rearranged(without_state(JamStage::expansion, true)));
+  EXPECT_FALSE(is_rearranged(without_state(JamStage::expansion)));
+  EXPECT_FALSE(is_rearranged(without_state(JamStage::consolidation)));
 }
 
 TEST(Rearrangements, AreCountedOverTheStepsThatWereFollowed) {
@@ -52,7 +52,7 @@ TEST(Rearrangements, AreCountedOverTheStepsThatWereFollowed) {
                                   followed(0.1, 2, 0, 1.5)};
   const auto found = rearrangements(path);
   EXPECT_EQ(found.steps, 5);
-  EXPECT_EQ(found.gave_way, 3);
+  EXPECT_EQ(found.is_rearranged, 3);
   EXPECT_EQ(found.particles_moved, 3);
   EXPECT_EQ(found.contacts_lost, 4.5);
   EXPECT_EQ(found.contacts_gained, 1.5);
@@ -63,7 +63,7 @@ TEST(Rearrangements, HaveNoMeansWhereThereAreNone) {
        {std::vector<JamStep>{}, {followed(0.9, 5, 1, 3)}, {without_state(JamStage::expansion, true)}}) {
     const auto found = rearrangements(path);
     EXPECT_EQ(found.steps, static_cast<int>(path.size()));
-    EXPECT_EQ(found.gave_way, !path.empty() && path[0].lost ? 1 : 0);
+    EXPECT_EQ(found.is_rearranged, !path.empty() && path[0].lost ? 1 : 0);
     EXPECT_FALSE(found.particles_moved);
     EXPECT_FALSE(found.contacts_lost);
     EXPECT_FALSE(found.contacts_gained);

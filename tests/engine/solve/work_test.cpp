@@ -27,11 +27,11 @@ namespace {
 const JamResult& expanded() {
   static const JamResult result = [] {
     JamOptions options;
-    options.initial_density = 0.2;
-    options.final_distance = 0.01;
+    options.compression.initial_density = 0.2;
+    options.decompression.final_distance = 0.01;
     options.minimise.residual = 1e-9;
     options.minimise.method = Method::newton;
-    return jam(small_packing(SolidKind::octahedron, options.initial_density, 1, 45), options);
+    return jam(small_packing(SolidKind::octahedron, options.compression.initial_density, 1, 45), options);
   }();
   return result;
 }

@@ -10,12 +10,13 @@ const JamResult& jammed(SolidKind kind, int particles, double final_distance, st
   const auto [place, is_new] = made.try_emplace({kind, particles, final_distance, seed});
   if (is_new) {
     JamOptions options;
-    options.initial_density = 0.2;
-    options.consolidation_step = 0.03;
-    options.final_distance = final_distance;
+    options.compression.initial_density = 0.2;
+    options.compression.step = 0.03;
+    options.decompression.final_distance = final_distance;
     options.minimise.residual = 1e-9;
     RandomStream random{seed, static_cast<std::uint64_t>(kind)};
-    place->second = jam(random_packing(platonic(kind), particles, options.initial_density, random), options);
+    place->second =
+        jam(random_packing(platonic(kind), particles, options.compression.initial_density, random), options);
   }
   return place->second;
 }

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/vibration/follow_downhill.hpp"
+#include "engine/vibration/relax_to_minimum.hpp"
 #include "tests/engine/vibration/jammed_states.hpp"
 #include "tests/engine/vibration/saddle.hpp"
 
@@ -20,11 +20,11 @@ TEST(Settle, TakesSaddlesDownAndLeavesMinima) {
   JamResult result = jammed(SolidKind::octahedron, 48, .01);
   const JamResult before = result;
 
-  DownhillOptions none;
+  MinimumSearchOptions none;
   none.minimise = options.minimise;
   none.max_descents = 0;
-  const DownhillResult saddle = follow_downhill(lattice(SolidKind::octahedron, 4, 0.95, 0), none);
-  ASSERT_EQ(saddle.ended, DownhillEnd::still_unstable);
+  const MinimumSearchResult saddle = relax_to_minimum(lattice(SolidKind::octahedron, 4, 0.95, 0), none);
+  ASSERT_EQ(saddle.ended, MinimumSearchEnd::still_unstable);
   // The state nearest to jamming is replaced by the saddle, at a density outside the fit.
   JamStep& step = result.path[static_cast<std::size_t>(result.state_steps.back())];
   step.density = saddle.packing.density();
@@ -40,12 +40,12 @@ TEST(Settle, TakesSaddlesDownAndLeavesMinima) {
   const Evaluation there = PackingEnergy().evaluate(result.states.back(), step.summary.precision);
   EXPECT_EQ(step.energy_per_particle, there.energy / result.states.back().size());
   EXPECT_EQ(step.pressure, there.pressure);
-  EXPECT_EQ(follow_downhill(result.states.back(), none).ended, DownhillEnd::was_minimum);
+  EXPECT_EQ(relax_to_minimum(result.states.back(), none).ended, MinimumSearchEnd::was_minimum);
   for (std::size_t k = 0; k + 1 < result.states.size(); ++k) {
     EXPECT_TRUE(same_bits(result.states[k], before.states[k])) << "state " << k;
     EXPECT_EQ(result.path[static_cast<std::size_t>(result.state_steps[k])].descents, 0) << "state " << k;
   }
-  const auto fitted = fit_jamming_point(energy_points(result), options.fit_window);
+  const auto fitted = fit_jamming_point(energy_points(result), options.decompression.fit_window);
   ASSERT_TRUE(result.phi_j && fitted);
   EXPECT_EQ(result.phi_j->density, fitted->density);
   EXPECT_NE(result.phi_j->density, before.phi_j->density);

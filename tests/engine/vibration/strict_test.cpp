@@ -35,13 +35,13 @@ const JamResult& free_states(SolidKind kind, int n) {
   const auto [place, is_new] = made.try_emplace(kind);
   if (is_new) {
     JamOptions options;
-    options.initial_density = .2;
-    options.consolidation_step = .03;
-    options.final_distance = .02;
-    options.control = Control::pressure;
+    options.compression.initial_density = .2;
+    options.compression.step = .03;
+    options.decompression.final_distance = .02;
+    options.decompression.control = Control::pressure;
     options.cell = CellShape::free;
     RandomStream random{17, static_cast<std::uint64_t>(kind)};
-    place->second = jam(random_packing(platonic(kind), n, options.initial_density, random), options);
+    place->second = jam(random_packing(platonic(kind), n, options.compression.initial_density, random), options);
     settle(place->second, options);
   }
   return place->second;

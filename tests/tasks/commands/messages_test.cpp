@@ -1,6 +1,7 @@
 // These tests prove, through the executable:
 // - with --messages json every line on stderr is a JSON object with "kind" and "text";
-// - the errors of a manifest have file, pointer, problem, allowed and suggestion, and the text that people read;
+// - the errors of a manifest have file, pointer, problem, allowed and suggestion, and the text that people read, which
+//   lists the allowed keys only without a suggestion;
 // - progress counts from 0 to the number of replicates, and what goes to stdout and to files is as without the option;
 // - --quiet leaves errors alone;
 // - the manifest "-" is standard input, and its paths start from the current directory.
@@ -57,6 +58,8 @@ TEST(Messages, EveryErrorOfAManifestHasItsPartsInJson) {
   EXPECT_NE(errors[0].at("allowed"), "");
   EXPECT_EQ(errors[1].at("pointer"), "/protocol/target_energi");
   EXPECT_EQ(errors[1].at("suggestion"), "target_energy");
+  EXPECT_NE(errors[1].at("allowed").get<std::string>().find("\"target_energy\""), std::string::npos);
+  EXPECT_EQ(errors[1].at("text"), "m.json: /protocol/target_energi: unknown key; did you mean \"target_energy\"?");
 }
 
 TEST(Messages, ProgressCountsFromNoneToAllReplicates) {

@@ -4,6 +4,7 @@
 // - several errors are as many lines, each with the file; warnings come beside an OK;
 // - usage errors and paths that cannot be read or written end with exit 2 and one error, and nothing is written;
 // - a command or an option that is none is told with the nearest that is one;
+// - a missing or empty directory has the same error in every command;
 // - a dry run counts one of a thing as one, and no time as about 0 s;
 // - help and version go to stdout with exit 0;
 // - colour appears where it is asked for and not elsewhere.
@@ -11,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
+#include <utility>
 
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
@@ -95,7 +98,7 @@ TEST(Program, UnknownWordsAreToldWithTheNearest) {
   const std::vector<Case> cases{
       {{"ruN", "m.json"}, "unknown command \"ruN\"; did you mean \"run\"?"},
       {{"vaildate", "m.json"}, "unknown command \"vaildate\"; did you mean \"validate\"?"},
-      {{"zzzzzz"}, "unknown command \"zzzzzz\"; allowed: \"run\", \"validate\""},
+      {{"zzzzzz"}, "unknown command \"zzzzzz\"; expected one of \"run\", \"validate\""},
       {{"run", "m.json", "--thread=2"}, "unknown option \"--thread\"; did you mean \"--threads\"?"},
       {{"run", "m.json", "--colour", "never"}, "unknown option \"--colour\"; did you mean \"--color\"?"},
       {{"run", "--dryrun"}, "unknown option \"--dryrun\"; did you mean \"--dry-run\"?"},
@@ -106,6 +109,26 @@ TEST(Program, UnknownWordsAreToldWithTheNearest) {
     EXPECT_EQ(run.exit_code, 2) << wrong.says;
     EXPECT_EQ(run.err.rfind("isojam: error: " + wrong.says, 0), 0U) << run.err;
     EXPECT_EQ(lines_of(run.err), 1) << run.err;
+  }
+}
+
+TEST(Program, AMissingOrEmptyDirectoryHasTheSameErrorInEveryCommand) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "empty");
+  for (const auto& [name, says] :
+       {std::pair{"nowhere", "no such directory"}, std::pair{"empty", "contains no results"}}) {
+    const auto expected =
+        std::string("isojam: error: ") + name + ": " + says + "; give a results directory of isojam run\n";
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"status", name},
+                                                    {"rerun", name, "x"},
+                                                    {"aggregate", name},
+                                                    {"report", name},
+                                                    {"measure", name},
+                                                    {"export", name, "x", "--format", "gsd", "-o", "x.gsd"}}) {
+      const auto run = isojam(command, directory.path());
+      EXPECT_EQ(run.exit_code, 2) << command[0];
+      EXPECT_EQ(run.err, expected) << command[0];
+    }
   }
 }
 
@@ -120,10 +143,10 @@ TEST(Program, ADryRunTellsNumbersAsPeopleDo) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     const auto expected =
         number == 1 ? std::vector<std::string>{"tiny: 1 sweep point,",
-                                               "N=24: 1 replicate, 0 recorded, less than 1 s of CPU each\n",
-                                               "left to do: less than 1 s on 1 thread;"}
+                                               "N=24: 1 replicate, 0 recorded, less than 1 s of CPU time each\n",
+                                               "remaining: less than 1 s on 1 thread;"}
                     : std::vector<std::string>{"tiny: 2 sweep points,", "N=400: 3 replicates, 0 recorded, about ",
-                                               "left to do: about ", " on 3 threads;"};
+                                               "remaining: about ", " on 3 threads;"};
     for (const auto& part : expected) EXPECT_NE(run.out.find(part), std::string::npos) << part << ": " << run.out;
     EXPECT_EQ(run.out.find("about 0 s"), std::string::npos) << run.out;
   }

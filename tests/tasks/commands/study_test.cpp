@@ -14,8 +14,8 @@
 #include <regex>
 #include <thread>
 
-#include "tasks/json/parse.hpp"
-#include "tasks/store/recorded.hpp"
+#include "tasks/io/parse.hpp"
+#include "tasks/records/recorded.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam {
@@ -68,7 +68,7 @@ TEST(Study, OfANewUser) {
   write(study(8));
   const auto [first, first_status] = typed({"run", "m.json"}, here.path());
   ASSERT_TRUE(WIFEXITED(first_status) && WEXITSTATUS(first_status) == 0) << first;
-  EXPECT_NE(first.find("not known well enough yet: 2 more replicates"), std::string::npos) << first;
+  EXPECT_NE(first.find("confidence interval still too wide: running 2 more replicates"), std::string::npos) << first;
   EXPECT_NE(first.find("phi_j"), std::string::npos) << first;
   expect_bars(first, 2);
   EXPECT_EQ(records(), 8U);
@@ -89,7 +89,9 @@ TEST(Study, OfANewUser) {
        {std::vector<std::string>{"run", "m.json"}, {"run", "m.json", "--dry-run"}}) {
     const auto refused = isojam(command, here.path());
     EXPECT_EQ(refused.exit_code, 65) << refused.err;
-    EXPECT_NE(refused.err.find("/protocol/step_fraction: 0.4 there, 0.3 here"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("/protocol/step_fraction: 0.4 in the directory, 0.3 in this manifest"),
+              std::string::npos)
+        << refused.err;
     EXPECT_EQ(test::files_below(results), before);
   }
 
@@ -100,10 +102,10 @@ TEST(Study, OfANewUser) {
     kill(process, SIGINT);
   });
   EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
-  EXPECT_NE(stopped.err.find("the same command continues"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("repeat the command to resume"), std::string::npos) << stopped.err;
   const auto status = isojam({"status", "again"}, here.path());
-  EXPECT_NE(status.out.find(" 0 under way"), std::string::npos) << status.out;
-  EXPECT_NE(status.out.find("nobody is working on it"), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find(" 0 running"), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find("no process is working on it"), std::string::npos) << status.out;
   EXPECT_EQ(isojam({"run", "m.json", "-o", "again"}, here.path()).exit_code, 0);
   EXPECT_EQ(test::results_below(here / "again"), test::results_below(results));
 

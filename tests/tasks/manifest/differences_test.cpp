@@ -21,14 +21,17 @@ std::string differences_to_good(const std::string& pointer, const Json& value) {
 }
 
 TEST(Differences, AreNamedWithBothValues) {
-  EXPECT_EQ(differences_to_good("/seed", 8), "/seed: 8 there, 7 here");
-  EXPECT_EQ(differences_to_good("/sweep/solid", {"cube"}), "/sweep/solid: [\"cube\"] there, [\"dodecahedron\"] here");
-  EXPECT_EQ(differences_to_good("/minimiser/residual", 1e-9), "/minimiser/residual: 1e-09 there, 1e-06 here");
+  EXPECT_EQ(differences_to_good("/seed", 8), "/seed: 8 in the directory, 7 in this manifest");
+  EXPECT_EQ(differences_to_good("/sweep/solid", {"cube"}),
+            "/sweep/solid: [\"cube\"] in the directory, [\"dodecahedron\"] in this manifest");
+  EXPECT_EQ(differences_to_good("/minimiser/residual", 1e-9),
+            "/minimiser/residual: 1e-09 in the directory, 1e-06 in this manifest");
   EXPECT_EQ(differences_to_good("/sweep/fit_window", {0.01, 0.02}),
-            "/sweep/fit_window: [0.01,0.02] there, not given here; "
-            "/protocol/fit_window: not given there, 0.02 here");
+            "/sweep/fit_window: [0.01,0.02] in the directory, not given in this manifest; "
+            "/protocol/fit_window: not given in the directory, 0.02 in this manifest");
   const auto long_list = differences_to_good("/sweep/particles", {100, 101, 102, 103, 104, 105, 106, 107, 108, 109});
-  EXPECT_EQ(long_list, "/sweep/particles: [100,101,102,103,104,105,106,107,108,... there, [64] here");
+  EXPECT_EQ(long_list,
+            "/sweep/particles: [100,101,102,103,104,105,106,107,108,... in the directory, [64] in this manifest");
 }
 
 TEST(Differences, AreAHandfulAndThoseOfTheDigest) {
@@ -38,10 +41,12 @@ TEST(Differences, AreAHandfulAndThoseOfTheDigest) {
   other["modes"] = 3;
   other["measure"] = Json::array();
   other["protocol"] = {{"fit_window", 0.01}, {"max_steps", 7}, {"longest_step", 0.01}};
-  EXPECT_EQ(differences(parse(other), parse(good_manifest())),
-            "/name: \"other\" there, \"tiny\" here; /seed: 8 there, 7 here; "
-            "/protocol/longest_step: 0.01 there, 0.05 here; /protocol/fit_window: 0.01 there, 0.02 here; "
-            "/protocol/max_steps: 7 there, 400 here and 2 more");
+  EXPECT_EQ(
+      differences(parse(other), parse(good_manifest())),
+      "/name: \"other\" in the directory, \"tiny\" in this manifest; /seed: 8 in the directory, 7 in this manifest; "
+      "/protocol/longest_step: 0.01 in the directory, 0.05 in this manifest; /protocol/fit_window: 0.01 in the "
+      "directory, 0.02 in this manifest; "
+      "/protocol/max_steps: 7 in the directory, 400 in this manifest and 2 more");
   auto same = good_manifest();
   same["replicates"] = {{"min", 2}, {"max", 4}, {"quantity", "phi_j"}, {"half_width", 1}};
   same["keep_path"] = true;

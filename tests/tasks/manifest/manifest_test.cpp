@@ -13,10 +13,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
+#include <cstdio>
 #include <limits>
 
-#include "tasks/json/input_error.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 
@@ -220,9 +220,10 @@ TEST(Manifest, TooFewParticlesNamesTheLeastNumberThatWouldDo) {
       try {
         parse(manifest);
       } catch (const InputError& error) {
-        said = error.details().allowed;
+        said = error.details().remedy;
       }
-      const int least = std::atoi(said.c_str());
+      int least = 0;
+      std::sscanf(said.c_str(), "use at least %d particles", &least);
       ASSERT_GT(least, 1) << to_string(kind) << " at " << density << ": " << said;
       manifest["sweep"]["particles"] = {least - 1};
       EXPECT_TRUE(refused(manifest)) << to_string(kind) << " at " << density << ": " << least;

@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
-#include "tasks/json/input_error.hpp"
-#include "tasks/replicate/summary.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/records/summary.hpp"
 #include "tasks/tables/aggregate.hpp"
 #include "tasks/tables/tables.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"

@@ -16,7 +16,7 @@
 #include <tuple>
 
 #include "tasks/manifest/fields.hpp"
-#include "tasks/replicate/replicate.hpp"
+#include "tasks/records/replicate.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -52,7 +52,7 @@ TEST(Plan, IsTheProductOfTheListsInOrder) {
   for (const auto& spec : plan) {
     names.insert(replicate_name(spec));
     keys.emplace_back(spec.solid, spec.particles, spec.parameters, spec.replicate);
-    EXPECT_EQ(spec.options.target_energy, spec.parameters.at("target_energy").get<double>());
+    EXPECT_EQ(spec.options.compression.target_energy, spec.parameters.at("target_energy").get<double>());
     EXPECT_EQ(to_string(spec.options.minimise.method), spec.parameters.at("method").get<std::string>());
   }
   EXPECT_EQ(names.size(), plan.size());

@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "tasks/json/input_error.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/manifest/manifest.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 
@@ -61,12 +61,17 @@ TEST(Refusals, AllAtOnceInTheOrderOfTheDocument) {
                    "/sweep/final_distance/0", "/seed", "/protocol/target_enery", "/protocol/approach",
                    "/protocol/step_fraction", "/protocol/final_distance", "/measure/0", "/replicates/half_width",
                    "/replicates/min", "/replicates/max", "/replicates/quantity", "/modes", "/method"}));
+  EXPECT_EQ(refusals(text).at(4), "m.json: /sweep/solid/0: unknown solid \"octahedra\"; did you mean \"octahedron\"?");
+  EXPECT_EQ(refusals(text).at(6), "m.json: /seed: -1 is not accepted; expected an integer from 0 to 9007199254740992");
+  auto sphere = good_manifest();
+  sphere["sweep"]["solid"] = {"sphere"};
   EXPECT_EQ(
-      refusals(text).at(4),
-      "m.json: /sweep/solid/0: unknown value \"octahedra\"; allowed: \"tetrahedron\", \"cube\", \"octahedron\", "
+      refusals(sphere.dump()).at(0),
+      "m.json: /sweep/solid/0: unknown solid \"sphere\"; expected one of \"tetrahedron\", \"cube\", \"octahedron\", "
       "\"dodecahedron\", \"icosahedron\", \"truncated_tetrahedron\", \"cuboctahedron\", \"rhombic_dodecahedron\", "
-      "\"truncated_octahedron\", \"truncated_cube\", prism3 to prism21 and antiprism4 to antiprism16, or a name that "
-      "/solids defines; did you mean \"octahedron\"?");
+      "\"truncated_octahedron\", \"truncated_cube\", prism3 to prism21 and antiprism4 to antiprism16, or a name "
+      "defined "
+      "in /solids");
 }
 
 TEST(Refusals, NothingThatFollowsFromAnotherError) {
@@ -111,7 +116,7 @@ TEST(Refusals, TwoErrorsGiveTheLinesOfEach) {
       auto said = refusals(both.dump());
       // Swept by one and set by the other: an error of its own.
       const bool third = std::any_of(said.begin(), said.end(), [](const std::string& line) {
-        return line.find("swept as well") != std::string::npos;
+        return line.find("is also swept") != std::string::npos;
       });
       if (third) continue;
       std::sort(expected.begin(), expected.end());
@@ -139,14 +144,15 @@ TEST(Refusals, ManyErrorsAreCutShort) {
   for (int n = 0; n < 250; ++n) manifest["sweep"]["solid"].push_back(n);
   const auto lines = refusals(manifest.dump());
   ASSERT_EQ(lines.size(), 101U);
-  EXPECT_EQ(lines.back(), "m.json: 150 errors more");
+  EXPECT_EQ(lines.back(), "m.json: 150 more errors");
 }
 
 TEST(Refusals, CommentsAreCalledSo) {
   const auto good = good_manifest().dump();
   for (const std::string comment : {"// sweep\n", "/* sweep */", "# sweep\n"}) {
-    EXPECT_EQ(refusals("{\n  " + comment + good.substr(1)), Lines{"m.json:2:3: JSON has no comments"});
-    EXPECT_EQ(refusals(good + "\n" + comment), Lines{"m.json:2:1: JSON has no comments"});
+    EXPECT_EQ(refusals("{\n  " + comment + good.substr(1)),
+              Lines{"m.json:2:3: JSON has no comments; remove the comment"});
+    EXPECT_EQ(refusals(good + "\n" + comment), Lines{"m.json:2:1: JSON has no comments; remove the comment"});
   }
   EXPECT_EQ(refusals("{\"seed\": 7, // why\n}").front().rfind("m.json:1:13: ", 0), 0U);
   for (const std::string other : {"{\"seed\": /7}", "{\"seed\": \"\\#\"}", "{\"seed\": \"\n//\"}"})
@@ -166,7 +172,7 @@ TEST(Refusals, TooFewParticlesNameTheDensityThatWouldDo) {
       manifest["sweep"]["particles"] = {particles};
       const auto lines = refusals(manifest.dump());
       if (lines.empty()) break;
-      const std::string says = "or more, or a max_density of ";
+      const std::string says = " particles or set max_density to ";
       const auto found = lines.at(0).find(says);
       ASSERT_NE(found, std::string::npos) << lines.at(0);
       const double density = std::strtod(lines.at(0).c_str() + found + says.size(), nullptr);
@@ -182,7 +188,8 @@ TEST(Refusals, TooFewParticlesNameTheDensityThatWouldDo) {
   auto manifest = good_manifest();
   manifest["sweep"]["particles"] = {1};
   manifest["protocol"]["initial_density"] = 0.5;
-  EXPECT_EQ(refusals(manifest.dump()).at(0).find("max_density of"), std::string::npos) << "none above the initial one";
+  EXPECT_EQ(refusals(manifest.dump()).at(0).find("set max_density to"), std::string::npos)
+      << "none above the initial one";
 }
 
 TEST(Refusals, TheSolidThatNeedsMostIsNamed) {
@@ -191,8 +198,8 @@ TEST(Refusals, TheSolidThatNeedsMostIsNamed) {
   manifest["sweep"]["max_density"] = {0.8, 1.2, 0.9};
   manifest["sweep"]["particles"] = {5};
   const auto line = refusals(manifest.dump()).at(0);
-  EXPECT_NE(line.find("at max_density 1.2 one tetrahedron"), std::string::npos) << line;
-  manifest["sweep"]["particles"] = {std::atoi(line.c_str() + line.find("allowed: ") + 9)};
+  EXPECT_NE(line.find("5 is too small for tetrahedron at max_density 1.2; use at least "), std::string::npos) << line;
+  manifest["sweep"]["particles"] = {std::atoi(line.c_str() + line.find("at least ") + 9)};
   EXPECT_EQ(refusals(manifest.dump()), Lines{}) << line;
 }
 

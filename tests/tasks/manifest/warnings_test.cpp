@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "tasks/json/parse.hpp"
+#include "tasks/io/parse.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
 

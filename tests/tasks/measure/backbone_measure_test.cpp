@@ -19,11 +19,11 @@ const JamResult& jammed() {
   static const JamResult result = [] {
     RandomStream random{17};
     JamOptions options;
-    options.consolidation_step = 0.05;
-    options.final_distance = 0.01;
+    options.compression.step = 0.05;
+    options.decompression.final_distance = 0.01;
     options.minimise.residual = 1e-9;
     const ConvexSolid& solid = platonic(SolidKind::octahedron);
-    return jam(random_packing(solid, least_particles(solid, options.max_density), 0.2, random), options);
+    return jam(random_packing(solid, least_particles(solid, options.compression.max_density), 0.2, random), options);
   }();
   return result;
 }
@@ -39,7 +39,7 @@ TEST(BackboneMeasure, OfTheWholeIsWhatTheOthersSay) {
     ASSERT_EQ(found.at("removed"), 0) << "state " << k;
     EXPECT_EQ(found.at("particles"), Json::array());
     EXPECT_EQ(found.at("rounds"), 0);
-    EXPECT_EQ(found.at("Z"), contacts.states[k].at("Z"));
+    EXPECT_EQ(found.at("Z"), contacts.states[k].at("contacts").at("Z"));
     for (const auto* key : {"verdict", "zero", "negative", "zero_tolerance", "omega_l"})
       EXPECT_EQ(found.at(key), modes.states[k].at("modes").at(key)) << key;
     EXPECT_EQ(found.at("K"), moduli.states[k].at("moduli").at("K"));

@@ -2,7 +2,7 @@
 // - the exact count is that of all 6N eigenvalues of the analytic matrix, at a saddle too, which is left as it is;
 //   the counts by differences are those of difference_hessian in doubles, by a dense solver, at every step; shares are
 //   of 6N;
-// - no saddle need be followed downhill for it, unlike for modes;
+// - no saddle has to be relaxed to a minimum for it, unlike for modes;
 // - more particles than a dense matrix serves have no number, and the reason instead.
 
 #include <gtest/gtest.h>

@@ -28,9 +28,10 @@ const JamResult& octahedra() {
   static const JamResult result = [] {
     RandomStream random{2024};
     JamOptions options;
-    options.final_distance = 0.01;
-    options.step_fraction = 0.5;
-    return jam(random_packing(platonic(SolidKind::octahedron), 50, options.initial_density, random), options);
+    options.decompression.final_distance = 0.01;
+    options.decompression.step_fraction = 0.5;
+    return jam(random_packing(platonic(SolidKind::octahedron), 50, options.compression.initial_density, random),
+               options);
   }();
   return result;
 }

@@ -10,7 +10,7 @@
 // - what each measure wrote into a record is told from what the others wrote, reasons included.
 
 #include "tasks/measure/measure.hpp"
-#include "tasks/replicate/summary.hpp"
+#include "tasks/records/summary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@
 #include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
 #include "tasks/measure/recorded_measurement.hpp"
-#include "tasks/replicate/record.hpp"
+#include "tasks/records/record.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -44,10 +44,10 @@ const JamResult& jammed() {
   static const JamResult result = [] {
     RandomStream random{17};
     JamOptions options;
-    options.consolidation_step = 0.05;
-    options.final_distance = 0.01;
+    options.compression.step = 0.05;
+    options.decompression.final_distance = 0.01;
     const ConvexSolid& solid = platonic(SolidKind::octahedron);
-    return jam(random_packing(solid, least_particles(solid, options.max_density), 0.2, random), options);
+    return jam(random_packing(solid, least_particles(solid, options.compression.max_density), 0.2, random), options);
   }();
   return result;
 }
@@ -133,21 +133,22 @@ TEST(Measure, CountsConstraintsByContactsAndSingularValues) {
     SCOPED_TRACE("state " + std::to_string(k));
     const Packing& packing = jammed().states[k];
     const auto& state = record.at("states").at(k);
+    const auto& numbers = state.at("contacts");
     PackingEnergy energy;
     const auto contacts = energy.contacts(packing);
     expect_counted(state.at("rigidity").at("normals"), normal_constraints(packing, contacts),
-                   static_cast<int>(contacts.size()), state.at("Z"));
-    if (state.at("C").is_null()) continue;
+                   static_cast<int>(contacts.size()), numbers.at("Z"));
+    if (numbers.at("C").is_null()) continue;
     ++decided;
     const auto angles = alignments(packing.solids.only(), contacts);
-    const auto face_face_below = state.at("face_face_fit").at("cutoff").get<double>();
-    const auto edge_face_below = state.at("edge_face_fit").at("cutoff").get<double>();
+    const auto face_face_below = numbers.at("face_face_fit").at("cutoff").get<double>();
+    const auto edge_face_below = numbers.at("edge_face_fit").at("cutoff").get<double>();
     int constraints = 0;
     for (const auto& angle : angles)
       constraints += angle.face_face < face_face_below ? 3 : angle.edge_face < edge_face_below ? 2 : 1;
     const auto classes = classify(angles, face_face_below, edge_face_below);
     expect_counted(state.at("rigidity").at("classes"), class_constraints(packing, contacts, angles, classes),
-                   constraints, state.at("C"));
+                   constraints, numbers.at("C"));
   }
   EXPECT_GT(decided, 0) << "no state has classes";
 }
@@ -219,7 +220,7 @@ TEST(Measure, AnswersDegenerateStates) {
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
     EXPECT_EQ(text.find("inf,"), std::string::npos) << name;
     if (name != cases.back().first) continue;
-    EXPECT_EQ(state.at("Z"), 26) << name;
+    EXPECT_EQ(state.at("contacts").at("Z"), 26) << name;
     EXPECT_GT(state.at("order").at("S").get<double>(), 0.999) << name;
   }
 }

@@ -72,7 +72,7 @@ TEST(RandomContactsMeasure, RangeNearZeroIsThatOfTheSolids) {
   }
   for (const auto& particles : {one, sizes, shapes}) {
     const Packing packing = packing_of(particles);
-    const auto angles = measure(Measure::contacts, result_of(packing)).states[0].at("angles");
+    const auto angles = measure(Measure::contacts, result_of(packing)).states[0].at("contacts").at("angles");
     const auto &face_face = angles.at("face_face_random_contact"), &edge_face = angles.at("edge_face_random_contact");
     const auto share = random_share(packing, face_face.at("angle"), edge_face.at("angle"));
     // The fixed points of A's and B's edges are not those of B's and A's.

@@ -15,14 +15,14 @@
 #include <numbers>
 
 #include "engine/packing/energy.hpp"
-#include "tasks/export/formats.hpp"
-#include "tasks/json/input_error.hpp"
+#include "tasks/extras/export/formats.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/packings/foreign_packing.hpp"
 #include "tasks/packings/gsd_layer.hpp"
 #include "tasks/packings/packing_json.hpp"
 #include "tasks/packings/similarity.hpp"
-#include "tasks/system/file.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -263,13 +263,13 @@ TEST(Starts, AreRefusedAtTheirPlace) {
   expect(said(started({{"packing", "deep.xyz"}}, 64)), "particles 0 and 1 overlap by");
   expect(said(started({{"packing", "deep.xyz"}}, 64)), "/start/packing");
   expect(said(started({{"packing", "none.gsd"}}, 64)), "/start/packing");
-  expect(said(started({{"packing", "a.xyz"}}, 65)), "64 particles are not 65 of octahedron");
+  expect(said(started({{"packing", "a.xyz"}}, 65)), "64 particles do not match 65 particles of octahedron");
   expect(said(started({{"packing", {"a.xyz", "m.json"}}}, 64)), "/start/packing/1");
   expect(said(started({{"packing", "a.xyz"}, {"density", .97}}, 64)), "max_density");
   expect(said(started({{"packing", "a.xyz"}, {"stage", "later"}}, 64)), "/start/stage");
   auto many = started({{"packing", "a.xyz"}}, 64);
   many["replicates"] = 2;
-  expect(said(many), "1 files for 2 replicates");
+  expect(said(many), "too few files (1) for 2 replicates");
   many = started({{"packing", "a.xyz"}}, 64);
   many["sweep"]["solid"] = {"octahedron", "cube"};
   expect(said(many), "one entry in /sweep/solid");
@@ -278,7 +278,7 @@ TEST(Starts, AreRefusedAtTheirPlace) {
            cubes["sweep"]["solid"] = {"cube"};
            return cubes;
          }()),
-         "none of cube");
+         "do not match cube");
 }
 
 TEST(Starts, AreRefusedWhereNoRecordCouldNameThem) {
@@ -291,7 +291,7 @@ TEST(Starts, AreRefusedWhereNoRecordCouldNameThem) {
   const auto run = test::isojam({"run", "m.json", "-o", "r"}, odd);
   EXPECT_EQ(run.exit_code, 65) << run.err;
   EXPECT_NE(run.err.find("/start/packing"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("no UTF-8"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("not valid UTF-8"), std::string::npos) << run.err;
 }
 
 /// As a user of HOOMD-blue writes it: lengths in edges, the solid's vertices not about its centroid.

@@ -14,8 +14,8 @@
 #include <csignal>
 #include <thread>
 
-#include "tasks/json/parse.hpp"
-#include "tasks/system/file.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/parse.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -102,8 +102,8 @@ TEST_F(Batch, RecordsHoldPhysics) {
     const double phi_j = record.at("phi_j").at("phi_j").get<double>();
     EXPECT_GT(phi_j, 0.6) << name;
     EXPECT_LT(phi_j, 0.8) << name;
-    EXPECT_GT(nearest.at("Z").get<double>(), 5) << name;
-    EXPECT_LT(nearest.at("Z").get<double>(), 12) << name;
+    EXPECT_GT(nearest.at("contacts").at("Z").get<double>(), 5) << name;
+    EXPECT_LT(nearest.at("contacts").at("Z").get<double>(), 12) << name;
     double least = 1;
     for (const auto& state : record.at("states")) least = std::min(least, state.at("phi").get<double>());
     EXPECT_EQ(nearest.at("phi").get<double>(), least) << name;
@@ -169,7 +169,7 @@ TEST_F(Batch, AnInterruptedRunContinues) {
     });
     EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
     EXPECT_EQ(stopped.out, "");
-    EXPECT_NE(stopped.err.find("the same command continues"), std::string::npos) << stopped.err;
+    EXPECT_NE(stopped.err.find("repeat the command to resume"), std::string::npos) << stopped.err;
     EXPECT_LT(count_records(here_ / "results"), 4U);
     EXPECT_FALSE(fs::exists(here_ / "results" / "tables.json"));
   }

@@ -6,7 +6,7 @@
 // - shards never give the same replicate and together give all.
 
 #include "tasks/run/campaign.hpp"
-#include "tasks/replicate/summary.hpp"
+#include "tasks/records/summary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <thread>
 
-#include "tasks/store/store.hpp"
+#include "tasks/records/store.hpp"
 #include "tests/tasks/support/support.hpp"
 
 namespace isojam::test {

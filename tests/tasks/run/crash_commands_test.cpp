@@ -9,7 +9,7 @@
 #include <chrono>
 #include <thread>
 
-#include "tasks/json/sealed.hpp"
+#include "tasks/io/sealed.hpp"
 #include "tests/tasks/run/crash.hpp"
 
 namespace isojam {
@@ -32,10 +32,10 @@ TEST_F(Crash, StatusSaysWhatIsUnderWay) {
       EXPECT_NE(under_way.out.find(name + ": "), std::string::npos) << under_way.out;
     }
   }
-  // Its process was killed: nobody is working on it, however fresh its last step is.
-  EXPECT_NE(under_way.out.find(", 0 under way, "), std::string::npos) << under_way.out;
-  EXPECT_NE(under_way.out.find(" stopped half way"), std::string::npos) << under_way.out;
-  EXPECT_NE(under_way.out.find("nobody is working on it; about "), std::string::npos) << under_way.out;
+  // Its process was killed, so no process is working on it, however fresh its last step is.
+  EXPECT_NE(under_way.out.find(", 0 running, "), std::string::npos) << under_way.out;
+  EXPECT_NE(under_way.out.find(" interrupted\n"), std::string::npos) << under_way.out;
+  EXPECT_NE(under_way.out.find("no process is working on it; about "), std::string::npos) << under_way.out;
   EXPECT_EQ(isojam({"run", "m.json", "-o", "results"}, here_.path(),
                    [&](int) {
                      stop_at_checkpoints(here_ / "results", 1, 0, 0);
@@ -62,7 +62,7 @@ TEST_F(Crash, WhatGoesMeanwhileIsMissed) {
       fs::remove(here_ / "results" / folder / (name + ".json"));
     });
     EXPECT_EQ(incomplete.exit_code, 1) << folder << ": " << incomplete.err;
-    EXPECT_NE(incomplete.err.find("have gone or changed since"), std::string::npos) << incomplete.err;
+    EXPECT_NE(incomplete.err.find("were removed or changed during the run"), std::string::npos) << incomplete.err;
     EXPECT_EQ(incomplete.out, "") << "no table of what is left";
     EXPECT_EQ(run().exit_code, 0);
     EXPECT_EQ(results(), reference());
@@ -86,8 +86,8 @@ TEST_F(Crash, TheTableIsOfTheManifestThatWasRun) {
     fs::copy_file(here_ / "other/manifest.json", here_ / "results/manifest.json", fs::copy_options::overwrite_existing);
   });
   EXPECT_EQ(foreign.exit_code, 1) << foreign.err;
-  EXPECT_NE(foreign.err.find("of another manifest, and left out"), std::string::npos) << foreign.err;
-  EXPECT_NE(foreign.err.find("have gone or changed since"), std::string::npos) << foreign.err;
+  EXPECT_NE(foreign.err.find("belongs to another manifest; the record is ignored"), std::string::npos) << foreign.err;
+  EXPECT_NE(foreign.err.find("were removed or changed during the run"), std::string::npos) << foreign.err;
 }
 
 TEST_F(Crash, WhatIsAnothersIsSaidByAll) {
@@ -110,7 +110,8 @@ TEST_F(Crash, WhatIsAnothersIsSaidByAll) {
   EXPECT_FALSE(fs::exists(here_ / "x.gsd"));
   for (const std::string command : {"aggregate", "report"}) {
     const auto made = isojam({command, "results"}, here_.path());
-    EXPECT_NE(made.err.find("of another manifest, and left out"), std::string::npos) << command << ": " << made.err;
+    EXPECT_NE(made.err.find("belongs to another manifest; the record is ignored"), std::string::npos)
+        << command << ": " << made.err;
   }
 }
 
@@ -121,7 +122,7 @@ TEST_F(Crash, RerunOfARecordThatCannotBeReadSaysSo) {
   test::write_text(record, "{}");
   const auto ended = isojam({"rerun", "results", name}, here_.path());
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.err.find("there was no valid record of it"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("there was no valid record"), std::string::npos) << ended.err;
   EXPECT_EQ(ended.err.find("differs"), std::string::npos) << ended.err;
   EXPECT_EQ(results(), reference());
   // Nothing can be put where a folder stands, and nothing read.
@@ -156,8 +157,8 @@ TEST_F(Crash, ADryRunWritesNothing) {
   copy_reference();
   const auto before = test::files_below(here_.path());
   const auto done = isojam({"run", "m.json", "-o", "results", "--dry-run"}, here_.path());
-  EXPECT_NE(done.out.find("times from 6 records here"), std::string::npos) << done.out;
-  EXPECT_NE(done.out.find("left to do: nothing"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("times estimated from 6 records of this directory"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("remaining: nothing"), std::string::npos) << done.out;
   EXPECT_EQ(test::files_below(here_.path()), before);
 }
 

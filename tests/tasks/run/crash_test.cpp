@@ -25,9 +25,9 @@
 #include <thread>
 #include <utility>
 
-#include "tasks/json/sealed.hpp"
-#include "tasks/store/store.hpp"
-#include "tasks/system/file.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/records/store.hpp"
 #include "tests/tasks/run/crash.hpp"
 #include "tests/tasks/support/support.hpp"
 
@@ -198,7 +198,7 @@ TEST_F(Crash, ADamagedCheckpointStartsItsReplicateAnew) {
   test::write_text(path, text.substr(0, text.size() - text.size() / 3));
   const auto again = run();
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_NE(again.err.find("starts anew"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("starts from the beginning"), std::string::npos) << again.err;
   EXPECT_EQ(results(), reference());
 }
 
@@ -218,7 +218,7 @@ TEST_F(Crash, FilesThatMayNotGrowEndARun) {
   const auto ended = shell("ulimit -f 12; $ISOJAM run m.json -o results", here_.path());  // blocks of 512 bytes
   EXPECT_EQ(ended.exit_code, 1) << ended.err;
   EXPECT_NE(ended.err.find("cannot be written"), std::string::npos) << ended.err;
-  EXPECT_NE(ended.err.find("the same command continues"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("repeat the command to resume"), std::string::npos) << ended.err;
   expect_whole(here_ / "results");
   EXPECT_EQ(run().exit_code, 0);
   EXPECT_EQ(results(), reference());

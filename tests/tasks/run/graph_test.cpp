@@ -21,7 +21,7 @@
 #include <string_view>
 #include <thread>
 
-#include "tasks/replicate/record.hpp"
+#include "tasks/records/record.hpp"
 #include "tests/tasks/run/quiet_stages.hpp"
 #include "tests/tasks/support/support.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tasks/json/json.hpp"
+#include "tasks/io/json.hpp"
 
 namespace isojam::test {
 

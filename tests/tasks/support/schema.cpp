@@ -8,7 +8,7 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
-#include "tasks/json/parse.hpp"
+#include "tasks/io/parse.hpp"
 
 namespace isojam::test {
 

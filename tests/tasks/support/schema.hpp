@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tasks/json/json.hpp"
+#include "tasks/io/json.hpp"
 
 namespace isojam::test {
 

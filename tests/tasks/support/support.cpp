@@ -10,11 +10,11 @@
 #include <cmath>
 #include <fstream>
 
-#include "tasks/json/hash.hpp"
-#include "tasks/json/parse.hpp"
-#include "tasks/json/sealed.hpp"
-#include "tasks/replicate/record.hpp"
-#include "tasks/system/file.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/hash.hpp"
+#include "tasks/io/parse.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/records/record.hpp"
 
 namespace isojam::test {
 namespace fs = std::filesystem;

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "tasks/measure/parts.hpp"
-#include "tasks/replicate/replicate.hpp"
+#include "tasks/measure/shared_parts.hpp"
+#include "tasks/records/replicate.hpp"
 
 namespace isojam::test {
 

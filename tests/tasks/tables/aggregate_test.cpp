@@ -8,8 +8,8 @@
 // - a record that lacks something the table needs is refused with its pointer.
 
 #include "tasks/tables/aggregate.hpp"
-#include "tasks/replicate/record.hpp"
-#include "tasks/replicate/summary.hpp"
+#include "tasks/records/record.hpp"
+#include "tasks/records/summary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include <cmath>
 #include <random>
 
-#include "tasks/json/input_error.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/tables/tables.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/support.hpp"
@@ -177,7 +177,7 @@ TEST(Aggregate, RefusesTwoResultsOfOneReplicate) {
   outcome.jam.phi_j->density += 1e-15;
   records.push_back(summary_of(outcome));
   const auto said = refusal([&] { aggregate(records); });
-  EXPECT_NE(said.find("recorded twice with different results"), std::string::npos) << said;
+  EXPECT_NE(said.find("two records of this replicate have different results"), std::string::npos) << said;
 }
 
 TEST(Record, WhatATableNeedsIsRequired) {
@@ -193,11 +193,11 @@ TEST(Record, WhatATableNeedsIsRequired) {
     EXPECT_EQ(said, "r.json: " + pointer + ": the required key is missing");
   }
   for (const std::string pointer :
-       {"/schema", "/spec/solid", "/spec/particles", "/status", "/phi_j/phi_j", "/nearest/Z"}) {
+       {"/schema", "/spec/solid", "/spec/particles", "/status", "/phi_j/phi_j", "/nearest/contacts/Z"}) {
     auto damaged = record;
     damaged[Json::json_pointer(pointer)] = Json::array();
     const auto said = refusal([&] { summarise_record(damaged, "r.json"); });
-    EXPECT_EQ(said.rfind("r.json: " + pointer + ": a list is of the wrong type", 0), 0U) << said;
+    EXPECT_EQ(said.rfind("r.json: " + pointer + ": a list is not accepted", 0), 0U) << said;
   }
 }
 

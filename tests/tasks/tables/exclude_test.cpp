@@ -12,11 +12,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tasks/json/parse.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/parse.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/measure/quantity.hpp"
-#include "tasks/store/store.hpp"
-#include "tasks/system/file.hpp"
+#include "tasks/records/store.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
@@ -136,12 +136,14 @@ TEST_F(ExcludeTest, DirectoriesThatDisagreeAreRefusedByName) {
 
 TEST_F(ExcludeTest, EveryFormatHasBothAndSaysWhatIsExcluded) {
   write("r");
-  const std::string told = "without replicates flagged crystalline, not_balanced";
+  const std::string told = "excluded from means: crystalline (1), not_balanced (0)";
   const auto text = aggregate({"r"});
-  EXPECT_EQ(text.rfind(told + "\n", 0), 0U) << text;
+  EXPECT_EQ(text.rfind(told + "\nsolid ", 0), 0U) << text;
+  EXPECT_EQ(text.find("excluded from means", told.size()), std::string::npos)
+      << "once, above the first table: " << text;
   EXPECT_NE(text.find("\n  all "), std::string::npos) << text;
   const auto latex = aggregate({"r", "--format", "latex"});
-  EXPECT_NE(latex.find("% jamming, " + told + "\n"), std::string::npos) << latex;
+  EXPECT_EQ(latex.rfind("% " + told + "\n% jamming\n", 0), 0U) << latex;
   EXPECT_NE(latex.find("\\quad all "), std::string::npos) << latex;
   for (const std::string option : {"--format=csv", "--series"}) {
     const auto csv = aggregate({"r", "--format", "csv", option == "--series" ? option : "--color=never"});
@@ -151,6 +153,8 @@ TEST_F(ExcludeTest, EveryFormatHasBothAndSaysWhatIsExcluded) {
     EXPECT_NE(csv.find(",all,"), std::string::npos);
   }
   EXPECT_EQ(aggregate({"r", "--exclude", "none"}).rfind("solid ", 0), 0U);
+  EXPECT_EQ(aggregate({"r", "--exclude", "goal_not_reached"}).rfind("excluded from means: goal_not_reached (1)\n", 0),
+            0U);
 }
 
 /// Lines of a CSV whose fields hold no commas.

@@ -14,15 +14,15 @@
 #include <variant>
 
 #include "engine/geometry/solids/named_solids.hpp"
-#include "tasks/json/input_error.hpp"
-#include "tasks/json/options.hpp"
-#include "tasks/json/parse.hpp"
-#include "tasks/json/sealed.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/options.hpp"
+#include "tasks/io/parse.hpp"
+#include "tasks/io/sealed.hpp"
 #include "tasks/manifest/fields.hpp"
 #include "tasks/manifest/manifest.hpp"
-#include "tasks/replicate/record.hpp"
-#include "tasks/replicate/summary.hpp"
-#include "tasks/system/file.hpp"
+#include "tasks/records/record.hpp"
+#include "tasks/records/summary.hpp"
 #include "tasks/tables/aggregate.hpp"
 #include "tasks/tables/tables.hpp"
 #include "tests/tasks/support/bad_manifests.hpp"
@@ -180,7 +180,7 @@ TEST(RecordSchema, AFitToStatesOutsideItsWindowIsFlagged) {
 TEST(RecordSchema, AcceptsRecords) {
   const auto records = made_up_records();
   EXPECT_EQ(records.at(1).at("flags"), Json{"classes_undecided"});
-  EXPECT_TRUE(records.at(1).at("nearest").at("Z_ff").is_null());
+  EXPECT_TRUE(records.at(1).at("nearest").at("contacts").at("Z_ff").is_null());
   EXPECT_EQ(records.at(0).at("flags"), Json{"crystalline"});
   EXPECT_EQ(records.at(2).at("status"), "failed");
   EXPECT_EQ(records.at(2).at("path").at(0).at("residual_reason"), "infinite");
@@ -211,7 +211,7 @@ Outcome with_scaling() {
   auto manifest = test::good_manifest();
   manifest["measure"] = {"contacts", "order", "clusters", "modes", "moduli"};
   auto outcome = test::made_up_outcome(Plan(parse_manifest(manifest.dump(), "good")).at(0, 0));
-  for (const auto& [what, key] : {std::pair{Measure::modes, "mode_scaling"}, {Measure::moduli, "moduli_scaling"}}) {
+  for (const auto& [what, key] : {std::pair{Measure::modes, "modes"}, {Measure::moduli, "moduli"}}) {
     outcome.measured[what].states.assign(outcome.jam.states.size(), Json::object());
     outcome.measured[what].replicate[key] = Json::object();
   }
@@ -235,8 +235,7 @@ TEST(RecordSchema, FailedRecordsHaveTheKeysOfOthers) {
     earlier.erase(item.key());
     earlier.erase(item.key() + "_reason");
   }
-  EXPECT_EQ(absent, (std::vector<std::string>{"flags", "phi_j", "nearest", "mode_scaling", "moduli_scaling",
-                                              "rearrangements"}));
+  EXPECT_EQ(absent, (std::vector<std::string>{"flags", "phi_j", "nearest", "modes", "moduli", "rearrangements"}));
   EXPECT_EQ(violations("replicate", earlier), "");
   for (const auto& record : {failed, earlier}) {
     const auto summary = summarise_record(record, "made up");
@@ -279,7 +278,7 @@ TEST(RecordSchema, TellsHowOftenThePackingGaveWay) {
   EXPECT_EQ(of("expansion_steps").mean, 2.5);
   EXPECT_EQ(of("contacts_lost").mean, 7);
   EXPECT_EQ(of("contacts_lost").n, 1) << "the other has none that led on";
-  EXPECT_NE(to_text(table).find("\nrearrangements, without replicates flagged"), std::string::npos) << to_text(table);
+  EXPECT_NE(to_text(table).find("\nrearrangements\nsolid"), std::string::npos) << to_text(table);
   auto earlier = record;
   earlier.erase("rearrangements");
   EXPECT_EQ(violations("replicate", earlier), "");

@@ -1,0 +1,45 @@
+#include "tasks/commands/add_measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "tasks/io/input_error.hpp"
+#include "tasks/manifest/cost.hpp"
+#include "tasks/run/graph.hpp"
+
+namespace isojam {
+AddingTally add_measures(const Store& store, const Additions& additions, int threads, double memory_bytes,
+                         const std::stop_token& stop, Console& console) {
+  AddingTally tally;
+  for (const auto& spec : additions.failed) {
+    store.write_added(spec, read_record(store.directory(), replicate_name(spec)));
+    ++tally.added;
+  }
+  const auto count = additions.measured.size();
+  double work = 0, largest = 0;
+  for (const auto& spec : additions.measured) {
+    const auto cost = estimated_cost(spec, false);
+    work += cost.cpu_seconds;
+    largest = std::max(largest, cost.memory_bytes);
+  }
+  console.begin(static_cast<int>(count), work);
+  const NextReplicate next = [&, at = std::size_t{0}]() mutable {
+    return at < count ? std::optional(additions.measured[at++]) : std::nullopt;
+  };
+  const GraphOptions options{threads, replicates_in_flight(threads, largest, memory_bytes), stop, {}};
+  Adder adder(store, additions.measured);
+  run_graph(next, adder.stages(), options, [&](const Outcome& outcome) {
+    if (outcome.interrupted) return;
+    const auto problem = adder.finish(outcome);
+    if (problem) console.warn(fmt::format("{}; its record is unchanged", *problem));
+    ++(problem ? tally.left : tally.added);
+    console.finished(estimated_cost(outcome.spec, false).cpu_seconds, problem.has_value());
+    console.tick(replicate_name(outcome.spec));
+  });
+  console.end();
+  return tally;
+}
+
+}  // namespace isojam

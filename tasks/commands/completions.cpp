@@ -1,0 +1,175 @@
+#include "tasks/commands/completions.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string_view>
+
+namespace isojam {
+namespace {
+
+bool is_directory(const OptionDescription& option) { return option.type == "DIR"; }
+bool is_path(const OptionDescription& option) {
+  return is_directory(option) || option.type == "FILE" || option.type == "MANIFEST" || option.type == "CONFIG";
+}
+
+std::string names_of(const std::vector<OptionDescription>& options) {
+  std::string all;
+  for (const auto& option : options) {
+    for (const auto& name : option.names) all += (all.empty() ? "" : " ") + name;
+  }
+  return all;
+}
+
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+/// Puts a text in single quotes of a shell.
+std::string quoted(const std::string& text) { return "'" + replaced(text, "'", R"('\'')") + "'"; }
+
+// ---- bash ----------------------------------------------------------------------------------------------------
+
+/// Branches of a case statement on the previous word: the values that may follow an option.
+void add_bash_values(const std::vector<OptionDescription>& options, const std::string& indent, std::string& script) {
+  for (const auto& option : options) {
+    if (option.names.empty() || option.type.empty()) continue;
+    std::string reply = ":";
+    if (!option.choices.empty()) {
+      reply = fmt::format("mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")", fmt::join(option.choices, " "));
+    } else if (is_path(option)) {
+      reply = fmt::format("compopt -o filenames; mapfile -t COMPREPLY < <(compgen -{} -- \"$word\")",
+                          is_directory(option) ? 'd' : 'f');
+    }
+    script += fmt::format("{}{}) {}; return ;;\n", indent, fmt::join(option.names, "|"), reply);
+  }
+}
+
+/// Completes the words of a command. A positional argument is completed by its choices or by files.
+std::string bash_command(const ProgramDescription& program, const CommandDescription& command) {
+  std::string choices = names_of(command.options) + " " + names_of(program.options), files;
+  for (const auto& option : command.options) {
+    if (!option.names.empty()) continue;
+    for (const auto& choice : option.choices) choices += " " + choice;
+    if (is_path(option) && files != "f") files = is_directory(option) ? "d" : "f";
+  }
+  std::string script = fmt::format("    {})\n      case $before in\n", command.name);
+  add_bash_values(command.options, "        ", script);
+  script += "      esac\n";
+  script += fmt::format("      mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")\n", choices);
+  if (!files.empty()) {
+    script += fmt::format(
+        "      [[ $word == -* ]] || {{ compopt -o filenames; mapfile -t -O \"${{#COMPREPLY[@]}}\" COMPREPLY "
+        "< <(compgen -{} -- \"$word\"); }}\n",
+        files);
+  }
+  return script + "      ;;\n";
+}
+
+std::string bash(const ProgramDescription& program) {
+  std::string names;
+  for (const auto& command : program.commands) names += (names.empty() ? "" : " ") + command.name;
+  std::string script = fmt::format(
+      "# Completions of {0} for bash.\n_{0}() {{\n  local word=${{COMP_WORDS[COMP_CWORD]}} "
+      "before=${{COMP_WORDS[COMP_CWORD-1]}} command= each\n  COMPREPLY=()\n"
+      "  for each in \"${{COMP_WORDS[@]:1:COMP_CWORD-1}}\"; do\n"
+      "    case $each in {1}) command=$each; break ;; esac\n  done\n  case $before in\n",
+      program.name, replaced(names, " ", "|"));
+  add_bash_values(program.options, "    ", script);
+  script += "  esac\n  case $command in\n";
+  for (const auto& command : program.commands) script += bash_command(program, command);
+  script += fmt::format("    *) mapfile -t COMPREPLY < <(compgen -W '{} {}' -- \"$word\") ;;\n  esac\n}}\n", names,
+                        names_of(program.options));
+  return script + fmt::format("complete -F _{0} {0}\n", program.name);
+}
+
+// ---- zsh -----------------------------------------------------------------------------------------------------
+
+std::string zsh_value(const OptionDescription& option) {
+  if (option.type.empty()) return "";
+  const std::string label = option.choices.empty() ? option.type : "value";
+  if (!option.choices.empty()) return fmt::format(":{}:({})", label, fmt::join(option.choices, " "));
+  if (is_directory(option)) return fmt::format(":{}:_files -/", label);
+  return fmt::format(":{}:{}", label, is_path(option) ? "_files" : " ");
+}
+
+/// Escapes a text for brackets and colons, as _arguments reads it.
+std::string zsh_text(const std::string& text) {
+  return replaced(replaced(replaced(text, "[", "("), "]", ")"), ":", R"(\:)");
+}
+
+void add_zsh(const std::vector<OptionDescription>& options, std::string& script) {
+  for (const auto& option : options) {
+    if (option.names.empty()) {
+      script += " \\\n        " + quoted((option.required ? ":" : "::") + zsh_text(option.place) +
+                                         zsh_value(option).substr(zsh_value(option).rfind(':')));
+    }
+    for (const auto& name : option.names)
+      script +=
+          " \\\n        " + quoted(fmt::format("{}[{}]{}", name, zsh_text(option.description), zsh_value(option)));
+  }
+}
+
+std::string zsh(const ProgramDescription& program) {
+  std::string script = fmt::format(
+      "#compdef {0}\n# Completions of {0} for zsh.\n_{0}() {{\n  local -a commands\n  commands=(\n", program.name);
+  for (const auto& command : program.commands)
+    script += "    " + quoted(command.name + ":" + zsh_text(command.description)) + "\n";
+  script +=
+      "  )\n  if (( CURRENT == 2 )) && [[ $words[2] != -* ]]; then\n    _describe command commands\n    return\n  fi\n"
+      "  local command=${words[(r)[a-z]*,-1]}\n  case $words[2] in\n";
+  for (const auto& command : program.commands) {
+    script += fmt::format("    {})\n      shift words; (( CURRENT-- ))\n      _arguments", command.name);
+    add_zsh(command.options, script);
+    add_zsh(program.options, script);
+    script += " ;;\n";
+  }
+  script += "    *)\n      _arguments";
+  add_zsh(program.options, script);
+  return script + fmt::format(" ;;\n  esac\n}}\n_{0} \"$@\"\n", program.name);
+}
+
+// ---- fish ----------------------------------------------------------------------------------------------------
+
+void add_fish(const std::string& program, const std::string& condition, const std::vector<OptionDescription>& options,
+              std::string& script) {
+  for (const auto& option : options) {
+    std::string line = fmt::format("complete -c {} -n {}", program, quoted(condition));
+    for (const auto& name : option.names)
+      line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+    if (!option.names.empty() && !option.type.empty()) line += is_path(option) ? " -r" : " -x";
+    if (!option.choices.empty()) line += " -a " + quoted(fmt::format("{}", fmt::join(option.choices, " ")));
+    if (option.choices.empty() && is_path(option))
+      line += option.names.empty() || is_directory(option)
+                  ? fmt::format(" -f -a '(__fish_complete_{})'", is_directory(option) ? "directories" : "path")
+                  : " -F";
+    script += line + " -d " + quoted(option.description) + "\n";
+  }
+}
+
+std::string fish(const ProgramDescription& program) {
+  std::string script = fmt::format("# Completions of {0} for fish.\ncomplete -c {0} -f\n", program.name);
+  for (const auto& command : program.commands) {
+    script += fmt::format("complete -c {} -n __fish_use_subcommand -a {} -d {}\n", program.name, command.name,
+                          quoted(command.description));
+  }
+  for (const auto& command : program.commands)
+    add_fish(program.name, "__fish_seen_subcommand_from " + command.name, command.options, script);
+  add_fish(program.name, "true", program.options, script);
+  return script;
+}
+
+}  // namespace
+
+std::string completions(const ProgramDescription& program, Shell shell) {
+  switch (shell) {
+    case Shell::bash: return bash(program);
+    case Shell::zsh: return zsh(program);
+    case Shell::fish: return fish(program);
+  }
+  return "";
+}
+
+}  // namespace isojam

@@ -1,0 +1,45 @@
+#include "tasks/commands/command.hpp"
+#include "tasks/commands/completions.hpp"
+#include "tasks/commands/manual.hpp"
+#include "tasks/io/atomic_file.hpp"
+#include "tasks/io/standard_streams.hpp"
+
+namespace isojam {
+namespace {
+
+struct Arguments {
+  Shell shell = Shell::bash;
+  std::string output;  ///< empty: standard output
+};
+
+void give(const std::string& text, const std::string& output) {
+  if (output.empty()) {
+    print(text);
+  } else {
+    write_output(output, text);
+  }
+}
+
+}  // namespace
+
+void add_completions(CLI::App& app, Session& session) {
+  const auto arguments = std::make_shared<Arguments>();
+  auto options =
+      add_command(app, session, "completions", "Print a shell-completion script", [arguments, &session](Console&) {
+        give(completions(session.program, arguments->shell), arguments->output);
+        return ExitCode::done;
+      });
+  options.choice("shell", arguments->shell, "Shell", Options::Need::required);
+  options.text("-o,--output", arguments->output, "Output file (default: standard output)", "FILE");
+}
+
+void add_manual(CLI::App& app, Session& session) {
+  const auto arguments = std::make_shared<Arguments>();
+  auto options = add_command(app, session, "manual", "Print the manual page for man", [arguments, &session](Console&) {
+    give(manual(session.program), arguments->output);
+    return ExitCode::done;
+  });
+  options.text("-o,--output", arguments->output, "Output file (default: standard output)", "FILE");
+}
+
+}  // namespace isojam

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "engine/geometry/convex_solid.hpp"
+#include "engine/geometry/pose.hpp"
+#include "tasks/extras/chart/atlas/naive_clip.hpp"
+
+namespace isojam {
+
+/// A quaternion (w, x, y, z) of any length except 0.
+using QuadQuaternion = std::array<Quad, 4>;
+
+/// Rotation by `angle` about `axis`, which may have any length. Accurate to 1e-32 even for very small angles.
+QuadQuaternion small_turn(double angle, const Eigen::Vector3d& axis);
+/// Rotation by 45° about coordinate axis 0, 1 or 2.
+QuadQuaternion eighth_turn(int axis);
+QuadQuaternion operator*(const QuadQuaternion& p, const QuadQuaternion& q);
+
+/// Two solids in a designed relative position, and their exact overlap. The poses are in double-double, with the error
+/// of at most 1e-31 that the design of a contact requires.
+struct ConstructedPair {
+  Pose at_a, at_b;
+  VolumeAndArea reference;
+  SolidKind a, b;
+  bool closed_form = false;  ///< true if V has a closed form. S is discontinuous for some of these designs
+};
+
+/// Design of a pair: A is at the origin and rotated by `turn_a`, B is at r and rotated by `turn_b`. Then both are
+/// rotated by `common`.
+struct PairDesign {
+  SolidKind a = SolidKind::cube, b = SolidKind::cube;
+  QuadQuaternion turn_a{1, 0, 0, 0}, turn_b{1, 0, 0, 0};
+  Quad3 r{};
+  QuadQuaternion common{1, 0, 0, 0};
+  std::optional<double> volume;  ///< V in closed form, if there is one
+};
+
+/// Makes the pair of a design. Values without a closed form are computed by clipping in quadruple precision.
+ConstructedPair constructed(const PairDesign& design);
+
+/// Shapes of contacts for which V has a closed form: two parallel faces, an edge on a face, two crossed edges, a vertex
+/// on a face.
+enum class ContactShape { faces, edge_on_face, edge_across_edge, vertex_on_face };
+PairDesign contact_design(ContactShape shape, double depth);
+
+/// Two octahedra that touch with their vertices. Every edge at one vertex is in one plane with an edge at the other
+/// vertex.
+PairDesign tip_to_tip(double depth);
+/// Two cubes whose faces, or edges, overlap by `depth` and are tilted by `angle`.
+PairDesign tilted_faces(double depth, double angle);
+PairDesign tilted_edges(double depth, double angle);
+/// Two solids with equal orientation, where B is displaced by t. For cubes, V = ∏(1 − |t_c|). For tetrahedra, the
+/// intersection is a tetrahedron with V = (1 + Σ min(0, n·t)/4h)³, where h is the inradius.
+PairDesign displaced(SolidKind kind, const Eigen::Vector3d& t);
+
+}  // namespace isojam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "engine/geometry/placed_solid.hpp"
+
+namespace isojam {
+
+/// The quantities of an overlap that the atlas compares.
+struct VolumeAndArea {
+  double volume = 0;
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();  ///< S_A
+};
+
+/// Computes the intersection of A and B, where r = x_B − x_A, by the simplest method in double precision. Each face of
+/// A and B is clipped by all planes of the other solid. V = ⅓ Σ d·area, with the sum over the remaining parts of faces,
+/// where d is the distance of a plane from the centre of A. If faces coincide, the result is wrong and no error is
+/// reported, because such faces may count once, twice or not at all.
+VolumeAndArea naive_overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r);
+
+}  // namespace isojam

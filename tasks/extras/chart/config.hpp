@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/geometry/convex_solid.hpp"
+#include "engine/names/enum_names.hpp"
+#include "tasks/io/json.hpp"
+
+namespace isojam {
+
+/// Comparisons of a chart, in the order of measurement.
+enum class Comparison { equilibrium, hessian, modes, overlap, atlas, phi_j, growth };
+template <>
+inline constexpr std::array enum_names<Comparison>{EnumName{Comparison::equilibrium, "equilibrium"},
+                                                   EnumName{Comparison::hessian, "hessian"},
+                                                   EnumName{Comparison::modes, "modes"},
+                                                   EnumName{Comparison::overlap, "overlap"},
+                                                   EnumName{Comparison::atlas, "atlas"},
+                                                   EnumName{Comparison::phi_j, "phi_j"},
+                                                   EnumName{Comparison::growth, "growth"}};
+inline constexpr auto all_comparisons = all_of<Comparison>;
+
+/// Settings of the protocol. Each setting has the first value of its list, except for one setting at a time, which
+/// takes its other values.
+struct PhiJConfig {
+  SolidKind solid = SolidKind::octahedron;
+  int replicates = 3;
+  std::vector<int> particles{64, 50};
+  std::vector<double> consolidation_step{0.02, 0.04};
+  std::vector<double> target_energy{3.2e-5, 1e-6};
+  std::vector<double> fit_window{0.02, 0.05, 0.1};
+  std::vector<double> residual{1e-6, 1e-3};
+};
+
+/// Sizes for which the cost as a function of the number of particles is measured.
+struct GrowthConfig {
+  std::vector<SolidKind> solids{SolidKind::octahedron};
+  std::vector<int> particles{50, 100, 200};
+  int replicates = 2;  ///< number of replicates per solid and size
+  /// distances to jamming Δφ of the equilibria whose time is measured
+  std::vector<double> distances{0.05, 0.03, 0.02, 0.012};
+};
+
+/// Comparisons of a chart and their time limits. The default values of the members are the default configuration, which
+/// takes less than five minutes on a machine with two cores.
+struct ChartConfig {
+  std::vector<Comparison> compare{all_comparisons.begin(), all_comparisons.end()};
+  std::vector<SolidKind> solids{SolidKind::tetrahedron, SolidKind::octahedron};
+  std::uint64_t seed = 1;
+  int particles = 64;
+  int packings = 2;                                ///< number of packings per solid
+  std::vector<double> distances{0.1, 0.03, 0.01};  ///< distances to jamming Δφ of the equilibria to be found
+  double fit_window = 0.05;  ///< largest Δφ of the states to which φ_J is fitted; methods are compared by this φ_J
+  std::vector<double> tolerances{1e-3, 1e-6, 1e-9};  ///< residuals that are requested of every method
+  std::vector<double> energy_changes{1e-12};         ///< relative energy changes of the paper's stopping rule
+  std::vector<double> difference_steps{1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-11};
+  std::vector<double> shifts{1e-6, 1e-9, 1e-11, 1e-13};  ///< shifts −σ/λ_max of the shift-invert method
+  std::vector<int> subspaces{120, 200};                  ///< dimensions of the Krylov spaces
+  int pairs = 40;                                        ///< number of pairs per solid and class of contact
+  int repetitions = 3;                                   ///< number of repetitions of each time measurement
+  long max_evaluations = 4000;                           ///< largest number of evaluations of one minimisation
+  /// Largest number of evaluations of one minimisation with the paper's stopping rule, which needs more evaluations.
+  long rule_evaluations = 20000;
+  double point_seconds = 10;   ///< largest wall-clock time of one point
+  double total_seconds = 280;  ///< wall-clock time after which the current point is stopped and no further point begins
+  PhiJConfig phi_j;
+  GrowthConfig growth;
+};
+
+/// The configuration of a chart that takes an hour. It has larger packings, and all solids except cubes, whose
+/// constraints are redundant.
+ChartConfig full_chart_config();
+
+/// Reads a configuration. A missing key has the default value in ChartConfig. Throws InputError if a key is unknown or
+/// occurs twice, or if a value is not allowed.
+ChartConfig parse_chart_config(std::string_view text, const std::string& file);
+
+/// The complete configuration in the format that parse_chart_config() reads.
+Json to_json(const ChartConfig& config);
+
+}  // namespace isojam

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include "tasks/extras/chart/comparisons.hpp"
+
+namespace isojam {
+namespace {
+
+ChartFamily equilibrium_family() {
+  return {
+      "equilibrium",
+      "residual",
+      "Minimisers are compared from the same states: states of a decompression, strained by one of its steps. The "
+      "residual is the largest imbalance of force on a particle, divided by the mean contact force. Bars show the "
+      "spread over packings, for times also over repetitions. The bias is the median difference from the reference, "
+      "which is the default method with residual 1e-9.",
+      FamilyEnd::complete,
+      {}};
+}
+
+ChartFamily bias_family() {
+  return {
+      "bias",
+      "|bias of jamming density|",
+      "Difference of the jamming density from the reference if its states are computed by each minimiser. The fit is "
+      "the same. A time is the sum over all states of a packing; bars show the spread over packings.",
+      FamilyEnd::complete,
+      {}};
+}
+
+ChartFamily hessian_family() {
+  return {
+      "hessian",
+      "largest relative error of an eigenvalue",
+      "The analytic Hessian of equilibria is compared with central differences of the gradient in double-double. The "
+      "error of differences is relative to the analytic eigenvalues, without translations. The error of the "
+      "analytic eigenvalues is the bound on their rounding error. A method fails if it finds spurious negative modes.",
+      FamilyEnd::complete,
+      {}};
+}
+
+ChartFamily modes_family() {
+  return {
+      "modes",
+      "largest relative error of an eigenvalue",
+      fmt::format("The {} lowest modes without translations are compared with those of the dense solver, whose own "
+                  "error is the bound on its rounding error. Shifts are −σ/λ_max. Bars show the spread over packings.",
+                  modes_compared),
+      FamilyEnd::complete,
+      {}};
+}
+
+ChartFamily overlap_family() {
+  return {
+      "overlap",
+      "relative error of V",
+      "Overlap volumes are compared with arithmetic of 50 digits, for each class of contact. Poses are first rounded "
+      "to the precision of the method, as in a packing. Times are per pair and exclude the placement of the solids. "
+      "Bars show the spread over pairs. Forces are −VS/2; the list of points contains the error of S if the method "
+      "computes it.",
+      FamilyEnd::complete,
+      {}};
+}
+
+ChartFamily phi_j_family() {
+  return {
+      "phi_j",
+      "error of jamming density (95 % bound)",
+      "Mean jamming density over replicates; each setting differs from the first one in one parameter of the protocol. "
+      "Dots and thin bars: difference of the mean from that of the first setting, and the 95 % confidence interval of "
+      "the mean. Broad bars: 95 % confidence interval of the paired difference, if both settings have the same initial "
+      "configurations. Numbers belong to the broad bar, or to the thin bar if there is no broad one. The error in the "
+      "list of points is the far end of the thin bar. Times are sums over all replicates. φ_J depends physically on "
+      "the number of particles and on the target energy; these differences are not errors.",
+      FamilyEnd::complete,
+      {}};
+}
+
+ChartFamily growth_family() {
+  return {
+      "growth",
+      "no error: only the number of particles varies",
+      "CPU seconds of one thread against the number of particles. Replicate: the default protocol from random "
+      "placement to the jamming density, without measures. Equilibrium: one state of the decompression by the default "
+      "method, as the mean over several distances. Evaluation: energy and forces once, in doubles. Bars show the "
+      "spread over replicates. Lines: powers of N fitted to all points, with the 95 % confidence interval of the "
+      "exponent.",
+      FamilyEnd::complete,
+      {}};
+}
+
+}  // namespace
+
+std::vector<ChartFamily> empty_families(Comparison comparison) {
+  switch (comparison) {
+    case Comparison::equilibrium: return {equilibrium_family(), bias_family()};
+    case Comparison::hessian: return {hessian_family()};
+    case Comparison::modes: return {modes_family()};
+    case Comparison::overlap: return {overlap_family()};
+    case Comparison::phi_j: return {phi_j_family()};
+    case Comparison::growth: return {growth_family()};
+    case Comparison::atlas: return {};
+  }
+  return {};
+}
+
+}  // namespace isojam

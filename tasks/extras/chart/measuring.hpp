@@ -1,0 +1,46 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "tasks/extras/chart/config.hpp"
+#include "tasks/extras/chart/deadline.hpp"
+#include "tasks/extras/chart/point.hpp"
+#include "tasks/io/thread_clock.hpp"
+
+namespace isojam {
+
+/// Settings that all measurements of a chart share.
+struct Measuring {
+  const ChartConfig& config;
+  std::stop_token stop;  ///< requests a stop when the time is over, or after a signal
+  /// called with the name of the next part before it is measured
+  std::function<void(const std::string& next)> progress;
+
+  bool over() const { return stop.stop_requested(); }
+};
+
+/// Work that takes longer than this is timed only once, because repetitions are needed only to reduce the noise of the
+/// clock.
+inline constexpr double seconds_worth_repeating = 0.1;
+
+/// Runs `work` as often as the configuration requires, or once if it takes long, and returns the CPU times of the
+/// calling thread. `work` must give the same result each time.
+template <class Work>
+std::vector<double> timed(const Measuring& measuring, const Work& work) {
+  const auto begun = std::chrono::steady_clock::now();
+  std::vector<double> seconds;
+  while (static_cast<int>(seconds.size()) < measuring.config.repetitions) {
+    const double before = thread_cpu_seconds();
+    work();
+    seconds.push_back(thread_cpu_seconds() - before);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
+    if (measuring.over() || spent.count() > seconds_worth_repeating) break;
+  }
+  return seconds;
+}
+
+}  // namespace isojam

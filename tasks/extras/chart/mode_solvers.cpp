@@ -1,0 +1,166 @@
+#include "engine/vibration/spectrum.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "engine/solve/factor/shift_invert.hpp"
+#include "engine/vibration/lanczos.hpp"
+#include "engine/vibration/lanczos_operators.hpp"
+#include "tasks/extras/chart/comparisons.hpp"
+
+namespace isojam {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int wanted = modes_compared;
+constexpr int restarts = 100;
+constexpr double tolerance = 1e-13;
+/// Eigenvalues with a larger error are not the requested modes.
+constexpr double worst_useful_mode = 1e-2;
+
+struct ComputedModes {
+  std::string stopped;
+  VectorXd eigenvalues;  ///< ascending; empty unless converged
+};
+
+template <class Operation>
+ComputedModes solve(const BlockMatrix& matrix, Operation& operation, LanczosRequest request) {
+  request.modes = wanted;
+  request.restarts = restarts;
+  request.tolerance = tolerance;
+  request.start = lanczos_start(matrix);
+  LanczosModes modes = lanczos(LanczosOperation(operation), request);
+  if (modes.ended == LanczosEnd::small_problem_failed) return {"small eigenproblem did not converge", {}};
+  if (modes.ended == LanczosEnd::restarts_spent) return {"restart limit reached", {}};
+  std::sort(modes.eigenvalues.begin(), modes.eigenvalues.end());
+  return {"converged", std::move(modes.eigenvalues)};
+}
+
+ComputedModes by_inversion(const BlockMatrix& matrix, double shift, Index subspace) {
+  ShiftInvert inverse(matrix);
+  Deflated<ShiftInvert> operation(inverse, matrix);
+  try {
+    return solve(matrix, operation, {.subspace = subspace, .shift = shift});
+  } catch (const std::domain_error&) {
+    return {"shift equals an eigenvalue", {}};
+  }
+}
+
+/// D with the eigenvalue of translations moved from 0 to `lambda_max`, away from the lowest modes. Mere projection
+/// would let rounding reintroduce them.
+class Raised {
+ public:
+  using Scalar = double;
+
+  Raised(const BlockMatrix& matrix, double lambda_max)
+      : product_(matrix), root_masses_(matrix.root_masses), lambda_max_(lambda_max) {}
+
+  Index rows() const { return product_.rows(); }
+  void set_shift(double) {}
+  void perform_op(const double* x, double* y) const {
+    const Eigen::Map<const VectorXd> in(x, rows());
+    VectorXd rest = in;
+    remove_translations(root_masses_, rest);
+    product_.perform_op(rest.data(), y);
+    Eigen::Map<VectorXd> out(y, rows());
+    remove_translations(root_masses_, out);
+    out += lambda_max_ * (in - rest);
+  }
+
+ private:
+  Product product_;
+  const VectorXd& root_masses_;
+  double lambda_max_;
+};
+
+ComputedModes by_products(const BlockMatrix& matrix, double lambda_max, Index subspace) {
+  Raised operation(matrix, lambda_max);
+  return solve(matrix, operation, {.wanted = LanczosWanted::least, .subspace = subspace});
+}
+
+/// Points of a task, by (method, setting) in the order met.
+class TaskPoints {
+ public:
+  void add(const std::string& method, const std::string& setting, double seconds, const ComputedModes& found,
+           const VectorXd& right) {
+    auto [slot, is_new] = index_.try_emplace({method, setting}, all_.size());
+    if (is_new) all_.push_back({method, setting, {}, {}, {}, 0});
+    Samples& samples = all_[slot->second];
+    samples.seconds.push_back(seconds);
+    ++samples.stopped[found.stopped];
+    if (found.eigenvalues.size() == 0) {
+      ++samples.failed;
+      return;
+    }
+    const VectorXd lowest = right.head(found.eigenvalues.size());
+    const double error = ((found.eigenvalues - lowest).array().abs() / lowest.array().abs()).maxCoeff();
+    samples.errors.push_back(error);
+    if (!(error < worst_useful_mode)) {
+      ++samples.failed;
+      ++samples.stopped["wrong modes"];
+    }
+  }
+
+  void append_to(std::vector<ChartPoint>& points, const std::string& task) const {
+    for (const Samples& samples : all_) {
+      points.push_back({task, samples.method, samples.setting, spread(samples.seconds), spread(samples.errors),
+                        reasons_text(samples.stopped), samples.failed > 0, Json::object()});
+    }
+  }
+
+ private:
+  struct Samples {
+    std::string method, setting;
+    std::vector<double> seconds, errors;
+    std::map<std::string, int> stopped;
+    int failed;
+  };
+  std::map<std::pair<std::string, std::string>, std::size_t> index_;
+  std::vector<Samples> all_;
+};
+
+void compare(const Packing& packing, const Measuring& measuring, TaskPoints& points) {
+  const BlockMatrix matrix = double_double_hessian(packing);
+  ModeSet dense;
+  const auto dense_seconds = timed(measuring, [&] { dense = dense_modes(matrix); });
+  const double lambda_max = dense.eigenvalues.cwiseAbs().maxCoeff();
+  const auto measure = [&](const std::string& method, const std::string& setting, const auto& work) {
+    if (measuring.over()) return;
+    ComputedModes found;
+    const auto seconds = timed(measuring, [&] { found = work(); });
+    points.add(method, setting, spread(seconds)->median, found, dense.eigenvalues);
+  };
+  // The dense solver is the reference for the others; its own error is its error bound.
+  points.add("dense", "all modes", spread(dense_seconds)->median,
+             {"converged", dense.eigenvalues * (1 + dense.relative_error)}, dense.eigenvalues);
+  const Index all = dense.eigenvalues.size();
+  for (const int subspace : measuring.config.subspaces) {
+    const Index dimension = std::min<Index>(subspace, all);
+    for (const double shift : measuring.config.shifts)
+      measure("shift-invert", fmt::format("shift {:g}, subspace {}", shift, dimension),
+              [&] { return by_inversion(matrix, -shift * lambda_max, dimension); });
+    measure("Lanczos without inversion", fmt::format("subspace {}", dimension),
+            [&] { return by_products(matrix, lambda_max, dimension); });
+  }
+}
+
+}  // namespace
+
+void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measuring, ChartFamily& family) {
+  for (const TaskEquilibria& task : tasks) {
+    TaskPoints points;
+    for (const Packing& packing : task.packings) {
+      if (measuring.over()) break;
+      measuring.progress("modes, " + task.task);
+      compare(packing, measuring, points);
+    }
+    points.append_to(family.points, task.task);
+  }
+}
+
+}  // namespace isojam

@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "engine/geometry/overlap/clipped_overlap.hpp"
+#include "engine/geometry/overlap/overlap.hpp"
+#include "tasks/extras/chart/comparisons.hpp"
+#include "tasks/extras/chart/pairs/reference_overlap.hpp"
+
+namespace isojam {
+namespace {
+
+using oracle::PairCase;
+using oracle::PairClass;
+
+/// Classes in which no two faces coincide: see reference_overlap().
+constexpr std::array classes{PairClass::random_contact, PairClass::near_parallel_faces, PairClass::edge_in_face,
+                             PairClass::parallel_edges, PairClass::vertex_vertex,       PairClass::same_orientation};
+
+/// An answer with a larger error counts as failed.
+constexpr double worst_useful_overlap = 1e-2;
+
+/// A pair with the data that a packing has prepared before it computes the overlap.
+struct PreparedPair {
+  PairCase pair;
+  Pose pose;  ///< of B; A is at the origin
+  LonePlacedSolid a, b, double_double_a, double_double_b;
+  DoubleDoubleVector displacement;
+  QuadPose quad;
+  oracle::ReferenceOverlap right;
+};
+
+PreparedPair prepared(const PairCase& pair) {
+  const ConvexSolid &a = platonic(pair.a), &b = platonic(pair.b);
+  Pose pose;
+  pose.position = pair.displacement;
+  pose.orientation = pair.quaternion;
+  const DoubleDoubleMatrix turn = rotation_matrix(pose);
+  DoubleDoubleVector displacement;
+  displacement.high = pair.displacement;
+  return {pair,
+          pose,
+          LonePlacedSolid(a, Eigen::Matrix3d(Eigen::Matrix3d::Identity())),
+          LonePlacedSolid(b, turn.high),
+          LonePlacedSolid(a, DoubleDoubleMatrix{}),
+          LonePlacedSolid(b, turn),
+          displacement,
+          relative_pose(Pose{}, pose, quad_position(pose)),
+          oracle::reference_overlap(pair)};
+}
+
+struct ComputedOverlap {
+  double volume = 0;
+  std::optional<Eigen::Vector3d> area;  ///< S_A, of methods that give it
+};
+
+ComputedOverlap in_doubles(const PreparedPair& pair) {
+  SeparatingAxis axis;
+  const Overlap found = overlap(pair.a, pair.b, pair.pair.displacement, axis);
+  return {found.volume, found.area};
+}
+
+ComputedOverlap in_double_doubles(const PreparedPair& pair) {
+  SeparatingAxis axis;
+  const Overlap found = overlap(pair.double_double_a, pair.double_double_b, pair.displacement, axis);
+  return {found.volume, found.area};
+}
+
+ComputedOverlap by_quadruple_clip(const PreparedPair& pair) {
+  const Overlap found = narrowed(clipped_overlap(platonic(pair.pair.a), platonic(pair.pair.b), pair.quad));
+  return {found.volume, found.area};
+}
+
+ComputedOverlap by_plain_clip(const PreparedPair& pair) { return {oracle::rough_volume(pair.pair), std::nullopt}; }
+
+struct Kernel {
+  std::string_view method, setting;
+  ComputedOverlap (*overlap)(const PreparedPair&);
+};
+
+constexpr std::array<Kernel, 4> kernels{{{"contact loop in doubles", "double", in_doubles},
+                                         {"contact loop in double-double", "two doubles", in_double_doubles},
+                                         {"clip in quadruple precision", "quadruple", by_quadruple_clip},
+                                         {"clip in doubles", "double", by_plain_clip}}};
+
+double relative_error(double volume, const oracle::Digits50& right) {
+  return static_cast<double>(oracle::Digits50(abs(oracle::Digits50(volume) - right) / right));
+}
+
+double relative_error(const Eigen::Vector3d& area, const std::array<oracle::Digits50, 3>& right) {
+  oracle::Digits50 difference = 0, whole = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const oracle::Digits50 off = oracle::Digits50(area[static_cast<Eigen::Index>(c)]) - right[c];
+    difference += off * off;
+    whole += right[c] * right[c];
+  }
+  return std::sqrt(static_cast<double>(oracle::Digits50(difference / whole)));
+}
+
+void set_errors(const std::vector<PreparedPair>& pairs, const std::vector<ComputedOverlap>& found, ChartPoint& point) {
+  std::vector<double> errors, area_errors;
+  int wrong = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    errors.push_back(relative_error(found[k].volume, pairs[k].right.volume));
+    wrong += !(errors.back() < worst_useful_overlap);
+    if (found[k].area) area_errors.push_back(relative_error(*found[k].area, pairs[k].right.area));
+  }
+  point.error = spread(errors);
+  point.failed = wrong > 0;
+  if (point.failed) point.stopped = fmt::format("errors above 1 % in {} of {} pairs", wrong, pairs.size());
+  const auto area = spread(area_errors);
+  point.further = {{"S_error", area ? Json(area->median) : Json(nullptr)},
+                   {"S_error_greatest", area ? Json(area->greatest) : Json(nullptr)}};
+}
+
+ChartPoint point_of(const std::string& task, const Kernel& kernel, const std::vector<PreparedPair>& pairs,
+                    const Measuring& measuring) {
+  ChartPoint point{task,          std::string(kernel.method), std::string(kernel.setting), {}, {}, "done", false,
+                   Json::object()};
+  std::vector<ComputedOverlap> found(pairs.size());
+  auto seconds = timed(measuring, [&] {
+    for (std::size_t k = 0; k < pairs.size(); ++k) found[k] = kernel.overlap(pairs[k]);
+  });
+  for (double& each : seconds) each /= static_cast<double>(pairs.size());
+  point.seconds = spread(seconds);
+  set_errors(pairs, found, point);
+  return point;
+}
+
+}  // namespace
+
+void compare_overlaps(const Measuring& measuring, ChartFamily& family) {
+  for (const SolidKind solid : measuring.config.solids) {
+    for (const PairClass pair_class : classes) {
+      const auto task = fmt::format("{}, {}", to_string(solid), to_string(pair_class));
+      if (measuring.over()) return;
+      measuring.progress("overlaps, " + task);
+      std::vector<PreparedPair> pairs;
+      for (const PairCase& pair : oracle::pair_cases(solid, solid, pair_class, measuring.config.pairs)) {
+        if (measuring.over()) return;
+        pairs.push_back(prepared(pair));
+      }
+      for (const Kernel& kernel : kernels) family.points.push_back(point_of(task, kernel, pairs, measuring));
+    }
+  }
+}
+
+}  // namespace isojam

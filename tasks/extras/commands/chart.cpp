@@ -1,0 +1,55 @@
+#include <filesystem>
+#include <system_error>
+
+#include "tasks/commands/shared.hpp"
+#include "tasks/extras/chart/data.hpp"
+#include "tasks/extras/chart/run_chart.hpp"
+#include "tasks/extras/commands/pages.hpp"
+#include "tasks/extras/page/page.hpp"
+#include "tasks/io/atomic_file.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/interrupt.hpp"
+#include "tasks/io/standard_streams.hpp"
+
+namespace isojam {
+namespace {
+
+ChartConfig config_of(const ChartArguments& arguments) {
+  if (!arguments.config.empty()) return parse_chart_config(read_text(arguments.config), arguments.config);
+  return arguments.full ? full_chart_config() : ChartConfig();
+}
+
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw FileError(directory.string() + ": cannot be created: " + error.message());
+  check_writable(directory);
+}
+
+std::string written(const ChartConfig& config, const ChartResult& result, const std::filesystem::path& directory) {
+  const Json data = chart_data(config, result);
+  auto table = text_table(result);
+  write_atomically(directory / "data.json", pretty(data));
+  write_atomically(directory / "table.txt", table);
+  write_atomically(directory / "chart.html", assembled_page(chart_parts(), data));
+  return table;
+}
+
+}  // namespace
+
+ExitCode chart(const ChartArguments& arguments, Console& console) {
+  const ChartConfig config = config_of(arguments);
+  const std::filesystem::path directory = arguments.directory;
+  make_directory(directory);
+  const InterruptWatcher watcher;
+  warn_about_kernels(console);
+  // The token is checked between parts as well: the watcher ends a process that does not stop in time.
+  const auto result = run_chart(config, watcher.token(), console,
+                                [&](const ChartResult& so_far) { written(config, so_far, directory); });
+  console.end();
+  const auto table = written(config, result, directory);
+  print(table);
+  return watcher.token().stop_requested() ? ExitCode::interrupted : ExitCode::done;
+}
+
+}  // namespace isojam

@@ -1,0 +1,98 @@
+#include "tasks/extras/commands/export.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "tasks/commands/shared.hpp"
+#include "tasks/extras/commands/extra_commands.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/records/store.hpp"
+#include "tasks/records/texts.hpp"
+
+namespace isojam {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_table(Exported what) {
+  return what == Exported::contacts || what == Exported::replicates || what == Exported::states;
+}
+
+/// Refuses options that have no meaning for the chosen export.
+void check_options(const ExportArguments& arguments) {
+  const auto format = to_string(arguments.what);
+  if (!is_table(arguments.what) && arguments.output.empty())
+    throw FileError(
+        fmt::format("--format {} needs an output; give a file with -o, or a directory for all replicates", format));
+  if (arguments.path && (arguments.what == Exported::replicates || arguments.what == Exported::states))
+    throw FileError(
+        fmt::format("--path cannot be combined with --format {}; use it with packings or contacts", format));
+  if (arguments.contacts && arguments.what != Exported::gsd && arguments.what != Exported::vtp)
+    throw FileError("--contacts needs --format gsd or vtp; use --format contacts for a table of contacts");
+}
+
+ExitCode export_results(const ExportArguments& arguments, Console& console) {
+  check_options(arguments);
+  return is_table(arguments.what) ? export_rows(arguments, console) : export_packings(arguments, console);
+}
+
+/// nullopt if the replicate did not fail.
+std::optional<std::string> failure_text(const JsonPlace& record) {
+  if (record.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 0) return std::nullopt;
+  const auto failure = record.at("failure");
+  return fmt::format("failed in {}: {}", failure.at("where").text(), failure.at("why").text());
+}
+
+std::string record_file(const ExportArguments& arguments, const std::string& name) {
+  return (fs::path(arguments.directory) / "records" / (name + ".json")).string();
+}
+
+}  // namespace
+
+std::vector<std::string> chosen_names(const ExportArguments& arguments) {
+  if (arguments.all()) return recorded_names(arguments.directory);
+  return {recorded_name(arguments.directory, arguments.replicate)};
+}
+
+RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Manifest>& manifest,
+                             const std::string& name) {
+  auto held = read_record(arguments.directory, name);
+  if (manifest && !is_of(held, *manifest))
+    throw InputError({record_file(arguments, name), "/provenance/manifest_digest", std::string(other_manifest),
+                      digest(*manifest), ""});
+  return held;
+}
+
+bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held, Console& console) {
+  const auto failure = failure_text({held.record, record_file(arguments, held.name)});
+  if (!failure) return true;
+  const auto message = fmt::format("{} {}; it has no packing", held.name, *failure);
+  if (!arguments.all()) throw FileError(message);
+  console.warn(message);
+  return false;
+}
+
+void add_export(CLI::App& app, Session& session) {
+  ExportArguments* arguments = nullptr;
+  auto options = add_command(app, session, "export",
+                             "Export packings to GSD, VTP or XYZ files, or contacts, replicates or states as a "
+                             "table",
+                             export_results, arguments);
+  options.results_directory(arguments->directory);
+  options.text("replicate", arguments->replicate, "Name of the replicate (its file in records/ without .json), or all",
+               "REPLICATE", Options::Need::required);
+  options.choice("--format", arguments->what, "Format of the packings, or rows of the table", Options::Need::required);
+  options.text(
+      "-o,--output", arguments->output,
+      "Output file; for packings of all replicates a directory; tables go to standard output by default (CSV, or "
+      "JSON lines if the name ends in .jsonl)",
+      "FILE");
+  options.flag("--path", arguments->path, "Export all states of the decompression (needs keep_path in the manifest)");
+  options.flag("--contacts", arguments->contacts,
+               "Also export the contact network: as bonds in GSD, as a second file of lines with VTP");
+}
+
+}  // namespace isojam

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "tasks/extras/commands/export.hpp"
+#include "tasks/extras/export/exported_files.hpp"
+#include "tasks/extras/export/stored_states.hpp"
+#include "tasks/io/atomic_file.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/standard_streams.hpp"
+
+namespace isojam {
+namespace fs = std::filesystem;
+namespace {
+
+std::string_view extension_of(ExportFormat format, bool collection) {
+  switch (format) {
+    case ExportFormat::gsd: return ".gsd";
+    case ExportFormat::xyz: return ".xyz";
+    case ExportFormat::vtp: break;
+  }
+  return collection ? ".pvd" : ".vtp";
+}
+
+ExportFormat format_of(Exported what) {
+  switch (what) {
+    case Exported::vtp: return ExportFormat::vtp;
+    case Exported::xyz: return ExportFormat::xyz;
+    default: return ExportFormat::gsd;
+  }
+}
+
+void warn_of_undecided(const std::string& name, const std::vector<ExportFrame>& frames, Console& console) {
+  const auto undecided = std::count_if(frames.begin(), frames.end(), [](const ExportFrame& frame) {
+    return frame.cluster.front() == ExportFrame::undecided_cluster;
+  });
+  if (undecided == 0) return;
+  console.warn(fmt::format("{}: contacts cannot be classified in {} of {} states, so these have no clusters", name,
+                           undecided, frames.size()));
+}
+
+/// A stream receives only the named file, without the files that accompany it.
+void export_replicate(const ExportArguments& arguments, const std::optional<Manifest>& manifest,
+                      const std::string& name, const fs::path& output, Console& console) {
+  const auto held = own_record(arguments, manifest, name);
+  if (!has_packing(arguments, held, console)) return;
+  std::vector<ExportFrame> frames;
+  for (auto& state : stored_states(arguments.directory, held, arguments.path))
+    frames.push_back(make_frame(std::move(state.packing), state.delta_phi, arguments.contacts));
+  warn_of_undecided(name, frames, console);
+  auto files = exported_files(frames, format_of(arguments.what), arguments.path, output);
+  if (is_stream(output)) std::erase_if(files, [&](const ExportedFile& file) { return file.path != output; });
+  if (files.empty())
+    throw FileError(
+        fmt::format("{}: several files cannot be written to a stream; choose a regular file", output.string()));
+  for (const auto& exported : files) {
+    write_output(exported.path, exported.bytes);
+    print(exported.path.string() + "\n");
+  }
+}
+
+}  // namespace
+
+ExitCode export_packings(const ExportArguments& arguments, Console& console) {
+  const auto names = chosen_names(arguments);
+  const auto manifest = stored_manifest(arguments.directory);
+  if (!arguments.all()) {
+    export_replicate(arguments, manifest, names.front(), arguments.output, console);
+    return ExitCode::done;
+  }
+  std::error_code error;
+  fs::create_directories(arguments.output, error);
+  if (error) throw FileError(fmt::format("{}: cannot be created: {}", arguments.output, error.message()));
+  for (const auto& name : names) {
+    const auto file = name + std::string(extension_of(format_of(arguments.what), arguments.path));
+    export_replicate(arguments, manifest, name, fs::path(arguments.output) / file, console);
+  }
+  return ExitCode::done;
+}
+
+}  // namespace isojam

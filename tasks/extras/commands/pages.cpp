@@ -1,0 +1,45 @@
+#include "tasks/extras/commands/pages.hpp"
+
+#include "tasks/extras/commands/extra_commands.hpp"
+
+namespace isojam {
+namespace {
+
+#ifdef ISOJAM_PAGES
+constexpr auto write_report = report;
+constexpr auto write_chart = chart;
+#else
+template <class Arguments>
+ExitCode refuse(const Arguments&, Console& console) {
+  console.error(
+      "this build has neither report nor chart: Vega or three.js was missing when it was configured; install "
+      "libjs-vega and libjs-three (or set ISOJAM_JAVASCRIPT), configure with -DISOJAM_PAGES=ON and build again");
+  return ExitCode::usage;
+}
+constexpr auto write_report = refuse<ReportArguments>;
+constexpr auto write_chart = refuse<ChartArguments>;
+#endif
+
+}  // namespace
+
+void add_report(CLI::App& app, Session& session) {
+  ReportArguments* arguments = nullptr;
+  auto options = add_command(app, session, "report", "Write an interactive HTML report of a results directory",
+                             write_report, arguments);
+  options.results_directory(arguments->directory);
+  options.text("-o,--output", arguments->output, "Output file (default: DIR/report.html)", "FILE");
+}
+
+void add_chart(CLI::App& app, Session& session) {
+  ChartArguments* arguments = nullptr;
+  auto options = add_command(app, session, "chart", "Compare methods on this machine: accuracy, speed and failures",
+                             write_chart, arguments);
+  options.text("config", arguments->config,
+               "Configuration of the comparison (default: all comparisons in five minutes)", "CONFIG");
+  options.flag("--full", arguments->full, "Make all comparisons in detail, in about an hour");
+  options.exclusive("--full", "config");
+  options.text("-o,--output", arguments->directory, "Output directory for data.json, table.txt and chart.html", "DIR",
+               Options::Need::required);
+}
+
+}  // namespace isojam

@@ -1,0 +1,166 @@
+#include "tasks/extras/export/frame.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/analysis/clusters.hpp"
+#include "engine/packing/energy.hpp"
+#include "tasks/extras/export/contact_faces.hpp"
+#include "tasks/measure/shared_parts.hpp"
+
+namespace isojam {
+namespace {
+
+void mark_faces(ExportFrame& frame, int particle, std::uint64_t faces, FaceContact strength) {
+  const auto first = frame.first_face[static_cast<std::size_t>(particle)];
+  for (; faces != 0; faces &= faces - 1) {
+    auto& face = frame.faces[first + static_cast<std::size_t>(std::countr_zero(faces))];
+    // In one frame either all contacts are classified or none is, so the order of the enumeration works for both.
+    face = strength == FaceContact::undecided ? strength : std::max(face, strength);
+  }
+}
+
+std::vector<std::int32_t> clusters_of(const Packing& packing, const ClassifiedContacts& classified) {
+  const auto bonds = bonds_of(classified.contacts, classified.analysis.classes);
+  std::vector<std::int32_t> labels(packing.poses.size(), ExportFrame::no_cluster);
+  for (const auto& cluster : find_clusters(packing, bonds)) {
+    if (cluster.size() < 2) continue;
+    for (const int member : cluster.members) labels[static_cast<std::size_t>(member)] = cluster.label();
+  }
+  return labels;
+}
+
+}  // namespace
+
+FaceContact strength_of(ContactClass contact_class) {
+  switch (contact_class) {
+    case ContactClass::face_face: return FaceContact::face_face;
+    case ContactClass::edge_face: return FaceContact::edge_face;
+    case ContactClass::lower_order: break;
+  }
+  return FaceContact::lower_order;
+}
+
+ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network) {
+  const auto n = packing.poses.size();
+  PackingEnergy energy;
+  const auto classified = classified_contacts(packing, energy);
+  const bool decided = !undecided(classified.analysis);
+
+  ExportFrame frame{std::move(packing), delta_phi, {}, {}, {}, {}};
+  frame.Z.assign(n, 0);
+  frame.cluster =
+      decided ? clusters_of(frame.packing, classified) : std::vector<std::int32_t>(n, ExportFrame::undecided_cluster);
+  frame.first_face.push_back(0);
+  for (std::size_t i = 0; i < n; ++i)
+    frame.first_face.push_back(frame.first_face.back() + frame.solid(i).faces().size());
+  frame.faces.assign(frame.first_face.back(), FaceContact::none);
+  const auto& solids = frame.packing.solids;
+  for (std::size_t k = 0; k < classified.contacts.size(); ++k) {
+    const auto& contact = classified.contacts[k];
+    const auto contact_class = decided ? classified.analysis.classes[k] : ContactClass::lower_order;
+    const auto strength = decided ? strength_of(contact_class) : FaceContact::undecided;
+    const auto a = static_cast<std::size_t>(contact.pair.a), b = static_cast<std::size_t>(contact.pair.b);
+    const auto& fits = classified.analysis.cutoffs_of(solids.unit(a), solids.unit(b));
+    const auto faces =
+        contact_faces(solids[a], solids[b], contact, contact_class, {fits.face_face.cutoff, fits.edge_face.cutoff});
+    ++frame.Z[a];
+    ++frame.Z[b];
+    mark_faces(frame, contact.pair.a, faces.of_a, strength);
+    mark_faces(frame, contact.pair.b, faces.of_b, strength);
+  }
+  if (with_network) frame.network = contact_network(frame.packing, classified);
+  return frame;
+}
+
+void check_frames(std::span<const ExportFrame> frames) {
+  if (frames.empty()) throw std::invalid_argument("no frames");
+  const auto& first = frames.front().packing;
+  for (const auto& frame : frames) {
+    if (!(frame.packing.solids == first.solids) || frame.packing.size() != first.size()) {
+      throw std::invalid_argument("frames of different particles");
+    }
+  }
+}
+
+namespace {
+
+/// Wraps into [low, low + 1) along each lattice vector.
+WrappedPosition into_any_cell(const PeriodicCell& cell, const Eigen::Vector3d& position, double low) {
+  const Eigen::Vector3d cells = (cell.fractional(position).array() - low).floor();
+  Eigen::Vector3i image = cells.cast<int>();
+  Eigen::Vector3d rest = cell.fractional(position - cell.translation(image));
+  for (int c = 0; c < 3; ++c) {
+    // Rounding can leave a position just outside either end; it is then moved to the other end.
+    if (rest[c] >= low && rest[c] < low + 1) continue;
+    image[c] += rest[c] < low ? 0 : 1;
+    rest[c] = low;
+  }
+  return {cell.vectors().high * rest, image};
+}
+
+WrappedPosition into_cube(double side, const Eigen::Vector3d& position) {
+  WrappedPosition result;
+  for (int c = 0; c < 3; ++c) {
+    double cells = std::floor(position[c] / side);
+    double x = position[c] - side * cells;
+    if (x < 0 || x >= side) {
+      cells += x < 0 ? 0 : 1;
+      x = 0;
+    }
+    result.wrapped[c] = x;
+    result.image[c] = static_cast<int>(cells);
+  }
+  return result;
+}
+
+WrappedPosition into_centred_cube(const PeriodicCell& cell, const Eigen::Vector3d& position) {
+  const float half = static_cast<float>(cell.side()) / 2;
+  WrappedPosition result;
+  result.image = -cell.nearest_shift(position);
+  for (int c = 0; c < 3; ++c) {
+    auto x = static_cast<float>(position[c] - cell.side() * result.image[c]);
+    if (x >= half) {
+      x = -half;
+      ++result.image[c];
+    }
+    result.wrapped[c] = std::max(x, -half);
+  }
+  return result;
+}
+
+}  // namespace
+
+WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& position) {
+  return cell.is_cube() ? into_cube(cell.side(), position) : into_any_cell(cell, position, 0);
+}
+
+WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position) {
+  return cell.is_cube() ? into_centred_cube(cell, position) : into_any_cell(cell, position, -0.5);
+}
+
+Eigen::Matrix3d to_standard_frame(const PeriodicCell& cell) {
+  if (cell.is_cube()) return Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d& h = cell.vectors().high;
+  Eigen::Matrix3d turn;  // rows: the new axes
+  turn.row(0) = h.col(0).normalized();
+  turn.row(2) = h.col(0).cross(h.col(1)).normalized();
+  turn.row(1) = turn.row(2).cross(turn.row(0));
+  return turn;
+}
+
+Packing in_standard_frame(Packing packing) {
+  if (packing.cell.is_cube()) return packing;
+  const Eigen::Matrix3d turn = to_standard_frame(packing.cell);
+  DoubleDoubleMatrix upper;
+  upper.high = (turn * packing.cell.vectors().high).triangularView<Eigen::Upper>();
+  packing.cell = PeriodicCell(upper);
+  const Eigen::Quaterniond rotation(turn);
+  for (auto& pose : packing.poses) pose = {turn * pose.position, rotation * pose.orientation, {0, 0, 0}, {0, 0, 0, 0}};
+  return packing;
+}
+
+}  // namespace isojam

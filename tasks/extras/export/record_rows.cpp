@@ -1,0 +1,180 @@
+#include "tasks/extras/export/record_rows.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "tasks/extras/export/stored_states.hpp"
+#include "tasks/measure/quantity.hpp"
+#include "tasks/tables/lines.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr std::string_view between = "; ";
+
+/// Value at a pointer into an object; null if it is missing.
+const Json* value_at(const Json& object, std::string_view pointer) {
+  const Json* value = &object;
+  while (!pointer.empty()) {
+    const auto end = std::min(pointer.find('/', 1), pointer.size());
+    const auto found = value->is_object() ? value->find(pointer.substr(1, end - 1)) : value->end();
+    if (found == value->end()) return nullptr;
+    value = &*found;
+    pointer = pointer.substr(end);
+  }
+  return value;
+}
+
+Json copy_of(const Json* value) { return value ? *value : Json(nullptr); }
+
+/// The reason that the record gives for a null value, beside the value or in one of the enclosing objects.
+std::string reason_of(const Json& object, std::string_view pointer) {
+  for (auto end = pointer.size(); end != 0; end = pointer.rfind('/', end - 1)) {
+    const auto* reason = value_at(object, std::string(pointer.substr(0, end)) + "_reason");
+    if (reason && reason->is_string()) return reason->get<std::string>();
+  }
+  return "";
+}
+
+std::string joined_texts(const Json& list) {
+  Cells cells;
+  for (const auto& text : list) cells.push_back(text.get<std::string>());
+  return joined(cells, between);
+}
+
+std::vector<std::string> swept_names(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
+  std::vector<std::string> names;
+  if (manifest) {
+    for (const auto& field : manifest->swept) names.push_back(field.name);
+  } else {
+    for (const auto& item : first.summary.parameters.items()) names.push_back(item.key());
+  }
+  return names;
+}
+
+/// The largest number of kinds of a packing.
+std::size_t kinds_of(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
+  std::size_t most = first.summary.solid.kinds().size();
+  for (const auto& solid : manifest ? manifest->solids : std::vector<Mixture>{})
+    most = std::max(most, solid.kinds().size());
+  return most;
+}
+
+/// True if a quantity belongs to a kind of particles that no packing has, or that is the only one.
+bool is_of_no_kind(std::string_view pointer, std::size_t kinds) {
+  if (!pointer.starts_with(kinds_pointer)) return false;
+  const auto kind = static_cast<std::size_t>(pointer[kinds_pointer.size()] - '0');
+  return kinds < 2 || kind > kinds;
+}
+
+std::vector<Measure> measures_of(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
+  return manifest ? manifest->measures : first.summary.measures;
+}
+
+}  // namespace
+
+RecordRows::RecordRows(RowOf of, RowFormat format, const std::optional<Manifest>& manifest,
+                       const RecordedReplicate& first)
+    : of_(of), format_(format), exclude_(manifest ? manifest->exclude : usually_excluded()) {
+  add_head(swept_names(manifest, first));
+  add_state();
+  add_quantities(measures_of(manifest, first), kinds_of(manifest, first));
+  if (of_ == RowOf::replicate) {
+    add("evaluations", [](const Source& s) { return s.held.record.at("evaluations"); });
+    add("cpu_seconds", [](const Source& s) { return s.held.record.at("timing").at("cpu_seconds"); });
+  }
+  add("reasons", [this](const Source& s) { return reasons(s); });
+}
+
+/// A quantity may have the name of a figure that every state has. Both are then the same number.
+void RecordRows::add(std::string name, Value value) {
+  if (std::find(columns_.begin(), columns_.end(), name) != columns_.end()) return;
+  columns_.push_back(std::move(name));
+  values_.push_back(std::move(value));
+}
+
+void RecordRows::add_head(const std::vector<std::string>& parameters) {
+  add("replicate", [](const Source& s) { return s.held.name; });
+  add("solid", [](const Source& s) { return to_string(s.held.summary.solid); });
+  add("particles", [](const Source& s) { return s.held.summary.particles; });
+  for (const auto& name : parameters) {
+    add(parameter_head(name),
+        [name](const Source& s) { return copy_of(value_at(s.held.summary.parameters, "/" + name)); });
+  }
+  add("number", [](const Source& s) { return s.held.summary.replicate; });
+  if (of_ == RowOf::replicate) {
+    add("status", [](const Source& s) { return s.held.record.at("status"); });
+    add("failed_in", [](const Source& s) { return copy_of(value_at(s.held.record, "/failure/where")); });
+    add("failure", [](const Source& s) { return copy_of(value_at(s.held.record, "/failure/why")); });
+  }
+  add("flags", [](const Source& s) {
+    const auto& flags = s.held.record.at("flags");
+    return flags.is_null() ? Json(nullptr) : Json(joined_texts(flags));
+  });
+  add("excluded", [this](const Source& s) { return has_any(s.held.summary, exclude_); });
+}
+
+void RecordRows::add_state() {
+  add("state", [](const Source& s) { return s.state ? Json(s.index) : Json(nullptr); });
+  for (const auto* key : {"step", "phi", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual",
+                          "residual_floor", "stopped", "descents"}) {
+    add(key, [pointer = std::string("/") + key](const Source& s) {
+      return s.state ? copy_of(value_at(*s.state, pointer)) : Json(nullptr);
+    });
+  }
+}
+
+void RecordRows::add_quantities(const std::vector<Measure>& measures, std::size_t kinds) {
+  const auto all = all_quantities();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto& quantity = all[k];
+    const bool measured =
+        !quantity.measure || std::find(measures.begin(), measures.end(), *quantity.measure) != measures.end();
+    const bool of_replicate = quantity.of == Quantity::Of::replicate;
+    if (!measured || (of_replicate && of_ == RowOf::state) || is_of_no_kind(quantity.pointer, kinds)) continue;
+    quantities_.push_back(k);
+    add(std::string(quantity.name), [of_replicate, pointer = quantity.pointer](const Source& s) {
+      if (of_replicate) return copy_of(value_at(s.held.record, pointer));
+      return s.state ? copy_of(value_at(*s.state, pointer)) : Json(nullptr);
+    });
+  }
+}
+
+std::string RecordRows::reasons(const Source& source) const {
+  Cells cells;
+  for (const auto k : quantities_) {
+    const auto& quantity = all_quantities()[k];
+    const auto* object = quantity.of == Quantity::Of::replicate ? &source.held.record : source.state;
+    if (!object) continue;
+    const auto* value = value_at(*object, quantity.pointer);
+    if (value && !value->is_null()) continue;
+    const auto& has = source.held.summary.measures;
+    const bool measured = !quantity.measure || std::find(has.begin(), has.end(), *quantity.measure) != has.end();
+    const auto reason = measured ? reason_of(*object, quantity.pointer) : "not measured";
+    if (!reason.empty()) cells.push_back(std::string(quantity.name) + ": " + reason);
+  }
+  return joined(cells, between);
+}
+
+std::string RecordRows::line(const Source& source) const {
+  std::vector<Json> cells;
+  for (const auto& value : values_) cells.push_back(value(source));
+  return row_line(format_, columns_, cells);
+}
+
+std::string RecordRows::head() const { return head_line(format_, columns_); }
+
+std::string RecordRows::lines(const std::filesystem::path& directory, const RecordedReplicate& held) const {
+  const bool failed = held.summary.failed;
+  if (of_ == RowOf::replicate) {
+    if (failed) return line({held, nullptr, 0});
+    return line({held, &held.record.at("nearest"), index_of_nearest(directory, held)});
+  }
+  std::string text;
+  const auto& states = held.record.at("states");
+  for (std::size_t k = 0; k < states.size() && !failed; ++k) text += line({held, &states[k], k});
+  return text;
+}
+
+}  // namespace isojam

@@ -1,0 +1,70 @@
+#include "tasks/extras/export/stored_states.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "tasks/io/file.hpp"
+#include "tasks/io/place.hpp"
+#include "tasks/packings/packing_json.hpp"
+#include "tasks/records/texts.hpp"
+
+namespace isojam {
+namespace fs = std::filesystem;
+namespace {
+
+std::string file_of(const fs::path& directory, const char* folder, const std::string& name) {
+  return (directory / folder / (name + ".json")).string();
+}
+
+std::optional<double> distance_of(const JsonPlace& state) {
+  const auto place = state.at("delta_phi");
+  if (place.value().is_null()) return std::nullopt;
+  return place.number({-1, 1});
+}
+
+std::vector<StoredState> states_of_path(const fs::path& directory, const RecordedReplicate& held) {
+  const auto file = file_of(directory, "paths", held.name);
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    throw FileError(fmt::format("{}: {}; {}", file, states_not_saved, how_to_keep_states));
+  }
+  const auto json = read_state_file_of(directory, held, "paths");
+  const auto states = JsonPlace(json, file).at("states");
+  const auto count = states.expect_list(list_of_states);
+  if (count == 0) states.refuse(std::string(no_states));
+  std::vector<StoredState> list;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto state = states.at(k);
+    list.push_back({k, distance_of(state), read_packing(state)});
+    const auto &first = list.front().packing, &last = list.back().packing;
+    if (!(last.solids == first.solids) || last.size() != first.size())
+      state.refuse("the state has other particles than the first one");
+  }
+  return list;
+}
+
+}  // namespace
+
+std::size_t index_of_nearest(const fs::path& directory, const RecordedReplicate& held) {
+  const JsonPlace record(held.record, file_of(directory, "records", held.name));
+  const auto states = record.at("states");
+  const auto step = record.at("nearest").at("step");
+  const auto count = states.expect_list(list_of_states);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (states.at(k).at("step").value() == step.value()) return k;
+  }
+  step.refuse("no state belongs to this step");
+}
+
+std::vector<StoredState> stored_states(const fs::path& directory, const RecordedReplicate& held, bool path) {
+  if (path) return states_of_path(directory, held);
+  const JsonPlace record(held.record, file_of(directory, "records", held.name));
+  const auto json = read_state_file_of(directory, held, "packings");
+  const JsonPlace packing(json, file_of(directory, "packings", held.name));
+  std::vector<StoredState> one;
+  one.push_back({index_of_nearest(directory, held), distance_of(record.at("nearest")), read_packing(packing)});
+  return one;
+}
+
+}  // namespace isojam

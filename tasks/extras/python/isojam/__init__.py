@@ -1,0 +1,24 @@
+"""Runs studies of isojam and reads their results as numpy arrays.
+
+    import isojam
+    study = isojam.run({"name": "two-solids", ...}, "results/two-solids")
+    study = isojam.load("results/two-solids")    # or a study that was run before
+    study.replicates["phi_j"]                    # one value per replicate
+    study.states["C"]                            # one value per state
+    study.packing(study.names[0]).positions
+    study.contacts()["force"]                    # (contacts, 3)
+
+docs/python.md describes the module."""
+
+from .commands import aggregate, measure, run
+from .errors import InputError, ManifestError, ProgramError
+from .facts import quantities
+from .facts import version as __version__
+from .packing import Packing
+from .rows import Rows
+from .solid import Solid
+from .study import Study, load
+from .table import read_table
+
+__all__ = ["InputError", "ManifestError", "Packing", "ProgramError", "Rows", "Solid", "Study", "__version__", "aggregate",
+           "load", "measure", "quantities", "read_table", "run"]

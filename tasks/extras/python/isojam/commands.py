@@ -1,0 +1,122 @@
+"""Commands of the program: each call ends with the results directory as a Study."""
+
+import json
+import os
+import pathlib
+import tempfile
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+from . import program as _program
+from .errors import InputError, ManifestError
+from .program import Ended, Path
+from .progress import shown
+from .study import Study
+
+_SOME_FAILED, _BAD_INPUT, _INTERRUPTED = 1, 65, 75
+#: The name of a manifest on standard input, in messages of the program.
+_STANDARD_INPUT = "-"
+
+
+def run(manifest: Mapping[str, Any] | Path, directory: Path, threads: int = 2, progress: bool = True, *,
+        program: Path | None = None) -> Study:
+    """Runs the missing replicates of a manifest.
+
+    manifest   a dict, whose relative paths start from the current directory, or the path of a file
+    directory  the results directory, which is created if it does not exist
+    threads    the number of threads
+    progress   show progress: a bar if tqdm is installed, else text on stderr
+    program    path of the program; by default the module looks for it
+
+    Warns if replicates failed. Raises ManifestError for a manifest that is refused and ProgramError for other failures.
+    After KeyboardInterrupt the same call resumes."""
+    words: list[Path] = ["-o", directory, "-j", str(threads)]
+    if not isinstance(manifest, Mapping):
+        file = os.fspath(manifest)
+        with shown(progress) as show:
+            ended = _program.call(program, ["run", file, *words], show=show)
+    else:
+        file = _STANDARD_INPUT
+        with tempfile.TemporaryFile("w+", encoding="utf-8") as stdin, shown(progress) as show:
+            stdin.write(_text(manifest))
+            stdin.seek(0)
+            ended = _program.call(program, ["run", file, *words], stdin=stdin, show=show)
+    ended.warnings = [_renamed(text) for text in ended.warnings]
+    _refuse_manifest(ended, file)
+    return _study(ended, directory, program)
+
+
+def measure(directory: Path, *measures: str, threads: int = 2, progress: bool = True,
+            program: Path | None = None) -> Study:
+    """Adds measures to the records of a directory whose manifest has "keep_path": true.
+
+    measures   names as in "measure" of a manifest; by default those that an interrupted call left
+
+    The other arguments, warnings and errors are those of `run`."""
+    words: list[Path] = ["measure", directory, "-j", str(threads), *(["--add", ",".join(measures)] if measures else [])]
+    with shown(progress) as show:
+        ended = _program.call(program, words, show=show)
+    return _study(ended, directory, program)
+
+
+def aggregate(directory: Path, *, program: Path | None = None) -> Study:
+    """Writes the tables of a directory to its tables.json; the `table` of the Study is the same table.
+
+    A run writes the tables itself, but a shard does not."""
+    tables = pathlib.Path(directory, "tables.json")
+    table = _program.table(program, ["aggregate", directory, "--format", "csv", "-o", tables])
+    return Study(directory, program, table=table)
+
+
+def _text(manifest: Mapping[str, Any]) -> str:
+    try:
+        return json.dumps(manifest, default=_plain, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise ManifestError([InputError("manifest", "", f"cannot be written as JSON: {error}",
+                                        "dicts, lists, text, finite numbers, arrays, True, False and None")]) from None
+
+
+def _plain(value: object) -> Any:
+    """Arrays and numbers of numpy as JSON has them, paths as text."""
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Mapping):
+        return dict(value)
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"{value!r} has type {type(value).__name__}")
+
+
+def _refuse_manifest(ended: Ended, file: str) -> None:
+    """Raises ManifestError if all errors are of the manifest; "file:line:column" is where one is no JSON."""
+    errors = ended.errors if ended.code == _BAD_INPUT else []
+    own = [error for error in errors if f"{error.get('file')}:".startswith(f"{file}:")]
+    if own and own == errors:
+        raise ManifestError([_input_error(error) for error in own]) from None
+
+
+def _renamed(text: str) -> str:
+    """A text that begins with a file name; a manifest in memory is named "manifest"."""
+    name, colon, rest = text.partition(":")
+    return f"manifest{colon}{rest}" if name == _STANDARD_INPUT else text
+
+
+def _input_error(error: Mapping[str, str]) -> InputError:
+    near = error["suggestion"]
+    own = InputError(_renamed(error["file"]), error["pointer"], error["problem"],
+                     f'did you mean "{near}"?' if near else error["allowed"])
+    own.args = (_renamed(error["text"]),)
+    return own
+
+
+def _study(ended: Ended, directory: Path, program: Path | None) -> Study:
+    """The results. Warnings name the line from which the caller was called."""
+    ended.warn(stacklevel=3)
+    if ended.code == _INTERRUPTED:
+        raise KeyboardInterrupt(f"{directory}: the program was interrupted; repeat the call to resume")
+    if ended.code == _SOME_FAILED and not ended.errors:
+        warnings.warn(f'{directory}: some replicates failed; see the column "failure" of `replicates`', stacklevel=3)
+    elif ended.code != 0:
+        raise ended.error()
+    return Study(directory, program)

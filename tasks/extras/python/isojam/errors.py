@@ -1,0 +1,44 @@
+"""Exceptions of the module. Each states where the error is, what is wrong, and how to correct it."""
+
+import os
+from collections.abc import Iterable, Sequence
+
+
+class InputError(ValueError):
+    """A file or a request that is refused.
+
+    file     path of the file
+    place    a JSON pointer, a line or a column; "" for the whole file
+    why      the problem
+    allowed  the accepted values, or an instruction; "" if the problem is enough"""
+
+    def __init__(self, file: str | os.PathLike[str], place: str, why: str, allowed: str = "", remedy: str = "") -> None:
+        """`allowed` gives the accepted values, `remedy` an instruction."""
+        self.file, self.place, self.why, self.allowed = str(file), place, why, allowed or remedy
+        text = f"{self.file}: {place}: {why}" if place else f"{self.file}: {why}"
+        super().__init__(text + (f"; expected {allowed}" if allowed else f"; {remedy}" if remedy else ""))
+
+
+class ManifestError(InputError):
+    """A manifest that the program refuses.
+
+    errors   all errors of the manifest, each an InputError whose place is a JSON pointer
+
+    file, place, why and allowed are those of the first error."""
+
+    def __init__(self, errors: Sequence[InputError]) -> None:
+        self.errors = tuple(errors)
+        first = self.errors[0]
+        super().__init__(first.file, first.place, first.why, first.allowed)
+        self.args = ("\n".join(map(str, self.errors)),)
+
+
+class ProgramError(RuntimeError):
+    """The program isojam was not found, or ended with an error.
+
+    command  the command line, a list of words
+    message  the error that the program reported"""
+
+    def __init__(self, command: Iterable[object], message: str) -> None:
+        self.command, self.message = [str(word) for word in command], message
+        super().__init__(f"{' '.join(self.command)}: {message}" if self.command else message)

@@ -1,0 +1,109 @@
+"""Packings: particles, their cell and their solids."""
+
+import functools
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from .errors import InputError
+from .rows import Array
+from .solid import Solid
+
+Floats = NDArray[numpy.float64]
+
+
+class Packing:
+    """One state of a replicate.
+
+    name          of the replicate
+    delta_phi     φ − φ_J
+    phi           density
+    cell          (3, 3): its rows are the lattice vectors, in V_p^(1/3); side times the unit matrix in a cube
+    side          of a cubic cell; None for any other cell
+    positions     (N, 3) centres, not wrapped into the cell
+    orientations  (N, 4) quaternions (w, x, y, z) that rotate the body frame into the lab frame, |q| = 1 to rounding
+    kind          (N,) index into solids
+    size          (N,) length of a particle over that of its solid of unit volume
+    solid_names   of the kinds
+
+    Coordinates are double-doubles: these arrays are the nearest doubles, and cell_low, positions_low and
+    orientations_low are the remainders."""
+
+    def __init__(self, name: str, document: dict[str, Any], file: str | os.PathLike[str], place: str, delta_phi: float,
+                 shapes: Callable[[], dict[str, Solid]]) -> None:
+        """From the JSON of a packing, which stands at that place of a file. `shapes()` gives the replicate's solids by
+        name."""
+        self.name, self.delta_phi = name, delta_phi
+        self._document, self._file, self._place, self._shapes = document, file, place, shapes
+        self.phi = float(self._at("phi"))
+        n = len(self._at("positions"))
+        self.positions: Floats = self._array("positions", (n, 3))
+        self.orientations: Floats = self._array("orientations", (n, 4))
+        self.side = None if "cell" in document else float(self._at("side"))
+        self.cell: Floats = self._array("cell", (3, 3)) if self.side is None else self.side * numpy.eye(3)
+        if "kinds" in document:
+            self.solid_names: tuple[str, ...] = tuple(kind["solid"] for kind in self._at("kinds"))
+            self.kind: NDArray[numpy.int_] = self._array("kind", (n,), int)
+            self.size: Floats = self._array("size", (n,))
+        else:
+            self.solid_names = (self._at("solid"),)
+            self.kind, self.size = numpy.zeros(n, dtype=int), numpy.ones(n)
+
+    def __len__(self) -> int:
+        """N."""
+        return len(self.positions)
+
+    def __repr__(self) -> str:
+        return f"<{self.name}: {len(self)} particles, phi {self.phi:.6g}, delta_phi {self.delta_phi:.3g}>"
+
+    @functools.cached_property
+    def positions_low(self) -> Floats:
+        return self._array("positions_low", (len(self), 3))
+
+    @functools.cached_property
+    def orientations_low(self) -> Floats:
+        return self._array("orientations_low", (len(self), 4))
+
+    @functools.cached_property
+    def cell_low(self) -> Floats:
+        if self.side is None:
+            return self._array("cell_low", (3, 3))
+        return float(self._document.get("side_low", 0)) * numpy.eye(3)
+
+    @functools.cached_property
+    def solids(self) -> tuple[Solid, ...]:
+        """The Solid of every kind, of unit volume, asked of the program."""
+        shapes = self._shapes()
+        return tuple(shapes[name] for name in self.solid_names)
+
+    def rotations(self) -> Floats:
+        """(N, 3, 3) matrices that rotate body frames into the lab frame."""
+        w, x, y, z = (self.orientations / numpy.linalg.norm(self.orientations, axis=1)[:, None]).T
+        return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]).transpose(2, 0, 1)
+
+    def corners(self, particle: int) -> Floats:
+        """(V, 3): the vertices of one particle where it stands."""
+        vertices = self.size[particle] * self.solids[self.kind[particle]].vertices
+        corners: Floats = self.positions[particle] + vertices @ self.rotations()[particle].T
+        return corners
+
+    def _at(self, key: str) -> Any:
+        if key not in self._document:
+            raise InputError(self._file, self._place + "/" + key, "the required key is missing",
+                             "a packing written by isojam")
+        return self._document[key]
+
+    def _array(self, key: str, shape: tuple[int, ...], kind: type = float) -> Array:
+        try:
+            array: Array = numpy.array(self._at(key), dtype=kind)
+        except (TypeError, ValueError):
+            array = numpy.empty(0)
+        if array.shape != shape:
+            raise InputError(self._file, self._place + "/" + key, "the list of numbers has the wrong shape",
+                             " by ".join(map(str, shape)) + " numbers")
+        return array

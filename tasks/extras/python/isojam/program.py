@@ -1,0 +1,161 @@
+"""Finds the program, runs it and reads its messages."""
+
+import contextlib
+import dataclasses
+import functools
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import warnings
+from collections.abc import Callable, Iterable
+from typing import IO
+
+from . import facts
+from .errors import ProgramError
+from .progress import Message
+from .rows import Rows
+from .solid import Solid, read_obj
+from .table import read_table
+
+#: A path as users give it.
+Path = str | os.PathLike[str]
+
+
+def find(program: Path | None = None) -> str:
+    """The path of the program: `program` if given, else the environment variable ISOJAM, else the program that was built
+    or installed with this module, else the one on the PATH. Raises ProgramError if there is none."""
+    for asked, by in ((program, "the argument `program`"),
+                      (os.environ.get("ISOJAM"), "the environment variable ISOJAM")):
+        if asked:
+            found = shutil.which(os.fspath(asked))
+            if found is None:
+                raise ProgramError([], f"{asked}: cannot be run; set {by} to the path of the program")
+            return found
+    found = shutil.which(os.fspath(facts.program)) or shutil.which("isojam")
+    if found is None:
+        raise ProgramError([], "the program isojam was not found; give its path in the argument `program` or in the "
+                               "environment variable ISOJAM")
+    return found
+
+
+@functools.lru_cache(maxsize=None)
+def _compare_versions(program: str) -> None:
+    """Warns if the program has another version than this module. Raises ProgramError if their files differ."""
+    ended = subprocess.run([program, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                           errors="replace", check=False)
+    words = ended.stdout.split()
+    if ended.returncode != 0 or len(words) < 2 or words[0] != "isojam":
+        raise ProgramError([program, "--version"], ended.stderr.strip() or "this is not the program isojam")
+    both = f"the program {program} has version {words[1]}, the Python module isojam has {facts.version}"
+    other = [schema for schema in facts.schemas.values() if schema not in words]
+    if other:
+        raise ProgramError([], f"{both}: the program does not write {', '.join(other)}, which the module reads; install "
+                               "both from one build, or give another program in the environment variable ISOJAM")
+    if words[1] != facts.version:
+        warnings.warn(f"{both}; install both from one build", stacklevel=2)
+
+
+@dataclasses.dataclass
+class Ended:
+    """How a call of the program ended.
+
+    errors    messages of kind "error"
+    warnings  texts of warnings"""
+
+    command: list[str]
+    code: int = 0
+    errors: list[Message] = dataclasses.field(default_factory=list)
+    warnings: list[str] = dataclasses.field(default_factory=list)
+
+    def error(self) -> ProgramError:
+        text = "\n".join(error["text"] for error in self.errors)
+        return ProgramError(self.command, text or f"ended with exit code {self.code}")
+
+    def warn(self, stacklevel: int) -> None:
+        for text in self.warnings:
+            warnings.warn(text, stacklevel=stacklevel + 1)
+
+
+def call(program: Path | None, words: Iterable[Path], stdin: int | IO[str] = subprocess.DEVNULL,
+         stdout: int | IO[str] = subprocess.DEVNULL, show: Callable[[Message], None] = lambda message: None) -> Ended:
+    """Runs the program to its end; `show` gets its messages of progress. If Python is interrupted, the program is asked
+    to stop, and the exception is passed on when it has stopped."""
+    found = find(program)
+    _compare_versions(found)
+    ended = Ended([found, "--messages", "json", *(os.fspath(word) for word in words)])
+    plain = []
+    # In its own session the program does not get the Ctrl-C of a terminal: with that of _stop it would be the second one,
+    # which ends the program before it has kept its last step.
+    with subprocess.Popen(ended.command, stdin=stdin, stdout=stdout, stderr=subprocess.PIPE, text=True, encoding="utf-8",
+                          errors="replace", start_new_session=True) as process:
+        try:
+            for line in process.stderr or ():
+                message = _message(line)
+                if message["kind"] == "progress":
+                    show(message)
+                elif message["kind"] == "error":
+                    ended.errors.append(message)
+                elif message["kind"] == "warning":
+                    ended.warnings.append(message["text"])
+                elif message["kind"] == "plain" and message["text"]:
+                    plain.append(message)
+            ended.code = process.wait()
+        except BaseException:
+            _stop(process)
+            raise
+    if ended.code != 0:
+        ended.errors += plain
+    else:
+        ended.warnings += [message["text"] for message in plain]
+    return ended
+
+
+def _message(line: str) -> Message:
+    """A message of the program. Messages that it writes when it is out of memory, and those of libraries, are plain."""
+    with contextlib.suppress(ValueError):
+        message = json.loads(line)
+        if isinstance(message, dict) and "kind" in message and "text" in message:
+            return message
+    return {"kind": "plain", "text": line.strip()}
+
+
+def _stop(process: "subprocess.Popen[str]") -> None:
+    """Asks the program to stop and waits until it has; a second interruption kills it. Its files are whole in both cases.
+
+    SIGTERM stops it as SIGINT does, also where SIGINT is ignored, such as in the background of a shell."""
+    if process.poll() is None:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGTERM)
+    try:
+        for _ in process.stderr or ():  # a full pipe would keep it from stopping
+            pass
+        process.wait()
+    except BaseException:
+        process.kill()
+        raise
+
+
+def solids(program: Path | None, directory: Path, replicate: str) -> dict[str, Solid]:
+    """The solids of a replicate by their names."""
+    with tempfile.TemporaryDirectory() as folder:
+        ended = call(program, ["export", directory, replicate, "--format", "xyz", "-o",
+                               pathlib.Path(folder, "packing.xyz")])
+        if ended.code != 0:
+            raise ended.error()
+        found = [read_obj(file) for file in sorted(pathlib.Path(folder).glob("*.obj"))]
+    return {solid.name: solid for solid in found}
+
+
+def table(program: Path | None, words: list[Path]) -> Rows:
+    """The table that the program prints. Warnings name the line from which the caller was called."""
+    with tempfile.TemporaryFile("w+", newline="", encoding="utf-8") as output:
+        ended = call(program, words, stdout=output)
+        ended.warn(stacklevel=3)
+        if ended.code != 0:
+            raise ended.error()
+        output.seek(0)
+        return read_table(output, f"isojam {' '.join(map(str, words))}")

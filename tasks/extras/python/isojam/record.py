@@ -1,0 +1,159 @@
+"""Records as rows: numbers and texts of a record by the names that tables have for them."""
+
+import functools
+import os
+from collections.abc import Collection, Iterator
+from typing import Any
+
+from . import facts
+from .errors import InputError
+from .rows import Rows, column_of
+
+_REASON = "_reason"
+#: Keys of a record whose content has columns of its own, or is no measurement.
+_APART = {"schema", "checksum", "result_digest", "provenance", "spec", "status", "flags", "failure", "nearest", "states",
+          "path"}
+#: Members of a record of the earlier version: the measure whose object has them now, and their key in it.
+_MOVED = {"mode_scaling": ("modes", "scaling"), "moduli_scaling": ("moduli", "scaling"), "freed": ("strict", "freed")}
+#: The last columns: the cost of a replicate, and the build that computed it.
+_COST = ("evaluations", "work", "pairs")
+_ORIGIN = ("version", "git", "compiler", "manifest_digest", "seed")
+#: Figures that every state has; a quantity that has the name of one is the same.
+_FIGURES = {"step", "phi", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual", "residual_floor",
+            "stopped", "descents"}
+#: Names of quantities by their paths, in a record and in a state.
+_NAMES: dict[str, dict[tuple[str, ...], str]] = {of: facts.names(of) for of in ("replicate", "state")}
+_QUANTITIES = {name for names in _NAMES.values() for name in names.values()} - _FIGURES
+
+
+@functools.lru_cache(maxsize=None)
+def _names_of(path: tuple[str, ...], of: str) -> list[str]:
+    """The name that tables have for it, or those of what is below it; else the path with dots, after "state." if it
+    is another quantity's name."""
+    known = [name for place, name in _NAMES[of].items() if place[:len(path)] == path]
+    if known:
+        return known
+    dotted = ".".join(path)
+    return [f"{of}.{dotted}" if dotted in _QUANTITIES else dotted]
+
+
+def flat(document: dict[str, Any], of: str, apart: Collection[str] = ()) -> tuple[dict[str, Any], dict[str, str]]:
+    """Numbers, texts and nulls of a record or a state by column name, and the reasons of nulls by column name. Lists are
+    left out, and the keys in `apart`."""
+    values: dict[str, Any] = {}
+    reasons: dict[str, str] = {}
+
+    def visit(node: dict[str, Any], path: tuple[str, ...]) -> None:
+        for key, value in node.items():
+            if isinstance(value, dict):
+                visit(value, (*path, key))
+            elif not isinstance(value, list) and not (key.endswith(_REASON) and key[:-len(_REASON)] in node):
+                for name in _names_of((*path, key), of):
+                    if path and name in _FIGURES and name in values:
+                        continue
+                    values[name] = value
+                    if value is None and key + _REASON in node:
+                        reasons[name] = node[key + _REASON]
+
+    visit({key: value for key, value in document.items() if key.removesuffix(_REASON) not in apart}, ())
+    return values, reasons
+
+
+def upgraded(record: dict[str, Any]) -> dict[str, Any]:
+    """A record of the earlier version with the keys of this one, in which each measure owns one object of its name; any
+    other record as it is."""
+    if record["schema"] != facts.earlier_record:
+        return record
+    measures = set(record["spec"]["measure"])
+    now: dict[str, Any] = {}
+    for key, value in record.items():
+        before = key.removesuffix(_REASON)
+        if before not in _MOVED:
+            now[key] = value
+        elif key == before and value is not None:
+            now[_MOVED[before][0]] = {_MOVED[before][1]: value}
+        else:
+            now[_MOVED[before][0] + key[len(before):]] = value
+    now["schema"] = facts.schemas["record"]
+    now["states"] = [_upgraded_state(state, measures) for state in record["states"]]
+    if record.get("nearest"):
+        now["nearest"] = _upgraded_state(record["nearest"], measures)
+    return now
+
+
+def _upgraded_state(state: dict[str, Any], measures: set[str]) -> dict[str, Any]:
+    """The earlier version has the numbers of `contacts` in the state itself, after "step"."""
+    keys = list(state)
+    after = keys.index("step") + 1
+    contacts = {key: state[key] for key in keys[after:] if key not in measures}
+    others = {key: state[key] for key in keys[after:] if key in measures}
+    return {**{key: state[key] for key in keys[:after]}, **({"contacts": contacts} if contacts else {}), **others}
+
+
+def _parameters(spec: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Swept values by the names that tables have for them: `residual` is a column of its own."""
+    for name, value in spec["parameters"].items():
+        group = next((group for group in ("protocol", "minimiser") if name in spec[group]), "parameters")
+        yield (f"{group}.{name}" if name == "residual" else name), value
+
+
+def head_of(name: str, record: dict[str, Any], excluding: Collection[str]) -> dict[str, Any]:
+    """The first columns of a row. `excluding`: flags whose replicates are excluded from means."""
+    spec, flags = record["spec"], tuple(record.get("flags") or ())
+    head = {"replicate": name, "solid": spec["solid"], "particles": spec["particles"], **dict(_parameters(spec))}
+    return {**head, "number": spec["replicate"], "status": record["status"], "flags": flags,
+            "excluded": any(flag in excluding for flag in flags)}
+
+
+def replicate_row(head: dict[str, Any], record: dict[str, Any]) -> dict[str, Any]:
+    """One row of everything that is one number per replicate, the state nearest jamming among it."""
+    failure, provenance = record.get("failure") or {}, record["provenance"]
+    values, reasons = flat(record, "replicate", _APART.union(_COST, ("timing",)))
+    near, near_reasons = flat(record.get("nearest") or {}, "state")
+    cost, _ = flat({**{key: record[key] for key in _COST}, **record["timing"]}, "replicate")
+    for key in ("flags", "nearest"):
+        if record.get(key) is None:
+            reasons[key] = record.get(key + _REASON, "the replicate failed")
+    return {**head, "failed_in": failure.get("where", ""), "failure": failure.get("why", ""), **values,
+            "state": _index_of_nearest(record), **near, **cost, **{key: provenance[key] for key in _ORIGIN},
+            "reasons": {**reasons, **near_reasons}}
+
+
+def _index_of_nearest(record: dict[str, Any]) -> int | None:
+    """Index of the state nearest jamming, found by its strain step; None for a failed replicate."""
+    step = (record.get("nearest") or {}).get("step")
+    return next((k for k, state in enumerate(record["states"]) if state["step"] == step), None)
+
+
+def state_rows(head: dict[str, Any], record: dict[str, Any]) -> list[dict[str, Any]]:
+    """One row for each state of the expansion, `state` its number in it; `nearest` is true for the one nearest jamming.
+    None of a replicate that failed."""
+    if record["status"] == "failed":
+        return []
+    nearest, rows = _index_of_nearest(record), []
+    for index, state in enumerate(record["states"]):
+        values, reasons = flat(state, "state")
+        rows.append({**head, "state": index, "nearest": index == nearest, **values, "reasons": reasons})
+    return rows
+
+
+def read_rows(name: str, record: dict[str, Any], file: str | os.PathLike[str],
+              excluding: Collection[str]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+    """The row of a replicate and those of its states. Raises InputError if the record lacks what every record has."""
+    try:
+        head = head_of(name, record, excluding)
+        return replicate_row(head, record), state_rows(head, record)
+    except (KeyError, TypeError, AttributeError) as error:
+        raise InputError(file, "", f"not a valid record: {type(error).__name__} {error}",
+                         "a record of schema " + facts.schemas["record"]) from None
+
+
+def as_columns(rows: list[dict[str, Any]]) -> Rows:
+    """Rows of dicts, in which null and missing are the same; columns in the order of the rows that have most of them,
+    reasons last."""
+    fullest = sorted(rows, key=len, reverse=True)
+    names = dict.fromkeys(key for row in fullest for key in row if key != "reasons")
+    columns = {name: column_of([row.get(name) for row in rows]) for name in names}
+    if rows:
+        columns["reasons"] = column_of([row["reasons"] for row in rows])
+    return Rows(columns)

@@ -1,0 +1,110 @@
+"""Tables in memory: named columns of one length."""
+
+import difflib
+from collections.abc import Iterator, Mapping
+from typing import Any, overload
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+#: An array of numbers, text, truth values or objects.
+Array = NDArray[Any]
+
+
+class Rows:
+    """Named numpy arrays of one length: rows["phi_j"] is a column, rows[rows["Z"] > 8] are some of the rows.
+
+    Columns are of numbers (null is NaN), of text (null is ""), truth values, or objects (tuples of flags, dicts of
+    reasons); a vector is one column of shape (rows, 3). Columns are the arrays themselves, not copies."""
+
+    def __init__(self, columns: Mapping[str, ArrayLike]) -> None:
+        self._columns = {name: numpy.asarray(values) for name, values in columns.items()}
+        lengths = {name: len(values) for name, values in self._columns.items()}
+        if len(set(lengths.values())) > 1:
+            raise ValueError(f"the columns have different lengths: {lengths}")
+
+    @property
+    def columns(self) -> list[str]:
+        """Names, in order."""
+        return list(self._columns)
+
+    def __len__(self) -> int:
+        """Rows."""
+        return len(next(iter(self._columns.values()))) if self._columns else 0
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns
+
+    @overload
+    def __getitem__(self, which: str) -> Array: ...
+
+    @overload
+    def __getitem__(self, which: int) -> dict[str, Any]: ...
+
+    @overload
+    def __getitem__(self, which: slice | list[int] | Array) -> "Rows": ...
+
+    def __getitem__(self, which: str | int | slice | list[int] | Array) -> Any:
+        """A column by its name; rows by a mask, a slice or a list of indices."""
+        if isinstance(which, str):
+            return self._column(which)
+        if isinstance(which, (int, numpy.integer)):
+            return {name: values[which] for name, values in self._columns.items()}
+        chosen: Any = which if isinstance(which, slice) else numpy.asarray(which)
+        if not isinstance(chosen, slice) and chosen.size == 0:
+            chosen = chosen.astype(int)
+        return Rows({name: values[chosen] for name, values in self._columns.items()})
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        """Every row in turn, a dict."""
+        return (self[i] for i in range(len(self)))
+
+    def by(self, name: str) -> list[tuple[Any, "Rows"]]:
+        """Pairs of a value of that column and the rows that have it, in order of values, null left out."""
+        places: dict[Any, list[int]] = {}
+        for i, value in enumerate(self._column(name).tolist()):
+            places.setdefault(value, []).append(i)
+        return [(value, self[places[value]]) for value in sorted(value for value in places if value == value)]
+
+    def frame(self) -> Any:
+        """A pandas DataFrame; a vector becomes three columns, "force_x" and so on."""
+        import pandas  # type: ignore[import]
+
+        flat = {}
+        for name, values in self._columns.items():
+            if values.ndim == 1:
+                flat[name] = values
+            else:
+                flat.update({f"{name}_{axis}": values[:, c] for c, axis in enumerate("xyz")})
+        return pandas.DataFrame(flat)
+
+    def __repr__(self) -> str:
+        first = ", ".join(self.columns[:12]) + (", …" if len(self._columns) > 12 else "")
+        return f"<{len(self)} rows of {len(self._columns)} columns: {first}>"
+
+    def _column(self, name: str) -> Array:
+        try:
+            return self._columns[name]
+        except KeyError:
+            near = difflib.get_close_matches(name, self._columns, 1)
+            hint = f'did you mean "{near[0]}"?' if near else f"expected one of {', '.join(self._columns)}"
+            raise KeyError(f'unknown column "{name}"; {hint}') from None
+
+
+def column_of(values: list[Any]) -> Array:
+    """The array of a list of values, None for null: of truth values, integers, floats (null is NaN) or text (null is "");
+    of anything else an array of objects."""
+    kinds = {type(value) for value in values if value is not None}
+    missing = any(value is None for value in values)
+    if kinds == {bool} and not missing:
+        return numpy.array(values, dtype=bool)
+    if kinds == {int} and not missing and max(abs(value) for value in values) < 2**63:
+        return numpy.array(values, dtype=numpy.int64)
+    if kinds <= {int, float, bool}:
+        return numpy.array([numpy.nan if value is None else value for value in values], dtype=float)
+    if kinds == {str}:
+        return numpy.array(["" if value is None else value for value in values])
+    array = numpy.empty(len(values), dtype=object)
+    for i, value in enumerate(values):
+        array[i] = value
+    return array

@@ -1,0 +1,125 @@
+"""JSON files of isojam, which vouch for their bytes.
+
+The second key, "checksum", is the 64-bit FNV-1a of the file with zeros in place of its sixteen digits: for every byte b
+in turn, h = (h xor b)·p modulo 2^64. That chain can be taken apart exactly, so that numpy sees to it:
+
+- the xor changes the low byte of h alone: h xor b = h + d, where d = (l xor b) − l and l is that low byte. With all d known,
+  h is a polynomial in p: h_n = p^n h_0 + Σ_i d_i p^(n−i) modulo 2^64, a scalar product.
+- low bytes follow from each other: l' = p·(l xor b) modulo 256. p is odd, so bit k of l' is bit k of l, flipped by bit k of
+  b and by what the bits below k carry over; given those, bit k of all low bytes is a running xor, and so bit by bit."""
+
+import json
+import os
+import pathlib
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from .errors import InputError
+
+PRIME = 0x100000001B3
+BASIS = 0xCBF29CE484222325
+MASK = (1 << 64) - 1
+BLOCK = 1 << 16
+_WORD = numpy.dtype("<u8")
+_BEFORE, _BLANK = b'"checksum": "', b"0" * 16
+#: The checksum stands second; names of schemas are short.
+_FARTHEST = 200
+_WHOLE = "a complete file written by isojam"
+
+
+def _powers() -> NDArray[numpy.uint64]:
+    """p^BLOCK … p^2, p."""
+    return numpy.multiply.accumulate(numpy.full(BLOCK, PRIME, dtype=numpy.uint64))[::-1].copy()
+
+
+_POWERS = _powers()
+
+
+def _running_xor(flips: NDArray[numpy.uint8]) -> None:
+    """Changes the bytes in place; their number is a multiple of eight."""
+    words = flips.view(_WORD)
+    for shift in (8, 16, 32):
+        words ^= words << _WORD.type(shift)
+    ends = numpy.bitwise_xor.accumulate(words >> _WORD.type(56))
+    words[1:] ^= ends[:-1] * _WORD.type(0x0101010101010101)
+
+
+def _mixed_low_bytes(data: NDArray[numpy.uint8], low: int) -> NDArray[numpy.uint8]:
+    """l xor b for every byte b, where l is the low byte of the hash before it; `low` before the first."""
+    mixed = numpy.zeros_like(data)
+    flips = numpy.empty_like(data)
+    for k in range(8):
+        bit = numpy.uint8(1 << k)
+        carried = mixed * numpy.uint8(PRIME & 0xFF)
+        flips[0] = low
+        numpy.bitwise_xor(data[:-1], carried[:-1], out=flips[1:])
+        flips &= bit
+        _running_xor(flips)
+        flips ^= data
+        flips &= bit
+        mixed |= flips
+    return mixed
+
+
+def fnv1a(data: bytes) -> int:
+    """The 64-bit FNV-1a of bytes, as an int."""
+    everything = numpy.frombuffer(data, dtype=numpy.uint8)
+    value = BASIS
+    for start in range(0, len(everything), BLOCK):
+        block = everything[start:start + BLOCK]
+        n = len(block)
+        padded = numpy.concatenate([block, numpy.zeros(-n % 8, dtype=numpy.uint8)])
+        mixed = _mixed_low_bytes(padded, value & 0xFF)
+        change = (mixed.astype(numpy.int64) - (mixed ^ padded))[:n]
+        total = numpy.dot(change.view(numpy.uint64), _POWERS[BLOCK - n:])
+        value = (value * pow(PRIME, n, 1 << 64) + int(total)) & MASK
+    return value
+
+
+def check_seal(data: bytes, file: str | os.PathLike[str]) -> None:
+    """Raises InputError unless the bytes of the file have the checksum that they state."""
+    at = data.find(_BEFORE, 0, _FARTHEST)
+    if at < 0 or len(data) < at + len(_BEFORE) + len(_BLANK):
+        raise InputError(file, "/checksum", "the file has no checksum", _WHOLE)
+    at += len(_BEFORE)
+    stated = data[at:at + len(_BLANK)]
+    if b"%016x" % fnv1a(data[:at] + _BLANK + data[at + len(_BLANK):]) != stated:
+        raise InputError(file, "/checksum", "the file is damaged: its content does not match its checksum",
+                         "an unchanged file written by isojam")
+
+
+def read_sealed(file: str | os.PathLike[str], schemas: str | tuple[str, ...] = (), check: bool = True) -> dict[str, Any]:
+    """The document in a file of isojam's, a dict. Raises InputError if it is not there, damaged, or of another schema; the
+    checksum is looked at if `check`."""
+    try:
+        data = pathlib.Path(file).read_bytes()
+    except OSError as error:
+        raise InputError(file, "", f"cannot be read: {error.strerror}") from None
+    if check:
+        check_seal(data, file)
+    try:
+        document = json.loads(data)
+    except ValueError as error:
+        raise InputError(file, "", f"not valid JSON: {error}", _WHOLE) from None
+    if not isinstance(document, dict):
+        raise InputError(file, "", "not an object", _WHOLE)
+    schemas = (schemas,) if isinstance(schemas, str) else schemas
+    if schemas and document.get("schema") not in schemas:
+        raise InputError(file, "/schema", f"unknown value {json.dumps(document.get('schema'))}", f'"{schemas[0]}"')
+    return document
+
+
+def check_owner(document: dict[str, Any], file: str | os.PathLike[str], name: str, record: dict[str, Any]) -> None:
+    """Raises InputError unless a packing or path says in its head that it is of this record."""
+    provenance = record["provenance"]
+    now = {"manifest_digest": provenance["manifest_digest"], "result_digest": record["result_digest"]}
+    # Packings and paths stay as they are when measures are added to their record.
+    owners = [{"replicate": name, **digests} for digests in [now] + [each["before"] for each in provenance.get("added", [])]]
+    if any(all(document.get(key) == expected for key, expected in owner.items()) for owner in owners):
+        return
+    for key, expected in owners[0].items():
+        if document.get(key) != expected:
+            raise InputError(file, "/" + key, f"{json.dumps(document.get(key))} does not match the record",
+                             f'"{expected}"')

@@ -1,0 +1,161 @@
+"""A results directory."""
+
+import difflib
+import pathlib
+import warnings
+from typing import Any
+
+from . import facts, program
+from .errors import InputError
+from .packing import Packing
+from .program import Path
+from .record import as_columns, read_rows, upgraded
+from .rows import Rows
+from .seals import check_owner, read_sealed
+from .solid import Solid
+
+
+_HOW_TO_GET_RESULTS = "give a results directory of isojam run"
+
+
+def load(directory: Path, program: Path | None = None, check: bool = True) -> "Study":
+    """The results in a directory, as a Study.
+
+    program  path of the program, which computes contacts, solids and the table; by default the module looks for it
+    check    require of every file that it has the checksum that it states
+
+    Raises InputError if there is no such directory or it holds no records."""
+    return Study(directory, program, check)
+
+
+class Study:
+    """Results of `isojam run`. A file is read when its content is first needed.
+
+    directory   a pathlib.Path
+    names       names of the recorded replicates, in order
+    manifest    a dict, or None
+    replicates  Rows, one for each replicate
+    states      Rows, one for each state of each replicate
+    table       Rows, one for each row of the table"""
+
+    def __init__(self, directory: Path, program: Path | None = None, check: bool = True, table: Rows | None = None) -> None:
+        self.directory, self._program, self._check = pathlib.Path(directory), program, check
+        if not self.directory.is_dir():
+            raise InputError(directory, "", "no such directory", remedy=_HOW_TO_GET_RESULTS)
+        self.names = sorted(file.stem for file in self.directory.glob("records/*.json") if file.name[0] != ".")
+        if not self.names:
+            raise InputError(directory, "", "contains no results", remedy=_HOW_TO_GET_RESULTS)
+        manifest = self.directory / "manifest.json"
+        self.manifest = read_sealed(manifest, check=check) if manifest.exists() else None
+        self._rows: tuple[Rows, Rows] | None = None
+        self._solids: dict[str, Solid] = {}
+        self._table = table
+
+    def __repr__(self) -> str:
+        return f"<{self.directory}: {len(self.names)} replicates>"
+
+    @property
+    def excluding(self) -> tuple[str, ...]:
+        """Flags whose replicates count in no mean, as the manifest says."""
+        return tuple((self.manifest or {}).get("exclude", facts.usual_exclusions))
+
+    @property
+    def replicates(self) -> Rows:
+        return self._read()[0]
+
+    @property
+    def states(self) -> Rows:
+        return self._read()[1]
+
+    @property
+    def table(self) -> Rows:
+        """The table, as the program computes it when it is first needed; its warnings become warnings."""
+        if self._table is None:
+            self._table = program.table(self._program, ["aggregate", self.directory, "--format", "csv"])
+        return self._table
+
+    def record(self, name: str) -> dict[str, Any]:
+        """The whole record of a replicate, a dict as schemas/replicate.schema.json has it."""
+        file = self._file("records", name)
+        record = upgraded(read_sealed(file, (facts.schemas["record"], facts.earlier_record), self._check))
+        spec = record.get("spec", {})
+        if not (name.startswith(f"{spec.get('solid')}-N{spec.get('particles')}-")
+                and name.endswith(f"-r{spec.get('replicate', -1):04}")):
+            raise InputError(file, "/spec", "the file name does not match the replicate")
+        return record
+
+    def packing(self, name: str) -> Packing:
+        """The state of a replicate nearest jamming. Raises InputError for a replicate that failed."""
+        file, record, document = self._companion("packings", "packing", name)
+        return Packing(name, document, file, "", record["nearest"]["delta_phi"], lambda: self._shapes(name, record))
+
+    def path(self, name: str) -> list[Packing]:
+        """All states of a replicate, in order of expansion: a list of Packings. Raises InputError for one that failed, and
+        where expansions were not kept ("keep_path" in the manifest)."""
+        file, record, document = self._companion("paths", "path", name)
+        return [Packing(name, state, file, f"/states/{k}", state["delta_phi"], lambda: self._shapes(name, record))
+                for k, state in enumerate(document["states"])]
+
+    def contacts(self, name: str | None = None, path: bool = False) -> Rows:
+        """Rows, one for each contact of one or all replicates: of the states nearest jamming, or with `path` of all states.
+        The program computes them; its warnings, for example of failed replicates, become warnings."""
+        if name is not None:
+            self._whole(name)
+        words: list[Path] = ["export", self.directory, "all" if name is None else name, "--format", "contacts"]
+        return program.table(self._program, words + (["--path"] if path else []))
+
+    def _file(self, folder: str, name: str) -> pathlib.Path:
+        if name not in self.names:
+            near = difflib.get_close_matches(str(name), self.names, 1)
+            hint = f'did you mean "{near[0]}"?' if near else f'expected a name such as "{self.names[0]}"'
+            raise InputError(self.directory, "", f'unknown replicate "{name}"', remedy=hint)
+        return self.directory / folder / f"{name}.json"
+
+    def _whole(self, name: str) -> dict[str, Any]:
+        """The record of a replicate that did not fail."""
+        record = self.record(name)
+        if record["status"] == "failed":
+            failure = record["failure"]
+            raise InputError(self._file("records", name), "/status",
+                             f"failed in {failure['where']}: {failure['why']}; it has no packing")
+        return record
+
+    def _companion(self, folder: str, kind: str, name: str) -> tuple[pathlib.Path, dict[str, Any], dict[str, Any]]:
+        """File, record and document of a packing or path, which is known to be its own."""
+        record, file = self._whole(name), self._file(folder, name)
+        if folder == "paths" and not file.exists():
+            raise InputError(file, "", "the states of the decompression were not saved",
+                             remedy='set "keep_path": true in the manifest and run it again')
+        document = read_sealed(file, facts.schemas[kind], self._check)
+        check_owner(document, file, name, record)
+        return file, record, document
+
+    def _shapes(self, name: str, record: dict[str, Any]) -> dict[str, Solid]:
+        """Solids by name. The manifest defines them, so a name means the same solid in the whole directory."""
+        spec = record["spec"]
+        wanted = {kind["solid"] for kind in spec.get("mixture", [spec])}
+        if not wanted <= self._solids.keys():
+            self._solids.update(program.solids(self._program, self.directory, name))
+        return self._solids
+
+    def _read(self) -> tuple[Rows, Rows]:
+        if self._rows is None:
+            replicates: list[dict[str, Any]] = []
+            states: list[dict[str, Any]] = []
+            digests: set[str] = set()
+            earlier: set[str] = set()
+            for name in self.names:
+                record = self.record(name)
+                row, own = read_rows(name, record, self._file("records", name), self.excluding)
+                replicates.append(row)
+                states.extend(own)
+                digests.add(row["manifest_digest"])
+                added = record["provenance"].get("added", [])
+                earlier.update(each["before"]["manifest_digest"] for each in added)
+            # Records to which measures were added stand beside those that lack them.
+            digests -= earlier
+            if len(digests) > 1:
+                warnings.warn(f"{self.directory}: contains records of {len(digests)} manifests; distinguish them by "
+                              "the column manifest_digest", stacklevel=3)
+            self._rows = as_columns(replicates), as_columns(states)
+        return self._rows

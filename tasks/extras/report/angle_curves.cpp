@@ -1,0 +1,113 @@
+#include "tasks/extras/report/angle_curves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "engine/analysis/alignment/critical_angles.hpp"
+#include "engine/analysis/alignment/empirical_cdf.hpp"
+#include "engine/analysis/alignment/random_alignment.hpp"
+#include "engine/analysis/alignment/random_contact.hpp"
+#include "engine/arithmetic/elementary.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr int samples = 80, bins_per_decade = 60;
+/// Lower end of the charts; there the random curves are straight lines in the logarithms.
+constexpr double least_sampled = 0.001 * degree;
+
+/// More digits than a chart can show would only cost disk space and time.
+double shortened(double x) {
+  if (x == 0) return 0;
+  const double unit = nearest::pow(10, std::floor(nearest::log10(std::abs(x))) - 5);
+  return std::round(x / unit) * unit;
+}
+
+Json sampled(const std::function<double(double)>& distribution, double largest) {
+  Json curve = Json::array();
+  const double ratio = nearest::log(largest / least_sampled);
+  for (int k = 0; k <= samples; ++k) {
+    const double theta = least_sampled * nearest::exp(ratio * k / samples);
+    const double height = distribution(theta);
+    if (height > 0) curve.push_back({shortened(theta / degree), shortened(height)});
+  }
+  return curve;
+}
+
+Json critical_record(const CriticalAngles& angles) {
+  const auto entry = [](std::string_view topology, double angle) -> Json {
+    return {{"topology", topology}, {"angle", angle / degree}};
+  };
+  Json json;
+  json["edge_face"] = {entry("vertex-face", angles.ef_vertex_face), entry("edge-edge", angles.ef_edge_edge)};
+  json["face_face"] = {entry("vertex-face", angles.ff_vertex_face), entry("edge-edge", angles.ff_edge_edge),
+                       entry("edge-face", angles.ff_edge_face)};
+  return json;
+}
+
+Json random_record(const ConvexSolid& solid) {
+  const RandomAlignment random(solid);
+  const RandomContact isotropic(solid);
+  Json constrained, unconstrained, all;
+  constrained["which"] = "random, edge in face";
+  constrained["face_face"] =
+      sampled([&](double theta) { return random.constrained_face_face(theta); }, random.constrained_ff_max());
+  constrained["edge_face"] =
+      sampled([&](double theta) { return random.constrained_edge_face(theta); }, random.ef_max());
+  unconstrained["which"] = "random, unconstrained";
+  unconstrained["face_face"] = sampled([&](double theta) { return random.face_face(theta); }, random.ff_max());
+  unconstrained["edge_face"] = sampled([&](double theta) { return random.edge_face(theta); }, random.ef_max());
+  all["which"] = "random, vertices and edges";
+  all["face_face"] = sampled([&](double theta) { return isotropic.face_face(theta); }, isotropic.ff_max());
+  all["edge_face"] = sampled([&](double theta) { return isotropic.edge_face(theta); }, isotropic.ef_max());
+  return {constrained, unconstrained, all};
+}
+
+}  // namespace
+
+Json angle_references(const Mixture& mixture) {
+  Json json{{"critical", critical_record(critical_angles(mixture))}, {"random", Json::array()}};
+  if (mixture.is_one_solid()) json["random"] = random_record(*mixture.solid());
+  return json;
+}
+
+Json thinned_cdf(std::span<const double> angles) {
+  std::vector<double> degrees;
+  for (const double angle : angles) degrees.push_back(std::max(angle / degree, angle_floor));
+  const auto cdf = empirical_cdf(degrees);
+  Json steps = Json::array();
+  const auto bin_of = [](double theta) { return std::floor(nearest::log10(theta) * bins_per_decade); };
+  for (std::size_t k = 0; k < cdf.values.size(); ++k) {
+    const bool last = k + 1 == cdf.values.size();
+    if (!last && k > 0 && bin_of(cdf.values[k]) == bin_of(cdf.values[k + 1])) continue;
+    steps.push_back({shortened(cdf.values[k]), shortened(cdf.heights[k])});
+  }
+  return steps;
+}
+
+std::optional<PaperDensity> paper_density(const Mixture& solid, int particles) {
+  struct Entry {
+    SolidKind solid;
+    int particles;
+    PaperDensity density;
+  };
+  static constexpr std::array table{
+      Entry{SolidKind::tetrahedron, 100, {.629, .001}},    Entry{SolidKind::tetrahedron, 400, {.634, .011}},
+      Entry{SolidKind::octahedron, 100, {.6796, .0003}},   Entry{SolidKind::octahedron, 400, {.686, .001}},
+      Entry{SolidKind::dodecahedron, 100, {.7065, .0002}}, Entry{SolidKind::dodecahedron, 400, {.7085, .0003}},
+      Entry{SolidKind::icosahedron, 100, {.6953, .0003}},  Entry{SolidKind::icosahedron, 400, {.7008, .0003}},
+  };
+  const auto* found = std::find_if(table.begin(), table.end(), [&](const Entry& entry) {
+    return solid == Mixture(entry.solid) && entry.particles == particles;
+  });
+  if (found == table.end()) return std::nullopt;
+  return found->density;
+}
+
+}  // namespace isojam

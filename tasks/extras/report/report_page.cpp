@@ -1,0 +1,9 @@
+#include "tasks/extras/report/report_page.hpp"
+
+#include "tasks/extras/page/page.hpp"
+
+namespace isojam {
+
+std::string report_page(const Json& data) { return assembled_page(report_parts(), data); }
+
+}  // namespace isojam

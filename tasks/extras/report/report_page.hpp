@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "tasks/io/json.hpp"
+
+namespace isojam {
+
+/// Makes the HTML file of a report, which shows report_data(). The file is self-contained: it loads no other files.
+/// Text in the data is never interpreted as HTML.
+std::string report_page(const Json& data);
+
+}  // namespace isojam

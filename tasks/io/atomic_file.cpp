@@ -1,0 +1,204 @@
+#include "tasks/io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <random>
+#include <system_error>
+
+#include "tasks/io/file.hpp"
+
+namespace isojam {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view cannot_be_written = "cannot be written";
+
+/// Hidden, so that no reader takes it for a result. Random, so that writers on different machines never collide.
+fs::path temporary_path_for(const fs::path& path) {
+  std::random_device device;
+  const auto tag = (static_cast<std::uint64_t>(device()) << 32) | device();
+  return path.parent_path() / fmt::format(".{}.{:016x}.tmp", path.filename().string(), tag);
+}
+
+/// A new file beside `path`. It is removed with its object unless it has replaced `path`.
+class Temporary {
+ public:
+  explicit Temporary(const fs::path& path)
+      : path_(path), temporary_(temporary_path_for(path)), file_(temporary_, O_WRONLY | O_CREAT | O_EXCL) {}
+  ~Temporary() {
+    if (file_.valid() && !renamed_) ::unlink(temporary_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  void write(std::string_view content, Durability durability) const {
+    if (!file_.valid() || !file_.write(content) || (durability == Durability::synced && ::fsync(file_.number()) != 0))
+      throw FileError::of_errno(path_, cannot_be_written);
+  }
+  /// Only the superuser can change the owner; the mode can always be set.
+  void take_after(const struct stat& status) const {
+    if (::fchown(file_.number(), status.st_uid, status.st_gid) != 0 && errno != EPERM)
+      throw FileError::of_errno(path_, cannot_be_written);
+    if (::fchmod(file_.number(), status.st_mode & 07777) != 0) throw FileError::of_errno(path_, cannot_be_written);
+  }
+  void rename() {
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw FileError::of_errno(path_, cannot_be_written);
+    renamed_ = true;
+  }
+  /// Returns false if the path exists. File systems without links may have a rename that does not replace.
+  bool link() {
+    if (::link(temporary_.c_str(), path_.c_str()) == 0) return true;
+    if (errno == EEXIST) return false;
+    renamed_ = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_NOREPLACE) == 0;
+    if (!renamed_ && errno != EEXIST) throw FileError::of_errno(path_, cannot_be_written);
+    return renamed_;
+  }
+
+ private:
+  fs::path path_, temporary_;
+  Descriptor file_;
+  bool renamed_ = false;
+};
+
+void sync_directory_of(const fs::path& path) {
+  const auto parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const Descriptor directory(parent, O_RDONLY | O_DIRECTORY);
+  if (!directory.valid() || ::fsync(directory.number()) != 0)
+    throw FileError::of_errno(parent, "cannot be synchronised");
+}
+
+/// The number of an open descriptor that the path refers to, such as /dev/stdout to 1.
+std::optional<int> descriptor_at(const fs::path& path) {
+  const auto folder = path.parent_path();
+  const auto name = path.filename().string();
+  if ((folder != "/proc/self/fd" && folder != "/dev/fd") || name.empty() || name.size() > 6 ||
+      name.find_first_not_of("0123456789") != std::string::npos)
+    return std::nullopt;
+  return std::stoi(name);
+}
+
+/// The end of a chain of symbolic links, whether or not it exists.
+fs::path followed(fs::path path) {
+  constexpr int longest_chain = 40;  // limit of the kernel
+  std::error_code error;
+  for (int k = 0; !descriptor_at(path) && fs::is_symlink(fs::symlink_status(path, error)); ++k) {
+    if (k == longest_chain) {
+      errno = ELOOP;
+      throw FileError::of_errno(path, cannot_be_written);
+    }
+    path = path.parent_path() / fs::read_symlink(path, error);
+    if (error) throw FileError(fmt::format("{}: {}: {}", path.string(), cannot_be_written, error.message()));
+  }
+  return path;
+}
+
+}  // namespace
+
+void write_atomically(const fs::path& path, std::string_view content, Durability durability) {
+  Temporary file(path);
+  file.write(content, durability);
+  file.rename();
+  if (durability == Durability::synced) sync_directory_of(path);
+}
+
+bool write_exclusively(const fs::path& path, std::string_view content) {
+  {
+    Temporary file(path);
+    file.write(content, Durability::synced);
+    if (!file.link()) return false;
+  }
+  sync_directory_of(path);
+  return true;
+}
+
+struct OutputWriter::Target {
+  fs::path path;                        ///< as the user named it
+  fs::path target;                      ///< end of its symbolic links
+  std::optional<Descriptor> opened;     ///< a pipe, a device or a descriptor opened by a shell: written to directly
+  std::optional<struct stat> replaced;  ///< status of the existing file
+  std::optional<Temporary> temporary;
+
+  explicit Target(const fs::path& name) : path(name), target(followed(name)) {
+    if (const auto number = descriptor_at(target)) {
+      // Write to the descriptor instead of creating a file of that name.
+      opened.emplace(::dup(*number));
+      require_open();
+      return;
+    }
+    struct stat status {};
+    const bool there = ::stat(target.c_str(), &status) == 0;
+    if (there && !S_ISREG(status.st_mode)) {
+      opened.emplace(target, O_WRONLY);
+      require_open();
+      return;
+    }
+    if (there && ::access(target.c_str(), W_OK) != 0) throw FileError::of_errno(path, cannot_be_written);
+    if (there) replaced = status;
+    temporary.emplace(target);
+  }
+
+  void require_open() const {
+    if (!opened->valid()) throw FileError::of_errno(path, cannot_be_written);
+  }
+};
+
+OutputWriter::OutputWriter(const fs::path& path) : target_(std::make_unique<Target>(path)) {}
+OutputWriter::~OutputWriter() = default;
+
+void OutputWriter::append(std::string_view content) {
+  if (target_->temporary) return target_->temporary->write(content, Durability::lossless);
+  if (!target_->opened->write(content)) throw FileError::of_errno(target_->path, cannot_be_written);
+}
+
+void OutputWriter::finish() {
+  if (!target_->temporary) return;
+  auto& file = *target_->temporary;
+  file.write("", Durability::synced);
+  if (target_->replaced) file.take_after(*target_->replaced);
+  file.rename();
+  sync_directory_of(target_->target);
+}
+
+void write_output(const fs::path& path, std::string_view content) {
+  OutputWriter writer(path);
+  writer.append(content);
+  writer.finish();
+}
+
+bool is_stream(const fs::path& path) {
+  const auto target = followed(path);
+  struct stat status {};
+  return descriptor_at(target) ||
+         (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
+}
+
+void check_writable(const fs::path& directory) {
+  const auto probe = temporary_path_for(directory / "probe");
+  const Descriptor file(probe, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file.valid()) throw FileError::of_errno(directory, "cannot be written to");
+  ::unlink(probe.c_str());
+}
+
+void remove_stale_temporaries(const fs::path& directory) {
+  constexpr auto age = std::chrono::hours(1);
+  const auto now = fs::file_time_type::clock::now();
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    const auto name = entry.path().filename().string();
+    if (!name.starts_with('.') || !name.ends_with(".tmp")) continue;
+    // Another process may clean up too, so an error is ignored.
+    std::error_code gone;
+    const auto written = fs::last_write_time(entry.path(), gone);
+    if (!gone && now - written > age) fs::remove(entry.path(), gone);
+  }
+}
+
+}  // namespace isojam

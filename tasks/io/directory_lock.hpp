@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "tasks/io/file.hpp"
+
+namespace isojam {
+
+/// A lock on a directory. It is released when the object is destroyed or when its process ends for any reason. The lock
+/// is advisory: it does not block processes that do not take a lock. It has no effect on file systems without locks.
+class DirectoryLock {
+ public:
+  enum class Kind : std::uint8_t {
+    shared,    ///< other processes may hold shared locks at the same time
+    exclusive  ///< no other process may hold a lock at the same time
+  };
+  /// Takes a lock. Returns nullopt if another process holds an incompatible lock. Throws FileError if the directory is
+  /// missing.
+  static std::optional<DirectoryLock> take(const std::filesystem::path& directory, Kind kind);
+
+ private:
+  explicit DirectoryLock(std::unique_ptr<Descriptor> directory) : directory_(std::move(directory)) {}
+  std::unique_ptr<Descriptor> directory_;
+};
+
+}  // namespace isojam

@@ -1,0 +1,121 @@
+#include "tasks/io/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+
+namespace isojam {
+namespace {
+
+constexpr std::size_t longest_stream = std::size_t{256} << 20;
+constexpr std::size_t block = std::size_t{1} << 16;
+constexpr std::string_view cannot_be_read = "cannot be read";
+
+FileError::Reason reason_of(int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR: return FileError::Reason::missing;
+    case EISDIR:
+    case ELOOP:
+    case ENXIO: return FileError::Reason::no_file;
+    case ENOMEM:
+    case EMFILE:
+    case ENFILE:
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+    case EIO:
+    case EAGAIN:
+    case EINTR:
+    case ESTALE: return FileError::Reason::resource_failure;
+    default: return FileError::Reason::refused;
+  }
+}
+
+/// Appends the rest of the file; returns false with the reason in errno.
+bool read_rest(int fd, std::size_t most, std::string& text) {
+  for (;;) {
+    const auto size = text.size();
+    if (size > most) {
+      errno = EFBIG;
+      return false;
+    }
+    text.resize(size + block);
+    const auto got = ::read(fd, text.data() + size, block);
+    const int error = errno;
+    text.resize(size + (got > 0 ? static_cast<std::size_t>(got) : 0));
+    if (got == 0) return true;
+    if (got < 0 && error != EINTR) {
+      errno = error;
+      return false;
+    }
+  }
+}
+
+/// Returns false, with the reason in errno, if there is not enough memory. malloc is tried first, so that the error can
+/// name the file. A failure in operator new would end the program without it.
+bool reserve(std::string& text, std::size_t size) {
+  // NOLINTBEGIN(cppcoreguidelines-no-malloc): asked whether there is so much, and given back
+  void* const probe = std::malloc(size);
+  const bool enough = probe != nullptr && size < text.max_size();
+  std::free(probe);
+  // NOLINTEND(cppcoreguidelines-no-malloc)
+  if (enough) text.reserve(size);
+  if (!enough) errno = ENOMEM;
+  return enough;
+}
+
+std::string read_opened(const Descriptor& file, const std::filesystem::path& path, bool any_kind) {
+  struct stat status {};
+  if (!file.valid() || ::fstat(file.number(), &status) != 0) throw FileError::of_errno(path, cannot_be_read);
+  if (S_ISDIR(status.st_mode) || (!any_kind && !S_ISREG(status.st_mode)))
+    throw FileError(fmt::format("{}: is {}, not a file", path.string(),
+                                S_ISDIR(status.st_mode) ? "a directory" : "a pipe or a device"),
+                    FileError::Reason::no_file);
+  std::string text;
+  const bool regular = S_ISREG(status.st_mode);
+  if (regular && !reserve(text, static_cast<std::size_t>(status.st_size) + block))
+    throw FileError::of_errno(path, cannot_be_read);
+  if (!read_rest(file.number(), regular ? text.max_size() / 2 : longest_stream, text))
+    throw FileError::of_errno(path, cannot_be_read);
+  return text;
+}
+
+}  // namespace
+
+FileError FileError::of_errno(const std::filesystem::path& path, std::string_view what) {
+  const int error = errno;
+  return FileError(fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(error)),
+                   reason_of(error));
+}
+
+Descriptor::Descriptor(const std::filesystem::path& path, int flags)
+    : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+
+Descriptor::~Descriptor() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+bool Descriptor::write(std::string_view content) const {
+  while (!content.empty()) {
+    const auto written = ::write(fd_, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+std::string read_text(const std::filesystem::path& path) { return read_opened({path, O_RDONLY}, path, true); }
+
+std::string read_file(const std::filesystem::path& path) {
+  // Non-blocking, so that a pipe opens at once even without a writer.
+  return read_opened({path, O_RDONLY | O_NONBLOCK}, path, false);
+}
+
+}  // namespace isojam

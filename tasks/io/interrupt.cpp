@@ -1,0 +1,69 @@
+#include "tasks/io/interrupt.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <string_view>
+
+#include "tasks/io/exit_codes.hpp"
+#include "tasks/io/texts.hpp"
+
+namespace isojam {
+namespace {
+
+/// Private signal that wakes the watcher thread at shutdown. Nobody sends SIGURG to request something.
+constexpr int wake = SIGURG;
+
+/// Writes to stderr without blocking: a full pipe that nobody reads, or a thread that waits for it, must not stop this
+/// one.
+void say(std::string_view text) {
+  pollfd err{STDERR_FILENO, POLLOUT, 0};
+  if (poll(&err, 1, 0) == 1 && (err.revents & POLLOUT) != 0) [[maybe_unused]]
+    const auto written = write(STDERR_FILENO, text.data(), text.size());
+}
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+InterruptWatcher::InterruptWatcher(std::chrono::milliseconds patience)
+    : patience_{patience.count() / 1000, patience.count() % 1000 * 1'000'000} {
+  sigemptyset(&signals_);
+  // sigwait would receive a blocked signal even if it is ignored.
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (!is_ignored(signal)) sigaddset(&signals_, signal);
+  }
+  sigaddset(&signals_, wake);
+  pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  thread_ = std::thread([this] { watch(); });
+}
+
+InterruptWatcher::~InterruptWatcher() {
+  finished_ = true;
+  pthread_kill(thread_.native_handle(), wake);
+  thread_.join();
+  // A signal that is still pending came too late to stop anything. It must not kill a process that has finished.
+  const timespec at_once{};
+  while (sigtimedwait(&signals_, nullptr, &at_once) > 0) {
+  }
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void InterruptWatcher::watch() {
+  for (int signal = wake; signal == wake;) {
+    if (sigwait(&signals_, &signal) != 0 || finished_) return;
+  }
+  source_.request_stop();
+  // Request a stop first. A measurement of a large packing does not check for requests and is abandoned.
+  if (sigtimedwait(&signals_, nullptr, &patience_) >= 0 && finished_) return;
+  say(fmt::format("\nisojam: warning: {}\n", interrupted_run));
+  std::_Exit(static_cast<int>(ExitCode::interrupted));
+}
+
+}  // namespace isojam

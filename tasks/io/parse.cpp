@@ -1,0 +1,128 @@
+#include "tasks/io/parse.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/texts.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr std::size_t deepest = 16;
+
+struct LineColumn {
+  std::size_t line, column;
+};
+
+LineColumn locate(std::string_view text, std::size_t position) {
+  const auto before = text.substr(0, std::min(position, text.size()));
+  const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+  const auto start = before.rfind('\n');
+  return {line + 1, start == std::string_view::npos ? before.size() + 1 : before.size() - start};
+}
+
+/// True if a comment of another language begins here.
+bool is_comment(std::string_view text) {
+  return text.starts_with("//") || text.starts_with("/*") || text.starts_with('#');
+}
+
+/// Checks parser events for violations that nlohmann's own builder accepts, and keeps track of the position.
+class Checker final : public nlohmann::json_sax<Json> {
+ public:
+  Checker(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool string(string_t&) override { return value(); }
+  bool binary(binary_t&) override { return value(); }
+  bool start_object(std::size_t) override { return open(false); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(true); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& name) override {
+    auto& level = levels_.back();
+    level.step = name;
+    if (!level.keys.insert(name).second) refuse(file_, "duplicate key", "", "give each key once");
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) override {
+    const auto at = locate(text_, position == 0 ? 0 : position - 1);
+    const auto file = fmt::format("{}:{}:{}", file_, at.line, at.column);
+    if (error.id == 406) {
+      if (!levels_.empty() && levels_.back().array) levels_.back().step = std::to_string(levels_.back().size);
+      refuse(file, fmt::format("{} is too large", token), "a number below 1.8e308");
+    }
+    const std::string_view what = error.what();
+    const bool in_string = what.find("invalid string") != std::string_view::npos;
+    if (!in_string && is_comment(text_.substr(std::min(position == 0 ? 0 : position - 1, text_.size()))))
+      refuse(file, "JSON has no comments", "", "remove the comment");
+    const auto detail = what.rfind(" - ");
+    refuse(file, fmt::format("not valid JSON: {}", detail == std::string_view::npos ? what : what.substr(detail + 3)),
+           "");
+  }
+
+ private:
+  struct Level {
+    bool array = false;
+    std::size_t size = 0;
+    std::string step;
+    std::set<std::string> keys;
+  };
+
+  [[noreturn]] void refuse(const std::string& file, std::string problem, std::string allowed,
+                           std::string remedy = "") const {
+    std::string pointer;
+    for (const auto& level : levels_) {
+      if (!level.step.empty()) pointer += pointer_step(level.step);
+    }
+    throw InputError({file, pointer, std::move(problem), std::move(allowed), "", std::move(remedy)});
+  }
+
+  bool value() {
+    if (!levels_.empty() && levels_.back().array) levels_.back().step = std::to_string(levels_.back().size++);
+    return true;
+  }
+
+  bool open(bool array) {
+    value();
+    if (levels_.size() == deepest)
+      refuse(file_, std::string(nested_too_deeply), fmt::format("at most {} levels", deepest));
+    levels_.push_back({array, 0, "", {}});
+    return true;
+  }
+
+  bool close() {
+    levels_.pop_back();
+    return true;
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace
+
+Json parse_json(std::string_view text, const std::string& file) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    throw InputError({file, "", "the file is empty", "a JSON document", ""});
+  }
+  Checker checker(text, file);
+  Json::sax_parse(text, &checker);
+  return parsed(text);
+}
+
+Json read_json(const std::string& file) { return parse_json(read_text(file), file); }
+
+}  // namespace isojam

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/names/enum_names.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/json.hpp"
+
+namespace isojam {
+
+/// An interval of numbers. It includes its ends, unless they are marked as excluded.
+struct Range {
+  double low = 0, high = 0;
+  bool low_excluded = false, high_excluded = false;
+
+  bool contains(double x) const {
+    return (low_excluded ? x > low : x >= low) && (high_excluded ? x < high : x <= high);
+  }
+};
+
+/// Texts that describe the allowed numbers, such as "a number in (0, 1]" or "an integer from 1 to 20".
+std::string number_in(const Range& range);
+std::string integer_in(const Range& range);
+
+/// The names as a text: `"a", "b", "c"`.
+std::string quoted_list(std::span<const std::string_view> names);
+/// `"a"`, or `one of "a", "b", "c"`
+std::string one_of(std::span<const std::string_view> names);
+
+/// The candidate that is most similar to `word` by the edit distance. Empty if no candidate is similar enough.
+std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
+
+/// Text for an unknown name: `unknown flag "x"; did you mean "y"?`. If no name is similar, the text lists the names:
+/// `unknown flag "x"; expected one of …`. `besides` precedes the list.
+std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> names,
+                         std::string_view besides = "");
+
+/// Collects the errors of a document while it is read. Only the first error at each JSON pointer is kept, because other
+/// errors at the same value are consequences of it.
+class Problems {
+ public:
+  void note(const InputError& error);
+  /// Suppresses errors at this JSON pointer, because they are consequences of an error at another pointer.
+  void settle(std::string pointer) { settled_.insert(std::move(pointer)); }
+  /// Throws one InputError with all collected errors, if there are any, in the order of the document. An error about a
+  /// missing key has the position of the object that lacks the key.
+  void refuse_any(const Json& document) const;
+
+ private:
+  std::vector<InputError::Details> found_;
+  std::set<std::string> settled_;
+};
+
+/// A value of a JSON document together with its location (file and JSON pointer), which error messages contain. It
+/// refers to the document, which must outlive it. All functions that read a value throw InputError if the value is not
+/// allowed.
+class JsonPlace {
+ public:
+  /// If `problems` is given, attempt() collects errors in it. Otherwise reading ends at the first error.
+  JsonPlace(const Json& value, std::string file, std::string pointer = "", Problems* problems = nullptr)
+      : value_(value), file_(std::move(file)), pointer_(std::move(pointer)), problems_(problems) {}
+
+  const Json& value() const { return value_; }
+  const std::string& file() const { return file_; }
+  const std::string& pointer() const { return pointer_; }
+
+  bool has(const std::string& key) const { return value_.contains(key); }
+  JsonPlace at(const std::string& key) const;  ///< throws if the value is not an object or does not have the key
+  JsonPlace at(std::size_t index) const;
+
+  [[noreturn]] void refuse(std::string problem, std::string allowed = "", std::string suggestion = "") const;
+  /// With an instruction instead of the accepted values.
+  [[noreturn]] void refuse_with_remedy(std::string problem, std::string remedy) const;
+  /// Refuses the value itself.
+  [[noreturn]] void not_accepted(std::string_view allowed) const;
+
+  /// Calls `work`. If it throws an InputError, adds the error to `problems` and returns false. If errors are not
+  /// collected, the exception is rethrown. Returns true if `work` did not throw.
+  template <class Work>
+  bool attempt(const Work& work) const {
+    try {
+      work();
+      return true;
+    } catch (const InputError& error) {
+      if (!problems_) throw;
+      problems_->note(error);
+      return false;
+    }
+  }
+  /// Calls `work` by attempt() with the value of a key. The key is required for read() and optional for read_if_any().
+  template <class Work>
+  void read(const std::string& key, const Work& work) const {
+    attempt([&] { work(at(key)); });
+  }
+  template <class Work>
+  void read_if_any(const std::string& key, const Work& work) const {
+    if (has(key)) read(key, work);
+  }
+
+  void expect_object(std::string_view allowed) const;
+  std::size_t expect_list(std::string_view allowed) const;  ///< returns the size of the list
+  void expect_length(std::size_t length, std::string_view allowed) const;
+  /// Returns the size of the list, which is from 1 to `most`.
+  std::size_t expect_entries(std::size_t most, std::string_view allowed) const;
+  /// Throws if the object has a key that is not in `names`. The error suggests the most similar name; `elsewhere` may
+  /// give a better suggestion.
+  void expect_keys(std::span<const std::string_view> names, std::string (*elsewhere)(std::string_view) = nullptr) const;
+
+  double number(const Range& range) const;
+  std::int64_t integer(const Range& range) const;
+  bool boolean() const;
+  std::string text(std::string_view allowed = "a string") const;
+  /// Reads a text that must be one of `names`, and returns its index.
+  std::size_t choice(std::span<const std::string_view> names) const;
+  /// Reads the name of an enumerator and returns the enumerator.
+  template <NamedEnum Enum>
+  Enum choice() const {
+    return all_of<Enum>[choice(all_names<Enum>)];
+  }
+
+ private:
+  const Json& value_;
+  std::string file_, pointer_;
+  Problems* problems_;
+};
+
+}  // namespace isojam

@@ -1,0 +1,134 @@
+#include "tasks/io/sealed.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <utility>
+
+#include "tasks/io/file.hpp"
+#include "tasks/io/hash.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/texts.hpp"
+
+namespace isojam {
+namespace {
+
+constexpr std::string_view key = "checksum", blank = "0000000000000000", before = "\"checksum\": \"";
+/// The checksum is the second member; names of schemas are short.
+constexpr std::size_t farthest = 200;
+constexpr std::size_t most_levels = 32;
+
+/// Position of the digits; npos if there are none.
+std::size_t digits_in(std::string_view text) {
+  const auto at = text.substr(0, farthest).find(before);
+  if (at == std::string_view::npos || text.size() < at + before.size() + blank.size()) return std::string_view::npos;
+  return at + before.size();
+}
+
+/// Copying or writing a parsed value uses stack in proportion to the nesting of the text.
+void check_depth(std::string_view text, const std::string& file) {
+  std::size_t depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '[' || c == '{') {
+      if (++depth > most_levels)
+        throw InputError({file, "", std::string(nested_too_deeply), fmt::format("at most {} levels", most_levels), ""});
+    } else if (c == ']' || c == '}') {
+      depth -= depth > 0;
+    } else {
+      in_string = c == '"';
+    }
+  }
+}
+
+std::string read_result(const std::string& file) {
+  try {
+    return read_file(file);
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::no_file) throw;
+    throw InputError({file, "", "not a regular file", "a file written by isojam", ""});
+  }
+}
+
+/// Reads the leading string members of an object and stops after them.
+class HeadReader final : public nlohmann::json_sax<Json> {
+ public:
+  const std::map<std::string, std::string>& head() const { return head_; }
+
+  bool null() override { return false; }
+  bool boolean(bool) override { return false; }
+  bool number_integer(number_integer_t) override { return false; }
+  bool number_unsigned(number_unsigned_t) override { return false; }
+  bool number_float(number_float_t, const string_t&) override { return false; }
+  bool string(string_t& value) override {
+    head_[key_] = value;
+    return !key_.empty();
+  }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return key_.empty(); }
+  bool end_object() override { return false; }
+  bool start_array(std::size_t) override { return false; }
+  bool end_array() override { return false; }
+  bool key(string_t& name) override {
+    key_ = name;
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+
+ private:
+  std::string key_;
+  std::map<std::string, std::string> head_;
+};
+
+}  // namespace
+
+std::string sealed(const Json& document) {
+  assert(document.is_object() && !document.empty() && !document.contains(key));
+  Json with_key;
+  for (const auto& item : document.items()) {
+    with_key[item.key()] = item.value();
+    if (with_key.size() == 1) with_key[std::string(key)] = blank;
+  }
+  auto text = pretty(with_key);
+  const auto at = digits_in(text);
+  assert(at != std::string::npos);
+  text.replace(at, blank.size(), hex_hash(text));
+  return text;
+}
+
+void check_seal(std::string_view text, const std::string& file) {
+  const auto at = digits_in(text);
+  if (at == std::string_view::npos)
+    throw InputError({file, "/checksum", "the file has no checksum", "a complete file written by isojam", ""});
+  std::string blanked(text);
+  blanked.replace(at, blank.size(), blank);
+  if (hex_hash(blanked) != text.substr(at, blank.size()))
+    throw InputError({file, "/checksum", "the file is damaged: its content does not match its checksum",
+                      "an unchanged file written by isojam", ""});
+}
+
+Json parse_sealed(std::string_view text, const std::string& file) {
+  check_seal(text, file);
+  check_depth(text, file);
+  try {
+    return parsed(text);
+  } catch (const Json::exception& error) {
+    throw InputError({file, "", std::string("not valid JSON: ") + error.what(), "", ""});
+  }
+}
+
+Json read_sealed(const std::string& file) { return parse_sealed(read_result(file), file); }
+
+std::map<std::string, std::string> read_sealed_head(const std::string& file) {
+  const auto text = read_result(file);
+  check_seal(text, file);
+  HeadReader reader;
+  Json::sax_parse(text, &reader);
+  return reader.head();
+}
+
+}  // namespace isojam

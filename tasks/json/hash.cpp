@@ -1,9 +1,0 @@
-#include "tasks/json/hash.hpp"
-
-#include <fmt/format.h>
-
-namespace isojam {
-
-std::string hex_hash(std::string_view text) { return fmt::format("{:016x}", hash_of(text)); }
-
-}  // namespace isojam

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tasks/packings/solid_json.hpp"
+
+namespace isojam {
+
+inline constexpr std::size_t longest_solid_name = 48;  ///< largest number of characters in the name of a solid
+
+/// The solids that a document defines, with their names as keys.
+using SolidDefinitions = std::map<std::string, Solid, std::less<>>;
+
+/// Reads an object: {"brick": {"box": [1, 1.5, 2]}, "rock": {"file": "rock.off"}, "mine": {"vertices": [[…], …]}}.
+/// Paths are relative to the document. Any unit of length is allowed, because every solid is scaled to unit volume.
+/// Throws InputError if a name is invalid or already used, or if a solid is not convex.
+SolidDefinitions read_definitions(const JsonPlace& place);
+
+/// Reads the name of a solid at `place` and returns the solid. It is a built-in solid, or a solid that the document
+/// defines.
+Solid read_solid_name(const JsonPlace& place, const SolidDefinitions& definitions);
+
+/// Throws InputError if a name is invalid. The name of a solid becomes a part of file names and of the names of
+/// replicates.
+void check_solid_name(const JsonPlace& place, const std::string& name);
+
+/// Definitions of user-defined solids by their vertices, as JSON. null if there are no user-defined solids.
+Json definitions_json(const std::vector<Solid>& solids);
+
+}  // namespace isojam

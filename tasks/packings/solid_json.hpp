@@ -1,0 +1,25 @@
+#pragma once
+
+#include "engine/geometry/solids/solid.hpp"
+#include "tasks/io/place.hpp"
+
+namespace isojam {
+
+/// Writes "solid", the name of the solid. For a user-defined solid, it also writes "vertices" as the user gave them,
+/// from which the solid is reproduced with all bits.
+void put_solid(Json& json, const Solid& solid);
+
+/// Reads what put_solid() has written to the object at `place`. Throws InputError if the name is unknown, or if the
+/// vertices do not form a solid.
+Solid read_solid(const JsonPlace& place);
+
+/// Reads a list of vertices with three numbers each.
+std::vector<Eigen::Vector3d> read_vertices(const JsonPlace& place);
+/// Makes the solid with this name and these vertices. `place` is the list of the vertices. An error that one vertex
+/// causes is reported at this vertex.
+Solid solid_from(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices);
+
+/// Names of the built-in solids, as text for messages.
+std::string allowed_solids();
+
+}  // namespace isojam

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+#include "tasks/io/json.hpp"
+
+namespace isojam {
+
+inline constexpr std::string_view earlier_record_schema = "isojam.replicate.v3";
+
+bool is_earlier_record(const Json& document);
+
+/// Converts a record of version 3 to the keys of version 4, in which each measure has one object with its name. Any
+/// other document is returned unchanged. The result digest does not change, because the packing and the path of the
+/// replicate contain it.
+Json upgraded_record(Json record);
+
+}  // namespace isojam

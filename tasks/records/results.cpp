@@ -1,0 +1,28 @@
+#include "tasks/records/results.hpp"
+
+#include <utility>
+
+#include "tasks/io/file.hpp"
+#include "tasks/packings/packing_json.hpp"
+
+namespace isojam {
+namespace fs = std::filesystem;
+
+Results read_results(const fs::path& directory, const Warn& warn) {
+  Results results;
+  if (const auto manifest = stored_manifest(directory)) results.manifest = to_json(*manifest);
+  for_each_record(directory, warn, [&](RecordedReplicate held) { results.replicates.push_back(std::move(held)); });
+  return results;
+}
+
+std::optional<Packing> read_nearest_packing(const fs::path& directory, const RecordedReplicate& replicate) {
+  try {
+    const auto json = read_state_file_of(directory, replicate, "packings");
+    return read_packing({json, (directory / "packings" / (replicate.name + ".json")).string()});
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::missing) throw;
+    return std::nullopt;
+  }
+}
+
+}  // namespace isojam

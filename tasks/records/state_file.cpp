@@ -1,0 +1,63 @@
+#include "tasks/records/state_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/sealed.hpp"
+
+namespace isojam {
+namespace {
+
+/// The first key whose value is not that of this identity; empty if there is none. `text_at` gives the value of a key;
+/// empty if there is none.
+template <class TextAt>
+std::string difference(std::string_view schema, const RecordIdentity& identity, const TextAt& text_at) {
+  const Json expected = state_file_head(schema, identity);
+  for (const auto& item : expected.items()) {
+    if (text_at(item.key()) != item.value().get<std::string>()) return item.key();
+  }
+  return "";
+}
+
+template <class TextAt>
+void check_head(const std::string& file, std::string_view schema, std::span<const RecordIdentity> identities,
+                const TextAt& text_at) {
+  const auto is_own = [&](const RecordIdentity& identity) { return difference(schema, identity, text_at).empty(); };
+  if (std::any_of(identities.begin(), identities.end(), is_own)) return;
+  const auto key = difference(schema, identities.front(), text_at);
+  throw InputError({file, pointer_step(key), fmt::format("\"{}\" does not match the record", text_at(key)),
+                    state_file_head(schema, identities.front()).at(key).dump(), ""});
+}
+
+}  // namespace
+
+Json state_file_head(std::string_view schema, const RecordIdentity& identity) {
+  Json json;
+  json["schema"] = schema;
+  json["replicate"] = identity.replicate;
+  json["manifest_digest"] = identity.manifest_digest;
+  json["result_digest"] = identity.result_digest;
+  return json;
+}
+
+void check_state_file(const std::string& file, std::string_view schema, std::span<const RecordIdentity> identities) {
+  const auto head = read_sealed_head(file);
+  check_head(file, schema, identities, [&](const std::string& key) {
+    const auto found = head.find(key);
+    return found == head.end() ? std::string() : found->second;
+  });
+}
+
+Json read_state_file(const std::string& file, std::string_view schema, std::span<const RecordIdentity> identities) {
+  auto json = read_sealed(file);
+  check_head(file, schema, identities, [&](const std::string& key) {
+    const auto found = json.find(key);
+    return found == json.end() || !found->is_string() ? std::string() : found->template get<std::string>();
+  });
+  return json;
+}
+
+}  // namespace isojam

@@ -1,0 +1,301 @@
+#include "tasks/records/store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "tasks/io/atomic_file.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/records/checkpoint.hpp"
+#include "tasks/records/in_order.hpp"
+#include "tasks/records/record.hpp"
+#include "tasks/records/summary.hpp"
+#include "tasks/records/texts.hpp"
+
+namespace isojam {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr auto digest_pointer = "/provenance/manifest_digest", recomputed = "the replicate is recomputed";
+
+std::string digests(const std::string& theirs, const std::string& ours) {
+  return fmt::format("digest {} instead of {}", theirs, ours);
+}
+
+[[noreturn]] void refuse_other(const std::string& file, std::string pointer, const std::string& difference) {
+  throw InputError({file, std::move(pointer), fmt::format("{} ({})", other_manifest, difference), "", "",
+                    std::string(choose_another_directory)});
+}
+
+/// The remedy if a manifest asks for measures that the directory lacks.
+std::string how_to_add(const fs::path& directory, const Manifest& theirs, const Manifest& ours) {
+  std::string names;
+  for (const auto what : ours.measures) {
+    if (std::find(theirs.measures.begin(), theirs.measures.end(), what) != theirs.measures.end()) continue;
+    names += (names.empty() ? "" : ",") + std::string(to_string(what));
+  }
+  return fmt::format("set \"measure\" to {}, or run \"isojam measure {} --add {}\" first",
+                     compact(to_json(theirs).at("measure")), directory.string(), names);
+}
+
+/// The manifest that the directory belongs to already.
+std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& manifest) {
+  const auto path = directory / "manifest.json";
+  auto theirs = stored_manifest(directory);
+  if (!theirs || digest(*theirs) == digest(manifest)) return theirs;
+  if (is_same_sweep(*theirs, manifest))
+    throw InputError({path.string(), "/measure", "the directory has other measures than the manifest", "", "",
+                      how_to_add(directory, *theirs, manifest)});
+  refuse_other(path.string(), "", differences(*theirs, manifest));
+}
+
+/// Records that the plan does not know; all of them where no manifest says whose the directory is.
+void check_records(const fs::path& directory, const Manifest& manifest, bool all, const Warn& warn) {
+  const auto names = names_in(directory / "records");
+  if (names.empty()) return;
+  const Plan plan(manifest);
+  const auto ours = digest(manifest);
+  for (const auto& name : names) {
+    const bool planned = plan.place_of(name).has_value();
+    if (planned && !all) continue;
+    std::string theirs;
+    try {
+      const auto held = read_record(directory, name);
+      if (is_of(held, manifest)) continue;
+      theirs = held.summary.manifest_digest;
+    } catch (const InputError& damage) {
+      if (!planned)
+        warn(fmt::format("{}; the file is not planned by this manifest and was left unchanged", damage.what()));
+      continue;
+    }
+    if (theirs != ours)
+      refuse_other((directory / "records" / (name + ".json")).string(), digest_pointer, digests(theirs, ours));
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return;
+  errno = error.value();
+  throw FileError::of_errno(folder, "cannot be created");
+}
+
+void refuse_links(const fs::path& directory) {
+  std::error_code error;
+  for (const auto* name : {"records", "packings", "paths", "checkpoints"}) {
+    if (fs::is_symlink(fs::symlink_status(directory / name, error)))
+      throw FileError(fmt::format("{}: is a symbolic link; replace it by a folder", (directory / name).string()));
+  }
+}
+
+/// Within a results directory.
+void make_own_folder(const fs::path& folder) {
+  make_folder(folder);
+  remove_stale_temporaries(folder);
+}
+
+/// Removes checkpoints of recorded replicates: a run may be killed after the record and before it removes the
+/// checkpoint.
+void remove_outlived_checkpoints(const fs::path& directory) {
+  for (const auto& name : names_in(directory / "checkpoints")) {
+    std::error_code gone;
+    if (fs::exists(directory / "records" / (name + ".json"), gone))
+      fs::remove(directory / "checkpoints" / (name + ".json"), gone);
+  }
+}
+
+/// A plan only grows: records beyond a smaller number of replicates are kept and counted, and who asks for fewer than a
+/// goal may take does not take the goal back.
+Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
+  if (!before) return manifest;
+  auto& replicates = manifest.replicates;
+  if (!replicates.goal && replicates.max <= before->replicates.max) replicates = before->replicates;
+  replicates.max = std::max(replicates.max, before->replicates.max);
+  return manifest;
+}
+
+/// Writes the manifest to the directory, or refuses a directory of another manifest. Returns the manifest kept there.
+Manifest claim(const fs::path& directory, const Manifest& manifest) {
+  const auto path = directory / "manifest.json";
+  auto before = manifest_in(directory, manifest);
+  if (!before && write_exclusively(path, sealed(to_json(manifest)))) return manifest;
+  if (!before) before = manifest_in(directory, manifest);
+  auto kept = grown(manifest, before);
+  const auto text = sealed(to_json(kept));
+  if (text != read_file(path)) write_atomically(path, text);
+  return kept;
+}
+
+}  // namespace
+
+void throw_without_records(const fs::path& directory) {
+  expect_directory(directory);
+  throw FileError(fmt::format("{}: {}; {}", directory.string(), no_results, how_to_get_results),
+                  FileError::Reason::missing);
+}
+
+void check_directory(const fs::path& directory, const Manifest& manifest, const Warn& warn) {
+  refuse_links(directory);
+  const auto before = manifest_in(directory, manifest);
+  check_records(directory, manifest, !before, warn);
+}
+
+Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
+    : directory_(std::move(directory)),
+      digest_(digest(manifest)),
+      keep_path_(manifest.keep_path),
+      warn_(std::move(warn)) {
+  check_directory(directory_, manifest, warn_);
+  make_folder(directory_);
+  kept_ = claim(directory_, manifest);
+  // Another process may have written the manifest between the two calls, so it is read back.
+  manifest_in(directory_, manifest);
+  remove_stale_temporaries(directory_);
+  for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
+  if (keep_path_) make_own_folder(directory_ / "paths");
+  remove_outlived_checkpoints(directory_);
+  check_writable(directory_ / "records");
+}
+
+fs::path Store::file(const char* folder, const ReplicateSpec& spec) const {
+  return directory_ / folder / (replicate_name(spec) + ".json");
+}
+
+std::optional<RecordSummary> Store::recorded(const ReplicateSpec& spec) const {
+  const auto path = record_path(spec).string();
+  std::string theirs;
+  try {
+    auto held = read_record(directory_, replicate_name(spec));
+    if (!is_of(held, kept_)) {
+      theirs = held.summary.manifest_digest;
+    } else {
+      check_spec(held, spec);
+      if (is_resource_failure_record(held))
+        throw InputError({path, "/failure", std::string(resource_failure_recorded), "", ""});
+      check_companions(directory_, held, keep_path_);
+      if (!lacks(held, kept_).empty())
+        throw InputError({path, "/spec/measure", "lacks measures that were added to the manifest later", "", "",
+                          "\"isojam measure\" would add them in less time"});
+      return std::move(held.summary);
+    }
+  } catch (const InputError& damage) {
+    warn_(fmt::format("{}; {}", damage.what(), recomputed));
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::missing) throw;
+    if (fs::exists(path)) warn_(fmt::format("{}; {}", error.what(), recomputed));
+  }
+  if (!theirs.empty()) refuse_other(path, digest_pointer, digests(theirs, digest_));
+  return std::nullopt;
+}
+
+std::optional<Checkpoint> Store::checkpoint(const ReplicateSpec& spec) const {
+  const auto path = checkpoint_path(spec).string();
+  try {
+    const auto document = read_sealed(path);
+    return read_checkpoint({document, path}, spec);
+  } catch (const InputError& damage) {
+    warn_(fmt::format("{}; the replicate starts from the beginning", damage.what()));
+  } catch (const FileError& error) {
+    if (error.reason() != FileError::Reason::missing) throw;
+  }
+  return std::nullopt;
+}
+
+void Store::write_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) const {
+  // Not synchronised: what a power failure cuts short is noticed, and costs this replicate only.
+  if (const auto document = make_checkpoint(spec, checkpoint))
+    write_atomically(checkpoint_path(spec), sealed(*document), Durability::lossless);
+}
+
+void Store::write(const Outcome& outcome) const {
+  const auto record = make_record(outcome);
+  const auto digest = record.at("result_digest").get<std::string>();
+  if (!outcome.failure) write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome, digest)));
+  if (!outcome.failure && keep_path_) write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
+  write_atomically(record_path(outcome.spec), sealed(record));
+  // One that stays is of no consequence, for the record comes first, and goes with the next run.
+  std::error_code ignored;
+  fs::remove(checkpoint_path(outcome.spec), ignored);
+}
+
+void Store::write_added(const Outcome& outcome, const RecordedReplicate& before, bool moved) const {
+  Outcome again = outcome;
+  again.spec.measures = before.summary.measures;
+  for (const auto& [what, measurement] : outcome.measured) {
+    const auto& had = before.summary.measures;
+    if (std::find(had.begin(), had.end(), what) == had.end()) again.measured.erase(what);
+  }
+  if (!moved && make_record(again).at("result_digest") != before.summary.result_digest)
+    throw InputError({record_path(outcome.spec).string(), "/result_digest",
+                      "the stored states do not reproduce this record, so measures cannot be added", "", "",
+                      fmt::format("run \"isojam rerun {} {}\" first", directory_.string(), before.name)});
+  std::vector<Measure> added;
+  for (const auto& [what, measurement] : outcome.measured) {
+    if (!again.measured.contains(what)) added.push_back(what);
+  }
+  const auto record = with_added(make_record(outcome), before.record, added);
+  const auto digest = record.at("result_digest").get<std::string>();
+  if (moved) {
+    write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome, digest)));
+    write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
+  }
+  write_atomically(record_path(outcome.spec), sealed(record));
+}
+
+void Store::write_added(const ReplicateSpec& spec, const RecordedReplicate& failed) const {
+  const auto record = failed_record(failed.record, spec);
+  write_atomically(record_path(spec), sealed(with_added(record, failed.record, {})));
+}
+
+Manifest extend_manifest(const fs::path& directory, const std::vector<Measure>& more) {
+  const auto before = own_manifest(directory);
+  auto manifest = with_measures(before, more);
+  if (manifest.measures != before.measures) write_atomically(directory / "manifest.json", sealed(to_json(manifest)));
+  return manifest;
+}
+
+void Store::write_tables(const Json& tables) const { write_atomically(tables_path(), sealed(tables)); }
+
+void for_each_record(const fs::path& directory, const Warn& warn, const std::function<void(RecordedReplicate)>& use) {
+  for_each_record(directory, stored_manifest(directory), warn, use);
+}
+
+void for_each_record(const fs::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
+                     const std::function<void(RecordedReplicate)>& use) {
+  const auto names = names_in(directory / "records");
+  if (names.empty()) throw_without_records(directory);
+  const auto plan = manifest ? std::optional<Plan>(*manifest) : std::nullopt;
+  const auto own = manifest ? digest(*manifest) : "";
+  const auto measures = manifest ? to_json(*manifest).at("measure") : Json();
+  struct Read {
+    std::optional<RecordedReplicate> held;
+    std::string damage;
+  };
+  const auto read = [&](std::size_t index) -> Read {
+    try {
+      return {read_record(directory, names[index]), ""};
+    } catch (const InputError& damage) {
+      if (!plan || plan->place_of(names[index])) throw;
+      return {std::nullopt, damage.what()};
+    }
+  };
+  in_order(names.size(), read, [&](Read one) {
+    if (!one.held) {
+      warn(one.damage + "; the file is not planned by the manifest and is ignored");
+    } else if (manifest && one.held->summary.manifest_digest != own && !is_of(*one.held, *manifest)) {
+      warn(fmt::format("{}: {}; the record is ignored", (directory / "records" / (one.held->name + ".json")).string(),
+                       other_manifest));
+    } else {
+      // One that lacks a measure counts in tables where it can.
+      if (manifest) one.held->summary.settings["measure"] = measures;
+      use(*std::move(one.held));
+    }
+  });
+}
+
+}  // namespace isojam

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <limits>
+
+#include "engine/solve/jam.hpp"
+#include "tasks/io/place.hpp"
+
+namespace isojam {
+
+/// Ranges of numbers in records and checkpoints: any finite number, and counts that a double represents exactly.
+inline constexpr Range any_number{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+inline constexpr Range count_range{0, 9007199254740992};
+
+// Conversions of the work of a computation to and from JSON, for records and checkpoints. The functions that read throw
+// InputError if the JSON is different from the JSON that is written here.
+
+Json to_json(const PairCounts& counts);
+PairCounts read_counts(const JsonPlace& place);
+
+Json to_json(const MinimiseWork& work);
+MinimiseWork read_work(const JsonPlace& place);
+
+Json to_json(const Rearrangement& rearrangement);
+Rearrangement read_rearrangement(const JsonPlace& place);
+
+}  // namespace isojam

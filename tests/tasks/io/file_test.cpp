@@ -1,0 +1,161 @@
+// These tests prove:
+// - a file is replaced whole or not at all, and a failed write leaves nothing behind; of several writers of a new file
+//   exactly one is told that it is the one;
+// - what a person names is written where it points: through a link, into a pipe, with the mode that the file had;
+// - a result is a regular file: a pipe or an endless device is told from one at once, a person's own input is not;
+// - a process is known alive until it ends, and one that has its number later is not taken for it;
+// - what is shown commands no terminal.
+
+#include "tasks/io/file.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <future>
+#include <thread>
+
+#include "tasks/io/atomic_file.hpp"
+#include "tasks/io/process.hpp"
+#include "tasks/io/standard_streams.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::files_below;
+using test::TemporaryDirectory;
+
+TEST(AtomicFile, ReplacesTheWholeContent) {
+  const TemporaryDirectory directory;
+  const auto path = directory / "f.json";
+  for (const auto& content : {std::string("first"), std::string(100000, 'x'), std::string()}) {
+    write_atomically(path, content);
+    EXPECT_EQ(files_below(directory.path()), (std::map<std::string, std::string>{{"f.json", content}}));
+  }
+}
+
+TEST(AtomicFile, AFailedWriteLeavesNothing) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(write_atomically(directory / "absent" / "f.json", "x"), FileError);
+  std::filesystem::create_directories(directory / "taken" / "inside");
+  EXPECT_THROW(write_atomically(directory / "taken", "x"), FileError);
+  EXPECT_TRUE(files_below(directory.path()).empty());
+}
+
+TEST(AtomicFile, OfSeveralWritersOneIsFirst) {
+  constexpr int rounds = 50, writers = 4;
+  for (int round = 0; round < rounds; ++round) {
+    const TemporaryDirectory directory;
+    std::vector<std::future<bool>> first;
+    for (int k = 0; k < writers; ++k) {
+      first.push_back(std::async(std::launch::async, [&directory, k] {
+        return write_exclusively(directory / "f.json", std::string(1000, static_cast<char>('a' + k)));
+      }));
+    }
+    int winners = 0;
+    char winner = 0;
+    for (int k = 0; k < writers; ++k) {
+      if (!first[static_cast<std::size_t>(k)].get()) continue;
+      ++winners;
+      winner = static_cast<char>('a' + k);
+    }
+    EXPECT_EQ(winners, 1) << "round " << round;
+    EXPECT_EQ(files_below(directory.path()),
+              (std::map<std::string, std::string>{{"f.json", std::string(1000, winner)}}));
+  }
+}
+
+TEST(Output, FollowsLinksAndKeepsModes) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory / "elsewhere");
+  const auto target = directory / "elsewhere/target", link = directory / "link";
+  test::write_text(target, "before");
+  ASSERT_EQ(chmod(target.c_str(), 0600), 0);
+  fs::create_symlink("elsewhere/target", link);
+  write_output(link, "after");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(read_text(target), "after");
+  EXPECT_EQ(fs::status(target).permissions(), fs::perms(0600));
+  // A link that leads nowhere yet makes what it leads to.
+  fs::remove(target);
+  write_output(link, "anew");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(read_text(target), "anew");
+  fs::create_symlink("circle", directory / "circle");
+  EXPECT_THROW(write_output(directory / "circle", "x"), FileError);
+}
+
+TEST(Output, GoesIntoAPipe) {
+  const TemporaryDirectory directory;
+  const auto pipe = directory / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  auto reader = std::async(std::launch::async, [&] { return read_text(pipe); });
+  const std::string content(200000, 'x');
+  write_output(pipe, content);
+  EXPECT_EQ(reader.get(), content);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_NO_THROW(write_output("/dev/null", content));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+FileError::Reason reason_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const FileError& error) {
+    return error.reason();
+  }
+  ADD_FAILURE() << "no error";
+  return FileError::Reason::refused;
+}
+
+TEST(ReadFile, AResultIsARegularFile) {
+  const TemporaryDirectory directory;
+  const auto pipe = directory / "pipe", device = directory / "device";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", device);
+  fs::create_symlink("circle", directory / "circle");
+  for (const auto& path : {pipe, device, directory.path(), directory / "circle"})
+    EXPECT_EQ(reason_of([&] { read_file(path); }), FileError::Reason::no_file) << path;
+  EXPECT_EQ(reason_of([&] { read_file(directory / "absent"); }), FileError::Reason::missing);
+  EXPECT_EQ(reason_of([&] { read_text("/dev/zero"); }), FileError::Reason::resource_failure) << "endless";
+  EXPECT_EQ(read_text("/dev/null"), "");
+#if !defined(__SANITIZE_ADDRESS__)
+  // Larger than any memory, and nothing on the disk.
+  test::write_text(directory / "huge", "{");
+  fs::resize_file(directory / "huge", std::uintmax_t{1} << 42);
+  try {
+    read_file(directory / "huge");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.reason(), FileError::Reason::resource_failure);
+    EXPECT_NE(std::string(error.what()).find("huge: cannot be read: Cannot allocate memory"), std::string::npos);
+  }
+#endif
+}
+
+TEST(Process, IsAliveUntilItEnds) {
+  EXPECT_EQ(is_alive(this_process()), true);
+  auto other = this_process();
+  ++other.started;
+  EXPECT_EQ(is_alive(other), false) << "of the same number, but another";
+  other.machine += "x";
+  EXPECT_EQ(is_alive(other), std::nullopt);
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(is_alive({this_process().machine, child, 1}), false);
+}
+
+TEST(StandardStreams, WhatIsShownCommandsNoTerminal) {
+  EXPECT_EQ(printable("a\x1b[2J\tb\r\nφ\x7f\xc2\x9b\xc2\xa0"), "a\\x1b[2J\tb\\x0d\nφ\\x7f\\x9b\xc2\xa0");
+  const auto [seen, status] = test::on_a_terminal([] { print("d\x1b[31m\n"); });
+  EXPECT_EQ(seen, "d\\x1b[31m\r\n");
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,172 @@
+// These tests prove:
+// - a run that goes on from the text of any of its checkpoints ends with the record of the run that never stopped, but
+//   for timing, also where steps failed and were tried again, and in a variable cell; so does one that had ended
+//   and was not recorded yet;
+// - a checkpoint of another replicate, manifest or build, or with states that are not its own, is refused where it is
+//   wrong; a run that is no longer finite leaves none.
+
+#include "tasks/records/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/records/record.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+ReplicateSpec tiny_spec(std::size_t index = 0, const char* method = "multipliers", long max_evaluations = 2000) {
+  auto manifest = test::tiny_manifest();
+  manifest["measure"] = {"contacts"};
+  manifest["minimiser"]["method"] = method;
+  manifest["minimiser"]["max_evaluations"] = max_evaluations;
+  return test::make_plan(parse_manifest(manifest.dump(), "tiny"))[index];
+}
+
+Json record_of(const ReplicateSpec& spec, const Checkpoint& from, const OnProgress& on_progress = {}) {
+  const auto stages = engine_stages();
+  Outcome outcome;
+  outcome.spec = spec;
+  outcome.jam = stages.jam(spec, from.progress, {}, on_progress);
+  outcome.failure = failure_of(outcome.jam);
+  if (!outcome.failure) outcome.measured[Measure::contacts] = stages.measure(spec, Measure::contacts, outcome.jam);
+  return make_record(outcome);
+}
+
+/// How many expansion steps failed.
+int expect_the_same_bits(const ReplicateSpec& spec) {
+  std::vector<std::string> texts;
+  int halvings = 0;
+  const auto whole = record_of(spec, engine_stages().begin(spec), [&](const JamProgress& progress) {
+    texts.push_back(sealed(*make_checkpoint(spec, {progress, {3, 2}})));
+    halvings = progress.halvings;
+  });
+  EXPECT_GT(texts.size(), 8U);
+  EXPECT_EQ(whole.at("status"), "done");
+  for (const auto& text : texts) {
+    const auto document = parse_sealed(text, "checkpoint");
+    const auto from = read_checkpoint({document, "checkpoint"}, spec);
+    EXPECT_EQ(from.spent.cpu_seconds, 2);
+    EXPECT_EQ(Json::diff(whole, record_of(spec, from)).dump(), "[]")
+        << "after " << from.progress.result.path.size() << " steps";
+    EXPECT_EQ(sealed(*make_checkpoint(spec, from)), text);
+  }
+  return halvings;
+}
+
+TEST(Checkpoint, TheRestOfARunInACellThatGivesWayHasTheSameBits) {
+  auto manifest = test::tiny_manifest();
+  manifest["measure"] = {"contacts"};
+  manifest["protocol"]["control"] = "pressure";
+  manifest["protocol"]["cell"] = "free";
+  expect_the_same_bits(test::make_plan(parse_manifest(manifest.dump(), "tiny"))[2]);
+}
+
+TEST(Checkpoint, TheRestOfARunHasTheSameBits) {
+  EXPECT_EQ(expect_the_same_bits(tiny_spec()), 0);
+  EXPECT_GT(expect_the_same_bits(tiny_spec(1, "newton", 20)), 1) << "20 evaluations are enough for every step";
+}
+
+Checkpoint with_a_state(const ReplicateSpec& spec) {
+  const auto outcome = test::made_up_outcome(spec);
+  Checkpoint checkpoint{begin_jam(outcome.jam.states.back(), spec.options), {}};
+  checkpoint.progress.stage = JamStage::expansion;
+  checkpoint.progress.result = outcome.jam;
+  checkpoint.progress.result.status = JamStatus::not_called;
+  return checkpoint;
+}
+
+TEST(Checkpoint, GoesOnWhateverIsMeasuredThen) {
+  const auto manifest = parse_manifest(test::tiny_manifest().dump(), "tiny");
+  auto fewer = manifest, seeded = manifest;
+  fewer.measures = {Measure::contacts};
+  seeded.seed += 1;
+  const auto spec = test::make_plan(manifest)[0];
+  const auto checkpoint = *make_checkpoint(test::make_plan(fewer)[0], with_a_state(spec));
+  EXPECT_NO_THROW(read_checkpoint({checkpoint, "c"}, spec));
+  EXPECT_THROW(read_checkpoint({checkpoint, "c"}, test::make_plan(seeded)[0]), InputError);
+}
+
+TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
+  const auto spec = tiny_spec();
+  const auto good = *make_checkpoint(spec, with_a_state(spec));
+  EXPECT_NO_THROW(read_checkpoint({good, "c"}, spec));
+  const std::vector<std::pair<std::string, Json>> wrong{{"/schema", "isojam.checkpoint.v0"},
+                                                        {"/provenance/git", "another"},
+                                                        {"/provenance/manifest_digest", "0123456789abcdef"},
+                                                        {"/spec/replicate", 1},
+                                                        {"/packing/solid", "icosahedron"},
+                                                        {"/packing/positions", Json::array()},
+                                                        {"/states/0/side", 0.1},
+                                                        {"/state_steps/0", 99},
+                                                        {"/state_steps", Json::array()},
+                                                        {"/path/0/stopped", "whim"},
+                                                        {"/path/0/density", "dense"},
+                                                        {"/stage", "retreat"},
+                                                        {"/status", 7},
+                                                        {"/halvings", -1},
+                                                        {"/lost", -2},
+                                                        {"/lost", 1000},
+                                                        {"/path/0/rearrangement", Json::object()},
+                                                        {"/path/0/lost", "yes"},
+                                                        {"/evaluations", 0.5},
+                                                        {"/pairs/listed", nullptr},
+                                                        {"/work/hessians", -1},
+                                                        {"/path/0/work/factorisations", "few"}};
+  for (const auto& [pointer, value] : wrong) {
+    auto bad = good;
+    bad[Json::json_pointer(pointer)] = value;
+    try {
+      read_checkpoint({bad, "c"}, spec);
+      FAIL() << pointer << ": " << value;
+    } catch (const InputError& error) {
+      const auto& said = error.details().pointer;
+      // The whole of a packing or a provenance is judged, or the entry itself.
+      EXPECT_TRUE(pointer.starts_with(said) || said.starts_with(pointer)) << pointer << ": " << error.what();
+    }
+  }
+  for (const auto& item : good.items()) {
+    auto bad = good;
+    bad.erase(item.key());
+    EXPECT_THROW(read_checkpoint({bad, "c"}, spec), InputError) << "without " << item.key();
+  }
+}
+
+TEST(Checkpoint, KnowsTheBranchThatWasLostAndHowStatesDiffer) {
+  const auto spec = tiny_spec();
+  auto checkpoint = with_a_state(spec);
+  checkpoint.progress.lost = 1;
+  checkpoint.progress.result.path[2].lost = true;
+  checkpoint.progress.result.path.back().rearrangement = Rearrangement{0.25, 7, 3, 12.5};
+  const auto again = read_checkpoint({*make_checkpoint(spec, checkpoint), "c"}, spec).progress;
+  EXPECT_EQ(again.lost, 1);
+  for (std::size_t k = 0; k < again.result.path.size(); ++k) EXPECT_EQ(again.result.path[k].lost, k == 2) << k;
+  EXPECT_FALSE(again.result.path.front().rearrangement);
+  ASSERT_TRUE(again.result.path.back().rearrangement);
+  const auto& read = *again.result.path.back().rearrangement;
+  EXPECT_EQ(read.energy_ratio, 0.25);
+  EXPECT_EQ(read.contacts_lost, 7);
+  EXPECT_EQ(read.contacts_gained, 3);
+  EXPECT_EQ(read.particles_moved, 12.5);
+}
+
+TEST(Checkpoint, ResidualsMayBeInfiniteAndNothingElse) {
+  const auto spec = tiny_spec();
+  auto checkpoint = with_a_state(spec);
+  auto& summary = checkpoint.progress.result.path.front().summary;
+  summary.residual = std::numeric_limits<double>::infinity();
+  const auto again = read_checkpoint({*make_checkpoint(spec, checkpoint), "c"}, spec);
+  EXPECT_EQ(again.progress.result.path.front().summary.residual, summary.residual);
+  summary.residual = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(make_checkpoint(spec, checkpoint));
+  summary.residual = 0;
+  checkpoint.progress.result.path.front().pressure = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(make_checkpoint(spec, checkpoint));
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,203 @@
+// These tests prove, of files that are whole but not what they are taken for:
+// - a packing or path of another replicate, manifest or run is not taken for a record's own, whoever reads it;
+// - a record must have the result digest that it states, and be of the replicate its name says;
+// - records of another manifest than the directory's are told and left out of the table, and builds are distinguished;
+// - a pipe, a link to an endless device and a million nested lists are damage, at once;
+// - a record of a resource failure is redone;
+// - of manifests that begin at once in a fresh directory one gets it, and the others are refused by the keys that
+//   differ.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <thread>
+
+#include "tasks/io/file.hpp"
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/records/record.hpp"
+#include "tasks/records/results.hpp"
+#include "tasks/records/store.hpp"
+#include "tasks/records/survey.hpp"
+#include "tasks/tables/table_of.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::unheard;
+
+Manifest manifest_with(int seed) {
+  auto json = test::good_manifest();
+  json["seed"] = seed;
+  json["replicates"] = 3;
+  json["keep_path"] = true;
+  return parse_manifest(json.dump(), "m.json");
+}
+
+/// A directory of made-up outcomes.
+class Own : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const auto& spec : plan_) store_.write(test::made_up_outcome(spec));
+  }
+  fs::path path(const std::string& folder, std::size_t k) const {
+    return here_ / folder / (replicate_name(plan_[k]) + ".json");
+  }
+  /// Seals a document anew after a change to it.
+  static void change(const fs::path& file, const std::function<void(Json&)>& work) {
+    auto json = read_sealed(file.string());
+    json.erase("checksum");
+    work(json);
+    test::write_text(file, sealed(json));
+  }
+  /// Nobody takes the files of replicate 0 for good, and the one complaint names this file.
+  void expect_not_held(const fs::path& file) {
+    warnings_.said.clear();
+    EXPECT_FALSE(store_.recorded(plan_[0]));
+    ASSERT_EQ(warnings_.said.size(), 1U);
+    EXPECT_NE(warnings_.said[0].find(file.string()), std::string::npos) << warnings_.said[0];
+    const auto survey = survey_of(here_.path(), Plan(manifest_), true);
+    EXPECT_EQ(survey.damaged.size(), 1U);
+    int recorded = 0;
+    for (const auto& point : survey.points) recorded += point.recorded;
+    EXPECT_EQ(recorded, static_cast<int>(plan_.size()) - 1);
+  }
+
+  const Manifest manifest_ = manifest_with(7);
+  const std::vector<ReplicateSpec> plan_ = test::make_plan(manifest_);
+  test::TemporaryDirectory here_;
+  test::Warnings warnings_;
+  const Store store_{here_.path(), manifest_, warnings_.warn()};
+};
+
+TEST_F(Own, PackingsAndPathsBelongToTheirRecord) {
+  for (const std::string folder : {"packings", "paths"}) {
+    const auto own = read_text(path(folder, 0));
+    fs::copy_file(path(folder, 1), path(folder, 0), fs::copy_options::overwrite_existing);
+    expect_not_held(path(folder, 0));
+    test::write_text(path(folder, 0), own);
+    for (const std::string key : {"schema", "replicate", "manifest_digest", "result_digest"}) {
+      change(path(folder, 0), [&](Json& json) { json[key] = "another"; });
+      expect_not_held(path(folder, 0));
+      test::write_text(path(folder, 0), own);
+    }
+    EXPECT_TRUE(store_.recorded(plan_[0]));
+  }
+}
+
+TEST_F(Own, AReportIsNotMadeOfAnothersPacking) {
+  const auto held = read_record(here_.path(), replicate_name(plan_[0]));
+  ASSERT_TRUE(read_nearest_packing(here_.path(), held));
+  fs::copy_file(path("packings", 1), path("packings", 0), fs::copy_options::overwrite_existing);
+  EXPECT_THROW(read_nearest_packing(here_.path(), held), InputError);
+  fs::remove(path("packings", 0));
+  EXPECT_FALSE(read_nearest_packing(here_.path(), held));
+}
+
+TEST_F(Own, ARecordHasTheDigestThatItStates) {
+  change(path("records", 0), [](Json& json) { json["phi_j"]["value"] = 0.7; });
+  expect_not_held(path("records", 0));
+  EXPECT_THROW(table_of({here_.path().string()}, unheard), InputError);
+  EXPECT_THROW(read_results(here_.path(), unheard), InputError);
+}
+
+TEST_F(Own, ARecordIsOfTheReplicateItsNameSays) {
+  fs::copy_file(path("records", 1), path("records", 0), fs::copy_options::overwrite_existing);
+  expect_not_held(path("records", 0));
+  EXPECT_THROW(table_of({here_.path().string()}, unheard), InputError);
+}
+
+TEST_F(Own, RecordsOfAnotherManifestAreLeftOut) {
+  const auto others = test::make_plan(manifest_with(8));
+  test::write_text(path("records", 0), sealed(make_record(test::made_up_outcome(others[0]))));
+  const auto table = table_of({here_.path().string()}, warnings_.warn());
+  int counted = 0;
+  for (const auto& row : table.rows) counted += row.replicates;
+  EXPECT_EQ(counted, static_cast<int>(plan_.size()) - 1);
+  ASSERT_EQ(warnings_.said.size(), 1U);
+  EXPECT_NE(warnings_.said[0].find("another manifest"), std::string::npos) << warnings_.said[0];
+}
+
+TEST_F(Own, BuildsAreToldApart) {
+  EXPECT_EQ(table_of({here_.path().string()}, warnings_.warn()).builds.size(), 1U);
+  EXPECT_TRUE(warnings_.said.empty());
+  change(path("records", 0), [](Json& json) { json["provenance"]["git"] = "another"; });
+  EXPECT_EQ(table_of({here_.path().string()}, warnings_.warn()).builds.size(), 2U);
+  ASSERT_EQ(warnings_.said.size(), 1U);
+  EXPECT_NE(warnings_.said[0].find("2 builds"), std::string::npos) << warnings_.said[0];
+}
+
+TEST_F(Own, WhatIsNoFileIsDamage) {
+  for (const std::string folder : {"records", "packings", "paths"}) {
+    const auto own = read_text(path(folder, 0));
+    fs::remove(path(folder, 0));
+    ASSERT_EQ(mkfifo(path(folder, 0).c_str(), 0600), 0);
+    expect_not_held(path(folder, 0));
+    fs::remove(path(folder, 0));
+    fs::create_symlink("/dev/zero", path(folder, 0));
+    expect_not_held(path(folder, 0));
+    fs::remove(path(folder, 0));
+    test::write_text(path(folder, 0), own);
+  }
+  const auto checkpoint = here_ / "checkpoints" / (replicate_name(plan_[0]) + ".json");
+  ASSERT_EQ(mkfifo(checkpoint.c_str(), 0600), 0);
+  EXPECT_FALSE(store_.checkpoint(plan_[0]));
+}
+
+TEST_F(Own, NestingWithoutEndIsDamage) {
+  constexpr int deep = 1000000;
+  Json json = read_sealed(path("records", 0).string());
+  json.erase("checksum");
+  auto text = sealed(json);
+  const std::string place = "\"states\": [";
+  const auto at = text.find(place) + place.size();
+  text.insert(at, std::string(deep, '[') + std::string(deep, ']') + ",");
+  test::write_text(path("records", 0), test::sealed_again(text));
+  expect_not_held(path("records", 0));
+  EXPECT_NE(warnings_.said[0].find("nested"), std::string::npos) << warnings_.said[0];
+}
+
+TEST_F(Own, WhatTheMachineLackedIsRedone) {
+  for (const std::string why : {"std::bad_alloc", "Resource temporarily unavailable",
+                                "pthread_create has failed: Resource temporarily unavailable"}) {
+    auto outcome = test::made_up_outcome(plan_[0]);
+    outcome.failure = Failure{"jam", why};
+    store_.write(outcome);
+    expect_not_held(path("records", 0));
+    store_.write(test::made_up_outcome(plan_[0]));
+  }
+  auto outcome = test::made_up_outcome(plan_[0]);
+  outcome.failure = Failure{"jam", "density_limit"};
+  store_.write(outcome);
+  EXPECT_TRUE(store_.recorded(plan_[0])) << "that it did not jam is an outcome";
+}
+
+TEST(Rivals, OneOfThemGetsAFreshDirectory) {
+  constexpr int rounds = 40;
+  for (int round = 0; round < rounds; ++round) {
+    const test::TemporaryDirectory directory;
+    std::vector<std::string> refusals(2);
+    {
+      std::vector<std::jthread> rivals;
+      for (int k = 0; k < 2; ++k) {
+        rivals.emplace_back([&, k] {
+          try {
+            const Store store(directory / "r", manifest_with(7 + k), unheard);
+          } catch (const InputError& error) {
+            refusals[static_cast<std::size_t>(k)] = error.what();
+          }
+        });
+      }
+    }
+    const bool first_lost = !refusals[0].empty();
+    ASSERT_NE(first_lost, !refusals[1].empty()) << refusals[0] << " | " << refusals[1];
+    ASSERT_NE(refusals[first_lost ? 0 : 1].find("/seed"), std::string::npos) << refusals[first_lost ? 0 : 1];
+    EXPECT_EQ(digest(own_manifest(directory / "r")), digest(manifest_with(first_lost ? 8 : 7)));
+  }
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,119 @@
+// These tests prove:
+// - of a record and the packings of its path comes a result that gives the same record again, also where a branch was
+//   lost, a packing rearranged, a residual was infinite or saddles were relaxed to minima;
+// - what a measure has not, in a state or of all states, comes back from the record with its reason;
+// - nothing is added to a record that its result does not give again: it is refused and left as it was.
+
+#include "tasks/records/restored.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tasks/io/input_error.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/measure/recorded_measurement.hpp"
+#include "tasks/records/record.hpp"
+#include "tasks/records/store.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+Manifest manifest_measuring(const Json& measures) {
+  auto json = test::tiny_manifest();
+  json["keep_path"] = true;
+  json["measure"] = measures;
+  return parse_manifest(json.dump(), "m.json");
+}
+
+/// With one of each that a step may have beside its numbers.
+Outcome outcome_of(const ReplicateSpec& spec) {
+  auto outcome = test::made_up_outcome(spec);
+  std::erase_if(outcome.measured, [](const auto& each) { return each.first != Measure::contacts; });
+  auto& path = outcome.jam.path;
+  path[0].lost = true;
+  path[1].rearrangement = Rearrangement{0.25, 7, 3, 12.5};
+  path[1].summary.residual_floor = 1e-9;
+  path[2].summary.residual = std::numeric_limits<double>::infinity();
+  path[2].deviator = 0.125;
+  path[3].descents = 2;
+  path[3].summary.iterations = 17;
+  outcome.jam.phi_j = fit_jamming_point(energy_points(outcome.jam), spec.options.decompression.fit_window);
+  return outcome;
+}
+
+TEST(Restored, GivesTheSameRecordAgain) {
+  const auto outcome = outcome_of(test::make_plan(manifest_measuring({"contacts"})).front());
+  const auto record = test::record_on_disk(outcome);
+  auto again = outcome;
+  again.jam = restored_jam({record, "record"}, outcome.jam.states, outcome.spec);
+  for (std::size_t k = 0; k < outcome.jam.path.size(); ++k)
+    EXPECT_EQ(Json::diff(record.at("path").at(k), test::record_on_disk(again).at("path").at(k)).dump(), "[]") << k;
+  EXPECT_EQ(make_record(again).at("result_digest"), record.at("result_digest"));
+}
+
+/// First members of the places of a measure's quantities, in their order.
+std::vector<std::string> members(Measure what, Quantity::Of of) {
+  std::vector<std::string> names;
+  for (const auto& quantity : definition_of(what).quantities) {
+    const auto name = std::string(quantity.pointer.substr(1, quantity.pointer.find('/', 1) - 1));
+    if (quantity.of == of && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+TEST(Restored, WhatIsNotThereComesBackWithItsReason) {
+  auto outcome = outcome_of(test::make_plan(manifest_measuring({"contacts"})).front());
+  int absent = 0;
+  for (const auto what : all_measures) {
+    if (what == Measure::contacts) continue;
+    auto& measured = outcome.measured[what];
+    Json state;
+    put_absent(state, std::string(to_string(what)), "none of " + std::string(to_string(what)));
+    measured.states.assign(outcome.jam.states.size(), state);
+    for (const auto& name : members(what, Quantity::Of::replicate)) {
+      put_absent(measured.replicate, name, "no " + name);
+      ++absent;
+    }
+  }
+  EXPECT_GT(absent, 1);
+  const auto record = test::record_on_disk(outcome);
+  for (const auto& [what, measured] : outcome.measured) {
+    const auto found = recorded_measurement(what, record);
+    EXPECT_EQ(Json(found.states).dump(), Json(measured.states).dump()) << to_string(what);
+    EXPECT_EQ(found.replicate.dump(), measured.replicate.dump()) << to_string(what);
+  }
+}
+
+TEST(Restored, NothingIsAddedToWhatDoesNotComeOutAgain) {
+  const test::TemporaryDirectory here;
+  const auto few = manifest_measuring({"contacts"});
+  const Store store(here.path(), few, test::unheard);
+  const auto spec = test::make_plan(few).front();
+  const auto outcome = outcome_of(spec);
+  store.write(outcome);
+  const auto before = test::files_below(here.path());
+  const auto held = read_record(here.path(), replicate_name(spec));
+
+  auto added = outcome;
+  added.spec = test::make_plan(manifest_measuring({"contacts", "order"})).front();
+  added.measured[Measure::order].states.assign(outcome.jam.states.size(), Json::object());
+  const std::vector<std::pair<const char*, std::function<void(Outcome&)>>> differences{
+      {"a branch that was lost", [](Outcome& o) { o.jam.path[0].lost = false; }},
+      {"a packing that rearranged", [](Outcome& o) { o.jam.path[1].rearrangement.reset(); }},
+      {"the last digit of an energy", [](Outcome& o) { o.jam.path[2].energy_per_particle *= 1 + 1e-15; }},
+      {"work", [](Outcome& o) { ++o.jam.evaluations; }},
+      {"a measure that was there", [](Outcome& o) { o.measured[Measure::contacts].states[0]["contacts"]["Z"] = 1.5; }}};
+  for (const auto& [what, differ] : differences) {
+    auto other = added;
+    differ(other);
+    EXPECT_THROW(store.write_added(other, held, false), InputError) << what;
+    EXPECT_EQ(test::files_below(here.path()), before) << what;
+  }
+  EXPECT_NO_THROW(store.write_added(added, held, false));
+  EXPECT_NE(test::files_below(here.path()), before);
+}
+
+}  // namespace
+}  // namespace isojam

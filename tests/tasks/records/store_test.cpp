@@ -1,0 +1,274 @@
+// These tests prove:
+// - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
+// - a record without its packing is not held; a packing keeps every bit of its state, low parts included, and conforms
+//   to its schema, alike or a mixture, in a cube or not;
+// - a directory of another manifest is refused and left as it was, in whichever file the other manifest shows;
+// - more replicates may be asked for later, and fewer do not shrink the plan on disk;
+// - temporaries of a writer that was killed are not taken for results.
+
+#include "tasks/records/store.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/records/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tasks/io/input_error.hpp"
+#include "tasks/packings/packing_json.hpp"
+#include "tasks/records/record.hpp"
+#include "tests/tasks/support/bad_manifests.hpp"
+#include "tests/tasks/support/schema.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+using test::files_below;
+using test::TemporaryDirectory;
+using test::unheard;
+using test::Warnings;
+
+Manifest manifest_with(int seed = 7, int replicates = 2) {
+  auto json = test::good_manifest();
+  json["seed"] = seed;
+  json["replicates"] = replicates;
+  return parse_manifest(json.dump(), "m.json");
+}
+
+int count_records(const std::filesystem::path& directory) {
+  int count = 0;
+  for_each_record(directory, unheard, [&](const RecordedReplicate&) { ++count; });
+  return count;
+}
+
+TEST(Store, PackingsKeepEveryBit) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto spec = test::make_plan(manifest)[0];
+  const Store store(directory / "results", manifest, unheard);
+  auto outcome = test::made_up_outcome(spec);
+  auto& state = outcome.jam.states[*nearest_state(outcome.jam)];
+  state = moved(state, Eigen::VectorXd::LinSpaced(6 * state.size(), 1e-20, 2e-20));
+  store.write(outcome);
+  std::ifstream file(store.packing_path(spec));
+  const auto packing = Json::parse(file);
+  EXPECT_EQ(packing.at("side").get<double>(), state.cell.side());
+  for (int i = 0; i < state.size(); ++i) {
+    const auto& pose = state.poses[i];
+    EXPECT_NE(pose.position_low, Eigen::Vector3d::Zero());
+    EXPECT_NE(pose.orientation_low, Eigen::Vector4d::Zero());
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(packing.at("positions")[i][c].get<double>(), pose.position[c]);
+      EXPECT_EQ(packing.at("positions_low")[i][c].get<double>(), pose.position_low[c]);
+    }
+    for (int c = 0; c < 4; ++c) {
+      const int place = (c + 1) % 4;  // w first
+      EXPECT_EQ(packing.at("orientations")[i][place].get<double>(), pose.orientation.coeffs()[c]);
+      EXPECT_EQ(packing.at("orientations_low")[i][place].get<double>(), pose.orientation_low[c]);
+    }
+  }
+}
+
+TEST(Store, PackingsConformToTheirSchema) {
+  RandomStream random{3};
+  const Mixture mixture({{SolidKind::cube, .5}, {SolidKind::octahedron, .5, {.from = 1.4}}}, "");
+  DoubleDoubleMatrix shear;
+  shear.high(0, 1) = .1;
+  shear.low(0, 1) = 1e-18;
+  const auto alike = random_packing(platonic(SolidKind::cube), 60, .5, random);
+  for (const auto& packing : {alike, random_packing(mixture.particles(60), .4, random), deformed(alike, shear)}) {
+    Json file;
+    file["schema"] = packing_schema;
+    file["checksum"] = file["manifest_digest"] = file["result_digest"] = "0123456789abcdef";
+    file["replicate"] = "cube-N60-r0000";
+    file.update(to_json(packing));
+    EXPECT_EQ(test::violations("packing", file), "");
+    for (const auto* needed : {"positions_low", "orientations", "phi", packing.cell.is_cube() ? "side" : "cell_low",
+                               packing.solids.is_uniform() ? "solid" : "size"}) {
+      auto without = file;
+      without.erase(needed);
+      EXPECT_NE(test::violations("packing", without), "") << needed;
+    }
+    file["delta_phi"] = 0.1;
+    EXPECT_NE(test::violations("packing", file), "") << "the record says that";
+  }
+}
+
+TEST(Store, HoldsWhatWasWritten) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = test::make_plan(manifest);
+  Warnings warnings;
+  const Store store(directory / "results", manifest, warnings.warn());
+  EXPECT_FALSE(store.recorded(plan[0]));
+  store.write(test::made_up_outcome(plan[0]));
+  EXPECT_TRUE(store.recorded(plan[0]));
+  EXPECT_FALSE(store.recorded(plan[1]));
+  auto failed = test::made_up_outcome(plan[1]);
+  failed.failure = Failure{"jam", "made up"};
+  store.write(failed);
+  EXPECT_TRUE(store.recorded(plan[1]));
+  EXPECT_TRUE(warnings.said.empty()) << warnings.said.front();
+  EXPECT_EQ(count_records(directory / "results"), 2);
+}
+
+TEST(Store, ADamagedRecordIsReportedAndNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = test::make_plan(manifest);
+  Warnings warnings;
+  const Store store(directory.path(), manifest, warnings.warn());
+  store.write(test::made_up_outcome(plan[0]));
+  const auto path = store.record_path(plan[0]);
+  const auto whole = read_text(path.string());
+  for (std::size_t size = 0; size + 2 < whole.size(); size += whole.size() / 37) {
+    test::write_text(path, whole.substr(0, size));
+    warnings.said.clear();
+    EXPECT_FALSE(store.recorded(plan[0])) << size;
+    ASSERT_EQ(warnings.said.size(), 1U) << size;
+    EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
+    EXPECT_NO_THROW(Store(directory.path(), manifest, unheard)) << "the run replaces it";
+  }
+  test::write_text(path, whole);
+  EXPECT_TRUE(store.recorded(plan[0]));
+}
+
+TEST(Store, ARecordUnderAnotherNameIsNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto plan = test::make_plan(manifest);
+  Warnings warnings;
+  const Store store(directory.path(), manifest, warnings.warn());
+  store.write(test::made_up_outcome(plan[0]));
+  std::filesystem::copy_file(store.record_path(plan[0]), store.record_path(plan[1]));
+  std::filesystem::copy_file(store.packing_path(plan[0]), store.packing_path(plan[1]));
+  EXPECT_FALSE(store.recorded(plan[1]));
+  EXPECT_EQ(warnings.said.size(), 1U);
+}
+
+TEST(Store, ARecordWithoutItsPackingIsNotHeld) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const auto spec = test::make_plan(manifest)[0];
+  Warnings warnings;
+  const Store store(directory.path(), manifest, warnings.warn());
+  store.write(test::made_up_outcome(spec));
+  std::filesystem::remove(store.packing_path(spec));
+  EXPECT_FALSE(store.recorded(spec));
+  EXPECT_EQ(warnings.said.size(), 1U);
+}
+
+TEST(Store, RefusesADirectoryOfAnotherManifest) {
+  const TemporaryDirectory directory;
+  const Store store(directory.path(), manifest_with(7), unheard);
+  store.write(test::made_up_outcome(test::make_plan(manifest_with(7))[0]));
+  const auto refusal_of = [&](const Manifest& manifest) -> std::string {
+    try {
+      const Store other(directory.path(), manifest, unheard);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const std::string shows : {"manifest.json", "records/dodecahedron-N64-r0000.json"}) {
+    const auto before = files_below(directory.path());
+    const auto said = refusal_of(manifest_with(8));
+    EXPECT_NE(said.find(shows), std::string::npos) << said;
+    EXPECT_NE(said.find("belongs to another manifest"), std::string::npos) << said;
+    EXPECT_EQ(files_below(directory.path()), before);
+    std::filesystem::remove(directory / "manifest.json");
+  }
+}
+
+TEST(Store, ADamagedRecordBeyondThePlanIsToldAndNoObstacle) {
+  const TemporaryDirectory directory;
+  { const Store store(directory.path(), manifest_with(), unheard); }
+  const auto path = directory / "records/cube-N64-r0000.json";
+  test::write_text(path, "{");
+  Warnings warnings;
+  EXPECT_NO_THROW(Store(directory.path(), manifest_with(), warnings.warn()));
+  ASSERT_EQ(warnings.said.size(), 1U);
+  EXPECT_NE(warnings.said[0].find(path.string()), std::string::npos) << warnings.said[0];
+  EXPECT_EQ(read_text(path), "{");
+  const auto plan = test::make_plan(manifest_with());
+  Store(directory.path(), manifest_with(), unheard).write(test::made_up_outcome(plan[0]));
+  EXPECT_EQ(count_records(directory.path()), 1) << "nor is it one of a table";
+}
+
+TEST(Store, ThePlanOnlyGrows) {
+  const TemporaryDirectory directory;
+  const auto planned = [&] { return read_manifest((directory / "manifest.json").string()).replicates.max; };
+  for (const auto& [asked, expected] : {std::pair{2, 2}, {5, 5}, {3, 5}}) {
+    const Store store(directory.path(), manifest_with(7, asked), unheard);
+    EXPECT_EQ(planned(), expected);
+  }
+}
+
+TEST(Store, FewerReplicatesDoNotTakeAGoalBack) {
+  const TemporaryDirectory directory;
+  const auto with = [](const Json& replicates) {
+    auto json = test::good_manifest();
+    json["replicates"] = replicates;
+    return parse_manifest(json.dump(), "m.json");
+  };
+  const auto goal = with({{"min", 4}, {"max", 10}, {"quantity", "phi_j"}, {"half_width", 0.006}});
+  const auto kept = [&](const Manifest& asked) {
+    const Store store(directory.path(), asked, unheard);
+    return own_manifest(directory.path()).replicates;
+  };
+  EXPECT_EQ(kept(goal), goal.replicates);
+  EXPECT_EQ(kept(with(4)), goal.replicates);
+  EXPECT_EQ(kept(with(10)), goal.replicates);
+  EXPECT_EQ(kept(with(12)), with(12).replicates) << "more than the goal may take are asked for outright";
+  EXPECT_EQ(kept(goal).max, 12);
+  EXPECT_EQ(kept(goal).goal, goal.replicates.goal);
+}
+
+TEST(Store, TemporariesAreNotResults) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with();
+  const Store store(directory.path(), manifest, unheard);
+  store.write(test::made_up_outcome(test::make_plan(manifest)[0]));
+  test::write_text(directory / "records/.dodecahedron-N64-r0001.json.0123456789abcdef.tmp", "{\"half");
+  for (const std::string folder : {".", "records", "packings", "checkpoints"}) {
+    const auto stale = directory / folder / ".tables.json.0123456789abcdef.tmp";
+    test::write_text(stale, "{\"half");
+    std::filesystem::last_write_time(stale, std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+    const Store again(directory.path(), manifest, unheard);
+    EXPECT_FALSE(std::filesystem::exists(stale)) << folder;
+  }
+  EXPECT_NO_THROW(Store(directory.path(), manifest, unheard));
+  EXPECT_EQ(count_records(directory.path()), 1);
+}
+
+TEST(Store, RecordsComeInOrderUpToTheFirstDamagedOne) {
+  const TemporaryDirectory directory;
+  const auto manifest = manifest_with(7, 60);
+  const auto plan = test::make_plan(manifest);
+  const Store store(directory.path(), manifest, unheard);
+  for (const auto& spec : plan) store.write(test::made_up_outcome(spec));
+  test::write_text(store.record_path(plan[40]), "{");
+  test::write_text(store.record_path(plan[50]), "[");
+  for (int trial = 0; trial < 5; ++trial) {
+    std::vector<int> seen;
+    try {
+      for_each_record(directory.path(), unheard,
+                      [&](const RecordedReplicate& held) { seen.push_back(held.summary.replicate); });
+      FAIL() << "damage went unnoticed";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("-r0040.json"), std::string::npos) << error.what();
+    }
+    ASSERT_EQ(seen.size(), 40U);
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  }
+}
+
+TEST(Store, ADirectoryWithoutRecordsIsNoResultsDirectory) {
+  const TemporaryDirectory directory;
+  EXPECT_THROW(count_records(directory.path()), FileError);
+  EXPECT_THROW(count_records(directory / "absent"), FileError);
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,354 @@
+// Facts proved here, through the executable and with real packings:
+// - measures added later give the records of a run that measured all from the start, in result digest and in all but
+//   timing and provenance, at once or one after the other, with one thread or two, and also where states had to be
+//   followed to minima first; packings and paths that did not move keep their bytes;
+// - the record says what was added, by which build, and what it was before; packings and paths are still its own;
+//   the directory conforms to the schemas, nothing in it is damaged, and neither the extended manifest nor the original
+//   one runs anything again;
+// - a kill leaves whole records of either kind, status counts those that lack something, and the same command goes on;
+//   what it cannot add to, for a path that is gone or was written by a process killed before the record, a run makes
+//   again, and it keeps what is measured beyond its manifest;
+// - it takes the directory for itself: beside another one, or a run, it refuses, and a run beside it;
+// - a record is opened once before anything is written, twice to add to it, and once for the table, whatever is added;
+//   one that another process changes in between stays as that process wrote it;
+// - one replicate alone can be measured; one that failed on its way says what else it has not;
+// - refused before anything is written: a measure that is none, a replicate that is not there, expansions that were not
+//   kept, with the key that keeps them, and a damaged or foreign record.
+
+#include "tasks/run/additions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "tasks/io/directory_lock.hpp"
+#include "tasks/io/file.hpp"
+#include "tasks/io/parse.hpp"
+#include "tasks/io/sealed.hpp"
+#include "tasks/records/store.hpp"
+#include "tasks/run/graph.hpp"
+#include "tests/tasks/run/failing.hpp"
+#include "tests/tasks/support/schema.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::files_below;
+using test::isojam;
+using test::TemporaryDirectory;
+
+const std::string rest = "order,clusters,modes,moduli,rigidity";
+
+/// The part of a record that a run from the start has too.
+Json without_history(Json record) {
+  record.erase("provenance");
+  return test::without_checksum(std::move(record));
+}
+
+/// A run that measured contacts and kept its paths, and one that measured all, shared by the tests.
+class Adding : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<TemporaryDirectory>();
+    auto manifest = test::tiny_manifest();
+    manifest["keep_path"] = true;
+    test::write_text(*shared_ / "all.json", manifest.dump());
+    manifest["measure"] = {"contacts"};
+    test::write_text(*shared_ / "few.json", manifest.dump());
+    all_ = isojam({"run", "all.json", "-o", "all"}, shared_->path());
+    few_ = isojam({"run", "few.json", "-o", "few"}, shared_->path());
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  void SetUp() override {
+    ASSERT_EQ(all_.exit_code, 0) << all_.err;
+    ASSERT_EQ(few_.exit_code, 0) << few_.err;
+    fs::copy(shared_->path(), here_.path(), fs::copy_options::recursive);
+  }
+
+  test::Finished measure(std::vector<std::string> arguments, const std::function<void(int)>& meanwhile = {}) const {
+    arguments.insert(arguments.begin(), {"measure", "few"});
+    return isojam(arguments, here_.path(), meanwhile);
+  }
+  Json record(const std::string& directory, const std::string& name) const {
+    return read_sealed((here_ / directory / "records" / (name + ".json")).string());
+  }
+  std::vector<std::string> names() const { return names_in(here_ / "few" / "records"); }
+  /// Everything but tables, and of records, timing and provenance.
+  void expect_as_if_from_the_start() const {
+    for (const auto& name : names()) {
+      const auto added = record("few", name), expected = record("all", name);
+      EXPECT_EQ(added.at("result_digest"), expected.at("result_digest")) << name;
+      EXPECT_TRUE(pretty(without_history(added)) == pretty(without_history(expected))) << name;
+    }
+  }
+
+  // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): GoogleTest's way to share a costly set-up.
+  static inline std::unique_ptr<TemporaryDirectory> shared_;
+  static inline test::Finished all_, few_;
+  // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+  TemporaryDirectory here_;
+};
+
+bool has_moved(const Json& record) {
+  const auto& states = record.at("states");
+  return std::any_of(states.begin(), states.end(), [](const Json& state) { return state.at("descents") > 0; });
+}
+
+TEST_F(Adding, GivesWhatARunWithAllWouldHave) {
+  const auto before = files_below(here_ / "few");
+  const auto done = measure({"--add", rest, "-j", "2"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  expect_as_if_from_the_start();
+  EXPECT_EQ(done.out, all_.out) << "the same table";
+  const auto after = files_below(here_ / "few");
+  for (const auto& name : names()) {
+    const auto now = record("few", name);
+    for (const std::string folder : {"packings/", "paths/"}) {
+      const auto file = folder + name + ".json";
+      EXPECT_TRUE(after.at(file) == before.at(file)) << file;
+    }
+    const auto& added = now.at("provenance").at("added");
+    ASSERT_EQ(added.size(), 1U);
+    EXPECT_EQ(added[0].at("measures"), Json({"order", "clusters", "modes", "moduli", "rigidity"}));
+    EXPECT_EQ(added[0].at("before").at("result_digest"),
+              parse_json(before.at("records/" + name + ".json"), name).at("result_digest"));
+    EXPECT_EQ(test::violations("replicate", now), "");
+  }
+}
+
+TEST_F(Adding, FollowsStatesToMinimaAsARunDoes) {
+  auto manifest = parse_json(R"({"name": "saddle", "seed": 7, "sweep": {"solid": ["icosahedron"], "particles": [40]},
+                                 "replicates": 1, "protocol": {"final_distance": 0.015}, "keep_path": true,
+                                 "measure": ["contacts", "clusters", "modes"]})",
+                             "saddle");
+  fs::remove_all(here_ / "few"), fs::remove_all(here_ / "all");
+  test::write_text(here_ / "all.json", manifest.dump());
+  manifest["measure"] = {"clusters"};
+  test::write_text(here_ / "few.json", manifest.dump());
+  for (const std::string name : {"few", "all"})
+    ASSERT_EQ(isojam({"run", name + ".json", "-o", name}, here_.path()).exit_code, 0);
+  const auto name = names().front();
+  fs::copy(here_ / "few", here_ / "killed", fs::copy_options::recursive);
+  ASSERT_FALSE(has_moved(record("few", name)));
+  ASSERT_TRUE(has_moved(record("all", name))) << "no state of this packing is a saddle: choose another";
+  ASSERT_EQ(measure({"--add", "contacts"}).exit_code, 0);
+  ASSERT_EQ(measure({"--add", "modes"}).exit_code, 0);
+  expect_as_if_from_the_start();
+  for (const std::string folder : {"packings", "paths"}) {
+    auto moved = read_sealed((here_ / "few" / folder / (name + ".json")).string());
+    EXPECT_EQ(moved, read_sealed((here_ / "all" / folder / (name + ".json")).string())) << folder;
+    // As a process leaves it that was killed before it came to the record.
+    fs::copy_file(here_ / "few" / folder / (name + ".json"), here_ / "killed" / folder / (name + ".json"),
+                  fs::copy_options::overwrite_existing);
+  }
+  fs::copy_file(here_ / "few" / "manifest.json", here_ / "killed" / "manifest.json",
+                fs::copy_options::overwrite_existing);
+  EXPECT_EQ(isojam({"measure", "killed"}, here_.path()).exit_code, 1);
+  EXPECT_EQ(isojam({"run", "few.json", "-o", "killed"}, here_.path()).exit_code, 0);
+  EXPECT_EQ(record("killed", name).at("result_digest"), record("all", name).at("result_digest"));
+}
+
+TEST_F(Adding, OneAfterTheOtherComesToTheSame) {
+  for (const auto* each : {"rigidity", "modes", "order,moduli", "clusters"})
+    ASSERT_EQ(measure({"--add", each, "-j", "1"}).exit_code, 0) << each;
+  expect_as_if_from_the_start();
+  EXPECT_EQ(record("few", names().front()).at("provenance").at("added").size(), 4U);
+  const auto again = files_below(here_ / "few");
+  EXPECT_EQ(measure({"--add", "modes"}).exit_code, 0);
+  EXPECT_EQ(measure({}).exit_code, 0);
+  EXPECT_EQ(files_below(here_ / "few"), again) << "nothing was left to add";
+}
+
+TEST_F(Adding, LeavesADirectoryLikeAnyOther) {
+  ASSERT_EQ(measure({"--add", rest}).exit_code, 0);
+  const auto files = files_below(here_ / "few");
+  const auto status = isojam({"status", "few"}, here_.path());
+  EXPECT_EQ(status.out.find("damaged"), std::string::npos) << status.out;
+  EXPECT_EQ(status.out.find("without measures"), std::string::npos) << status.out;
+  for (const auto* manifest : {"all.json", "few.json"}) {
+    const auto run = isojam({"run", manifest, "-o", "few"}, here_.path());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, all_.out) << manifest;
+    EXPECT_EQ(files_below(here_ / "few"), files) << manifest << " ran something again";
+  }
+  for (const auto& name : names()) {
+    const auto path = read_sealed((here_ / "few" / "paths" / (name + ".json")).string());
+    EXPECT_EQ(test::violations("packing", path), "") << name;
+  }
+  const auto exported = isojam({"export", "few", "all", "--format", "contacts", "--path"}, here_.path());
+  EXPECT_EQ(exported.exit_code, 0) << exported.err;
+  const auto rerun = isojam({"rerun", "few", names().front()}, here_.path());
+  EXPECT_NE(rerun.err.find("the result has the same bits as the record"), std::string::npos) << rerun.err;
+}
+
+TEST_F(Adding, GoesOnAfterAKill) {
+  const auto original = record("few", names().front()).at("result_digest");
+  measure({"--add", "rigidity,modes", "-j", "1"}, [&](int process) {
+    // As soon as the first record was replaced.
+    for (int k = 0; k < 200000 && record("few", names().front()).at("result_digest") == original; ++k)
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    ::kill(process, SIGKILL);
+  });
+  const auto lacks = [&](const std::string& name) {
+    const auto measures = record("few", name).at("spec").at("measure");
+    return std::find(measures.begin(), measures.end(), "modes") == measures.end();
+  };
+  const auto all = names();
+  const auto lacking = std::count_if(all.begin(), all.end(), lacks);
+  const auto status = isojam({"status", "few"}, here_.path());
+  EXPECT_EQ(status.out.find("damaged"), std::string::npos) << status.out;
+  if (lacking > 0) {
+    const auto line = std::to_string(lacking) + (lacking == 1 ? " record " : " records ") + "without measures";
+    EXPECT_NE(status.out.find(line), std::string::npos) << status.out;
+  }
+  ASSERT_EQ(measure({}).exit_code, 0);
+  ASSERT_EQ(measure({"--add", "order,clusters,moduli"}).exit_code, 0);
+  expect_as_if_from_the_start();
+}
+
+TEST_F(Adding, OfOneReplicateAlone) {
+  const auto all = names();
+  ASSERT_EQ(measure({"--add", rest, "--only", all[1]}).exit_code, 0);
+  for (const auto& name : all) {
+    const bool whole = record("few", name).at("result_digest") == record("all", name).at("result_digest");
+    EXPECT_EQ(whole, name == all[1]) << name;
+  }
+  EXPECT_EQ(isojam({"aggregate", "few"}, here_.path()).exit_code, 0) << "tables take what there is";
+  EXPECT_EQ(measure({"--only", "dodecahedron-N24-r000"}).err.find("did you mean \"dodecahedron-N24-r0000\"") !=
+                std::string::npos,
+            true);
+  ASSERT_EQ(measure({}).exit_code, 0);
+  expect_as_if_from_the_start();
+}
+
+TEST_F(Adding, ARunMakesAgainWhatLacksSomething) {
+  const auto all = names();
+  ASSERT_EQ(measure({"--add", rest, "--only", all[1]}).exit_code, 0);
+  const auto plan = isojam({"run", "few.json", "-o", "few", "--dry-run"}, here_.path());
+  EXPECT_NE(plan.out.find("3 records without measures"), std::string::npos) << plan.out;
+  const auto path = here_ / "few" / "paths" / (all[2] + ".json");
+  fs::remove(path);
+  const auto measured = measure({});
+  EXPECT_EQ(measured.exit_code, 1);
+  EXPECT_NE(measured.err.find(all[2] + ": the states of the decompression were not saved; \"isojam run\" recomputes"),
+            std::string::npos)
+      << measured.err;
+  const auto run = isojam({"run", "few.json", "-o", "few"}, here_.path());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, all_.out);
+  expect_as_if_from_the_start();
+  EXPECT_TRUE(fs::exists(path));
+  // Without the manifest its records still say that they are of this sweep, and keep what else was measured.
+  fs::remove(here_ / "few" / "manifest.json");
+  const auto before = files_below(here_ / "few" / "records");
+  EXPECT_EQ(isojam({"run", "few.json", "-o", "few"}, here_.path()).exit_code, 0);
+  EXPECT_EQ(files_below(here_ / "few" / "records"), before);
+  EXPECT_EQ(measure({"--add", rest}).exit_code, 0);
+  EXPECT_EQ(files_below(here_ / "few" / "records"), before);
+}
+
+TEST_F(Adding, OpensARecordFourTimes) {
+  if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
+  const auto name = names().front();
+  const test::Failing count("open count 0 records/" + name + ".json");
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--add", "order"},
+                                                    {"--add", "clusters,rigidity"},
+                                                    {"--add", "gaps", "--only", name}}) {
+    const auto done = measure(arguments);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(test::calls_counted(done.err, "open"), 4) << arguments[1] << ": " << done.err;
+  }
+}
+
+TEST_F(Adding, LeavesARecordThatAnotherProcessChanged) {
+  const auto manifest = with_measures(own_manifest(here_ / "few"), {Measure::order});
+  extend_manifest(here_ / "few", {Measure::order});
+  const Store store(here_ / "few", manifest, test::unheard);
+  const auto found = additions(here_ / "few", Plan(manifest), names());
+  ASSERT_EQ(found.measured.size(), names().size());
+  Adder adder(store, found.measured);
+  const auto changed = names().front();
+  const NextReplicate next = [&, at = std::size_t{0}]() mutable {
+    return at < found.measured.size() ? std::optional(found.measured[at++]) : std::nullopt;
+  };
+  run_graph(next, adder.stages(), {1, 0, {}, {}}, [&](const Outcome& outcome) {
+    const auto file = store.record_path(outcome.spec);
+    const bool is_changed = replicate_name(outcome.spec) == changed;
+    auto other = read_sealed(file.string());
+    other.at("timing").at("cpu_seconds") = 3600.0;
+    other.erase("checksum");
+    const auto text = sealed(other);
+    if (is_changed) test::write_text(file, text);
+    const auto problem = adder.finish(outcome);
+    EXPECT_EQ(problem.value_or("").find("was changed by another process") != std::string::npos, is_changed);
+    EXPECT_EQ(read_file(file) == text, is_changed);
+  });
+  const auto lacking = additions(here_ / "few", Plan(manifest), names()).measured;
+  ASSERT_EQ(lacking.size(), 1U);
+  EXPECT_EQ(replicate_name(lacking.front()), changed);
+}
+
+TEST_F(Adding, HasTheDirectoryForItself) {
+  const auto before = files_below(here_ / "few");
+  for (const auto kind : {DirectoryLock::Kind::shared, DirectoryLock::Kind::exclusive}) {
+    const auto held = DirectoryLock::take(here_ / "few", kind);
+    ASSERT_TRUE(held);
+    const auto refused = measure({"--add", "modes"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_NE(refused.err.find("another process of isojam is using this directory"), std::string::npos) << refused.err;
+    const auto run = isojam({"run", "few.json", "-o", "few"}, here_.path());
+    EXPECT_EQ(run.exit_code, kind == DirectoryLock::Kind::shared ? 0 : 1) << run.err;
+  }
+  EXPECT_EQ(files_below(here_ / "few"), before);
+  EXPECT_EQ(measure({"--add", "rigidity"}).exit_code, 0) << "the lock went with its holder";
+}
+
+TEST_F(Adding, AFailedReplicateSaysWhatElseItHasNot) {
+  for (const std::string name : {"few", "all"}) {
+    auto manifest = parse_json(read_file(here_ / (name + ".json")), name);
+    manifest["protocol"]["max_steps"] = 2;
+    test::write_text(here_ / (name + "2.json"), manifest.dump());
+    fs::remove_all(here_ / name);
+    ASSERT_EQ(isojam({"run", name + "2.json", "-o", name}, here_.path()).exit_code, 1);
+  }
+  const auto done = measure({"--add", rest});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  expect_as_if_from_the_start();
+}
+
+TEST_F(Adding, RefusesBeforeAnythingIsWritten) {
+  const auto untouched = [&](const std::vector<std::string>& arguments, int code, const std::string& said) {
+    const auto before = files_below(here_ / "few");
+    const auto result = measure(arguments);
+    EXPECT_EQ(result.exit_code, code) << result.err;
+    EXPECT_NE(result.err.find(said), std::string::npos) << result.err << "\nwanted: " << said;
+    EXPECT_EQ(files_below(here_ / "few"), before) << said;
+  };
+  untouched({"--add", "cluster"}, 2, "did you mean \"clusters\"");
+  untouched({"--add", ""}, 2, "unknown measure \"\"");
+  untouched({"--add", "modes", "--only", "tetrahedron"}, 2, "unknown replicate \"tetrahedron\"");
+  const auto path = here_ / "few" / "paths" / (names().back() + ".json");
+  const auto content = read_file(path);
+  auto damaged = content;
+  damaged[content.size() / 2] ^= 1;
+  test::write_text(path, damaged);
+  untouched({"--add", "modes", "--only", names().front()}, 65, "the file is damaged");
+  fs::remove(path);
+  untouched({"--add", "rigidity"}, 65, "\"keep_path\": true");
+  test::write_text(path, content);
+  const auto theirs = here_ / "few" / "records" / (names().front() + ".json");
+  auto text = read_file(theirs);
+  const auto digest = parse_json(text, "record").at("provenance").at("manifest_digest").get<std::string>();
+  text.replace(text.find(digest), digest.size(), std::string(digest.size(), 'f'));
+  test::write_text(theirs, test::sealed_again(text));
+  untouched({"--add", "rigidity"}, 65, "belongs to another manifest");
+}
+
+}  // namespace
+}  // namespace isojam

@@ -1,0 +1,168 @@
+// Facts proved here, through the executable, a library preloaded that lets system calls fail:
+// - whatever the machine refuses, whichever time it is asked (memory, threads, descriptors, reading, writing), a run
+//   ends with exit 1 and a message and no outcome is recorded of it; a complete directory is left as it was, byte by
+//   byte, and what was begun comes to the same bytes when the machine gives again;
+// - the same with little memory from the start.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "tasks/io/sealed.hpp"
+#include "tasks/records/recorded.hpp"
+#include "tests/tasks/run/failing.hpp"
+#include "tests/tasks/support/support.hpp"
+
+namespace isojam {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Failing;
+using test::isojam;
+
+class ResourceFailure : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = std::make_unique<test::TemporaryDirectory>();
+    auto manifest = test::tiny_manifest();
+    manifest["measure"] = {"contacts"};
+    test::write_text(*shared_ / "m.json", manifest.dump());
+    finished_ = isojam({"run", "m.json", "-o", "results"}, shared_->path());
+  }
+  static void TearDownTestSuite() { shared_.reset(); }
+
+  void SetUp() override {
+    if (test::with_sanitizer) GTEST_SKIP() << "a sanitizer has the library's calls for itself";
+    ASSERT_EQ(finished_.exit_code, 0) << finished_.err;
+    fs::copy_file(*shared_ / "m.json", here_ / "m.json");
+  }
+  test::Finished run() const { return isojam({"run", "m.json", "-o", "results"}, here_.path()); }
+  void begin_with_reference() const {
+    fs::remove_all(here_ / "results");
+    fs::copy(*shared_ / "results", here_ / "results", fs::copy_options::recursive);
+  }
+  long count_of(const std::string& call) const {
+    const Failing count(call + " count");
+    return test::calls_counted(run().err, call);
+  }
+  /// About so many of the calls, the first and the last among them.
+  template <class Work>
+  static int some_of(long first, long last, long trials, const Work& work) {
+    int tried = 0;
+    const auto step = std::max(1L, (last - first) / trials);
+    for (long k = first; k <= last; k += step, ++tried) work(k);
+    return tried;
+  }
+  static void expect_ended_well(const test::Finished& ended, const std::string& order) {
+    EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1) << order << ": " << ended.exit_code << ' ' << ended.err;
+    if (ended.exit_code == 1) {
+      EXPECT_NE(ended.err.find("error: "), std::string::npos) << order << ": " << ended.err;
+    }
+  }
+
+  // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): GoogleTest's way to share a costly set-up.
+  static inline std::unique_ptr<test::TemporaryDirectory> shared_;
+  static inline test::Finished finished_;
+  // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+  test::TemporaryDirectory here_;
+};
+
+struct Refusal {
+  std::string call;
+  int error;
+};
+const std::vector<Refusal>& refusals() {
+  static const std::vector<Refusal> all{{"malloc", ENOMEM}, {"open", EMFILE},   {"read", EIO},   {"write", ENOSPC},
+                                        {"fsync", EIO},     {"rename", ENOSPC}, {"link", EPERM}, {"thread", EAGAIN}};
+  return all;
+}
+
+TEST_F(ResourceFailure, ACompleteDirectoryIsLeftAsItWas) {
+  begin_with_reference();
+  const auto before = test::files_below(here_ / "results");
+  for (const auto& [call, error] : refusals()) {
+    int ended_early = 0;
+    const auto calls = count_of(call);
+    const auto tried = some_of(1, calls, calls > 100 ? 25 : 10, [&, &call = call, &error = error](long k) {
+      const auto order = call + ' ' + std::to_string(k) + ' ' + std::to_string(error);
+      const Failing failing(order);
+      const auto ended = run();
+      expect_ended_well(ended, order);
+      ended_early += ended.exit_code != 0;
+      EXPECT_EQ(test::files_below(here_ / "results"), before) << order;
+    });
+    std::printf("%s: %d of %ld calls failed, %d runs ended by it\n", call.c_str(), tried, calls, ended_early);
+  }
+}
+
+TEST_F(ResourceFailure, NoOutcomeIsRecordedOfIt) {
+  const auto reference = test::results_below(*shared_ / "results");
+  for (const auto& [call, error] : refusals()) {
+    fs::remove_all(here_ / "results");
+    const auto calls = count_of(call);
+    // The first few hundred are made before the program is there to say a word.
+    some_of(call == "malloc" ? 1000 : 1, calls, call == "malloc" ? 4 : 1, [&, &call = call, &error = error](long k) {
+      fs::remove_all(here_ / "results");
+      const auto order = call + ' ' + std::to_string(k) + "+ " + std::to_string(error);
+      {
+        const Failing failing(order);
+        expect_ended_well(run(), order);
+      }
+      for (const auto& name : names_in(here_ / "results" / "records")) {
+        const auto record = read_sealed((here_ / "results/records" / (name + ".json")).string());
+        EXPECT_EQ(record.at("status"), "done") << order << ": " << record.dump(2).substr(0, 1000);
+      }
+      EXPECT_EQ(run().exit_code, 0);
+      EXPECT_EQ(test::results_below(here_ / "results"), reference) << order;
+    });
+  }
+}
+
+TEST_F(ResourceFailure, ARerunThatCannotBeWrittenLeavesTheRecord) {
+  begin_with_reference();
+  const auto before = test::files_below(here_ / "results");
+  const auto name = names_in(here_ / "results" / "records").front();
+  for (const std::string order : {"write 1+ 28", "open 10+ 24", "rename 1+ 5", "thread 1+ 11", "malloc 30000+ 12"}) {
+    const Failing failing(order);
+    const auto ended = isojam({"rerun", "results", name}, here_.path());
+    EXPECT_EQ(ended.exit_code, 1) << order << ": " << ended.err;
+    EXPECT_NE(ended.err.find("error: "), std::string::npos) << order << ": " << ended.err;
+    EXPECT_EQ(test::files_below(here_ / "results"), before) << order;
+  }
+}
+
+TEST_F(ResourceFailure, AManifestThatCannotBeReadIsNotABadOne) {
+  for (const std::string command : {"run", "validate"}) {
+    const Failing failing("read 1+ 5");
+    const auto ended = isojam({command, "m.json"}, here_.path());
+    EXPECT_EQ(ended.exit_code, 1) << ended.err;
+    EXPECT_NE(ended.err.find("m.json: cannot be read: Input/output error"), std::string::npos) << ended.err;
+  }
+}
+
+TEST_F(ResourceFailure, AThreadThatCannotBeMadeIsSaid) {
+  const Failing failing("thread 1+ 11");
+  const auto ended = run();
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("cannot create another thread"), std::string::npos) << ended.err;
+}
+
+TEST_F(ResourceFailure, WithLittleMemoryFromTheStart) {
+  begin_with_reference();
+  const auto before = test::files_below(here_ / "results");
+  int short_of = 0;
+  for (const long megabytes : {20, 22, 24, 26, 28, 30, 34, 40}) {
+    const auto limit = std::to_string(megabytes << 10);
+    const auto ended = test::shell("ulimit -v " + limit + "; $ISOJAM run m.json -o results", here_.path());
+    // Below what the libraries take the loader ends it.
+    EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1 || ended.exit_code == 127)
+        << megabytes << " MiB: " << ended.exit_code << ' ' << ended.err;
+    short_of += ended.exit_code == 1;
+    EXPECT_EQ(test::files_below(here_ / "results"), before) << megabytes << " MiB";
+  }
+  EXPECT_GT(short_of, 0) << "every run had enough";
+}
+
+}  // namespace
+}  // namespace isojam
