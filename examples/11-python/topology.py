@@ -1,8 +1,8 @@
 """usage: /usr/bin/python3 topology.py DIR [CONTACTS.csv STATES.csv]
 
-Draws of the results of 04-contact-topology the distribution of contact forces, the joint distribution of alignment
-angles and the number of constraints on the way to jamming: from the results directory DIR as forces.png, angles.png and
-constraints.png, and the same from exported tables, without the module, as forces-csv.png and so on. Needs Debian's
+Draws results of 04-contact-topology: the distribution of contact forces, the joint distribution of alignment angles,
+and the number of constraints against Δφ. Reads the results directory DIR and writes forces.png, angles.png and
+constraints.png. Reads also the exported tables, without the module, and writes forces-csv.png and so on. Needs Debian's
 python3-matplotlib; isojam is in build/python."""
 
 # %% Forces: P(f) of f over the mean of its packing
@@ -45,18 +45,18 @@ def draw_angles(file, solid, contact_class, theta_ef, theta_ff):
     figure.savefig(file, metadata={"Software": None})
 
 
-# %% Constraints: C on the way to jamming, every packing and their running mean
+# %% Constraints: C against Δφ, every packing and their running mean
 def draw_constraints(file, solid, delta_phi, constraints):
     figure, axes = pyplot.subplots(layout="constrained")
     known = ~numpy.isnan(constraints)
     for name in numpy.unique(solid):
         x, y = delta_phi[known & (solid == name)], constraints[known & (solid == name)]
-        points, = axes.semilogx(x, y, ".", markersize=4, alpha=.5)
+        points, = axes.semilogx(x, y, ".", markersize=4, alpha=0.5)
         ends = numpy.geomspace(x.min(), x.max() * (1 + 1e-9), 7)
         bins = numpy.digitize(x, ends)
         means = [(numpy.exp(numpy.log(x[bins == k]).mean()), y[bins == k].mean()) for k in numpy.unique(bins)]
         axes.plot(*numpy.transpose(means), color=points.get_color(), label=name)
-    axes.axhline(12, color="black", linewidth=.8, label="isostatic")
+    axes.axhline(12, color="black", linewidth=0.8, label="isostatic")
     axes.set(xlabel=r"$\Delta\phi$", ylabel=r"$C$")
     axes.legend()
     figure.savefig(file, metadata={"Software": None})
@@ -80,14 +80,14 @@ if len(sys.argv) < 4:
 
 
 def read(file):
-    """Columns of texts by name."""
+    """{name: column of text}."""
     with open(file, newline="", encoding="utf-8") as lines:
         names, *rows = csv.reader(lines)
     return dict(zip(names, numpy.array(rows).T))
 
 
 def numbers(*columns):
-    """Arrays of columns of texts; an empty text becomes NaN."""
+    """Arrays of numbers from columns of text; an empty text becomes NaN."""
     values = [[float(text or "nan") for text in column] for column in columns]
     return numpy.array(values).T if len(columns) > 1 else numpy.array(values[0])
 

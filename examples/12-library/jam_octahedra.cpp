@@ -11,8 +11,9 @@ int main() try {
   isojam::RandomStream random{2011};
   const auto& octahedron = isojam::platonic(isojam::SolidKind::octahedron);
   isojam::JamOptions options;
-  options.final_distance = 0.01;
-  const auto result = isojam::jam(isojam::random_packing(octahedron, 64, options.initial_density, random), options);
+  options.decompression.final_distance = 0.01;
+  const auto start = isojam::random_packing(octahedron, 64, options.compression.initial_density, random);
+  const auto result = isojam::jam(start, options);
   if (!result.phi_j) {
     std::printf("not jammed: %s\n", isojam::to_string(result.status).data());
     return 1;

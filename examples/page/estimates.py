@@ -1,5 +1,5 @@
-"""Means over replicates with intervals: pure functions. An estimate is a dict of mean, half_width (95 %, Student t;
-None of one value), n and, where something was varied that replicates do not vary, systematic."""
+"""Means over replicates with confidence intervals: pure functions. An estimate is a dict of mean, half_width (95 %,
+Student t; None for a single value), n and, if a choice of the analysis was varied, its systematic error."""
 
 import math
 import random
@@ -7,7 +7,7 @@ import statistics
 
 from scipy.special import bdtrc, ndtri, stdtr, stdtrit
 
-NORMAL = float(ndtri(0.975))  # standard deviations in the half width of a 95 % interval
+NORMAL = float(ndtri(0.975))  # half width of a 95 % confidence interval in standard deviations
 
 
 def student(freedom, probability=0.975):
@@ -16,21 +16,20 @@ def student(freedom, probability=0.975):
 
 
 def normal_deviate(t, freedom):
-    """The normal deviate that is exceeded, either way, as often as t of Student's distribution: how far off t is,
-    however few values its standard deviation is from. At most 8."""
+    """Normal deviate with the same two-sided probability as t of Student's distribution. At most 8."""
     return math.copysign(min(-float(ndtri(stdtr(freedom, -abs(t)))), 8.0), t)
 
 
 def added(variances):
-    """(standard deviation, degrees of freedom) of a sum, from (variance, degrees of freedom; None of one that is known)
-    of its parts, after Welch and Satterthwaite."""
+    """(standard deviation, degrees of freedom) of a sum by Welch and Satterthwaite, from (variance, degrees of freedom)
+    of its parts. A variance known exactly has None degrees of freedom."""
     total = sum(variance for variance, _ in variances)
     spent = sum(variance ** 2 / freedom for variance, freedom in variances if freedom)
     return math.sqrt(total), min(1e6, total ** 2 / spent) if spent > 0 else 1e6
 
 
 def difference_of(first, second):
-    """Mean of `second` less that of `first`, two lists of independent values, with the 95 % interval of Welch's t."""
+    """Mean of `second` less mean of `first`, two lists of independent values, with the 95 % interval of Welch's t."""
     parts = [(statistics.variance(values) / len(values), len(values) - 1) for values in (first, second)]
     deviation, freedom = added(parts)
     return {"mean": statistics.fmean(second) - statistics.fmean(first),
@@ -38,12 +37,12 @@ def difference_of(first, second):
 
 
 def binomial_at_least(k, n, p):
-    """Probability of k successes or more of n."""
+    """Probability of at least k successes in n trials."""
     return float(bdtrc(k - 1, n, p))
 
 
 def estimate_of(values, systematic=None):
-    """Estimate from the values that are not None; None if there are none."""
+    """Estimate from the values that are not None; None without such a value."""
     values = [value for value in values if value is not None]
     if not values:
         return None
@@ -54,7 +53,7 @@ def estimate_of(values, systematic=None):
 
 
 def of_choices(central, others):
-    """An estimate by one choice, with half the range of what all choices give beside it as its systematic error."""
+    """The central estimate, with half the range of the means of all choices as its systematic error."""
     means = [e["mean"] for e in (central, *others) if e]
     return {**central, "systematic": 0.5 * (max(means) - min(means))} if central else None
 
@@ -65,8 +64,8 @@ def single_half_width(estimate):
 
 
 def pooled_correlation(found):
-    """(r, 95 % interval) of one correlation that several samples share, from (r, pairs) of each, by the weighted mean
-    of Fisher's z; None where no sample has four pairs."""
+    """(r, 95 % interval) of the common correlation of several samples, from (r, number of pairs) of each, by the
+    weighted mean of Fisher's z. (None, None) if no sample has four pairs."""
     some = [(math.atanh(r), n - 3) for r, n in found if r is not None and n > 3 and abs(r) < 1]
     weight = sum(w for _, w in some)
     if not weight:

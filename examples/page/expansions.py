@@ -1,4 +1,4 @@
-"""Replicates of studies, state by state against Δφ: the φ_J of each, and estimates over them."""
+"""Replicates of studies: φ_J of each, and estimates over replicates against Δφ."""
 
 import functools
 
@@ -6,15 +6,15 @@ from estimates import estimate_of, of_choices
 from scaling import at, free_exponent, jamming_density, local_slopes
 
 LEFT_OUT = {"crystalline", "goal_not_reached"}
-# Fit windows for φ_J, nearest first. The first with enough states is used; the next two show the effect of this choice.
+# Fit windows for φ_J, nearest first. The first with enough states is used; the next two give the systematic error.
 WINDOWS = ((0, 0.0025), (0, 0.005), (0, 0.01), (0, 0.02))
 ENOUGH = 4
-CHOICES = 4  # of φ_J: three windows and a free exponent
+CHOICES = 4  # fits of φ_J: three windows and a free exponent
 
 
 def densities(replicate):
-    """φ_J of a replicate by the nearest windows that hold enough states, at most three, then with a free exponent over
-    the last of these; the record's own if none does. None where a fit cannot be had."""
+    """φ_J of a replicate by at most three windows with enough states, nearest first, then with a free exponent over the
+    last of these. The record's φ_J if no window has enough states. None for a fit that fails."""
     phi, energy, start = replicate["states"]["phi"], replicate["states"]["E"], replicate["phi_j"]["phi_j"]
     windows = [w for w in WINDOWS if sum(w[0] <= x - start < w[1] for x in phi) >= ENOUGH][:3]
     if not windows:
@@ -29,8 +29,8 @@ def chosen(found, choice):
 
 
 class Expansions:
-    """Studies, {name: {"replicates": [...]}}, of which those named `main` count. Nothing in them that is counted is
-    crystalline or short of its goal."""
+    """Studies, {name: {"replicates": [...]}}. Estimates use the replicates of the studies named in `main` that are not
+    crystalline and reached their goal."""
 
     def __init__(self, studies, main):
         self.studies, self.main = studies, main
@@ -50,13 +50,13 @@ class Expansions:
 
     @functools.cache
     def distances(self, solid, particles, choice=0):
-        """Δφ of every state of every replicate, by that choice of φ_J, or by the first where it gives none: choices are
-        compared over the same replicates."""
+        """Δφ of every state of every replicate by a choice of φ_J. A failed choice is replaced by the first, so that
+        choices are compared over the same replicates."""
         return [[x - chosen(found, choice) for x in replicate["states"]["phi"]] for replicate, found in zip(
             self.counted(solid, particles), self.densities(solid, particles))]
 
     def phi_j(self, solid, particles):
-        """With half the range over fits as systematic error."""
+        """Estimate of φ_J, with half the range over fits as systematic error."""
         found = self.densities(solid, particles)
         if not found:
             return None
@@ -68,22 +68,22 @@ class Expansions:
         return [r["states"].get(name) for r in self.counted(solid, particles)]
 
     def paths(self, solid, particles, name, choice=0):
-        """(Δφ, values) of every replicate that has them."""
+        """(Δφ, values) of every replicate with this column."""
         return [(x, y) for x, y in zip(self.distances(solid, particles, choice), self.column(solid, particles, name))
                 if y is not None]
 
     def nearest(self, solid, particles, name):
-        """In the states nearest jamming."""
+        """Estimate in the nearest states."""
         return estimate_of([y[-1] for y in self.column(solid, particles, name) if y])
 
     def at(self, solid, particles, name, distance):
-        """Between the two states around that distance from jamming."""
+        """Estimate at a distance from jamming, interpolated between the two states around it."""
         return estimate_of([at(x, y, distance) for x, y in self.paths(solid, particles, name)])
 
     def nearest_distance(self, solid, particles):
         return estimate_of([x[-1] for x in self.distances(solid, particles)])
 
     def slopes(self, solid, particles, name, edges):
-        """Local exponents in Δφ by bin, with what the choice of φ_J does as systematic error."""
+        """Local exponents in Δφ by bin, with the effect of the choice of φ_J as systematic error."""
         choices = [local_slopes(self.paths(solid, particles, name, i), edges) for i in range(CHOICES)]
         return [of_choices(central, [choice[i] for choice in choices[1:]]) for i, central in enumerate(choices[0])]

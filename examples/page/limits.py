@@ -10,7 +10,7 @@ GRID = tuple(round(0.2 + 0.05 * i, 2) for i in range(37))  # 0.2 … 2
 
 
 def fitted(points, exponent):
-    """(a, b, x, squared residual) of y = a + b Δφ^x, at the exponent or at that of GRID which fits best."""
+    """(a, b, x, squared residual) of y = a + b Δφ^x, with the given exponent, or with the best one of GRID if None."""
     if exponent is None:
         return min((fitted(points, x) for x in GRID), key=lambda fit: fit[3])
     intercept, slope, off = line([x ** exponent for x, _ in points], [y for _, y in points])
@@ -32,15 +32,15 @@ def from_sums(parts):
 
 
 def limit(paths, window, exponent, draws=100, seed=1):
-    """The limit a of a + b Δφ^x over (Δφ, y) with window[0] ≤ Δφ < window[1], of all replicates together, with a 95 %
-    interval from samples of replicates with replacement, widened as Student's t is against the normal; and x, of which
-    the half width is from the same samples. None if fewer than three replicates or four points are there."""
+    """Limit a of a + b Δφ^x over window[0] ≤ Δφ < window[1], fitted to all replicates together, and the exponent x. The
+    95 % intervals are from bootstrap samples of the replicates, with Student's t instead of the normal quantile. None
+    with fewer than three replicates or four points."""
     inside = [[(x, y) for x, y in path if window[0] <= x < window[1] and y is not None] for path in paths]
     inside = [path for path in inside if path]
     if len(inside) < 3 or len({x for path in inside for x, _ in path}) < 4:
         return None
     a, _, x, _ = fitted([point for path in inside for point in path], exponent)
-    # About the limit, so that sums of squares do not cancel.
+    # Values relative to the limit, so that sums of squares do not cancel.
     tried = GRID if exponent is None else (exponent,)
     parts = {e: [sums([(d, y - a) for d, y in path], e) for path in inside] for e in tried}
     found = []
@@ -54,9 +54,9 @@ def limit(paths, window, exponent, draws=100, seed=1):
 
 
 def limit_of_choices(paths, windows, central=(0, None), possible=None):
-    """The limit by window and form, {(window number, form): estimate}, and that of the central choice, with half the
-    range over all that could be had as its systematic error; over those alone, if told, that are `possible`, a function
-    of an estimate."""
+    """Limits by window and form, {(window number, form): estimate}, and the limit of the central choice with half the
+    range over all of them as its systematic error. With `possible`, a function of an estimate, the range is over the
+    central choice and the possible ones."""
     every = {(i, form): limit(paths, window, form) for i, window in enumerate(windows) for form in FORMS}
     found = [estimate for estimate in every.values() if estimate]
     chosen = every[central]

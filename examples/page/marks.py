@@ -13,24 +13,24 @@ class PageError(Exception):
 
 
 def renewed(page, blocks, data, value_of=None, every=True):
-    """The page with every part made anew: blocks is {name: function of data}, value_of a function of (data, name). It
-    must have every block once, or, if not `every`, some of them."""
+    """The page with every part made again: blocks is {name: function of data}, value_of a function of (data, name). The
+    page must have every block once, or with every=False some of them."""
     names = [match.group(2) for match in BLOCK.finditer(page)]
     if not every and not names or not set(names) <= set(blocks):
         raise PageError(f"the page must have some of these blocks: {', '.join(sorted(blocks))}")
     if every and sorted(names) != sorted(blocks):
         raise PageError(f"the page must have every block once: {', '.join(sorted(blocks))}; "
-                        f"not so: {', '.join(sorted(set(names) ^ set(blocks))) or 'one is there twice'}")
+                        f"wrong: {', '.join(sorted(set(names) ^ set(blocks))) or 'one occurs twice'}")
     page = BLOCK.sub(lambda match: match.group(1) + blocks[match.group(2)](data) + match.group(3), page)
 
     def value(match):
         if not value_of:
-            raise PageError(f"no value is known by the name {match.group(2)}")
+            raise PageError(f"there is no value named {match.group(2)}")
         return match.group(1) + value_of(data, match.group(2)) + match.group(3)
 
     return VALUE.sub(value, page)
 
 
 def without_marks(text):
-    """The line as a reader sees it."""
+    """The text as a reader sees it."""
     return re.sub(r"<!--.*?-->", "", text)

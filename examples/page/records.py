@@ -1,4 +1,4 @@
-"""Records of a results directory, and the columns that a page keeps of them, rounded, a line for each replicate."""
+"""Records of a results directory, and the rounded columns of them that a page keeps, one line per replicate."""
 
 import csv
 import json
@@ -7,14 +7,14 @@ import sys
 
 
 def records_of(directory):
-    """(name, record), in order of name; none if the directory is not there."""
+    """(name, record) in order of the names; nothing for a missing directory."""
     for path in sorted((directory / "records").glob("*.json")):
         with open(path, encoding="utf-8") as file:
             yield path.stem, json.load(file)
 
 
 def found(value, place):
-    """Value at a place of a record, keys with / between; None if there is none."""
+    """Value at a place of a record, whose keys are separated by /; None if it is missing."""
     for key in place.split("/"):
         if not isinstance(value, dict) or key not in value:
             return None
@@ -62,7 +62,7 @@ def rounded(value, digits=4):
 
 
 def write(path, value):
-    """{name: {…, "replicates": list} or list}, a line for each replicate: changes show."""
+    """Writes {name: {…, "replicates": list} or list} with one line per replicate, so that differences are readable."""
     parts = []
     for name, entry in rounded(value).items():
         rows = entry["replicates"] if isinstance(entry, dict) else entry

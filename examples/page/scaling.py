@@ -1,6 +1,6 @@
 """Power laws of Δφ = φ − φ_J, and φ_J itself, from the states of expansions: pure functions.
 
-A path is a list of states in order of falling φ; what is told of a state is a number or None."""
+A path is a list of states in order of decreasing φ; each value of a state is a number or None."""
 
 import math
 
@@ -20,16 +20,16 @@ def line(x, y):
 
 
 def jamming_density(phi, energy, start, window, exponent=6):
-    """Where (E/N)^(1/exponent) ends if it is linear in φ over the states with lower ≤ φ − φ_J < upper. Which states
-    these are depends on φ_J: from `start` on until they stay the same; where they go round, the mean of the round. None
-    if too few are left."""
+    """φ_J, where (E/N)^(1/exponent) vanishes if it is linear in φ over the states with lower ≤ φ − φ_J < upper. These
+    states depend on φ_J: the fit is repeated from `start` until they no longer change. If they repeat in a cycle, the
+    mean over the cycle is returned. None if too few states are left."""
     lower, upper = window
     found, seen, history = start, [], []
     while True:
         chosen = [i for i, x in enumerate(phi) if lower <= x - found < upper and energy[i] > 0]
         if chosen in seen:
-            round_of = history[seen.index(chosen):]
-            return sum(round_of) / len(round_of)
+            cycle = history[seen.index(chosen):]
+            return sum(cycle) / len(cycle)
         if len(chosen) < LEAST_STATES:
             return None
         intercept, slope, _ = line([phi[i] for i in chosen], [energy[i] ** (1 / exponent) for i in chosen])
@@ -41,8 +41,8 @@ def jamming_density(phi, energy, start, window, exponent=6):
 
 
 def free_exponent(phi, energy, start, window):
-    """(φ_J, exponent) of E ∝ (φ − φ_J)^x with both free, over the states within the window of `start`, by least squares
-    of ln E. None of fewer than four states."""
+    """(φ_J, exponent) of E ∝ (φ − φ_J)^x with both free, over the states whose distance from `start` is in the window,
+    by least squares of ln E. None with fewer than four states."""
     chosen = [i for i, x in enumerate(phi) if window[0] <= x - start < window[1] and energy[i] > 0]
     if len(chosen) < 4:
         return None
@@ -52,7 +52,7 @@ def free_exponent(phi, energy, start, window):
     def off(gap):
         return line([math.log(a - least + gap) for a in x], y)[2]
 
-    # In the logarithm of the gap between φ_J and the last state there is one minimum: golden section.
+    # Golden section: as a function of the logarithm of the gap between φ_J and the last state there is one minimum.
     low, high, ratio = math.log(reach * 1e-4), math.log(reach * 10), (math.sqrt(5) - 1) / 2
     for _ in range(120):
         first, second = high - ratio * (high - low), low + ratio * (high - low)
@@ -62,7 +62,7 @@ def free_exponent(phi, energy, start, window):
 
 
 def slopes(x, y):
-    """(geometric mean of x, d ln y / d ln x) between neighbouring states where both have numbers above zero."""
+    """(geometric mean of x, d ln y/d ln x) between neighbouring states with positive numbers."""
     found = []
     for (x1, y1), (x2, y2) in zip(zip(x, y), zip(x[1:], y[1:])):
         if None in (x1, x2, y1, y2) or min(x1, x2, y1, y2) <= 0 or x1 == x2:
@@ -72,8 +72,8 @@ def slopes(x, y):
 
 
 def binned(paths, edges):
-    """Estimates for bins between rising edges, from lists of (x, value), one list per replicate. A replicate counts
-    once in a bin, by the mean of what it has there."""
+    """Estimates for bins between ascending edges, from lists of (x, value), one list per replicate. A replicate counts
+    once in a bin, with its mean there."""
     bins = []
     for lower, upper in zip(edges, edges[1:]):
         means = []
@@ -91,7 +91,7 @@ def local_slopes(paths, edges):
 
 
 def at(x, y, where):
-    """y at x = where, linear in ln x between the neighbours that have numbers; None outside of them. x falls."""
+    """y at x = where, interpolated in ln x between the neighbours with numbers; None outside of them. x decreases."""
     known = [(a, b) for a, b in zip(x, y) if b is not None and a > 0]
     for (x1, y1), (x2, y2) in zip(known, known[1:]):
         if x2 <= where <= x1:

@@ -1,4 +1,4 @@
-"""Numbers and tables as the pages have them: pure functions from values to Markdown."""
+"""Numbers and tables of the pages: pure functions from values to Markdown."""
 
 import math
 import re
@@ -7,11 +7,9 @@ from estimates import single_half_width
 
 
 def number(x, places):
+    """With a minus sign instead of a hyphen, and without one before a zero."""
     text = f"{x:.{places}f}"
-    if float(text) == 0:
-        text = text.lstrip("-")
-    return text.replace("0.", ".", 1).replace("-", "−") if abs(float(text)) < 1 and places > 0 else \
-        text.replace("-", "−")
+    return (text.lstrip("-") if float(text) == 0 else text).replace("-", "−")
 
 
 def places_of(half_width):
@@ -26,14 +24,15 @@ def signed(x, places):
 
 
 def interval(estimate):
-    """mean ± half width of the 95 % interval ± systematic error, where there are such."""
+    """mean ± half width of the 95 % confidence interval ± systematic error, if there is one. A value of a single
+    replicate has no interval; ± 0 is the interval of equal values."""
     if not estimate or estimate["mean"] is None:
         return "–"
     systematic = estimate.get("systematic")
     if estimate["half_width"] is None:
-        return f"{significant(estimate['mean'], 4)} (one)"
+        return significant(estimate["mean"], 4)
     if estimate["half_width"] == 0 and not systematic:
-        return f"{significant(estimate['mean'], 4)} in all"
+        return f"{significant(estimate['mean'], 4)} ± 0"
     errors = [e for e in (estimate["half_width"], systematic) if e]
     places = places_of(max(errors))
     shown = [estimate["half_width"]] + ([] if systematic is None else [systematic])
@@ -41,8 +40,8 @@ def interval(estimate):
 
 
 def bounded(estimate):
-    """The interval, a last error that rounds to nothing as less than a unit of the last digit."""
-    return re.sub(r"± \.(0+)$", lambda match: f"± < .{match.group(1)[:-1]}1", interval(estimate))
+    """The interval. A last error that rounds to zero is written as less than one unit of the last digit."""
+    return re.sub(r"± 0\.(0+)$", lambda match: f"± < 0.{match.group(1)[:-1]}1", interval(estimate))
 
 
 def counted(estimate):
@@ -51,11 +50,11 @@ def counted(estimate):
 
 
 def spread(estimate):
-    """Spread of single packings, 95 %."""
+    """Half width of the 95 % prediction interval of one more packing."""
     if not estimate or estimate["half_width"] is None:
         return "–"
     if estimate["half_width"] == 0:
-        return "none"
+        return "± 0"
     return f"± {number(single_half_width(estimate), places_of(single_half_width(estimate)))}"
 
 
@@ -69,7 +68,7 @@ def significant(x, digits):
 
 
 def power(x):
-    """1e-7 as 1·10⁻⁷, rounded up to one digit: of greatest values."""
+    """1e-7 as 1·10⁻⁷, rounded up to one digit. For largest values."""
     if not x:
         return "0"
     exponent = math.floor(math.log10(x))

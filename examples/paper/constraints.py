@@ -1,4 +1,4 @@
-"""Blocks about the number of constraints: what cut-offs choose, and C as Δφ → 0."""
+"""Blocks about the number of constraints: effect of the cut-offs, and C as Δφ → 0."""
 
 import functools
 import math
@@ -9,11 +9,11 @@ from limits import FORMS, limit_of_choices
 from network import FACTORS
 from scaling import at
 from text import counted, interval, number, significant, signed, table
-from verdicts import OUTSIDE, UNDECIDED
+from verdicts import UNDECIDED
 
 LIMIT_WINDOWS = ((0, 0.01), (0, 0.02), (0, 0.005))
 HALF_TO_TWICE = slice(1, 4)  # of network.FACTORS
-UNKNOWN = 1.0  # errors of C that say nothing about 12
+UNKNOWN = 1.0  # with a larger error of C the comparison with 12 is undecided
 
 
 def around(distances, values, distance):
@@ -23,15 +23,15 @@ def around(distances, values, distance):
 
 
 def same_states(distances, values, others, distance):
-    """True if both values come from the same two states around a distance from jamming; always true nearest jamming."""
+    """True if both values come from the same two states around a distance from jamming, or if that is None."""
     return distance is None or around(distances, values, distance) == around(distances, others, distance)
 
 
 @functools.cache
 def cutoff_range(data, solid, particles, distance=None):
-    """(C by factor, Z_ff by fits and by gaps where both are, half the range of C from half to twice the cut-offs):
-    estimates at a distance from jamming, or nearest it. C by factors is known of fewer states than C is: of replicates
-    where it would be taken from other states than C it is not counted, nor are gaps beside Z_ff."""
+    """(C by factor, Z_ff by fits and by gaps where both exist, half the range of C from half to twice the cut-offs):
+    estimates at a distance from jamming, or at the smallest. C by factors is known for fewer states than C. A replicate
+    counts only if it is interpolated between the same states as C; the same holds for gaps and Z_ff."""
     by_factor, fitted, gaps, half = [], [], [], []
     for r, x in zip(data.counted(solid, particles), data.distances(solid, particles)):
         entries = r.get("network", {}).get("by_cutoffs")
@@ -64,20 +64,20 @@ def cutoffs(data):
                 by_factor, fitted, gap, half = cutoff_range(data, solid, particles, distance)
                 if not by_factor[FACTORS.index(1)] and not fitted:
                     continue
-                where = "nearest" if distance is None else number(distance, 2)
+                where = "smallest" if distance is None else number(distance, 2)
                 n = by_factor[FACTORS.index(1)]["n"] if by_factor[FACTORS.index(1)] else 0
                 rows.append([f"{solid} {particles}", where, str(n), *(interval(c) for c in by_factor),
                              f"± {number(half['mean'], 2)}" if half else "–", counted(fitted), counted(gap)])
     if not rows:
-        return "Not in these records.\n"
-    return table(["solid, N", "Δφ", "n of C",
+        return "These records lack the study.\n"
+    return table(["solid, N", "Δφ", "n",
                   *(f"C, cut-offs × {significant(f, 1) if f != 10 else '10'}" for f in FACTORS),
-                  "half the range, ×½ to ×2", "Z_ff by fits", "Z_ff by gaps"], rows)
+                  "half the range from × 0.5 to × 2", "Z_ff by fits", "Z_ff by gaps"], rows)
 
 
 @functools.cache
 def limit_of(data, solid, particles):
-    """C as Δφ → 0: by window and form, and with the cut-off's range nearest jamming added to what these choose."""
+    """C as Δφ → 0: limits by window and form, the central one, and its error from cut-offs at the smallest Δφ."""
     paths = [list(zip(x, y)) for x, y in data.paths(solid, particles, "C")]
     every, chosen = limit_of_choices(paths, LIMIT_WINDOWS)
     half = cutoff_range(data, solid, particles)[3]
@@ -85,8 +85,8 @@ def limit_of(data, solid, particles):
 
 
 def with_cutoffs(data, solid, particles, column, distance=None):
-    """Z_ff or C with what the choice of cut-offs leaves as systematic error: of C half the range from half to twice the
-    fitted ones, of Z_ff half of what fits and gaps differ by."""
+    """Z_ff or C with the systematic error from the cut-offs. For C it is half the range from half to twice the fitted
+    cut-offs, for Z_ff half the difference between fits and gaps."""
     estimate = data.nearest(solid, particles, column) if distance is None else \
         data.at(solid, particles, column, distance)
     _, fitted, gaps, half = cutoff_range(data, solid, particles, distance)
@@ -98,7 +98,7 @@ def with_cutoffs(data, solid, particles, column, distance=None):
 
 
 def measured(data, figure):
-    """Our estimate of a figure of the paper, with the error of cut-offs where it has one."""
+    """Our estimate of a value of the paper, with its error from cut-offs if it has one."""
     if figure["column"] in ("Z_ff", "C"):
         return with_cutoffs(data, figure["solid"], figure["particles"], figure["column"], figure.get("delta_phi"))
     return data.of(figure)
@@ -117,33 +117,20 @@ def isostatic(data):
             errors = (chosen["half_width"], chosen["systematic"], half or 0)
             away = chosen["mean"] - target
             forms = " / ".join(interval(every[0, form]) if every[0, form] else "–" for form in FORMS)
-            lies = UNDECIDED if sum(errors) > UNKNOWN else "within" if abs(away) <= sum(errors) else OUTSIDE
+            lies = UNDECIDED if sum(errors) > UNKNOWN else "yes" if abs(away) <= sum(errors) else "**no**"
             rows.append([f"{solid} {particles}", str(chosen["n"]), counted(data.nearest(solid, particles, "C")), forms,
                          number(chosen["exponent"], 2), interval(chosen), f"± {number(half, 2)}" if half else "–",
                          number(target, 2), signed(away, 2), f"± {number(sum(errors), 2)}",
                          f"± {number(math.hypot(*errors), 2)}", lies])
-    return table(["solid, N", "n", "C nearest jamming", "limit by x = ½ / 1 / free, Δφ < .01", "free x",
-                  "limit ± fit ± choice", "cut-offs", "target", "limit − target", "errors, summed",
-                  "in quadrature", "by the sum"], rows)
+    return table(["solid, N", "n", "C at the smallest Δφ", "limit for x = ½ / 1 / free, Δφ < 0.01", "free x",
+                  "limit ± fit ± form", "error from cut-offs", "target", "limit − target", "sum of errors",
+                  "errors in quadrature", "target within the sum"], rows)
 
 
-def half_value(data, solid, particles, of="C"):
-    """Half of the range that the choice of cut-offs leaves for C nearest jamming, or for the number of constraints
-    C·N/2."""
-    found = cutoff_range(data, solid, int(particles))[3]
-    if not found:
-        return "–"
-    return number(found["mean"], 2) if of == "C" else number(found["mean"] * int(particles) / 2, 0)
-
-
-def cut_value(data, solid, particles, where, factor):
-    by_factor = cutoff_range(data, solid, int(particles), None if where == "nearest" else float(where))[0]
-    return counted(by_factor[FACTORS.index(float(factor))])
-
-
-def gap_value(data, solid, particles, where):
-    """Z_ff by gaps."""
-    return counted(cutoff_range(data, solid, int(particles), None if where == "nearest" else float(where))[2])
+def error_of_rows(data, solid, particles):
+    """Error from cut-offs of the number of constraints C·N/2 at the smallest Δφ."""
+    found = cutoff_range(data, solid, particles)[3]
+    return f"± {number(found['mean'] * particles / 2, 0)}" if found else "–"
 
 
 def cut_missing(data, solid, particles, where):
@@ -154,14 +141,14 @@ def cut_missing(data, solid, particles, where):
 
 
 def limit_range(data, *solids):
-    """The least and the greatest limit of C of some solids, of both sizes."""
+    """Smallest and largest limit of C of some solids, over both sizes."""
     found = [chosen["mean"] for solid in solids for n in SIZES
              if data.counted(solid, n) and (chosen := limit_of(data, solid, n)[1])]
     return f"{number(min(found), 2)} … {number(max(found), 2)}" if found else "–"
 
 
 def beyond(data, solid, particles):
-    """By how much more than its errors' sum a limit of C is off its target."""
+    """Difference of a limit of C from its target, less the sum of its errors."""
     _, chosen, half = limit_of(data, solid, int(particles))
     if not chosen:
         return "–"
@@ -170,6 +157,4 @@ def beyond(data, solid, particles):
 
 
 BLOCKS = {f.__name__: f for f in (cutoffs, isostatic)}
-VALUES = {"beyond": beyond, "gap": gap_value, "cut_missing": cut_missing, "limits": limit_range, "half": half_value,
-          "cut": cut_value,
-          "limit": lambda data, solid, n: interval(limit_of(data, solid, int(n))[1])}
+VALUES = {"beyond": beyond, "cut_missing": cut_missing, "limits": limit_range}

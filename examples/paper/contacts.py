@@ -10,7 +10,7 @@ GRID = (0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025, 0.001)
 # Experiment with tetrahedral dice, by tomography: the third column of the paper's Table III.
 DICE = {"Z": 6.3, "Z_ff": 2.3, "Z_ef": 1.2, "Z_l": 2.8, "C": 12.1}
 PLURALS = {solid: solid.replace("hedron", "hedra") for solid in SOLIDS}
-NAMES = {"l_max": "l_max between centres", "body_l_max": "l_max between vertices"}
+NAMES = {"l_max": "l_max of centres", "body_l_max": "l_max of vertices"}
 
 
 def compared(data, figures, name, extra=None):
@@ -22,7 +22,7 @@ def compared(data, figures, name, extra=None):
     return rows
 
 
-HEAD = ["solid, column", "ours", "n", "one packing", "paper", "the paper's lies"]
+HEAD = ["solid, quantity", "ours", "n", "prediction interval", "paper", "the paper's value is"]
 
 
 def table_2(data):
@@ -34,9 +34,9 @@ def table_2(data):
             continue
         off = max(abs(angles[f["column"]] - f["value"]) - uncertainty(f) for f in here)
         rows.append([solid, *(f"{angles[f['column']]:.3f} ({f['value']:.1f})" for f in here),
-                     "to the last digit" if off <= 1e-9 else "**differs**"])
-    return table(["ours (paper's), degrees", "ef vertex-face", "ef edge-edge", "ff vertex-face", "ff edge-edge",
-                  "ff edge-face", "agree"], rows)
+                     "yes" if off <= 1e-9 else "**no**"])
+    return table(["ours (paper's), degrees", "θ_ef, vertex-face", "θ_ef, edge-edge", "θ_ff, vertex-face",
+                  "θ_ff, edge-edge", "θ_ff, edge-face", "equal to the last digit"], rows)
 
 
 def table_3(data):
@@ -49,9 +49,9 @@ def table_3(data):
     def name(figure):
         return figure["column"].removesuffix("_fixed")
 
-    head = ["", *HEAD[1:], "dice (experiment)"]
-    return ("Classes by fitted cut-offs:\n\n" + table(head, compared(data, first, name, dice)) +
-            "\nMeans over fixed cut-offs of 5°, 15° … 55°:\n\n" + table(head, compared(data, second, name, dice)))
+    head = ["quantity", *HEAD[1:], "dice (experiment)"]
+    return ("Contacts classified by fitted cut-offs:\n\n" + table(head, compared(data, first, name, dice)) +
+            "\nMeans over the fixed cut-offs 5°, 15° … 55°:\n\n" + table(head, compared(data, second, name, dice)))
 
 
 def column_of_solid(figure):
@@ -60,14 +60,14 @@ def column_of_solid(figure):
 
 
 def by_rule(data):
-    """Figures of Table IV at the nearest distance that the caption of the paper's Figure 3 leaves as stable."""
+    """Values of Table IV at the smallest Δφ that is stable according to the caption of the paper's Figure 3."""
     return [{**f, "delta_phi": STABLE_FROM[f["solid"]]} for f in data.figures if f["place"] == "Table IV"]
 
 
 def table_4(data):
     figures = [f for f in data.figures if f["place"] == "Table IV"]
-    return ("At the distance that the rule gives:\n\n" + table(HEAD, compared(data, by_rule(data), column_of_solid)) +
-            "\nNearest jamming of our states:\n\n" + table(HEAD, compared(data, figures, column_of_solid)))
+    return ("At the Δφ of the rule:\n\n" + table(HEAD, compared(data, by_rule(data), column_of_solid)) +
+            "\nAt the smallest Δφ of our states:\n\n" + table(HEAD, compared(data, figures, column_of_solid)))
 
 
 def figure_3(data):
@@ -78,23 +78,21 @@ def figure_3(data):
                 cells = [counted(data.at(solid, particles, column, d)) for d in GRID]
                 if any(cell != "–" for cell in cells):
                     rows.append([f"{solid} {particles}", column, *cells])
-    return table(["solid, N", "mean of",
-                  *(f"Δφ = {significant(d, 1 if d != .16 and d != .0025 else 2)}" for d in GRID)], rows)
+    return table(["solid, N", "quantity",
+                  *(f"Δφ = {significant(d, 1 if d != 0.16 and d != 0.0025 else 2)}" for d in GRID)], rows)
 
 
 def figures_of(data, table_of):
-    """Figures of Table I, III (its first column III-1, its second III-2), IV, and IV at the distance that the rule
-    gives."""
+    """Values of Table I, III (both columns) or IV, or of IV at the Δφ of the rule."""
     if table_of == "IV-rule":
         return by_rule(data)
-    places = {"III": ("Table III, column 1", "Table III, column 2"), "III-1": ("Table III, column 1",),
-              "III-2": ("Table III, column 2",)}.get(table_of, (f"Table {table_of}",))
+    places = ("Table III, column 1", "Table III, column 2") if table_of == "III" else (f"Table {table_of}",)
     return [f for f in data.figures if f["place"] in places]
 
 
 def lies(data, table_of, where="packing", *columns):
-    """Number of figures of a table for which the paper's value lies in our mean's interval, is compatible with one
-    packing, or lies above our mean; also the number of all, and of undecided ones."""
+    """Number of values of a table that lie in the confidence interval of our mean, in this or the prediction interval,
+    or above our mean, and number of all; or number of undecided ones."""
     some = [f for f in figures_of(data, table_of) if not columns or f["column"] in columns]
     found = [(f, measured(data, f)) for f in some]
     if where == "above":
@@ -106,20 +104,19 @@ def lies(data, table_of, where="packing", *columns):
 
 
 def ordered(data, table_of, column, whose="ours"):
-    """Solids by what a column of Table IV has of them, rising."""
-    found = [(e["mean"] if whose == "ours" else f["value"], f, e) for f in figures_of(data, table_of)
+    """Solids in ascending order of a column of Table IV."""
+    found = [(e["mean"] if whose == "ours" else f["value"], PLURALS[f["solid"]]) for f in figures_of(data, table_of)
              if f["column"] == column and (e := measured(data, f))]
-    return ", ".join(f"{PLURALS[f['solid']]} {interval(e) if whose == 'ours' else said(f)}"
-                     for _, f, e in sorted(found, key=lambda entry: entry[0]))
+    return ", ".join(solid for _, solid in sorted(found))
 
 
-def told_apart(data, table_of, column, first, second):
-    """True if the intervals of two solids' means, with their systematic errors, do not overlap."""
+def separated(data, table_of, column, first, second):
+    """Tells in words whether the intervals of two solids' means, with their systematic errors, are disjoint."""
     found = {f["solid"]: measured(data, f) for f in figures_of(data, table_of) if f["column"] == column}
     wide = [e and e["half_width"] is not None and {**e, "half_width": e["half_width"] + e.get("systematic", 0.0)}
             for e in (found[first], found[second])]
     together = overlap(*wide)
-    return "–" if together is None else "not told apart" if together else "told apart"
+    return "–" if together is None else "overlap" if together else "do not overlap"
 
 
 def dice_value(data, column):
@@ -127,14 +124,14 @@ def dice_value(data, column):
 
 
 def hyperstatic(data):
-    """Where tetrahedra have Z above 12 by its interval, of the distances of GRID."""
-    found = [(f"N = {n}", d, e) for d in GRID for n in SIZES
-             if (e := data.at("tetrahedron", n, "Z", d)) and e["mean"] - (e["half_width"] or 0) > 12]
-    return ", ".join(f"{counted(e)} at Δφ = {number(d, 2)} with {name}" for name, d, e in found) or "none"
+    """Distances of GRID at which tetrahedra of some size have Z significantly above 12."""
+    found = [d for d in GRID if any((e := data.at("tetrahedron", n, "Z", d)) and e["mean"] - (e["half_width"] or 0) > 12
+                                    for n in SIZES)]
+    return ", ".join(f"Δφ = {number(d, 2)}" for d in found) or "no Δφ"
 
 
 def angles_agree(data):
-    """Critical angles that are the paper's to its last digit, of all."""
+    """Number of critical angles that equal the paper's to its last digit, and number of all."""
     found = [abs(data.critical[f["solid"]][f["column"]] - f["value"]) <= uncertainty(f) + 1e-9
              for f in figures_of(data, "II") if f["solid"] in data.critical]
     return f"{sum(found)} of {len(found)}"
@@ -142,4 +139,4 @@ def angles_agree(data):
 
 BLOCKS = {f.__name__: f for f in (table_2, table_3, table_4, figure_3)}
 VALUES = {"lies": lies, "ordered": ordered, "hyperstatic": hyperstatic, "angles": angles_agree,
-          "told": told_apart, "dice": dice_value}
+          "separated": separated, "dice": dice_value}

@@ -1,12 +1,12 @@
-"""Blocks that count: the summary, ranks of the constraints, cubes, what it cost."""
+"""Blocks of the summary, the ranks of the constraints, cubes, and CPU time."""
 
 import statistics
 
-from constraints import with_cutoffs
+from constraints import error_of_rows, limit_of, with_cutoffs
 from data import SIZES, SOLIDS
 from densities import said, table_i
 from estimates import estimate_of
-from text import bounded, counted, interval, number, significant, table
+from text import bounded, interval, number, significant, table
 
 
 def summary(data):
@@ -24,7 +24,7 @@ def summary(data):
 
 
 def short_of_rank(data, solid, particles):
-    """6N − 3 less the rank of the constraints nearest jamming."""
+    """6N − 3 less the rank of the constraints, at the smallest Δφ."""
     return estimate_of([6 * particles - 3 - y[-1] for y in data.column(solid, particles, "rank")
                         if y and y[-1] is not None])
 
@@ -41,16 +41,31 @@ def rigidity(data):
             short = short_of_rank(data, solid, particles)
             rows.append([f"{solid} {particles}", str(rank["n"]),
                          significant(data.nearest_distance(solid, particles)["mean"], 2), interval(constraints),
-                         interval(rank), str(full), interval(stress), interval(short), interval(normals)])
-    return table(["nearest jamming", "n", "Δφ", "constraints C·N/2", "rank", "6N − 3", "states of self-stress",
-                  "short of full rank", "states of self-stress, normals alone"], rows)
+                         error_of_rows(data, solid, particles), interval(rank), str(full), interval(stress),
+                         interval(short), interval(normals)])
+    return table(["solid, N", "n", "Δφ", "constraints C·N/2", "error from cut-offs", "rank", "6N − 3",
+                  "states of self-stress", "6N − 3 − rank", "states of self-stress, normals only"], rows)
+
+
+def summary_of_constraints(data):
+    rows = []
+    for solid in SOLIDS:
+        for n in SIZES:
+            if not data.counted(solid, n):
+                continue
+            _, chosen, half = limit_of(data, solid, n)
+            rows.append([f"{solid} {n}", interval(chosen), f"± {number(half, 2)}" if half else "–",
+                         number(12 - 4 / n, 2), interval(data.nearest(solid, n, "self_stress")),
+                         interval(short_of_rank(data, solid, n)), error_of_rows(data, solid, n)])
+    return table(["solid, N", "C as Δφ → 0 ± fit ± form", "error from cut-offs", "12 − 4/N", "states of self-stress",
+                  "6N − 3 − rank", "error of C·N/2 from cut-offs"], rows)
 
 
 def cubes(data):
     columns = ("Z", "Z_ff", "C", "S", "percolates", "zero", "negative", "self_stress")
     every = data.all_of("cube", 100)
     if not every:
-        return "Not in these records.\n"
+        return "These records lack the study.\n"
     failed = sum(r["status"] != "done" for r in every)
     row = [str(len(every)), str(failed), str(len(data.counted("cube", 100))), interval(data.phi_j("cube", 100)),
            *(interval(data.nearest("cube", 100, column)) for column in columns)]
@@ -74,32 +89,14 @@ def cost(data):
         seconds = [r["cpu"] for r in replicates]
         rows.append([name.removeprefix("paper-"), "all", str(len(seconds)), f"{statistics.median(seconds):.0f}",
                      f"{min(seconds):.0f} … {max(seconds):.0f}", f"{sum(seconds) / 60:.1f}"])
-    share = ", ".join(f"{stage} {number(100 * seconds / sum(stages.values()), 1)} %"
-                      for stage, seconds in sorted(stages.items(), key=lambda item: -item[1]))
+    shares = [[f"`{stage}`", number(100 * seconds / sum(stages.values()), 1)]
+              for stage, seconds in sorted(stages.items(), key=lambda item: -item[1])]
     commits = sorted({commit for study in data.studies.values() for commit in study["git"]})
-    return table(["study", "solid", "n", "median CPU s", "least … greatest", "CPU minutes in all"], rows) + \
-        f"\nBy stage: {share}. Made by commits {', '.join(commits)}.\n"
+    return table(["study", "solid", "n", "CPU time, median, s", "smallest … largest, s", "all, minutes"], rows) + \
+        "\n" + table(["stage", "share of the CPU time, %"], shares) + \
+        f"\nThe records were made by commits {', '.join(commits)}.\n"
 
 
-def distance_value(data, solid, particles):
-    found = data.nearest_distance(solid, int(particles))
-    return significant(found["mean"], 2) if found else "–"
-
-
-def column_value(column):
-    """Nearest jamming, or at a distance from it."""
-    def value(data, solid, particles, distance=None):
-        return counted(with_cutoffs(data, solid, int(particles), column, distance and float(distance)))
-
-    return value
-
-
-BLOCKS = {f.__name__: f for f in (summary, rigidity, cubes, cost)}
-VALUES = {"n": lambda data, solid, n: str(len(data.counted(solid, int(n)))), "distance": distance_value,
-          "phi_j": lambda data, solid, n: counted(data.phi_j(solid, int(n))),
-          "short": lambda data, solid, n: counted(short_of_rank(data, solid, int(n))),
-          "failed": lambda data, solid, n: "{} of {}".format(
-              sum(r["status"] != "done" for r in data.all_of(solid, int(n))), len(data.all_of(solid, int(n)))),
-          **{column: column_value(column) for column in (
-              "Z", "Z_ff", "C", "C_fixed", "self_stress", "rows", "amplitude", "members", "percolates",
-              "backbone_removed", "backbone_zero")}}
+BLOCKS = {f.__name__: f for f in (summary, summary_of_constraints, rigidity, cubes, cost)}
+VALUES = {"failed": lambda data, solid, n: "{} of {}".format(
+    sum(r["status"] != "done" for r in data.all_of(solid, int(n))), len(data.all_of(solid, int(n))))}

@@ -1,6 +1,4 @@
-"""Blocks about φ_J: Table I, what the paper's offsets look like, what windows of fits move."""
-
-import math
+"""Blocks about φ_J: Table I, offsets of the paper, finite-size effects, effect of the fit window."""
 
 from scipy.special import chdtr
 
@@ -13,11 +11,11 @@ from verdicts import uncertainty, verdict
 # Rounded dice in a box, the third column of the paper's Table I.
 EXPERIMENT = {"tetrahedron": (0.64, 0.01), "octahedron": (0.64, 0.01), "icosahedron": (0.59, 0.01),
               "dodecahedron": (0.63, 0.01)}
-# Lower ends that the paper's stable states leave, from the caption of its Figure 3.
+# Smallest Δφ of the paper's stable states, from the caption of its Figure 3.
 STABLE_FROM = {"tetrahedron": 0.04, "octahedron": 0.02, "icosahedron": 0.01, "dodecahedron": 0.01}
-FITS = {"< .02": (0, 0.02), "< .04": (0, 0.04), ".01 – .06": (0.01, 0.06), ".02 – .06": (0.02, 0.06),
-        ".02 – .12": (0.02, 0.12), ".04 – .16": (0.04, 0.16), "stable – .12": (None, 0.12),
-        "stable – .16": (None, 0.16)}
+FITS = {"< 0.02": (0, 0.02), "< 0.04": (0, 0.04), "0.01 – 0.06": (0.01, 0.06), "0.02 – 0.06": (0.02, 0.06),
+        "0.02 – 0.12": (0.02, 0.12), "0.04 – 0.16": (0.04, 0.16), "stable – 0.12": (None, 0.12),
+        "stable – 0.16": (None, 0.16)}
 
 
 def said(figure):
@@ -46,13 +44,13 @@ def table_1(data):
                      str(estimate["n"]) if estimate else "0", spread(estimate), said(figure),
                      signed(figure["value"] - estimate["mean"], 4) if estimate else "–", verdict(estimate, figure),
                      f"{number(value, 2)} ± {number(error, 2)}"])
-    return table(["solid, N", "ours", "n", "one packing", "paper", "paper − ours", "the paper's lies",
+    return table(["solid, N", "ours", "n", "prediction interval", "paper", "paper − ours", "the paper's value is",
                   "dice (experiment)"], rows)
 
 
 def parts_of(estimate, figure):
-    """Variances, as `added` takes them, of paper − ours if the paper's value were one packing like ours, known to its
-    own interval."""
+    """Variances of paper − ours in the form of `added`, if the paper's value is one packing like ours with an
+    uncertainty of its own."""
     return [(deviation_of(estimate) ** 2, estimate["n"] - 1), ((uncertainty(figure) / NORMAL) ** 2, None)]
 
 
@@ -79,8 +77,8 @@ def apart_of(sizes):
 
 
 def offset_tests(data):
-    """(χ² of differences between sizes, how often less in %, χ² of all offsets, how often more in %); None where a size
-    is not there."""
+    """(χ² of differences between sizes, probability of a smaller value in %, χ² of all offsets, probability of a larger
+    value in %); None if a size is missing."""
     both = [sizes for sizes in offsets_of(data).values() if len(sizes) == len(SIZES)]
     if len(both) < len(SOLIDS):
         return None
@@ -99,11 +97,12 @@ def offsets(data):
         else:
             cells += ["–", "–"]
         rows.append([solid, *cells])
-    return table(["paper − ours (deviate)", "N = 100", "N = 400", "400 less 100", "sd of that (deviate)"], rows)
+    return table(["paper − ours (normal deviate)", "N = 100", "N = 400", "difference",
+                  "its standard deviation (deviate)"], rows)
 
 
 def offset_value(data, *words):
-    """paper − ours, or what is asked of all eight."""
+    """paper − ours of one solid and size, or a count over all eight."""
     if words[0] in SOLIDS:
         figure = next(f for f in table_i(data) if (f["solid"], f["particles"]) == (words[0], int(words[1])))
         ours = data.of(figure)
@@ -118,22 +117,20 @@ def offset_value(data, *words):
     return (significant(found[which], 2) if which % 2 else number(found[which], 1)) if found else "–"
 
 
-def size_value(data, solid):
-    """φ_J with N = 400 less that with N = 100."""
-    small, large = ([f[0] for f in data.densities(solid, n)] for n in SIZES)
-    if min(len(small), len(large)) < 2:
-        return "–"
-    found = difference_of(small, large)
-    return f"{signed(found['mean'], 4)} ± {number(found['half_width'], 4)}"
-
-
-def papers_size(data, solid):
-    theirs = {f["particles"]: f["value"] for f in table_i(data) if f["solid"] == solid}
-    return signed(theirs[400] - theirs[100], 4)
+def size_effect(data):
+    """φ_J with N = 400 less φ_J with N = 100."""
+    rows = []
+    for solid in SOLIDS:
+        small, large = ([f[0] for f in data.densities(solid, n)] for n in SIZES)
+        theirs = {f["particles"]: f["value"] for f in table_i(data) if f["solid"] == solid}
+        found = difference_of(small, large) if min(len(small), len(large)) > 1 else None
+        rows.append([solid, f"{signed(found['mean'], 4)} ± {number(found['half_width'], 4)}" if found else "–",
+                     signed(theirs[400] - theirs[100], 4)])
+    return table(["φ_J(N = 400) − φ_J(N = 100)", "ours", "paper"], rows)
 
 
 def window_moves(data, solid, fit):
-    """Shift of φ_J by a window over the same states, N = 100, relative to the nearest window, 10⁻⁴."""
+    """Shift of φ_J by a window over the same states, N = 100, relative to the window nearest jamming, 10⁻⁴."""
     moved = []
     for r, near in zip(data.counted(solid, 100), data.densities(solid, 100)):
         window = (STABLE_FROM[solid] if fit[0] is None else fit[0], fit[1])
@@ -143,10 +140,9 @@ def window_moves(data, solid, fit):
 
 
 def windows(data):
-    return table(["fit over Δφ", *SOLIDS], [[name, *(counted(window_moves(data, s, fit)) for s in SOLIDS)]
+    return table(["fit window", *SOLIDS], [[name, *(counted(window_moves(data, s, fit)) for s in SOLIDS)]
                                             for name, fit in FITS.items()])
 
 
-BLOCKS = {f.__name__: f for f in (table_1, offsets, windows)}
-VALUES = {"offset": offset_value, "size": size_value, "papers_size": papers_size,
-          "window": lambda data, solid, *name: counted(window_moves(data, solid, FITS[" ".join(name)]))}
+BLOCKS = {f.__name__: f for f in (table_1, size_effect, offsets, windows)}
+VALUES = {"offset": offset_value}

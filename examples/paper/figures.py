@@ -1,7 +1,7 @@
-"""Draws the figures of the page: python3 figures.py DATA OUT
+"""Draws the figures of the page from DATA/records.json (see gather.py): python3 figures.py DATA OUT
 
-spectra.png (the paper's Figure 1a), vibrations.png (1b), angles.png (2), contacts.png (3a–c), from DATA/records.json as
-gather.py writes it. They show N = 400 where that was measured; N = 100 beside it where the paper has it so.
+spectra.png is the paper's Figure 1a, vibrations.png 1b, angles.png 2, and contacts.png 3a–c. They show N = 400 if it
+was measured, and also N = 100 where the paper does.
 """
 
 import sys

@@ -1,10 +1,9 @@
-"""Gathers what the page is made from: python3 gather.py ISOJAM RESULTS OUT
+"""Extracts the data of the page: python3 gather.py ISOJAM RESULTS OUT
 
-Writes OUT/records.json: of each replicate of the studies below RESULTS its flags, cost, φ_J and, of every state, what
-the page needs, column by column; from the contacts of every state (keep_path) what network.py makes of them. And
-OUT/search.json: φ and E/N of every state of the search of the protocol. To keep them small numbers are rounded: φ to
-nine digits, E/N to six, all others to four. Studies that are not there, or not complete, are left out or count with
-what they have.
+Writes OUT/records.json. For each replicate of the studies below RESULTS it has flags, cost, φ_J and the columns that
+the page needs of every state. From the contacts of every state (keep_path) it has the output of network.py. Writes
+OUT/search.json, with φ and E/N of every state of the search of the protocol. Numbers are rounded: φ to nine digits, E/N
+to six, all others to four. Missing studies are left out, and incomplete ones count with the replicates that they have.
 """
 
 import json
@@ -23,10 +22,10 @@ SEARCHES = ("paper-search-protocol", "paper-search-400")
 # Column of a state: where it is in the record.
 COLUMNS = {
     "phi": "phi", "delta_phi": "delta_phi", "E": "energy_per_particle", "residual": "residual", "descents": "descents",
-    "Z": "Z", "Z_ff": "Z_ff", "Z_ef": "Z_ef", "Z_l": "Z_l", "C": "C",
-    "cut_ff": "face_face_fit/cutoff", "cut_ef": "edge_face_fit/cutoff",
-    "Z_ff_fixed": "fixed_cutoffs/Z_ff", "Z_ef_fixed": "fixed_cutoffs/Z_ef", "Z_l_fixed": "fixed_cutoffs/Z_l",
-    "C_fixed": "fixed_cutoffs/C", "Q6": "order/Q6", "S_order": "order/S",
+    **{name: f"contacts/{name}" for name in ("Z", "Z_ff", "Z_ef", "Z_l", "C")},
+    "cut_ff": "contacts/face_face_fit/cutoff", "cut_ef": "contacts/edge_face_fit/cutoff",
+    **{f"{name}_fixed": f"contacts/fixed_cutoffs/{name}" for name in ("Z_ff", "Z_ef", "Z_l", "C")},
+    "Q6": "order/Q6", "S_order": "order/S",
     "S": "clusters/S", "percolates": "clusters/percolates", "spans": "clusters/spans", "l_max": "clusters/l_max",
     "body_l_max": "clusters/body_l_max", "D_max": "clusters/D",
     "zero": "modes/zero", "negative": "modes/negative", "omega_l": "modes/omega_l", "omega_h": "modes/omega_h",
@@ -44,7 +43,7 @@ POINTS = 60  # of a curve of angles
 def columns_of(states):
     """Columns that at least one state has."""
     columns = {name: [found(state, place) for state in states] for name, place in COLUMNS.items()}
-    for fit, column in (("face_face_fit", "cut_ff"), ("edge_face_fit", "cut_ef")):
+    for fit, column in (("contacts/face_face_fit", "cut_ff"), ("contacts/edge_face_fit", "cut_ef")):
         columns[column] = [value if found(state, f"{fit}/verdict") == "fitted" else None
                            for value, state in zip(columns[column], states)]
     columns["near_rattlers"] = [len(found(state, "modes/near_rattlers") or []) for state in states]
@@ -66,7 +65,7 @@ def drawn_of(records):
             continue
         name, nearest = f"{record['spec']['solid']} {record['spec']['particles']}", record["nearest"]
         for kind in ("edge_face", "face_face"):
-            angles.setdefault(name, {}).setdefault(kind, []).extend(found(nearest, f"angles/{kind}") or [])
+            angles.setdefault(name, {}).setdefault(kind, []).extend(found(nearest, f"contacts/angles/{kind}") or [])
         resolved = [state for state in record["states"] if found(state, "modes/zero") == 3]
         if resolved and "spectrum" not in made.setdefault(name, {}):
             made[name] |= {"replicate": record["spec"]["replicate"], "delta_phi": resolved[-1]["delta_phi"],
@@ -77,7 +76,8 @@ def drawn_of(records):
 
 
 def gap_of(state, which):
-    return found(state, f"{which}_gap/cutoff") if found(state, f"{which}_gap/verdict") == "separated" else None
+    gap = found(state, f"contacts/{which}_gap") or {}
+    return gap.get("cutoff") if gap.get("verdict") == "separated" else None
 
 
 def network_of(contacts, record):
@@ -113,7 +113,7 @@ def study_of(isojam, directory, critical):
     for name, record in records_of(directory):
         records.append(record)
         made = with_states(record)
-        angle = found(record, "nearest/angles/edge_face_random_contact/angle")
+        angle = found(record, "nearest/contacts/angles/edge_face_random_contact/angle")
         if angle and (directory / "paths" / f"{name}.json").exists():
             record["critical"] = critical[record["spec"]["solid"]]
             record["random_angle"] = angle

@@ -1,4 +1,4 @@
-"""Blocks about minima: saddles followed down, near-rattlers, modes by differences, the paper's minimisation."""
+"""Blocks about minima: relaxed saddles, near-rattlers, modes by central differences, the paper's minimisation."""
 
 import statistics
 
@@ -28,7 +28,7 @@ def by_distance(data, solid, particles, value):
 
 
 def descents(data):
-    """Saddles that were followed down before modes were counted, and what is negative after."""
+    """Saddles that were relaxed along a negative mode before modes were counted, and states with a negative mode."""
     rows = []
     for solid in SOLIDS:
         for particles in SIZES:
@@ -37,13 +37,12 @@ def descents(data):
             down = by_distance(data, solid, particles, lambda s, i: s["descents"][i] > 0)
             left = by_distance(data, solid, particles, lambda s, i: (s["negative"][i] or 0) > 0)
             rows.append([f"{solid} {particles}", *(
-                f"{d[1]} of {d[0]}" + (f", {n[1]} left" if n[1] else "") if d[0] else "–" for d, n in zip(down, left))])
-    return table(["states followed down of all, negative left", *(bin_name(*d) for d in DISTANCES)], rows)
+                f"{d[1]} of {d[0]}" + (f"; {n[1]} left" if n[1] else "") if d[0] else "–" for d, n in zip(down, left))])
+    return table(["relaxed saddles", *(bin_name(*d) for d in DISTANCES)], rows)
 
 
 def zeros(data):
-    """Zero modes beyond three: of states with a near-rattler, and of states without, whose softest modes double
-    precision does not tell from zero."""
+    """Numbers of states with a near-rattler and of unresolved states."""
     rows = []
     for solid in SOLIDS:
         for particles in SIZES:
@@ -52,21 +51,21 @@ def zeros(data):
             loose = by_distance(data, solid, particles, lambda s, i: s["near_rattlers"][i] > 0)
             soft = by_distance(data, solid, particles,
                                lambda s, i: not s["near_rattlers"][i] and (s["zero"][i] or 0) > 3)
-            rows.append([f"{solid} {particles}", *(f"{a[1]}, {b[1]} of {a[0]}" if a[0] else "–"
+            rows.append([f"{solid} {particles}", *(f"{a[1]} + {b[1]} of {a[0]}" if a[0] else "–"
                                                   for a, b in zip(loose, soft))])
-    return table(["with a near-rattler, unresolved, of all", *(bin_name(*d) for d in DISTANCES)], rows)
+    return table(["near-rattler + unresolved", *(bin_name(*d) for d in DISTANCES)], rows)
 
 
 def means_of(data, study, solid):
-    """Replicates that count: no crystals, and for studies whose means are shown no replicate that ended short. With the
-    paper's rule almost all ended short, so it is judged by the states that they reached."""
+    """Replicates without crystals, and for studies whose means are shown without those that stopped short. With the
+    paper's rule almost all stopped short, so all states that they reached count."""
     out = LEFT_OUT if study in MAIN else {"crystalline"}
     return [r for r in data.studies.get(study, {"replicates": []})["replicates"]
             if r["solid"] == solid and r["status"] == "done" and not out & set(r["flags"])]
 
 
 def unstable_share(data, study, solid, column, where):
-    """Negative modes of 6N, %, in states of a bin of Δφ; a replicate counts once."""
+    """Share of negative modes of all 6N, %, in states of a bin of Δφ; a replicate counts once."""
     means = []
     for r in means_of(data, study, solid):
         here = [v for x, v in zip(r["states"]["delta_phi"], r["states"].get(column) or [])
@@ -77,7 +76,7 @@ def unstable_share(data, study, solid, column, where):
 
 
 def unstable(data):
-    """Shares of negative modes by central differences, beside the exact count, where any of these is above 0."""
+    """Shares of negative modes by central differences and by the exact count, in bins where one of them is above 0."""
     columns = ("unstable_exact", *(f"unstable_{step}" for step in STEPS))
     rows = []
     for name in data.studies:
@@ -93,13 +92,13 @@ def unstable(data):
 
 
 def share_at(data, solid, column, distance):
-    """Negative modes of 6N, %, with N = 100, at a distance from jamming."""
+    """Share of negative modes of all 6N, %, with N = 100, at a distance from jamming."""
     found = data.at(solid, 100, column, distance)
     return found and {**found, "mean": 100 * found["mean"], "half_width": 100 * (found["half_width"] or 0.0)}
 
 
 def differences(data):
-    """Shares of the paper's unstable points for every step, beside the paper's values."""
+    """Shares of negative modes at the paper's unstable points by every step h, and the paper's shares."""
     rows = []
     for (solid, distance), share in PAPERS.items():
         found = [share_at(data, solid, column, distance) for column in ("unstable_exact", *(
@@ -112,8 +111,8 @@ def differences(data):
 
 
 def rule_value(data, study, what, *solid):
-    """Figure of a study of minimisations: states, states with a negative mode, the nearest Δφ that a solid reached, the
-    largest residual, the number of replicates that ended short."""
+    """A number of a study of minimisations: states, states with a negative mode, smallest Δφ of a solid, largest
+    residual, replicates that stopped short."""
     some = [r["states"] for s in (solid or SOLIDS) for r in means_of(data, study, s)]
     if what == "nearest":
         return significant(min(s["delta_phi"][-1] for s in some), 2) if some else "–"
@@ -133,9 +132,16 @@ def rule_moves(data, solid):
                         if r["replicate"] in ours])
 
 
+def rule_shifts(data):
+    rows = [[solid, rule_value(data, "paper-rule", "nearest", solid), counted(moved)] for solid in SOLIDS
+            if (moved := rule_moves(data, solid))]
+    return table(["solid, N = 100", "smallest Δφ by the rule", "φ_J by the rule − ours, 10⁻⁴"], rows) if rows else \
+        "These records lack the study.\n"
+
+
 def rest_missing(state, i, particles):
-    """By how much the rank of the rest falls short, None where that is more than the rows taken away can explain: every
-    contact that went had three rows at most, and the rank of all others is there still."""
+    """Missing rank of a packing without its near-rattlers. None if it is larger than the removed rows can explain: each
+    removed contact had at most three rows, and the rank of all others remains."""
     missing, rank, removed = (state[key][i] for key in ("backbone_missing", "rank", "backbone_removed"))
     if None in (missing, rank, removed):
         return None
@@ -163,8 +169,8 @@ def backbone(data):
             rows.append([f"{solid} {particles}", *cells, *(counted(s) for s in slopes)])
     if not rows:
         return MISSING
-    return table(["Δφ = .005", "removed", "Z of the rest", "Z of all", "zero modes", "negative",
-                  "short of full rank", "slope of ⟨ω_l⟩, Δφ = .005 – .02", "of K"], rows)
+    return table(["Δφ = 0.005", "removed particles", "Z of the rest", "Z of all", "zero modes", "negative modes",
+                  "missing rank", "exponent of ⟨ω_l⟩, Δφ = 0.005 – 0.02", "exponent of K"], rows)
 
 
 def stability(data):
@@ -185,13 +191,13 @@ def stability(data):
                          str(sum(z == 3 and n == 0 for z, n, *_ in states)),
                          str(sum((n or 0) > 0 for _, n, *_ in states)), str(sum(r > 0 for _, _, r, *_ in states)),
                          str(sum(d > 0 for *_, d, _ in states)), power(max(r for *_, r in states))])
-    return table(["study", "solid", "replicates", "failed", "short of goal", "crystalline", "percolate", "span",
-                  "states", "minima with three zero modes", "with negative modes", "with near-rattlers",
-                  "followed down", "worst residual"], rows)
+    return table(["study", "solid", "replicates", "failed", "stopped short", "crystalline", "percolate", "span",
+                  "states", "three zero modes, none negative", "with negative modes", "with near-rattlers",
+                  "relaxed saddles", "largest residual"], rows)
 
 
 def state_counts(data, solids=SOLIDS, nearest=0.0):
-    """Over all states of disordered packings, or of those at Δφ ≥ nearest, how many are what."""
+    """Numbers of states by stability, over all states of disordered packings or over those with Δφ ≥ nearest."""
     made = dict.fromkeys(("states", "descents", "negative", "loose", "unresolved", "three", "loose_three",
                           "loose_negative"), 0)
     for solid in solids:
@@ -211,8 +217,19 @@ def state_counts(data, solids=SOLIDS, nearest=0.0):
     return made
 
 
+def state_table(data):
+    """Numbers of states by stability, over all Δφ and over the paper's range."""
+    columns = {"states": "states", "three": "three zero modes, none negative", "loose": "with a near-rattler",
+               "loose_three": "both of these", "unresolved": "unresolved", "negative": "with a negative mode",
+               "loose_negative": "with a negative mode and a near-rattler", "descents": "relaxed saddles"}
+    rows = {"all solids, all Δφ": state_counts(data), "all solids, Δφ ≥ 0.01": state_counts(data, nearest=0.01),
+            **{f"{solid}, Δφ ≥ 0.01": state_counts(data, (solid,), 0.01) for solid in SOLIDS}}
+    return table(["", *columns.values()],
+                 [[name, *(str(counts[column]) for column in columns)] for name, counts in rows.items()])
+
+
 def every_count(data, what):
-    """Counts of the table of all replicates, the paper's four solids."""
+    """Numbers of states over all replicates of the paper's four solids, without exclusions."""
     states = [(r["states"], i) for name in MAIN for r in data.studies.get(name, {"replicates": []})["replicates"]
               if r["status"] == "done" and r["solid"] in SOLIDS for i in range(len(r["states"]["phi"]))]
     return str(sum({"states": True, "descents": s["descents"][i] > 0, "negative": (s["negative"][i] or 0) > 0}[what]
@@ -220,8 +237,8 @@ def every_count(data, what):
 
 
 def rest_value(data, what, lower, upper):
-    """States of a range of Δφ in which the rest of a packing has more than three zero modes, of how many; or in which
-    its rank is none that could be."""
+    """Number of states in a range of Δφ whose packing without near-rattlers has more than three zero modes, or an
+    impossible rank, and number of all."""
     found = []
     for solid in SOLIDS:
         for n in SIZES:
@@ -235,8 +252,8 @@ def rest_value(data, what, lower, upper):
 
 
 def rest_between(data, what, distance):
-    """Packings whose rest has more than three zero modes at a distance from jamming, interpolated: how many, in how
-    many of them the farther of the two states has three, and the most of one of a solid and size."""
+    """Packings that without near-rattlers have more than three zero modes at a distance from jamming, interpolated: how
+    many, in how many the farther of the two states has three, and the largest number of zero modes."""
     where, found = float(distance), []
     for solid in SOLIDS:
         for n in SIZES:
@@ -249,8 +266,8 @@ def rest_between(data, what, distance):
 
 
 def percolation(data, what, particles, where):
-    """Disordered packings in which face-face clusters percolate, or span, nearest jamming or in any state; of all that
-    percolate, how many are crystals."""
+    """Number of disordered packings in which face-face clusters percolate or span, at the smallest Δφ or at any; or
+    number of crystals among all packings that percolate."""
     n = int(particles)
     if what == "crystals":
         every = [r for s in SOLIDS for r in data.all_of(s, n)
@@ -260,8 +277,14 @@ def percolation(data, what, particles, where):
     return f"{sum(bool(v[-1]) if where == 'nearest' else any(v) for v in some)} of {len(some)}"
 
 
+def percolating(data):
+    rows = [[str(n), *(percolation(data, what, n, where) for what in ("percolates", "spans")
+                       for where in ("nearest", "any"))] for n in SIZES]
+    return table(["N", "percolate, smallest Δφ", "percolate, any Δφ", "span, smallest Δφ", "span, any Δφ"], rows)
+
+
 def minimisations(data):
-    """The paper's rule and ours, state by state."""
+    """The paper's rule and our minimisation in bins of Δφ."""
     rows, edges = [], (1, 0.1, 0.06, 0.04, 0.028, 0.018)
     for solid in SOLIDS:
         for upper, lower in zip(edges, edges[1:]):
@@ -279,16 +302,14 @@ def minimisations(data):
             if cells[0] != "0" or cells[3] != "0":
                 rows.append([solid, f"{number(lower, 3)} … {number(upper, 3)}", *cells])
     if not rows:
-        return "Not in these records.\n"
-    return table(["solid", "Δφ", "states, rule", "evaluations", "worst residual", "states, ours", "evaluations",
-                  "worst residual"], rows)
+        return "These records lack the study.\n"
+    return table(["solid", "Δφ", "states, rule", "evaluations, rule", "largest residual, rule", "states, ours",
+                  "evaluations, ours", "largest residual, ours"], rows)
 
 
-BLOCKS = {f.__name__: f for f in (descents, zeros, unstable, differences, backbone, stability, minimisations)}
+BLOCKS = {f.__name__: f for f in (descents, zeros, unstable, differences, backbone, stability, minimisations,
+                                  state_table, percolating, rule_shifts)}
 VALUES = {
     "total": lambda data, what, nearest="0": str(state_counts(data, nearest=float(nearest))[what]),
-    "near": lambda data, solid, nearest: "{loose} of {states}".format(**state_counts(data, (solid,), float(nearest))),
     "every": every_count, "rest": rest_value, "rest_between": rest_between,
-    "percolation": percolation, "rule": rule_value,
-    "rule_moves": lambda data, solid: counted(rule_moves(data, solid)),
-    "rest_missing": lambda data, solid, n, x: counted(rest_at(data, solid, int(n), float(x)))}
+    "percolation": percolation, "rule": rule_value}

@@ -15,7 +15,7 @@ FACTORS = (0.1, 0.5, 1, 2, 10)  # by which both cut-offs are multiplied
 
 
 def classes(state, cut_ff, cut_ef, particles):
-    """Z_ff, Z_ef, C by cut-offs as the paper classifies."""
+    """Z_ff, Z_ef and C by cut-offs, with the paper's classes."""
     ff = sum(x < cut_ff for x in state["theta_ff"])
     ef = sum(e < cut_ef and f >= cut_ff for e, f in zip(state["theta_ef"], state["theta_ff"]))
     return {"Z_ff": 2 * ff / particles, "Z_ef": 2 * ef / particles,
@@ -23,7 +23,7 @@ def classes(state, cut_ff, cut_ef, particles):
 
 
 def by_cutoffs(state, fits, particles):
-    """[C at the fitted cut-offs times each of FACTORS, Z_ff by the gap in θ_ff]; None where there is no fit, or gap."""
+    """[C at the fitted cut-offs times each of FACTORS, Z_ff by the gap in θ_ff]; None without a fit or gap."""
     ff, ef = fits["ff"], fits["ef"]
     known = ff is not None and ef is not None
     gap = fits["gap_ff"]
@@ -53,7 +53,7 @@ def hyper_random(state, angle, fraction=0.1):
 
 
 def neighbours(state, cut_ff, particles):
-    """How face-face contacts are spread over particles: [how many particles have 0, 1, 2 … of them; Σ k(k−1) over
+    """Distribution of face-face contacts over particles: [how many particles have 0, 1, 2 … of them; Σ k(k−1) over
     particles; Σ k(z−1)], z all contacts of a particle and k its face-face contacts. A contact of a particle that has
     another face-face contact is face-face with probability Σ k(k−1) / Σ k(z−1)."""
     of, all_of = [0] * particles, [0] * particles

@@ -1,9 +1,11 @@
-"""Sets our tables beside the paper's: python3 page.py PAGE [-o OUT] [--data DIR] [--check] [--some]
+"""Updates the page that compares our results with the paper.
 
-PAGE holds blocks and numbers within sentences (see ../page/marks.py) that are made anew from DIR/records.json and
-DIR/search.json (see gather.py), data by default, and data/paper.json; all else is left as it is. Writes to OUT, PAGE
-itself by default; with --check writes nothing and fails if a part is not what the data say. With --some PAGE, another
-one, need not have all blocks.
+usage: python3 page.py PAGE [-o OUT] [--data DIR] [--check] [--some]
+
+PAGE holds blocks and numbers within sentences (see ../page/marks.py). They are made again from DIR/records.json and
+DIR/search.json (see gather.py; DIR is data by default) and from data/paper.json. All else is unchanged. Writes to OUT,
+or to PAGE by default. With --check nothing is written, and a page that differs from its data is an error. With --some
+PAGE may have only some of the blocks.
 """
 
 import argparse
@@ -18,7 +20,7 @@ from verdicts import overlap
 
 
 def agreement(data, committed):
-    """How many of our figures have 95 % intervals that overlap those of the committed ones."""
+    """Number of our values whose 95 % confidence intervals overlap those of the committed ones, and the others."""
     lines, met, known = [], 0, 0
     for figure in data.figures:
         if figure["place"] == "Table II":
@@ -33,7 +35,7 @@ def agreement(data, committed):
             lines.append(f"  {figure['place']}, {figure['solid']} N = {figure['particles']}, {figure['column']}: "
                          f"{ours['mean']:.5g} ± {ours['half_width']:.2g}, committed "
                          f"{theirs['mean']:.5g} ± {theirs['half_width']:.2g}")
-    head = f"{met} of {known} figures agree with those in examples/paper: their 95 % intervals overlap"
+    head = f"{met} of {known} values agree with those in examples/paper: their 95 % confidence intervals overlap"
     return "\n".join([head, *lines])
 
 
@@ -51,7 +53,8 @@ def main():
     except PageError as error:
         sys.exit(str(error))
     if arguments.check:
-        sys.exit(0 if made == page else f"{arguments.page}: a block is not what {arguments.data} says")
+        sys.exit(0 if made == page else
+                 f"{arguments.page}: differs from {arguments.data}; page.py without --check updates it")
     out = arguments.out or arguments.page
     out.write_text(made, encoding="utf-8")
     if out.parent.resolve() != arguments.page.parent.resolve():

@@ -1,4 +1,4 @@
-"""Blocks about the search for a setting that gives the paper's Table I: ways up × windows of the fit for φ_J."""
+"""Blocks about the search for a setting that gives the paper's Table I: compression protocols × fit windows of φ_J."""
 
 import collections
 import functools
@@ -16,7 +16,7 @@ from text import counted, number, signed, significant, table
 from verdicts import MEAN, verdict
 
 TARGET = 3.2e-5
-BASE = ({"before": False, "step": 0.02, "budget": 2000}, "< .02")
+BASE = ({"before": False, "step": 0.02, "budget": 2000}, "< 0.02")
 # A compression protocol and a fit window: Σ of squared normal deviates, root mean square of paper − ours, and for each
 # solid our estimate, paper − ours and whether the paper's value lies in our mean's interval.
 Entry = collections.namedtuple("Entry", "chi rms setting window found off inside")
@@ -27,7 +27,7 @@ def searched_of(data, particles):
 
 
 def settings_of(data, particles=100):
-    """{setting: {solid: replicates that count}} of the search."""
+    """{setting: {solid: disordered replicates}} of the search."""
     made = {}
     for replicate in searched_of(data, particles):
         solids = made.setdefault(tuple(sorted(replicate["setting"].items())), {})
@@ -67,12 +67,12 @@ def ranked(data, particles=100):
 
 
 def searched_solids(data, particles=100):
-    """Solids with three replicates for some setting; an unfinished search has fewer than all."""
+    """Solids with three replicates for at least one setting; an unfinished search lacks some."""
     return [s for s in SOLIDS if any(len(solids.get(s, [])) >= 3 for solids in settings_of(data, particles).values())]
 
 
 def all_inside(entries):
-    """Settings of which every value of the paper lies in the interval of our mean."""
+    """Settings for which every value of the paper lies in the confidence interval of our mean."""
     return [entry for entry in entries if all(entry.inside.values())]
 
 
@@ -85,14 +85,20 @@ def is_base_setting(setting):
 
 
 def name_of(setting, *window):
+    """Cells of a table: state whose energy is compared with the target, strain step, budget, and window."""
     reading = "before" if setting["before"] else "after"
     if setting["target"] != TARGET:
         reading += f", {significant(setting['target'], 1)}"
     return [reading, number(setting["step"], 3), str(setting["budget"]), *window]
 
 
-def told(entry, solid):
-    """Our φ_J by a setting, of how many, paper − ours, and a mark if the paper's lies in our mean's interval."""
+def in_words(setting, window=None):
+    reading, step, budget = name_of(setting)
+    return f"energy {reading} relaxation, step {step}, budget {budget}" + (f", window {window}" if window else "")
+
+
+def result(entry, solid):
+    """Our φ_J by a setting with n, paper − ours, and a mark if the paper's value is in the confidence interval."""
     if solid not in entry.found:
         return "–"
     estimate = entry.found[solid]
@@ -103,20 +109,20 @@ def told(entry, solid):
 def search(data, best=6):
     entries, searched = ranked(data), searched_solids(data)
     if not entries:
-        return "Not in these records.\n"
+        return "These records lack the study.\n"
     shown = entries[:best] + [entry for entry in entries[best:] if is_base(entry)]
     by_size = min(entries, key=lambda entry: entry.rms)
     if by_size not in shown:
         shown.append(by_size)
     rows = [[str(entries.index(e) + 1), *name_of(e.setting, e.window), number(e.chi, 2), number(e.rms, 4),
-             *(told(e, s) for s in searched)] for e in shown]
-    return table(["rank", "target read", "step", "budget", "window", "χ²", "rms offset",
-                  *(f"{s}, ours (n), paper − ours" for s in searched)], rows)
+             *(result(e, s) for s in searched)] for e in shown]
+    return table(["rank", "energy before/after relaxation", "step", "budget", "window", "χ²", "rms of paper − ours",
+                  *(f"{s}: ours (n), paper − ours" for s in searched)], rows)
 
 
 @functools.cache
 def both_sizes(data):
-    """Settings and windows of which both sizes are known: (entry of N = 100, that of N = 400), the least sum of χ²
+    """Settings and windows with results for both sizes: (entry of N = 100, entry of N = 400), smallest sum of χ²
     first."""
     small = {(tuple(sorted(e.setting.items())), e.window): e for e in ranked(data)}
     found = [(small[key], e) for e in ranked(data, 400)
@@ -125,8 +131,8 @@ def both_sizes(data):
 
 
 def least_first(pairs, best):
-    """(entry of N = 400, χ² with N = 100, True) of the best with N = 100, of pairs of the first two; then, with False,
-    that which is best with N = 400, if it is another. A χ² that is not known is the greatest."""
+    """Selects from pairs (entry of N = 400, χ² with N = 100). Returns (*pair, True) for the best with N = 100, then
+    (*pair, False) for the best with N = 400 if it is not among them. An unknown χ² ranks last."""
     def least(chi):
         return math.inf if chi is None else chi
 
@@ -137,30 +143,30 @@ def least_first(pairs, best):
 
 
 def windows_400(data, best=4):
-    """Windows of every compression protocol that was run with N = 400."""
+    """Selected windows of every compression protocol that was run with N = 400."""
     small = {(tuple(sorted(e.setting.items())), e.window): e.chi for e in entries_of(data)}
-    ways = {}
+    protocols = {}
     for e in entries_of(data, 400):
-        way = tuple(sorted(e.setting.items()))
-        ways.setdefault(way, []).append((e, small.get((way, e.window))))
+        setting = tuple(sorted(e.setting.items()))
+        protocols.setdefault(setting, []).append((e, small.get((setting, e.window))))
 
-    return [shown for way in sorted(ways) for shown in least_first(ways[way], best)]
+    return [shown for setting in sorted(protocols) for shown in least_first(protocols[setting], best)]
 
 
 def chosen_small(data, what):
-    """Settings of the table for N = 400 that were chosen with N = 100 and have a χ² with N = 400: the number that it
-    does not reject, the first of them, and its χ²."""
+    """Settings of the table for N = 400 that were chosen with N = 100 and have a χ² with N = 400: how many it does not
+    reject, or the first of them, or its χ²."""
     found = [e for e, _, by_small in windows_400(data) if by_small and e.chi is not None]
     if not found:
         return "–"
     if what == "first":
-        return ", ".join(name_of(found[0].setting, found[0].window))
+        return in_words(found[0].setting, found[0].window)
     return number(found[0].chi, 2) if what == "chi" else \
-        f"{sum(chdtr(len(SOLIDS), e.chi) < .95 for e in found)} of {len(found)}"
+        f"{sum(chdtr(len(SOLIDS), e.chi) < 0.95 for e in found)} of {len(found)}"
 
 
 @functools.cache
-def way_of(manifest):
+def protocol_of(manifest):
     """Compression protocol of a study of this folder, with defaults from the schema."""
     said = read(HERE / manifest)["protocol"]
     known = read(HERE.parent.parent / "schemas" / "manifest.schema.json")["definitions"]
@@ -168,24 +174,24 @@ def way_of(manifest):
         "target_before_relaxation", "consolidation_step", "consolidation_evaluations", "target_energy", "max_density")}
 
 
-def way_value(data, study):
-    """The compression protocol of a study, as settings are named."""
-    way = way_of(f"{study}.json")
-    return ", ".join(name_of({"before": way["target_before_relaxation"], "step": way["consolidation_step"],
-                              "budget": way["consolidation_evaluations"], "target": way["target_energy"]}))
+def protocol_value(data, study):
+    """The compression protocol of a study, in words."""
+    protocol = protocol_of(f"{study}.json")
+    return in_words({"before": protocol["target_before_relaxation"], "step": protocol["consolidation_step"],
+                     "budget": protocol["consolidation_evaluations"], "target": protocol["target_energy"]})
 
 
 def search_400(data, best=4):
-    """Every compression protocol that was run with N = 400, with the windows that are best with N = 100. The best
-    window with N = 400 is marked if it is another."""
+    """Every compression protocol that was run with N = 400, with its best windows at N = 100. The best window at
+    N = 400 is marked if it is not among them."""
     entries, searched = entries_of(data, 400), searched_solids(data, 400)
     if not entries:
-        return "Not in these records.\n"
+        return "These records lack the study.\n"
     rows = [[*name_of(e.setting, e.window + ("" if by_small else " †")),
              *(number(chi, 2) if chi is not None else "–" for chi in (other, e.chi)),
-             *(told(e, s) for s in searched)] for e, other, by_small in windows_400(data, best)]
-    return table(["target read", "step", "budget", "window", "χ², N = 100", "χ², N = 400",
-                  *(f"{s}, N = 400, ours (n), paper − ours" for s in searched)], rows)
+             *(result(e, s) for s in searched)] for e, other, by_small in windows_400(data, best)]
+    return table(["energy before/after relaxation", "step", "budget", "window", "χ², N = 100", "χ², N = 400",
+                  *(f"{s}, N = 400: ours (n), paper − ours" for s in searched)], rows)
 
 
 def moved_by(data, setting, solid):
@@ -207,21 +213,22 @@ def moves_of(data):
     return sorted(made, key=lambda m: [m[0]["target"] != TARGET, m[0]["before"], m[0]["step"], m[0]["budget"]])
 
 
-def levers(data):
-    """Shift of φ_J by each choice of the compression protocol."""
+def protocol_shifts(data):
+    """Shift of φ_J by each compression protocol, relative to the base."""
     rows = [[*name_of(setting), *(counted(found.get(s)) for s in SOLIDS)] for setting, found in moves_of(data)]
-    return table(["target read", "step", "budget", *SOLIDS], rows) if rows else "Not in these records.\n"
+    return table(["energy before/after relaxation", "step", "budget", *SOLIDS], rows) if rows else \
+        "These records lack the study.\n"
 
 
-def ended(data, solid, particles, reading, step, budget):
-    """Number of replicates of a compression protocol that ended, and of all."""
+def completed(data, solid, particles, reading, step, budget):
+    """Number of replicates of a compression protocol that completed, and number of all."""
     some = [r for r in searched_of(data, int(particles)) if r["solid"] == solid and name_of(r["setting"]) == [
         reading, step, budget]]
     return f"{sum(r['status'] == 'done' for r in some)} of {len(some)}"
 
 
-def lever_value(data, which):
-    """The least and the greatest shift of all, of φ; how many of all shifts exclude 0, and of those down."""
+def shift_value(data, which):
+    """Smallest and largest shift of φ_J, and numbers of shifts: all, significant ones, negative ones among these."""
     found = [e for _, solids in moves_of(data) for e in solids.values()]
     if not found:
         return "–"
@@ -234,49 +241,36 @@ def lever_value(data, which):
 
 
 def settings_named(entries):
-    """The ways up of entries, in words."""
-    names = sorted({tuple(name_of(e.setting)) for e in entries})
-    return "; ".join(f"{reading}, {step}, {budget}" for reading, step, budget in names) or "none"
+    """The compression protocols of entries, in words."""
+    return "; ".join(sorted({in_words(e.setting) for e in entries})) or "none"
 
 
-def search_value(data, what, *rest):
+def search_value(data, what):
     entries = ranked(data)
     if not entries:
         return "–"
     base = next((e for e in entries if is_base(e)), None)
     pairs = both_sizes(data)
     known = {"count": len(entries), "every": len(entries_of(data)), "windows": len(FITS),
-             "ways": len(settings_of(data)), "complete": len({tuple(sorted(e.setting.items())) for e in entries}),
+             "protocols": len(settings_of(data)), "complete": len({tuple(sorted(e.setting.items())) for e in entries}),
              "inside": len(all_inside(entries)), "base_rank": entries.index(base) + 1 if base else 0,
              "count_400": len(pairs), "inside_400": len([a for a, b in pairs if all_inside([a]) and all_inside([b])]),
-             "untried": len(entries) - len(pairs), "ways_400": len(settings_of(data, 400)),
-             "untried_ways": len(settings_of(data)) - len(settings_of(data, 400))}
+             "untried": len(entries) - len(pairs),
+             "untried_protocols": len(settings_of(data)) - len(settings_of(data, 400))}
     if what in known:
         return str(known[what])
-    if what == "inside_ways":
+    if what == "inside_protocols":
         return settings_named(all_inside(entries))
-    if what == "width":  # of a solid's mean, in the best setting and in the base
-        return " and ".join(f"± {number(e.found[rest[0]]['half_width'], 4)}" for e in (entries[0], base) if e)
     if what in ("pair", "pair_100", "pair_400"):  # the best for both sizes
         if not pairs:
             return "–"
         if what == "pair":
-            return ", ".join(name_of(pairs[0][0].setting, pairs[0][0].window))
+            return in_words(pairs[0][0].setting, pairs[0][0].window)
         return number(pairs[0][what == "pair_400"].chi, 2)
-    return {"best_chi": number(entries[0].chi, 2), "best_rms": number(entries[0].rms, 4),
-            "base_chi": number(base.chi, 2) if base else "–", "base_rms": number(base.rms, 4) if base else "–",
-            "least_rms": number(min(e.rms for e in entries), 4)}[what]
+    return {"best_chi": number(entries[0].chi, 2), "base_chi": number(base.chi, 2) if base else "–"}[what]
 
 
-def best_400(data, solid):
-    """paper − ours of a solid in the setting that is best for both sizes, with its n."""
-    if not both_sizes(data):
-        return "–"
-    entry = both_sizes(data)[0][1]
-    return f"{signed(entry.off[solid], 4)} ± {number(entry.found[solid]['half_width'], 4)} ({entry.found[solid]['n']})"
-
-
-BLOCKS = {f.__name__: f for f in (search, search_400, levers)}
-VALUES = {"search": search_value, "best_400": best_400, "ended": ended, "lever": lever_value,
-          "chosen_small": chosen_small, "way": way_value,
-          "greatest": lambda data, study: number(way_of(f"{study}.json")["max_density"], 2)}
+BLOCKS = {f.__name__: f for f in (search, search_400, protocol_shifts)}
+VALUES = {"search": search_value, "completed": completed, "shift": shift_value, "chosen_small": chosen_small,
+          "protocol": protocol_value,
+          "max_density": lambda data, study: number(protocol_of(f"{study}.json")["max_density"], 2)}

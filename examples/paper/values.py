@@ -1,4 +1,4 @@
-"""Numbers within sentences, by names such as `phi_j octahedron 100`: what is asked for, of which solid and size."""
+"""Numbers within sentences, by names such as `offset octahedron 100`: a quantity, then solid and size."""
 
 import alignment
 import constraints
@@ -14,7 +14,7 @@ VALUES = {name: value for module in (alignment, constraints, contacts, counts, d
 
 
 class UnknownValue(Exception):
-    """A name that the page uses and nothing answers to."""
+    """The page uses a value that is not defined."""
 
 
 def value_of(data, name):

@@ -1,4 +1,4 @@
-"""Where a figure of the paper lies among ours: pure functions of an estimate and of what the paper says."""
+"""Comparison of a value of the paper with our results: pure functions of an estimate and the paper's value."""
 
 import sys
 from pathlib import Path
@@ -7,20 +7,20 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "page"))
 
 from estimates import single_half_width  # noqa: E402
 
-MEAN, ONE, OUTSIDE, UNDECIDED = "in the mean's interval", "as one packing", "**outside**", "undecided"
+MEAN, ONE, OUTSIDE, UNDECIDED = "in the confidence interval", "in the prediction interval", "**outside**", "undecided"
 
 
 def uncertainty(figure):
-    """± of a figure of the paper: its own interval, or half a unit of the last digit it is given to."""
+    """Uncertainty of a value of the paper: its own interval, or half a unit of its last digit."""
     if "error" in figure:
         return figure["error"]
     return 0.5 * 10.0 ** -figure["digits"] if "digits" in figure else 0.0
 
 
 def verdict(estimate, figure):
-    """Compares a figure, within its own uncertainty, with our results: it lies within the interval of our mean (both
-    errors added), within the range of one more packing of ours, or outside of both. Undecided if packings spread by
-    half of the figure or more, or if there are fewer than three."""
+    """Compares a value, within its own uncertainty, with our results. It lies in the confidence interval of our mean
+    (both errors added), in the prediction interval of one more packing of ours, or outside of both. It is undecided
+    with fewer than three packings, or if the prediction interval is wider than ± half of the value."""
     if not estimate or estimate["n"] < 3 or estimate["half_width"] is None:
         return UNDECIDED
     value = figure["value"]

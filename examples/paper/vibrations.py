@@ -1,4 +1,4 @@
-"""Blocks about Figure 1: local slopes, the exponent of E, where stiff modes live."""
+"""Blocks about Figure 1: local exponents, the exponent of E, localisation of the stiffest modes."""
 
 import math
 
@@ -7,25 +7,26 @@ from estimates import estimate_of
 from scaling import free_exponent, jamming_density, line
 from text import counted, interval, significant, table
 
-EDGES = tuple(0.00025 * 2 ** i for i in range(11))  # … .256
-MISSING = "Not in these records: filled when they have the measure.\n"
+EDGES = tuple(0.00025 * 2 ** i for i in range(11))  # … 0.256
+MISSING = "These records lack the measure.\n"
 # The paper's exponents of Δφ.
 LAWS = {"omega_l": 2, "omega_h": 0, "E": 6, "K": 4}
 NAMES = {"omega_l": "⟨ω_l⟩", "omega_h": "⟨ω_h⟩", "E": "E", "K": "K", RATIO: "⟨ω_l⟩/√K"}
-SAID = {"omega_l": "∝ Δφ² by the paper", "omega_h": "asymptotically constant by the paper", "E": "∝ Δφ⁶ by the paper",
-        "K": "∝ Δφ⁴ by the paper",
-        RATIO: "constant by the paper; the exponent of ⟨ω_l⟩ less half that of K, by replicate"}
-# Bins within the paper's range of Δφ, 0.01 … 0.16: the first and the last, and one nearer to jamming.
+SAID = {"omega_l": "exponent 2 in the paper", "omega_h": "exponent 0 near jamming in the paper",
+        "E": "exponent 6 in the paper", "K": "exponent 4 in the paper",
+        RATIO: "exponent 0 in the paper; the exponent of ⟨ω_l⟩ less half the exponent of K of each replicate"}
+# Lower edges of bins: the largest and the smallest within the paper's range 0.01 … 0.16, and one nearer to jamming.
 ENDS = (0.064, 0.016, 0.004)
 DISTANCES = ((0.08, 0.256), (0.04, 0.08), (0.02, 0.04), (0.01, 0.02), (0.005, 0.01), (0.0025, 0.005), (0.0, 0.0025))
 
 
 def bin_name(lower, upper):
-    return f"{significant(lower, 2)} – {significant(upper, 2)}" if lower else f"< {significant(upper, 2)}"
+    ends = [significant(x, 2).rstrip("0") for x in (lower, upper)]
+    return " – ".join(ends) if lower else f"< {ends[1]}"
 
 
 def shown_bins(data, columns):
-    """Bins in which some solid has something."""
+    """Bins in which at least one solid has a value."""
     some = [data.slopes(s, n, c, EDGES) for s in SOLIDS for n in SIZES for c in columns]
     return [i for i in range(len(EDGES) - 1) if any(s[i] for s in some)]
 
@@ -46,21 +47,16 @@ def local_slopes(data):
 
 
 def bin_from(lower):
-    """The bin of EDGES that begins there."""
+    """Index of the bin of EDGES with this lower edge."""
     return min(range(len(EDGES) - 1), key=lambda i: abs(EDGES[i] - float(lower)))
 
 
-def slope(data, column, solid, particles, lower):
-    """Local exponent in the bin that begins there."""
-    return data.slopes(solid, int(particles), RATIO if column == "ratio" else column, EDGES)[bin_from(lower)]
-
-
 def exponents(data):
-    """With N = 400, as the paper's figures, at both ends of its range and nearer."""
+    """Exponents with N = 400, the size of the paper's figures, in the bins of ENDS."""
     bins = [bin_from(lower) for lower in ENDS]
     rows = [[f"{NAMES[column]}, {solid}", *(counted(data.slopes(solid, 400, column, EDGES)[i]) for i in bins),
              str(LAWS.get(column, 0))] for column in ("E", "K", "omega_l", RATIO) for solid in SOLIDS]
-    return table(["N = 400, Δφ between", *(bin_name(EDGES[i], EDGES[i + 1]) for i in bins), "paper"], rows)
+    return table(["exponent of, N = 400, Δφ =", *(bin_name(EDGES[i], EDGES[i + 1]) for i in bins), "paper"], rows)
 
 
 def off_laws(data):
@@ -90,7 +86,8 @@ def exponent_of_energy(data):
                 cells += [counted(x), interval(moved)]
             if cells != ["–"] * 4:
                 rows.append([f"{solid} {particles}", *cells])
-    return table(["solid, N", "x_E, Δφ < .02", "its φ_J − ours, 10⁻⁴", "x_E, Δφ < .005", "its φ_J − ours, 10⁻⁴"], rows)
+    return table(["solid, N", "exponent, Δφ < 0.02", "shift of φ_J, 10⁻⁴", "exponent, Δφ < 0.005",
+                  "shift of φ_J, 10⁻⁴"], rows)
 
 
 FAR = (0.02, 0.12)
@@ -113,11 +110,11 @@ def apparent_exponent(data, solid, particles, column):
 def apparent(data):
     rows = [[f"{solid} {particles}", *(counted(apparent_exponent(data, solid, particles, column)) for column in LAWS)]
             for solid in SOLIDS for particles in SIZES if data.counted(solid, particles)]
-    return table(["fits over Δφ = .02 … .12", *(NAMES[column] for column in LAWS)], rows)
+    return table(["exponent over Δφ = 0.02 … 0.12", *(NAMES[column] for column in LAWS)], rows)
 
 
 def apparent_above(data, column, exponent):
-    """Number of solids with N = 400 whose exponent lies above another by its interval, and the number of all."""
+    """Number of solids with N = 400 whose exponent is significantly above a value, and number of all."""
     found = [e for solid in SOLIDS if (e := apparent_exponent(data, solid, 400, column)) and e["n"] > 1]
     return f"{sum(e['mean'] - e['half_width'] > float(exponent) for e in found)} of {len(found)}"
 
@@ -131,12 +128,9 @@ def localisation(data):
             if amplitude:
                 rows.append([f"{solid} {particles}", str(amplitude["n"]), interval(amplitude),
                              interval(data.nearest(solid, particles, "members"))])
-    return table(["nearest jamming", "n", "squared amplitude on particles with a face-face contact",
-                  "share of such particles"], rows) if rows else MISSING
+    return table(["solid, N", "n", "share of the squared amplitude", "share of the particles"],
+                 rows) if rows else MISSING
 
 
 BLOCKS = {f.__name__: f for f in (local_slopes, exponents, exponent_of_energy, apparent, localisation)}
-VALUES = {"slope": lambda data, *words: counted(slope(data, *words)), "off_laws": off_laws,
-          "apparent_above": apparent_above,
-          "free": lambda data, solid, n, upper: counted(free_energy(data, solid, int(n), (0, float(upper)))[0]),
-          "apparent": lambda data, column, solid, n: counted(apparent_exponent(data, solid, int(n), column))}
+VALUES = {"off_laws": off_laws, "apparent_above": apparent_above}

@@ -9,10 +9,10 @@ import held
 import rank
 from data import SOLIDS
 from gather import FORCES, GAPS
-from text import counted, interval, number, significant, table
+from text import interval, number, significant, table
 
 
-OF_THE_PAPER = ("backbone", "difference_modes")  # measures that `make rigidity` does without
+OF_THE_PAPER = ("backbone", "difference_modes")  # measures that `make rigidity` does not need
 
 
 def seconds_of(replicate):
@@ -32,14 +32,15 @@ def cost(data):
             for r in some:
                 for stage, time in seconds_of(r).items():
                     every[stage] = every.get(stage, 0) + time
-    share = ", ".join(f"{stage} {number(100 * seconds / sum(every.values()), 1)} %"
-                      for stage, seconds in sorted(every.items(), key=lambda item: -item[1]))
+    shares = [[f"`{stage}`", number(100 * seconds / sum(every.values()), 1)]
+              for stage, seconds in sorted(every.items(), key=lambda item: -item[1])]
     commits = sorted({commit for study in data.studies.values() for commit in study["git"]})
     alone = sum(sum(seconds_of(r).values()) * (0.25 if name.startswith("paper-400") else 1)
                 for name, study in data.studies.items() for r in study["replicates"]) / 60
-    return table(["study", "", "replicates", "of these in no mean", "median CPU s", "CPU minutes in all"], rows) + \
-        (f"\n{alone:.0f} CPU minutes with a quarter of N = 400, {alone / 2:.0f} minutes of two cores. By stage: {share}. "
-         f"Made by commits {', '.join(commits)}.\n")
+    return table(["study", "solid, N", "replicates", "excluded", "CPU time, median, s", "all, minutes"], rows) + \
+        "\n" + table(["stage", "share of the CPU time, %"], shares) + \
+        (f"\n`make rigidity` runs a quarter of N = 400. It takes {alone:.0f} CPU minutes, or {alone / 2:.0f} minutes "
+         f"on two cores. The records were made by commits {', '.join(commits)}.\n")
 
 
 BLOCKS = {**evidence.BLOCKS, **held.BLOCKS, **counting.BLOCKS, **rank.BLOCKS, **forces.BLOCKS,
@@ -47,7 +48,7 @@ BLOCKS = {**evidence.BLOCKS, **held.BLOCKS, **counting.BLOCKS, **rank.BLOCKS, **
 
 
 class UnknownValue(Exception):
-    """A name that the page uses and nothing answers to."""
+    """The page uses a value that is not defined."""
 
 
 def counts_of(data, what):
@@ -78,44 +79,13 @@ def counts_of(data, what):
 
 
 def value_of(data, name):
-    """`at COLUMN SOLID N Δφ`, `nearest COLUMN SOLID N`, `distance SOLID N`, `slope COLUMN SOLID N LOWER`,
-    `missing SOLID N`, `form SOLID N ½|1`, `infinite SOLID`, `law SOLID N`, `force SOLID`, `gap SOLID`,
-    `band SOLID N Δφ|nearest WHICH`, `count WHAT`."""
+    """`count WHAT`, `distance SOLID N` (the smallest Δφ) or `infinite SOLID` (m as Δφ → 0 and N → ∞)."""
     what, *rest = name.split()
-    simple = {
-        "count": lambda: counts_of(data, *rest), "infinite": lambda: interval(rank.infinite(data, *rest)),
-        "force": lambda: counted(forces.common(data, rest[0], FORCES, forces.WEAK)),
-        "gap": lambda: counted(forces.common(data, rest[0], GAPS[1:], forces.open_gaps(data, rest[0])))}
-    if what in simple:
-        return simple[what]()
-    if what in ("missing", "form", "law", "distance", "band"):
-        solid, particles, *where = rest
-        return of_size(data, what, solid, int(particles), *where)
-    column, solid, particles, *where = rest
-    particles = int(particles)
-    if what == "at":
-        return counted(data.at(solid, particles, column, float(where[0])))
-    if what == "nearest":
-        return counted(data.nearest(solid, particles, column))
-    if what == "slope":
-        found = data.slopes(solid, particles, column, held.BINS)
-        return counted(found[held.BINS.index(float(where[0]))])
-    raise UnknownValue(name)
-
-
-BANDS = ("Z_l", "Z_ef", "Z_ff", "C")
-
-
-def of_size(data, what, solid, particles, *where):
-    """Values of a solid and size that are not of a column."""
-    if what == "missing":
-        return rank.with_cutoffs(rank.missing_limit(data, solid, particles)[1])
-    if what == "form":
-        return interval(rank.missing_limit(data, solid, particles)[0].get({"½": 0.5, "1": 1.0}[where[0]]))
-    if what == "law":
-        return counted(forces.excess_law(data, solid, particles)[1])
+    if what == "count":
+        return counts_of(data, *rest)
+    if what == "infinite":
+        return interval(rank.infinite(data, *rest))
     if what == "distance":
-        nearest = data.nearest_distance(solid, particles)
+        nearest = data.nearest_distance(rest[0], int(rest[1]))
         return significant(nearest["mean"] if nearest else None, 2)
-    place = None if where[0] == "nearest" else float(where[0])
-    return interval(counting.band(data, solid, particles, place, BANDS.index(where[1])))
+    raise UnknownValue(name)

@@ -1,4 +1,4 @@
-"""Blocks about counting by stiffness: bands, constraint numbers by threshold, and how angles collapse."""
+"""Blocks about counting by stiffness: bands, constraint numbers by threshold, and scaling of angles."""
 
 import functools
 import statistics
@@ -11,12 +11,12 @@ from limits import limit_of_choices
 from text import counted, interval, number, significant, signed, table
 
 WINDOWS = ((0, 0.01), (0, 0.02), (0, 0.005))
-AT = (0.02, 0.005)  # besides the nearest: where records have the stiffness of every contact
+AT = (0.02, 0.005)  # Δφ, besides the smallest, at which records have the stiffness of every contact
 
 
 def banded(data, solid, particles, place):
-    """By replicate ([Z_l, Z_ef, Z_ff, C] by bands, for boundaries × ½, 1 and 2, and by the record's fits), at Δφ =
-    place or nearest jamming. Z_l, Z_ef, Z_ff are classified by normals; C is Z plus two for each tilt of the upper
+    """By replicate ([Z_l, Z_ef, Z_ff, C] by bands for boundaries × ½, 1 and 2, and the same by the record's fits), at
+    Δφ = place or at the smallest. Z_l, Z_ef, Z_ff are classified by normals. C is Z plus 2/N for each tilt of the upper
     band."""
     made = []
     for replicate in data.counted(solid, particles):
@@ -35,7 +35,7 @@ def banded(data, solid, particles, place):
 
 
 def band(data, solid, particles, place, number_of):
-    """Estimate of Z_l, Z_ef, Z_ff or C (0 … 3) by bands, with half the range over boundaries; None if there is none."""
+    """Estimate of Z_l, Z_ef, Z_ff or C (0 … 3) by bands, with half the range over boundaries as systematic error."""
     found = banded(data, solid, particles, place)
     if not found:
         return None
@@ -55,19 +55,19 @@ def bands(data):
                 for i in range(4):
                     cells += [interval(band(data, solid, particles, place, i)),
                               interval(estimate_of([f[1][i] for f in found]))]
-                where = significant(place, 1) if place else "nearest"
+                where = significant(place, 1) if place else "smallest"
                 rows.append([f"{solid} {particles}", where, str(len(found)), *cells])
-    return table(["", "Δφ", "n", "Z_l by band", "by fits", "Z_ef by band", "by fits", "Z_ff by band", "by fits",
-                  "C by band of tilts", "by fits"], rows)
+    return table(["solid, N", "Δφ", "n", "Z_l by bands", "Z_l by fits", "Z_ef by bands", "Z_ef by fits",
+                  "Z_ff by bands", "Z_ff by fits", "C by bands of tilts", "C by fits"], rows)
 
 
 def stiff_numbers(data):
-    return by_grid(data, {**{f"C_s_{t}": f"s > {t}" for t in THRESHOLDS}, "C": "by cut-offs"}, (100,))
+    return by_grid(data, {**{f"C_s_{t}": f"C_s, s > {t}" for t in THRESHOLDS}, "C": "C by cut-offs"}, (100,))
 
 
 @functools.cache
 def stiff_limit(data, solid, particles, column="C_s_10"):
-    """The limit of a + b Δφ^x, with half the range over windows and forms, and, of C_s, over thresholds 10 … 100."""
+    """Limit of a + b Δφ^x with half the range over windows and forms, and half the range over thresholds 10 … 100."""
     paths = [list(zip(x, y)) for x, y in data.paths(solid, particles, column)]
     if not paths:
         return None, None
@@ -92,14 +92,14 @@ def stiff_limits(data):
             rows.append([f"{solid} {particles}", counted(chosen), f"± {number(thresholds, 2)}",
                          counted(by_fits) if by_fits else "–", number(target, 2),
                          signed(chosen["mean"] - target, 2),
-                         "within" if abs(chosen["mean"] - target) <= chosen["half_width"] + chosen["systematic"] +
-                         thresholds else "**outside**"])
-    return table(["limit Δφ → 0", "C_s, s > 10, ± fit ± form", "thresholds 10 … 100", "C by cut-offs", "12 − 4/N",
-                  "C_s − target", "of all three errors"], rows)
+                         "yes" if abs(chosen["mean"] - target) <= chosen["half_width"] + chosen["systematic"] +
+                         thresholds else "**no**"])
+    return table(["solid, N", "C_s as Δφ → 0, s > 10, ± fit ± form", "error from thresholds 10 … 100",
+                  "C by cut-offs as Δφ → 0", "12 − 4/N", "C_s − (12 − 4/N)", "within the sum of errors"], rows)
 
 
 def redundancy(data):
-    return by_grid(data, {"self_stress_s": "states of self-stress", "missing_s": "short of full rank, each"},
+    return by_grid(data, {"self_stress_s": "states of self-stress", "missing_s": "missing constraints per particle"},
                    (100,))
 
 
@@ -111,8 +111,7 @@ def collapse(data):
             found = data.slopes(solid, 100, f"theta_{share}", BINS)
             if any(found):
                 rows.append([f"{solid} 100", significant(share, 2).rstrip("0"), *exponents(found)])
-    return table(["exponent of the angle below which", "share", *bins_falling()],
-                 rows)
+    return table(["solid, N", "share", *bins_falling()], rows)
 
 
 BLOCKS = {f.__name__: f for f in (bands, stiff_numbers, stiff_limits, redundancy, collapse)}

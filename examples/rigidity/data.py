@@ -32,7 +32,7 @@ class Data(Expansions):
 
 
 def each(states, names, function):
-    """function of the values of these columns in every state; None where one of them is."""
+    """Applies the function to the values of these columns in every state; None where one of them is None."""
     columns = [states.get(name) for name in names]
     if None in columns:
         return None
@@ -40,12 +40,12 @@ def each(states, names, function):
 
 
 def longest_wave(shear, phi, particles):
-    """ω of the longest shear wave that the cell holds in an elastic medium: 2π/L · √(G/φ), N = φL³, m = V_p = 1."""
+    """ω of the longest shear wave of the cell in an elastic medium: 2π/L · √(G/φ), with N = φL³ and m = V_p = 1."""
     return 2 * math.pi * (phi / particles) ** (1 / 3) * math.sqrt(shear / phi)
 
 
 def derived(states, particles):
-    """Columns that are made from others."""
+    """Columns that are computed from others."""
     soft = ["omega_l", "G", "K"]
 
     def where_all_are(function):

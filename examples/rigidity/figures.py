@@ -1,7 +1,7 @@
-"""Draws the figures of the page: python3 figures.py DATA OUT
+"""Draws the figures of the page from DATA/records.json (see gather.py): python3 figures.py DATA OUT
 
-soft.png and held.png (stiffness and prestress), bands.png and angles.png (counting), missing.png (rank), forces.png
-(forces and gaps), from DATA/records.json as gather.py writes it.
+soft.png and held.png show stiffness and prestress, bands.png and angles.png counting, missing.png the rank, and
+forces.png forces and gaps.
 """
 
 import sys
@@ -33,7 +33,7 @@ def soft(data, out):
     figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2), sharey=True)
     for axes, column, title in zip(two, ("omega_over_root_G", "omega_over_root_K"), ("⟨ω_l⟩/√G", "⟨ω_l⟩/√K")):
         series(axes, data, column, (400,), True, scale=lambda y: y[0], label=axes is two[0])
-        axes.set(xscale="log", yscale="log", xlabel="Δφ", title=f"{title}, N = 400, over that farthest from jamming")
+        axes.set(xscale="log", yscale="log", xlabel="Δφ", title=f"{title}, N = 400, relative to the largest Δφ")
         axes.yaxis.set_major_formatter("{x:g}")
         axes.yaxis.set_minor_formatter("{x:g}")
         axes.tick_params(which="minor", labelsize=7)
@@ -45,10 +45,10 @@ def soft(data, out):
 def held(data, out):
     figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
     for axes, column, title in zip(two, ("second_each", "prestress_each"),
-                                   ("normals hold less than half", "normals and tilts, s > 10, do")):
+                                   ("normals", "normals and stiff tilts (s > 10)")):
         series(axes, data, column, (100,), label=axes is two[1])
-        axes.set(xscale="log", xlabel="Δφ", title=f"Modes per particle of which\n{title}")
-    two[0].set(ylim=(0, 6), ylabel="of 6")
+        axes.set(xscale="log", xlabel="Δφ", title=f"Modes to which {title}\ncontribute less than half")
+    two[0].set(ylim=(0, 6), ylabel="modes per particle (of 6)")
     two[1].set(yscale="log", ylim=(1e-4, 6))
     two[1].legend(fontsize=7)
     save(figure, out / "held.png", 80)
@@ -64,15 +64,15 @@ def bands(data, out):
                 if found:
                     every = sum(found[0])
                     panel.step(centres, [n / every for n in found[0]], where="mid", linewidth=0.9,
-                               color=pyplot.get_cmap("viridis")(i / 3), label=f"Δφ = {place}".replace(
-                                   "Δφ = nearest", "nearest").replace("0.", "."))
+                               color=pyplot.get_cmap("viridis")(i / 3),
+                               label="smallest Δφ" if place == "nearest" else f"Δφ = {place}")
             for x in expected:
                 panel.axvline(x, color="0.7", linewidth=0.6, zorder=0)
             for x in NORMAL_BOUNDARIES if kind == "s_normal" else (TILT_BOUNDARY,):
                 panel.axvline(x, color="0.7", linewidth=0.6, linestyle=":", zorder=0)
             panel.set_title(f"{solid}s, {'normals' if kind == 's_normal' else 'tilts'}".replace("drons", "dra"))
     for panel in axes[1]:
-        panel.set(xlabel="x, s = Δφ$^{-x}$", xlim=(-0.5, 6))
+        panel.set(xlabel="x for s = Δφ$^{-x}$", xlim=(-0.5, 6))
     for row in axes:
         row[0].set_ylabel("share")
     axes[0][0].legend(fontsize=7)
@@ -102,7 +102,8 @@ def missing(data, out):
             if x:
                 axes.errorbar(x, y, error, color=colour, marker=MARKERS[solid], markersize=3, linewidth=0.8,
                               label=f"N = {particles}")
-        axes.set(xscale="log", yscale="log", xlabel="Δφ", title=f"{solid}: missing rank per particle m", ylim=(0.03, 2))
+        axes.set(xscale="log", yscale="log", xlabel="Δφ", ylim=(0.03, 2),
+                 title=f"{solid}: missing constraints per particle")
     two[0].set_ylabel("m")
     two[0].legend(fontsize=7)
     save(figure, out / "missing.png", 80)
@@ -119,13 +120,13 @@ def below(axes, data, names, steps, title, xlabel):
             x, y, error = zip(*points)
             axes.errorbar(x, y, error, marker=MARKERS[solid], color=COLOURS[solid], markersize=4, linewidth=0.8,
                           label=f"{solid} 400")
-    axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel, ylabel="share below")
+    axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel, ylabel="cumulative share")
 
 
 def forces(data, out):
     figure, two = pyplot.subplots(1, 2, figsize=(8.4, 3.2))
-    below(two[0], data, FORCES, STEPS_OF_FORCE, "Forces nearest jamming", "f/⟨f⟩")
-    below(two[1], data, GAPS, STEPS_OF_GAP, "Gaps < .1 of faces and edges", "h, V$_p^{1/3}$")
+    below(two[0], data, FORCES, STEPS_OF_FORCE, "Forces at the smallest Δφ", "f/⟨f⟩")
+    below(two[1], data, GAPS, STEPS_OF_GAP, "Gaps below 0.1 between faces and edges", "h, V$_p^{1/3}$")
     two[0].legend(fontsize=7)
     save(figure, out / "forces.png", 80)
 

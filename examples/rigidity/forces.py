@@ -1,4 +1,4 @@
-"""Blocks about forces: distributions of forces and gaps, contacts gained with Δφ."""
+"""Blocks about distributions of forces, gaps and angles, and the increase of Z with Δφ."""
 
 import functools
 import math
@@ -15,7 +15,7 @@ from limits import limit
 from text import counted, number, significant, table
 
 STEPS_OF_FORCE = tuple(round(-2.4 + 0.4 * i, 1) for i in range(7))  # log10 of f over its mean
-WEAK = STEPS_OF_FORCE[:5]  # below .16 of the mean: further up any distribution bends
+WEAK = STEPS_OF_FORCE[:5]  # below 0.16 of the mean; at larger forces every distribution is curved
 STEPS_OF_GAP = tuple(round(-4.4 + 0.4 * i, 1) for i in range(8))  # of gaps over V_p^(1/3)
 STEPS_OF_ANGLE = tuple(round(-5.6 + 0.8 * i, 1) for i in range(8))  # log10 of radians
 WINDOWS = ((0, 0.005), (0, 0.02), (0, 0.08))
@@ -34,8 +34,8 @@ def cumulative(bins, names, steps):
 
 
 def exponents_of(rows, steps, draws=100, seed=1):
-    """d ln N(< x) / d ln x from step to step, of pooled numbers, with 95 % by samples of replicates with replacement.
-    None where fewer than ten are below."""
+    """d ln N(< x)/d ln x between steps, from pooled numbers, with 95 % confidence intervals from bootstrap samples of
+    the replicates. None where fewer than ten values are below the step."""
     def of(chosen):
         sums = [sum(row[j] for row in chosen) for j in range(len(steps))]
         return [math.log(b / a) / ((steps[j + 1] - steps[j]) * math.log(10)) if a > 0 else None
@@ -67,20 +67,20 @@ def distribution(data, groups, steps):
                 found = exponents(data, solid, particles, names, steps)
                 if any(found):
                     rows.append([f"{solid} {particles}", title, *(counted(e) for e in found)])
-    return table(["nearest jamming", "", *(f"{number(a, 1)} – {number(b, 1)}" for a, b in zip(steps, steps[1:]))], rows)
+    return table(["solid, N", "values", *(f"{number(a, 1)} … {number(b, 1)}" for a, b in zip(steps, steps[1:]))], rows)
 
 
 def weak_forces(data):
-    return distribution(data, {"all": FORCES, "neither ff nor ef": ("lower_order",)}, STEPS_OF_FORCE)
+    return distribution(data, {"all": FORCES, "lower-order contacts": ("lower_order",)}, STEPS_OF_FORCE)
 
 
 def small_gaps(data):
-    return distribution(data, {"along faces": GAPS[:1], "along edges": GAPS[1:]}, STEPS_OF_GAP)
+    return distribution(data, {"between faces": GAPS[:1], "between edges": GAPS[1:]}, STEPS_OF_GAP)
 
 
 def common(data, solid, names, steps, particles=400):
-    """One exponent for all steps, weighted by their intervals; χ² of the steps about it, and whether that is below its
-    95 % point. None of fewer than three steps."""
+    """One exponent for all steps, weighted by their intervals, with χ² of the steps and whether it is below its 95 %
+    quantile. None with fewer than three steps."""
     found = [e for e in exponents(data, solid, particles, names, steps) if e and e["half_width"] > 0]
     if len(found) < 3:
         return None
@@ -93,31 +93,31 @@ def common(data, solid, names, steps, particles=400):
 
 
 def open_gaps(data, solid, particles=400):
-    """Steps of gaps wider than Δφ, in V_p^(1/3): a nearer pair is one that the overlaps of its neighbours have moved as
-    far."""
+    """Steps of gaps wider than Δφ, in V_p^(1/3). Smaller gaps depend on the overlaps, which move particles as far."""
     nearest = data.nearest_distance(solid, particles)
     return tuple(s for s in STEPS_OF_GAP if nearest and 10 ** s > nearest["mean"])
 
 
 def straight(data, groups, steps_of):
-    """(curves, those of them of which one exponent fits all steps)."""
+    """(number of curves, number of curves that one exponent fits)."""
     found = [e for solid in SOLIDS for names in groups if (e := common(data, solid, names, steps_of(solid)))]
     return len(found), sum(e["one"] for e in found)
 
 
 def power_laws(data):
-    """One exponent for forces below .16 ⟨f⟩ and for gaps wider than Δφ, and how well one does."""
+    """Fit of one exponent to forces below 0.16 ⟨f⟩ and to gaps wider than Δφ."""
     rows = []
-    groups = {"forces, all": (FORCES, lambda _: WEAK), "forces, neither ff nor ef": (("lower_order",), lambda _: WEAK),
-              "gaps along faces": (GAPS[:1], lambda solid: open_gaps(data, solid)),
-              "gaps along edges": (GAPS[1:], lambda solid: open_gaps(data, solid))}
+    groups = {"forces, all": (FORCES, lambda _: WEAK),
+              "forces, lower-order contacts": (("lower_order",), lambda _: WEAK),
+              "gaps between faces": (GAPS[:1], lambda solid: open_gaps(data, solid)),
+              "gaps between edges": (GAPS[1:], lambda solid: open_gaps(data, solid))}
     for solid in SOLIDS:
         for title, (names, steps_of) in groups.items():
             found = common(data, solid, names, steps_of(solid))
             if found:
                 rows.append([f"{solid} 400", title, counted(found), number(found["chi"], 2),
                              "yes" if found["one"] else "**no**"])
-    return table(["nearest jamming", "", "one exponent", "χ²/freedom", "one will do"], rows)
+    return table(["solid, N", "values", "exponent", "χ² per degree of freedom", "one exponent fits"], rows)
 
 
 def at_an_end(found):
@@ -126,15 +126,15 @@ def at_an_end(found):
 
 
 def excess_law(data, solid, particles):
-    """(fits by window, x over the widest window with half the range over those windows that bound it)."""
+    """(fits by window, x over the widest window with half the range over the windows that determine it)."""
     paths = [list(zip(x, y)) for x, y in data.paths(solid, particles, "Z")]
     found = [limit(paths, window, None) for window in WINDOWS]
-    told = [e["exponent"] for e in found if e and not at_an_end(e) and e["exponent_half_width"] < 0.5]
+    known = [e["exponent"] for e in found if e and not at_an_end(e) and e["exponent_half_width"] < 0.5]
     widest = found[-1]
     if not widest or at_an_end(widest):
         return found, None
     return found, {"mean": widest["exponent"], "half_width": widest["exponent_half_width"], "n": widest["n"],
-                   "systematic": (max(told) - min(told)) / 2 if told else 0}
+                   "systematic": (max(known) - min(known)) / 2 if known else 0}
 
 
 def contact_excess(data):
@@ -146,11 +146,12 @@ def contact_excess(data):
             if any(found):
                 rows.append([f"{solid} {particles}", *(counted(e) if e and not at_an_end(e) else "–" for e in found),
                              counted(law) if law else "–"])
-    return table(["", *(f"Z_J, Δφ < {significant(w[1], 1)}" for w in WINDOWS), "x, Δφ < .08"], rows)
+    return table(["solid, N", *(f"Z_J, Δφ < {significant(w[1], 1)}" for w in WINDOWS), "x, Δφ < 0.08"], rows)
 
 
 def near_pairs(data):
-    return by_grid(data, {"gaps": "pairs with a gap < Δφ", "weak": "forces < ⟨f⟩/10"}, (100, 400))
+    columns = {"gaps": "pairs with a gap < Δφ, per particle", "weak": "share of forces < ⟨f⟩/10"}
+    return by_grid(data, columns, (100, 400))
 
 
 def small_angles(data):

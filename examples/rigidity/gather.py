@@ -1,10 +1,10 @@
-"""Gathers what the page is made from: python3 gather.py ISOJAM RESULTS OUT [--keep DATA]
+"""Extracts the data of the page: python3 gather.py ISOJAM RESULTS OUT [--keep DATA]
 
-Writes OUT/records.json: of each replicate of the studies below RESULTS its flags, cost, φ_J and, of every state, what
-the page needs, column by column; quantiles of θ_ef from the contacts of every state; contacts by bands of stiffness,
-and bins of forces and gaps. Numbers are rounded as ../page/records.py does. Studies that are not there, or not
-complete, are left out or count with what they have. With --keep, replicates that RESULTS does not hold, and columns that
-it does not have of the same states, are those of DATA/records.json, which was gathered before.
+Writes OUT/records.json. For each replicate of the studies below RESULTS it has flags, cost, φ_J and the columns that
+the page needs of every state. It also has quantiles of θ_ef from the contacts of every state, contacts by bands of
+stiffness, and bins of forces and gaps. Numbers are rounded as in ../page/records.py. Missing studies are left out, and
+incomplete ones count with the replicates that they have. With --keep, missing replicates, and missing columns of the
+same states, are taken from DATA/records.json.
 """
 
 import argparse
@@ -21,7 +21,7 @@ STUDIES = ("rigidity-50", "rigidity-50-tetrahedra", "paper-100", "paper-100-tetr
            "rigidity-200-tetrahedra", "paper-400", "paper-400-tetrahedra", "rigidity-800")
 # Column of a state: where it is in the record.
 COLUMNS = {
-    "phi": "phi", "E": "energy_per_particle", "Z": "Z", "Z_ff": "Z_ff", "Z_ef": "Z_ef", "C": "C",
+    "phi": "phi", "E": "energy_per_particle", **{name: f"contacts/{name}" for name in ("Z", "Z_ff", "Z_ef", "C")},
     "omega_l": "modes/omega_l", "K": "moduli/K", "G": "moduli/G",
     "self_stress": "rigidity/classes/self_stress", "floppy_classes": "rigidity/classes/floppy",
     "floppy_normals": "rigidity/normals/floppy",
@@ -93,7 +93,7 @@ POWERS = tuple(round(-0.5 + 0.125 * i, 3) for i in range(53))  # edges of bins o
 
 
 def bands_of(record):
-    """For states whose stiffnesses are in the record: [Δφ, Z, Z_ef, Z_ff, C, [normals with s above Δφ^(−4/3) × ½, 1,
+    """For states with stiffnesses in the record: [Δφ, Z, Z_ef, Z_ff, C, [normals with s above Δφ^(−4/3) × ½, 1,
     2], above Δφ^(−10/3), [tilts above Δφ^(−5/6) × ½, 1, 2]]."""
     made = []
     for state in record["states"]:
@@ -103,7 +103,7 @@ def bands_of(record):
         above = [[sum(s > factor * distance ** -power for s in some) for factor in (0.5, 1, 2)]
                  for some, power in ((normal, NORMAL_BOUNDARIES[0]), (normal, NORMAL_BOUNDARIES[1]),
                                      (state["prestress"]["s_tilt"], TILT_BOUNDARY))]
-        made.append([distance, *(state[key] for key in ("Z", "Z_ef", "Z_ff", "C")), *above])
+        made.append([distance, *(state["contacts"][key] for key in ("Z", "Z_ef", "Z_ff", "C")), *above])
     return made
 
 
@@ -172,7 +172,7 @@ def study_of(isojam, directory):
 
 
 def add_powers(powers, solid, states):
-    """Bins of the stiffnesses of normals and of tilts, in the states that records have them of, summed up."""
+    """Adds the stiffnesses of normals and of tilts to the bins, for the states whose records have them."""
     places = {"0.02": next_to(states, 0.02), "0.005": next_to(states, 0.005), "nearest": len(states) - 1}
     for place, i in places.items():
         if i is None or not found(states[i], "prestress/s_normal") or states[i]["delta_phi"] <= 0:
@@ -188,7 +188,7 @@ def place_of(replicate):
 
 
 def with_columns(replicate, before):
-    """A replicate with the columns that it lacks and the same states had before."""
+    """A replicate, completed by the columns that it lacks and that `before` has for the same states."""
     if not before or {replicate["status"], before["status"]} != {"done"} or \
             replicate["states"]["phi"] != before["states"]["phi"]:
         return replicate
@@ -198,7 +198,7 @@ def with_columns(replicate, before):
 
 
 def completed(studies, kept):
-    """Studies with what `kept` has and they have not, replicates in order."""
+    """Studies, completed by the replicates and columns of `kept` that they lack; replicates are in order."""
     made = {}
     for name in STUDIES:
         here, before = studies.get(name), kept.get(name)

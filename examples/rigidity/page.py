@@ -1,8 +1,8 @@
-"""Makes the page from data: python3 page.py PAGE [-o OUT] [--data DIR] [--check]
+"""Updates the page from data: python3 page.py PAGE [-o OUT] [--data DIR] [--check]
 
-PAGE holds blocks and numbers within sentences (see ../page/marks.py) that are made anew from DIR/records.json (see
-gather.py), data by default; all else is left as it is. Writes to OUT, PAGE itself by default; with --check writes
-nothing and fails if a part is not what the data say.
+PAGE holds blocks and numbers within sentences (see ../page/marks.py). They are made again from DIR/records.json (see
+gather.py; DIR is data by default). All else is unchanged. Writes to OUT, or to PAGE by default. With --check nothing is
+written, and a page that differs from its data is an error.
 """
 
 import argparse
@@ -29,7 +29,8 @@ def main():
     except PageError as error:
         sys.exit(str(error))
     if arguments.check:
-        sys.exit(0 if made == page else f"{arguments.page}: a block is not what {arguments.data} says")
+        sys.exit(0 if made == page else
+                 f"{arguments.page}: differs from {arguments.data}; page.py without --check updates it")
     out = arguments.out or arguments.page
     out.write_text(made, encoding="utf-8")
     if out.parent.resolve() != arguments.page.parent.resolve():

@@ -1,4 +1,4 @@
-"""Blocks about missing rank: how it falls with Δφ, by size, and what is left at jamming."""
+"""Blocks about missing rank: dependence on Δφ and N, and its limit at jamming."""
 
 import functools
 import math
@@ -20,7 +20,8 @@ def missing(data):
 
 
 def missing_cutoffs(data):
-    return by_grid(data, {"missing_half": "cut-offs × ½", "missing": "× 1", "missing_double": "× 2"}, (100, 400), AT)
+    columns = {"missing_half": "cut-offs × ½", "missing": "cut-offs × 1", "missing_double": "cut-offs × 2"}
+    return by_grid(data, columns, (100, 400), AT)
 
 
 def missing_slopes(data):
@@ -32,7 +33,7 @@ def redundant(data):
 
 
 def gaps_of_ranks(data):
-    """Over all states, the least and the median of what is kept over what is dropped, singular values."""
+    """Smallest singular value that counts, and its ratio to the largest that does not, over all states."""
     rows = []
     for solid in SOLIDS:
         for particles in data.sizes(solid):
@@ -41,28 +42,28 @@ def gaps_of_ranks(data):
             if found:
                 rows.append([f"{solid} {particles}", str(len(found)), power_of_ten(min(kept)),
                              power_of_ten(found[len(found) // 2]), power_of_ten(found[0])])
-    return table(["", "states", "least singular value that counts", "over the greatest that does not: median",
-                  "least"], rows)
+    return table(["solid, N", "states", "smallest singular value that counts",
+                  "its ratio to the largest that does not, median", "ratio, smallest"], rows)
 
 
 def power_of_ten(x):
     return f"10^{number(math.log10(x), 1)}"
 
 
-def not_below_nothing(estimate):
-    """A rank is never short by less than nothing: what says so beyond its interval is not what m tends to."""
+def not_negative(estimate):
+    """False if a limit of m is significantly negative, which a missing rank cannot be."""
     return estimate["mean"] + estimate["half_width"] >= 0
 
 
 @functools.cache
 def missing_limit(data, solid, particles):
-    """Limit of m = (6N − 3 − rank)/N as Δφ → 0: by functional form over the nearest window, and the central choice with
-    the range over forms and windows and, as `cutoffs`, half its range from half to twice the cut-offs nearest
-    jamming."""
+    """Limit of m = (6N − 3 − rank)/N as Δφ → 0: by functional form over the first window, and the central choice. Its
+    systematic error is half the range over forms and windows; `cutoffs` is half the range from half to twice the
+    cut-offs at the smallest Δφ."""
     paths = [list(zip(x, y)) for x, y in data.paths(solid, particles, "missing")]
     if not paths:
         return {}, None
-    every, chosen = limit_of_choices(paths, WINDOWS, possible=not_below_nothing)
+    every, chosen = limit_of_choices(paths, WINDOWS, possible=not_negative)
     half, double = (data.nearest(solid, particles, f"missing_{of}") for of in ("half", "double"))
     if chosen and half and double:
         chosen = {**chosen, "cutoffs": abs(double["mean"] - half["mean"]) / 2}
@@ -70,8 +71,7 @@ def missing_limit(data, solid, particles):
 
 
 def excess(data, solid, small, large, distance):
-    """N(m_N − m_large) at a distance, with its 95 % interval: motions per packing that one size misses beyond the
-    other."""
+    """N(m_N − m_large) at a distance, with its 95 % confidence interval."""
     few, many = (data.at(solid, n, "missing", distance) for n in (small, large))
     if not few or not many or None in (few["half_width"], many["half_width"]) or few["n"] < 3:
         return None
@@ -80,27 +80,28 @@ def excess(data, solid, small, large, distance):
 
 
 def excess_counts(data):
-    """(entries of finite_size, those whose interval leaves 0 out, the most that m of N = 100 may differ by)."""
+    """(entries of finite_size, entries whose interval excludes 0, largest difference of m at N = 100 within the
+    intervals)."""
     found = {(s, n, d): e for s in HYPOSTATIC for n in OTHERS for d in AT if (e := excess(data, s, n, LARGE, d))}
     most = max(((abs(e["mean"]) + e["half_width"]) / n for (_, n, _), e in found.items() if n == 100), default=0)
     return len(found), sum(abs(e["mean"]) > e["half_width"] for e in found.values()), most
 
 
 def finite_size(data):
-    """N(m_N − m_400) against Δφ: what does not scale with the number of particles."""
+    """N(m_N − m_400) against Δφ: the part of N m that is not proportional to N."""
     rows = []
     for solid in HYPOSTATIC:
         for particles in OTHERS:
             cells = [counted(excess(data, solid, particles, LARGE, d)) for d in AT]
             if any(cell != "–" for cell in cells):
                 rows.append([f"{solid} {particles}", *cells])
-    return table([f"N(m_N − m_{LARGE})", "Δφ = .02", ".01", ".005", ".0025", ".001", ".0005"], rows)
+    return table([f"N(m_N − m_{LARGE}), Δφ =", "0.02", "0.01", "0.005", "0.0025", "0.001", "0.0005"], rows)
 
 
 @functools.cache
 def infinite(data, solid):
-    """m(Δφ → 0, N → ∞): intercept of the limits against 1/N, weighted by the errors of fit and form, with its interval,
-    and the mean error of cut-offs beside it, which sizes have in common."""
+    """m(Δφ → 0, N → ∞): intercept of the limits against 1/N, weighted by the errors of fit and form, with its interval.
+    The mean error from cut-offs, which the sizes share, is its systematic error."""
     limits = {n: missing_limit(data, solid, n)[1] for n in data.sizes(solid)}
     points = [(1 / n, e) for n, e in limits.items() if e and e["half_width"]]
     if len(points) < 3:
@@ -142,8 +143,8 @@ def missing_limits(data):
         if at_infinity:
             rows.append([f"{solid}, N → ∞", "–", f"{interval(at_infinity)} ({at_infinity['n']} sizes)", *["–"] * 3,
                          "12"])
-    return table(["", "m as Δφ → 0, by x = ½ / 1 / free", "± fit ± form ± cut-offs", "nearest Δφ", "S/N there",
-                  "C there", "12 − 4/N"], rows)
+    return table(["solid, N", "m as Δφ → 0 for x = ½ / 1 / free", "m ± fit ± form ± cut-offs", "smallest Δφ",
+                  "S/N at this Δφ", "C at this Δφ", "12 − 4/N"], rows)
 
 
 BLOCKS = {f.__name__: f for f in (missing, missing_cutoffs, missing_slopes, redundant, gaps_of_ranks, finite_size,
