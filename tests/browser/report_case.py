@@ -35,11 +35,16 @@ return {drawn, hash, all: data.length / 4};"""
 COUNT = """
 Object.assign(window, {asked: 0, drawn: {lines: 0, corners: 0}, frame: window.requestAnimationFrame.bind(window)});
 window.requestAnimationFrame = (work) => { asked += 1; return frame(work); };
-const context = WebGL2RenderingContext.prototype;
-for (const [name, count, instances] of [['drawArrays', 2], ['drawElements', 1], ['drawArraysInstanced', 2, 3],
-                                        ['drawElementsInstanced', 1, 4]]) {
-  const draw = context[name];
-  context[name] = function (...values) {
+// Older versions of three.js draw in WebGL 1, with instances by an extension.
+const canvas = document.getElementById('packing'), context = canvas.getContext('webgl2') ?? canvas.getContext('webgl');
+const extension = context.getExtension('ANGLE_instanced_arrays') ?? {};
+for (const [owner, name, count, instances] of [
+  [context, 'drawArrays', 2], [context, 'drawElements', 1], [context, 'drawArraysInstanced', 2, 3],
+  [context, 'drawElementsInstanced', 1, 4], [extension, 'drawArraysInstancedANGLE', 2, 3],
+  [extension, 'drawElementsInstancedANGLE', 1, 4]]) {
+  const draw = owner[name];
+  if (!draw) continue;
+  owner[name] = function (...values) {
     drawn[values[0] === context.LINES ? 'lines' : 'corners'] += values[count] * (instances ? values[instances] : 1);
     return draw.apply(this, values);
   };

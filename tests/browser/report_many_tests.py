@@ -60,7 +60,7 @@ class ManyTests:
             return [Math.max(...ticks.filter((number) => number > 0 && number < 1)), chart.textContent]"""
         before, text = self.browser.run(ends)
         self.assertIn("20 ▷", text)
-        self.assertIn("beyond the axes: 40 excluded replicates", self.browser.run(
+        self.assertIn("The axes do not show all of 40 excluded replicates.", self.browser.run(
             "return document.getElementById('chart-extrapolation').parentElement.textContent"))
         self.choose("everything")
         after, text = self.browser.run(ends)
