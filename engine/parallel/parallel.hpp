@@ -15,12 +15,12 @@ namespace isojam {
 // - If a call throws an exception, calls that have not started may be skipped. The exception is rethrown when all
 //   running calls have ended.
 
-/// Calls run(k) for every k < count. Each call must take much longer than 1 µs, which is about the cost of a task of
-/// oneTBB. Use for_each_small() for shorter calls.
+/// Calls run(k) for every k < count. Each call must take much longer than oneTBB needs to start a task. Use
+/// for_each_small() for shorter calls.
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& run);
 
-/// Calls run(k) for every k < count, for short calls. One task makes small_calls_per_task calls. For example, the
-/// overlap of a pair takes 0.4 µs, so a task takes about 50 µs. This is much more than the cost of a task, and short
+/// Calls run(k) for every k < count, for short calls. One task makes small_calls_per_task calls. A task with the
+/// overlaps of this many pairs takes about 50 µs. This is much longer than oneTBB needs to start a task, and short
 /// enough to distribute the work evenly over the threads.
 void for_each_small(std::size_t count, const std::function<void(std::size_t)>& run);
 inline constexpr std::size_t small_calls_per_task = 128;
