@@ -24,7 +24,7 @@ TEST_PACKAGES    := $(PROGRAM_PACKAGES) $(LINT_PACKAGES) libgtest-dev libvalijso
                     libmpfr-dev voro++-dev python3 python3-gsd python3-vtk9 python3-numpy python3-pandas \
                     python3-matplotlib python3-scipy python3-yaml groff-base zsh fish
 # Where there is no browser its tests say that they are skipped; everything else is tested.
-BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium
+BROWSER_PACKAGES := chromium chromium-driver fonts-dejavu-core python3-selenium mkdocs
 # Debian 12 has clang 14, Debian 13 has clang 19.
 CLANG            ?= $(shell . /etc/os-release 2>/dev/null; [ "$$VERSION_ID" = 12 ] && echo 14 || echo 19)
 CLANG_PACKAGES   := clang-$(CLANG)

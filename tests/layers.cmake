@@ -13,6 +13,7 @@ list(APPEND isojam_package_names
   selenium       python3-selenium      python3-selenium   python-selenium     selenium
   chromium       chromium              chromium           chromium            chromium
   chromedriver   chromium-driver       chromedriver       chromium            chromedriver-binary
+  mkdocs         mkdocs                mkdocs             mkdocs              mkdocs
   vega           libjs-vega            vega               vega                vega
   three          libjs-three           three              three               three
   bash           bash                  bash               bash                bash
@@ -68,7 +69,7 @@ find_package(CGAL QUIET)
 find_package(valijson QUIET)
 find_library(ISOJAM_GMP gmp)
 find_library(ISOJAM_MPFR mpfr)
-foreach(program bash clang-format clang-tidy chromium chromedriver)
+foreach(program bash clang-format clang-tidy chromium chromedriver mkdocs)
   find_program(ISOJAM_TESTS_${program} ${program})
   set(found_${program} ${ISOJAM_TESTS_${program}})
 endforeach()
@@ -90,4 +91,4 @@ print(*filter(importlib.util.find_spec, sys.argv[1:]), sep=';', end='')"
   endforeach()
 endif()
 mark_as_advanced(ISOJAM_GMP ISOJAM_MPFR ISOJAM_TESTS_bash ISOJAM_TESTS_clang-format ISOJAM_TESTS_clang-tidy
-                 ISOJAM_TESTS_chromium ISOJAM_TESTS_chromedriver)
+                 ISOJAM_TESTS_chromium ISOJAM_TESTS_chromedriver ISOJAM_TESTS_mkdocs)
