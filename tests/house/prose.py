@@ -4,7 +4,7 @@ Pages, comments and messages are checked, or only the FILEs that are named:
 - no comment or sentence opens without a subject ("Of ...", "What ...", "Those ..." and others in OPENINGS);
 - no word of WORDS stands in them, for which the project uses another one;
 - a sentence of a page has at most 35 words and four numbers; tables are exempt from the count of numbers;
-- no paragraph of a page contains a line that begins with an HTML comment: renderers split the sentence there.
+- no line of text in a page begins with an HTML comment: renderers end the paragraph there.
 A line of prose_exceptions.txt exempts one text: `file: text: reason`.
 Prints one line per finding, `file:line: rule: text`, and exits 1 if there is one.
 """
@@ -158,11 +158,9 @@ def findings_of_page(text):
             numbers = len(NUMBER.findall(sentence))
             if numbers > MAX_NUMBERS and not in_table:
                 yield number, f"{numbers} numbers, at most {MAX_NUMBERS}", sentence
-    before = ""
     for number, is_code, line in lines_of(text):
-        if not is_code and re.match(r"<!-- (?!block|end)", line) and before.strip():
-            yield number, "begins with an HTML comment inside a paragraph", line
-        before = line
+        if not is_code and re.match(r"\s*(?:[-*] |\d+\. )?<!-- (?!block|end)", line):
+            yield number, "begins with an HTML comment", line
 
 
 def findings_of_file(path):

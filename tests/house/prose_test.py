@@ -16,6 +16,7 @@ BAD = (
     ("page.md", LONG + "\n", "words, at most"),
     ("page.md", "There are 1, 2, 3, 4 and 5 of them.\n", "numbers, at most"),
     ("page.md", "The mean is\n<!-- = total -->5<!-- / --> today.\n", "HTML comment"),
+    ("page.md", "- <!-- = total -->5<!-- / --> packings jam.\n", "HTML comment"),
     ("source.cpp", "// Those of the last step.\nint a = 0;\n", "opens without a subject"),
     ("source.cpp", "int a = 0;  ///< what it stands for; whoever reckons it\n", "compute"),
     ("tasks/source.cpp", 'fail("the state is not certified in this file");\n', "minimum"),
