@@ -9,8 +9,8 @@ JOBS ?= $(shell nproc)
 OPTIONS ?=
 # The system's Python, since the packages of the tests belong to it; without it, the first on PATH.
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
-# Seconds for a test that names no limit of its own.
-TIMEOUT ?= 300
+# Seconds after which a test counts as hanging.
+TIMEOUT ?= 1200
 EXAMPLE ?= examples/01-four-solids
 # The folder of the example's results has the name that its manifest states.
 RESULTS  = $(OUTPUT)/$(shell sed -n 's/.*"name": *"\([^"]*\)".*/\1/p' $(EXAMPLE)/manifest.json)
@@ -259,7 +259,7 @@ equilibria:
 
 # The whole suite under the address and undefined-behaviour sanitizers, assertions on, in a directory of its own.
 test-asan:
-	$(MAKE) test BUILD=$(BUILD)-asan OPTIONS='-DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON $(OPTIONS)' TIMEOUT=2400
+	$(MAKE) test BUILD=$(BUILD)-asan OPTIONS='-DISOJAM_SANITIZE=address,undefined -DISOJAM_ASSERT=ON $(OPTIONS)' TIMEOUT=9600
 
 # Each fuzzer for FUZZ_SECONDS, from the seeds in tests/fuzz/seeds; what it found stays in $(BUILD)-fuzz.
 FUZZ_SECONDS ?= 300
