@@ -4,6 +4,7 @@
   (reference.py --write makes them again);
 - docs/fields.md has every field of records, packings, paths and tables with a meaning, and every quantity with its
   unit; docs/manifest.md has every key of a manifest with its default. This is found without the code that wrote them;
+- no two quantities have the same meaning;
 - every flag has its row, every measure too;
 - a page that lacks one, has another default or a field without a meaning is found.
 """
@@ -83,6 +84,14 @@ class Fields(unittest.TestCase):
         for one in json.loads(FACTS.read_text(encoding="utf-8"))["quantities"]:
             self.assertTrue(any(one["unit"] in cells for cells in rows.get(one["name"], [])),
                             f"docs/fields.md has no row of {one['name']} with its unit")
+
+    def test_quantities_have_different_meanings(self):
+        page = text_of("docs/fields.md").split("## Quantities")[1].split("\n## ")[0]
+        names = {}
+        for name, rows in rows_of(page).items():
+            names.setdefault(rows[0][-1], []).append(name)
+        self.assertGreater(len(names), 50)
+        self.assertEqual([same for same in names.values() if len(same) > 1], [])
 
     def test_the_manifest_has_every_key(self):
         page, schema = text_of("docs/manifest.md"), schema_of("manifest")

@@ -120,6 +120,8 @@ def objects_block(schema, kind, roots, units):
         for path, fields, _ in schema.objects(node, root_path):
             if path:
                 lines += [heading(kind, path), ""]
+            if path and path == root_path and "description" in node:
+                lines += [node["description"], ""]
             lines += [*table(("field", "value", "meaning"), result_rows(schema, kind, fields, units, path)), ""]
     return lines
 
@@ -147,15 +149,10 @@ def quantity_block(record, tables, quantities):
         one = known[name]
         of_state = one["of"] == "state"
         root = record.tree["definitions"]["state"] if of_state else None
-        above, meaning = (record.property_at(place, root).get("description", "") for place in
-                          (one["pointer"].rpartition("/")[0], one["pointer"]))
+        # Fields that several objects share, such as an exponent, are described per quantity in the schema of tables.
+        meaning = field.get("description") or record.property_at(one["pointer"], root).get("description", "")
         rows.append([f"`{name}`", one["group"], one["unit"], "state" if of_state else "replicate",
-                     f"`{one['pointer']}`", (above, meaning)])
-    every = [row[-1][1] for row in rows]
-    for row in rows:
-        above, meaning = row[-1]
-        alone = above and row[4].count("/") > 1 and (len(meaning.split()) < 5 or every.count(meaning) > 1)
-        row[-1] = cell(f"{above} {meaning}" if alone else meaning)
+                     f"`{one['pointer']}`", cell(meaning)])
     return table(("quantity", "table", "unit", "one value per", "place in records", "meaning"), rows) + [""]
 
 
