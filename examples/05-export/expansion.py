@@ -1,6 +1,7 @@
 """usage: /usr/bin/python3 expansion.py FILE.gsd
 
-Contacts and clusters of face-face contacts along an expansion. Needs Debian's python3-gsd."""
+Prints the contact number and the share of particles in clusters for every state of a decompression. Needs Debian's
+python3-gsd."""
 
 import sys
 

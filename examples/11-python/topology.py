@@ -1,11 +1,12 @@
 """usage: /usr/bin/python3 topology.py DIR [CONTACTS.csv STATES.csv]
 
 Draws results of 04-contact-topology: the distribution of contact forces, the joint distribution of alignment angles,
-and the number of constraints against Δφ. Reads the results directory DIR and writes forces.png, angles.png and
-constraints.png. Reads also the exported tables, without the module, and writes forces-csv.png and so on. Needs Debian's
-python3-matplotlib; isojam is in build/python."""
+and the constraint number C against Δφ. Reads the results directory DIR with the module isojam, and writes forces.png,
+angles.png and constraints.png. If the exported tables are given, it also draws the same figures from the tables,
+without the module: forces-csv.png, angles-csv.png and constraints-csv.png. Needs Debian's
+python3-matplotlib. The module isojam is in build/python."""
 
-# %% Forces: P(f) of f over the mean of its packing
+# %% Forces: distribution of f divided by the mean f of its packing
 import csv
 import sys
 
@@ -30,7 +31,7 @@ def draw_forces(file, solid, replicate, force):
     figure.savefig(file, metadata={"Software": None})
 
 
-# %% Angles: edge-face against face-face, by the class that the fitted cut-offs give
+# %% Angles: θ_ff against θ_ef of each contact, coloured by its class
 def draw_angles(file, solid, contact_class, theta_ef, theta_ff):
     names = numpy.unique(solid)
     figure, panels = pyplot.subplots(2, 2, sharex=True, sharey=True, figsize=(9, 8), layout="constrained")
@@ -45,7 +46,7 @@ def draw_angles(file, solid, contact_class, theta_ef, theta_ff):
     figure.savefig(file, metadata={"Software": None})
 
 
-# %% Constraints: C against Δφ, every packing and their running mean
+# %% Constraints: C against Δφ, of every state, and means over intervals of Δφ
 def draw_constraints(file, solid, delta_phi, constraints):
     figure, axes = pyplot.subplots(layout="constrained")
     known = ~numpy.isnan(constraints)
@@ -74,13 +75,13 @@ draw_forces("forces.png", contacts["solid_a"], contacts["replicate"], contacts["
 draw_angles("angles.png", contacts["solid_a"], contacts["class"], contacts["theta_ef"], contacts["theta_ff"])
 draw_constraints("constraints.png", states["solid"], states["delta_phi"], states["C"])
 
-# %% From exported tables alone
+# %% From the exported tables
 if len(sys.argv) < 4:
     sys.exit()
 
 
 def read(file):
-    """{name: column of text}."""
+    """The columns of a table as {name: array of texts}."""
     with open(file, newline="", encoding="utf-8") as lines:
         names, *rows = csv.reader(lines)
     return dict(zip(names, numpy.array(rows).T))

@@ -1,4 +1,4 @@
-// Jams 64 octahedra and prints the jamming density and the contact number nearest jamming.
+// Jams 64 octahedra. Prints the jamming density, and the contact number of the state nearest to jamming.
 #include <cstdio>
 #include <exception>
 
@@ -7,7 +7,7 @@
 #include "engine/solve/jam.hpp"
 
 int main() try {
-  // The same key, the same packing, the same bits.
+  // The same key gives the same packing, bit for bit.
   isojam::RandomStream random{2011};
   const auto& octahedron = isojam::platonic(isojam::SolidKind::octahedron);
   isojam::JamOptions options;

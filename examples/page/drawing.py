@@ -20,8 +20,8 @@ SETTINGS = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False
 
 def mean_path(data, solid, particles, column, logarithmic=False):
     """Means over replicates with half widths, at distances where at least half of the replicates have a value.
-    Quantities that spread over decades have geometric means, with factors of the 95 % confidence interval. Two
-    replicates get no interval."""
+    If logarithmic, the means are geometric, and the confidence interval is that of the mean logarithm. For two
+    replicates the half width is 0."""
     paths = [(x, [math.log(v) if v and v > 0 else None for v in y] if logarithmic else y)
              for x, y in data.paths(solid, particles, column)]
     x, y, error = [], [], []
@@ -38,6 +38,6 @@ def mean_path(data, solid, particles, column, logarithmic=False):
 
 def save(figure, path, dpi=100):
     figure.tight_layout()
-    # Without the version of the program that drew it: the same data give the same file.
+    # The file does not contain the version of matplotlib, so that the same data give the same file.
     figure.savefig(path, dpi=dpi, metadata={"Software": None}, pil_kwargs={"optimize": True})
     pyplot.close(figure)

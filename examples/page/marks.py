@@ -1,6 +1,6 @@
-"""Pages with parts that are made from data: blocks, `<!-- block NAME -->` … `<!-- end -->`, and numbers within a
-sentence, `<!-- = NAME -->…<!-- / -->`. The text between the marks is replaced by the text for NAME; everything else is
-unchanged."""
+"""Replaces the parts of a page that are made from data. Blocks are enclosed by `<!-- block NAME -->` and
+`<!-- end -->`. Numbers in a sentence are enclosed by `<!-- = NAME -->` and `<!-- / -->`. The text
+between these marks is replaced; everything else is unchanged."""
 
 import re
 
@@ -9,12 +9,12 @@ VALUE = re.compile(r"(<!-- = ([^\n]+?) -->).*?(<!-- / -->)", re.DOTALL)
 
 
 class PageError(Exception):
-    """The page does not have the parts that it must have."""
+    """The blocks of the page are not the expected ones, or a number has no value."""
 
 
 def renewed(page, blocks, data, value_of=None, every=True):
-    """The page with every part made again: blocks is {name: function of data}, value_of a function of (data, name). The
-    page must have every block once, or with every=False some of them."""
+    """The page with new text between all marks. blocks is {name: function of data}; value_of is a function of (data,
+    name). The page must contain every block of `blocks` once. With every=False, at least one of them is enough."""
     names = [match.group(2) for match in BLOCK.finditer(page)]
     if not every and not names or not set(names) <= set(blocks):
         raise PageError(f"the page must have some of these blocks: {', '.join(sorted(blocks))}")
@@ -32,5 +32,5 @@ def renewed(page, blocks, data, value_of=None, every=True):
 
 
 def without_marks(text):
-    """The text as a reader sees it."""
+    """The text without HTML comments."""
     return re.sub(r"<!--.*?-->", "", text)

@@ -1,4 +1,4 @@
-"""Power laws of Δφ = φ − φ_J, and φ_J itself, from the states of expansions: pure functions.
+"""Power laws in Δφ = φ − φ_J, and φ_J itself, from the states of decompressions: pure functions.
 
 A path is a list of states in order of decreasing φ; each value of a state is a number or None."""
 
@@ -10,7 +10,7 @@ LEAST_STATES = 2
 
 
 def line(x, y):
-    """Intercept, slope and squared residual of least squares."""
+    """Intercept, slope and sum of squared residuals of a least-squares line."""
     n = len(x)
     mean_x, mean_y = sum(x) / n, sum(y) / n
     xx = sum((a - mean_x) ** 2 for a in x)
@@ -20,9 +20,10 @@ def line(x, y):
 
 
 def jamming_density(phi, energy, start, window, exponent=6):
-    """φ_J, where (E/N)^(1/exponent) vanishes if it is linear in φ over the states with lower ≤ φ − φ_J < upper. These
-    states depend on φ_J: the fit is repeated from `start` until they no longer change. If they repeat in a cycle, the
-    mean over the cycle is returned. None if too few states are left."""
+    """φ_J: the density at which the line fitted to (E/N)^(1/exponent) reaches zero. It is fitted to the states with
+    lower ≤ φ − φ_J < upper. Because these states depend on φ_J, the fit is repeated, beginning with
+    φ_J = `start`, until they no longer change. If they repeat in a cycle, returns the mean φ_J of the cycle. Returns
+    None if fewer than LEAST_STATES states are in the window."""
     lower, upper = window
     found, seen, history = start, [], []
     while True:
@@ -41,8 +42,8 @@ def jamming_density(phi, energy, start, window, exponent=6):
 
 
 def free_exponent(phi, energy, start, window):
-    """(φ_J, exponent) of E ∝ (φ − φ_J)^x with both free, over the states whose distance from `start` is in the window,
-    by least squares of ln E. None with fewer than four states."""
+    """(φ_J, x) of the least-squares fit of ln E for E ∝ (φ − φ_J)^x, with φ_J and x free, over the states with
+    φ − `start` in the window. Returns None if there are fewer than four such states."""
     chosen = [i for i, x in enumerate(phi) if window[0] <= x - start < window[1] and energy[i] > 0]
     if len(chosen) < 4:
         return None
@@ -52,7 +53,7 @@ def free_exponent(phi, energy, start, window):
     def off(gap):
         return line([math.log(a - least + gap) for a in x], y)[2]
 
-    # Golden section: as a function of the logarithm of the gap between φ_J and the last state there is one minimum.
+    # Golden section search over ln(gap), where gap is the distance from φ_J to the last state. There is one minimum.
     low, high, ratio = math.log(reach * 1e-4), math.log(reach * 10), (math.sqrt(5) - 1) / 2
     for _ in range(120):
         first, second = high - ratio * (high - low), low + ratio * (high - low)
@@ -62,7 +63,7 @@ def free_exponent(phi, energy, start, window):
 
 
 def slopes(x, y):
-    """(geometric mean of x, d ln y/d ln x) between neighbouring states with positive numbers."""
+    """(geometric mean of x, d ln y/d ln x) for each pair of neighbouring states whose x and y are positive."""
     found = []
     for (x1, y1), (x2, y2) in zip(zip(x, y), zip(x[1:], y[1:])):
         if None in (x1, x2, y1, y2) or min(x1, x2, y1, y2) <= 0 or x1 == x2:
@@ -72,8 +73,8 @@ def slopes(x, y):
 
 
 def binned(paths, edges):
-    """Estimates for bins between ascending edges, from lists of (x, value), one list per replicate. A replicate counts
-    once in a bin, with its mean there."""
+    """An estimate for each bin between ascending edges, from one list of (x, value) per replicate. Each replicate
+    contributes one value to a bin: its mean in this bin."""
     bins = []
     for lower, upper in zip(edges, edges[1:]):
         means = []
@@ -86,12 +87,13 @@ def binned(paths, edges):
 
 
 def local_slopes(paths, edges):
-    """Local exponents by bin, from (x values, y values) per replicate."""
+    """An estimate of the local exponent in each bin, from one (x values, y values) per replicate."""
     return binned([slopes(x, y) for x, y in paths], edges)
 
 
 def at(x, y, where):
-    """y at x = where, interpolated in ln x between the neighbours with numbers; None outside of them. x decreases."""
+    """y at x = `where`, interpolated linearly in ln x between the neighbouring known values. x must decrease. Returns
+    None if `where` is outside of the known values."""
     known = [(a, b) for a, b in zip(x, y) if b is not None and a > 0]
     for (x1, y1), (x2, y2) in zip(known, known[1:]):
         if x2 <= where <= x1:

@@ -7,13 +7,13 @@ from estimates import single_half_width
 
 
 def number(x, places):
-    """With a minus sign instead of a hyphen, and without one before a zero."""
+    """x with the given number of decimal places. A minus sign replaces the hyphen; zero has no sign."""
     text = f"{x:.{places}f}"
     return (text.lstrip("-") if float(text) == 0 else text).replace("-", "−")
 
 
 def places_of(half_width):
-    """Decimal places that show two digits of it, at most five."""
+    """Number of decimal places that shows two digits of the half width, at most five."""
     if not half_width > 0:
         return 3
     return min(5, max(0, 1 - math.floor(math.log10(half_width * 1.05))))
@@ -24,8 +24,8 @@ def signed(x, places):
 
 
 def interval(estimate):
-    """mean ± half width of the 95 % confidence interval ± systematic error, if there is one. A value of a single
-    replicate has no interval; ± 0 is the interval of equal values."""
+    """mean ± half width of the 95 % confidence interval, and ± systematic error if there is one. If only one replicate
+    has a value, there is no half width. If all replicates have the same value, the half width is 0."""
     if not estimate or estimate["mean"] is None:
         return "–"
     systematic = estimate.get("systematic")
@@ -40,17 +40,18 @@ def interval(estimate):
 
 
 def bounded(estimate):
-    """The interval. A last error that rounds to zero is written as less than one unit of the last digit."""
+    """The same text as interval(), but if the last error rounds to zero, it is written as less than one unit of the
+    last digit."""
     return re.sub(r"± 0\.(0+)$", lambda match: f"± < 0.{match.group(1)[:-1]}1", interval(estimate))
 
 
 def counted(estimate):
-    """The interval with the number of replicates."""
+    """The text of interval() with the number of replicates in brackets."""
     return f"{interval(estimate)} ({estimate['n']})" if estimate else "–"
 
 
 def spread(estimate):
-    """Half width of the 95 % prediction interval of one more packing."""
+    """± half width of the 95 % prediction interval for one more packing."""
     if not estimate or estimate["half_width"] is None:
         return "–"
     if estimate["half_width"] == 0:
@@ -68,7 +69,7 @@ def significant(x, digits):
 
 
 def power(x):
-    """1e-7 as 1·10⁻⁷, rounded up to one digit. For largest values."""
+    """1e-7 as 1·10⁻⁷, rounded up to one digit because the pages use it for upper bounds."""
     if not x:
         return "0"
     exponent = math.floor(math.log10(x))
