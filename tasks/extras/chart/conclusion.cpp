@@ -11,7 +11,8 @@
 namespace isojam {
 namespace {
 
-/// Fastest time per method and task, over points within the residual. Tasks without such a point are kept.
+/// Shortest time for each method and case, over the points that reach the residual. Cases without such a point are
+/// kept.
 using Times = std::map<std::string, std::map<std::string, std::optional<double>>>;
 
 Times fastest(std::span<const ChartPoint> points, double residual) {
@@ -24,7 +25,7 @@ Times fastest(std::span<const ChartPoint> points, double residual) {
   return times;
 }
 
-/// "6 of 6"
+/// Text such as "6 of 6".
 std::string share(const Standing& standing) { return fmt::format("{} of {}", standing.reached, standing.tasks); }
 
 std::string fastest_line(std::span<const ChartPoint> points, double residual) {
@@ -40,7 +41,7 @@ std::string fastest_line(std::span<const ChartPoint> points, double residual) {
   return line;
 }
 
-/// The value that a setting of this kind requests; nullopt for another kind.
+/// The value that is requested if the setting begins with `kind`; nullopt for other settings.
 std::optional<double> asked_of(const ChartPoint& point, std::string_view kind) {
   if (!point.setting.starts_with(kind)) return std::nullopt;
   return std::stod(point.setting.substr(kind.size()));
@@ -48,8 +49,8 @@ std::optional<double> asked_of(const ChartPoint& point, std::string_view kind) {
 
 constexpr std::string_view by_residual = "residual ", by_energy = "energy change ";
 
-/// The methods that missed each requested residual: the complement of fastest_line(). A method that missed one was not
-/// run for a smaller one, and counts as missing it too.
+/// Lists the methods that missed each requested residual. A method that missed one residual was not run for smaller
+/// ones; it counts as missing these too.
 std::string missed_text(std::span<const ChartPoint> points) {
   std::set<double, std::greater<>> asked;
   std::vector<ChartPoint> of_residuals;
@@ -72,7 +73,8 @@ std::string missed_text(std::span<const ChartPoint> points) {
   return text.empty() ? "" : "requested residuals" + text.replace(0, 1, ":");
 }
 
-/// Residuals at which the energy rule stops although it reports success.
+/// Describes the paper's stopping rule, which reports success at any residual: how often it stops, and the largest
+/// residual and error of φ_J.
 std::string energy_rule_text(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias) {
   double residual = 0, shift = 0, change = 0;
   std::set<std::string> unfinished, all;

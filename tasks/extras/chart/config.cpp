@@ -12,7 +12,7 @@
 namespace isojam {
 namespace {
 
-constexpr Range seed_range{0, 9007199254740992};  // 2^53: every JSON reader represents integers up to here exactly
+constexpr Range seed_range{0, 9007199254740992};  // 2^53: every JSON reader represents smaller integers exactly
 constexpr Range count_range{1, 1000};
 constexpr Range particle_range{8, 2000};
 constexpr Range distance_range{1e-3, 0.2};
@@ -23,7 +23,7 @@ constexpr Range second_range{0, 1e6, true};
 constexpr Range step_range{0, 0.1, true};
 constexpr Range energy_range{1e-12, 1e-2};
 
-/// Reads or writes every field by one list, so that the two cannot differ. `Visitor` gets a key, a value and its range.
+/// Visits every field with its key and range. One list serves for reading and writing, so the two cannot differ.
 template <class Config, class Visitor>
 void visit_phi_j(Config& config, const Visitor& visit) {
   visit("solid", config.solid, Range{});
@@ -65,7 +65,7 @@ void visit_chart(Config& config, const Visitor& visit) {
   visit("total_seconds", config.total_seconds, second_range);
 }
 
-/// Calls a visitor on every key for its name alone.
+/// List of the keys that `visit` passes to a visitor.
 template <class Visit>
 std::vector<std::string_view> keys_of(const Visit& visit) {
   std::vector<std::string_view> keys;
@@ -73,7 +73,7 @@ std::vector<std::string_view> keys_of(const Visit& visit) {
   return keys;
 }
 
-/// `visit` calls a visitor on every key of an object.
+/// Reads an object. `visit` passes every key with its value and range to a visitor.
 template <class Visit>
 void read_visited(const JsonPlace& place, const Visit& visit) {
   place.expect_keys(keys_of(visit));
@@ -99,7 +99,7 @@ void read_keys(const JsonPlace& root, ChartConfig& config) {
   });
 }
 
-/// The cell must be legal up to the highest density that jamming may reach.
+/// Reports an error if the cell would be too small at the highest density that the compression may reach.
 void check_particles(const JsonPlace& root, const std::string& key, SolidKind solid, int particles) {
   const int least = least_particles(platonic(solid), JamOptions().compression.max_density);
   if (particles >= least) return;

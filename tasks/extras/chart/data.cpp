@@ -15,7 +15,7 @@ Json to_json(const std::optional<Spread>& spread) {
   return {{"median", spread->median}, {"least", spread->least}, {"greatest", spread->greatest}, {"n", spread->n}};
 }
 
-/// For each point: true if it lies on the Pareto front of its task.
+/// For each point: true if it is on the Pareto front of its case (no other point is both faster and more accurate).
 std::vector<bool> on_fronts(std::span<const ChartPoint> points) {
   std::map<std::string, std::vector<std::size_t>> tasks;
   for (std::size_t k = 0; k < points.size(); ++k) tasks[points[k].task].push_back(k);

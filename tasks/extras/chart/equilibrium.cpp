@@ -12,13 +12,13 @@
 namespace isojam {
 namespace {
 
-/// A minimiser with its settings, as a point of the chart names it.
+/// A minimiser with its settings. The chart shows both names.
 struct Variant {
   std::string method, setting;
   MinimiseOptions options;
 };
 
-/// Variants of one method, the loosest first.
+/// Variants of one method, in order of decreasing residual.
 using Ladder = std::vector<Variant>;
 
 std::vector<Ladder> ladders(const ChartConfig& config) {
@@ -34,7 +34,7 @@ std::vector<Ladder> ladders(const ChartConfig& config) {
       ladder.push_back({std::string(to_string(method)), fmt::format("residual {:g}", tolerance), options});
     }
   }
-  // The paper's rule considers only the energy.
+  // The paper's stopping rule considers only the energy.
   Ladder& paper = all.emplace_back();
   for (const double change : changes) {
     MinimiseOptions options{.method = Method::conjugate_gradient,
@@ -87,10 +87,10 @@ EndState minimised(const StrainStart& start, const MinimiseOptions& options, con
   return state;
 }
 
-/// States kept of a variant: [packing of the solid][distance].
+/// States that a variant found, by [number of the packing][Δφ].
 using EndStates = std::map<std::pair<int, double>, EndState>;
 
-/// Differences from the reference, of packings where both are known.
+/// Median of the values, or null if there are none.
 Json median_or_null(const std::vector<double>& values) {
   const auto of = spread(values);
   return of ? Json(of->median) : Json(nullptr);
@@ -134,7 +134,7 @@ std::optional<JammingPoint> fitted(const EndStates& states, int packing, double 
   return fit_jamming_point(energies, window);
 }
 
-/// Error of φ_J from the states of a variant.
+/// Error of the φ_J that is fitted to the states of a variant.
 ChartPoint bias_of(const Variant& variant, SolidKind solid, const EndStates& states, const EndStates& reference,
                    const ChartConfig& config) {
   ChartPoint point{std::string(to_string(solid)), variant.method, variant.setting, {}, {}, {}, false, Json::object()};
@@ -171,8 +171,8 @@ class Minimisers {
 
   void run() {
     for (const SolidKind solid : config_.solids) {
-      // A method that follows an equilibrium may take another branch than one that starts from the strained packing.
-      // Neither is an error, so each has its own reference.
+      // From a strained packing, a minimiser may reach another solution branch than a method that follows the
+      // equilibrium. Neither is an error, so each kind of method has its own reference.
       const EndStates followed = reference(solid, Method::multipliers), minimised = reference(solid, Method::newton);
       for (const Ladder& ladder : ladders(config_))
         climb(solid, ladder, ladder.front().options.method == Method::multipliers ? followed : minimised);
@@ -180,7 +180,7 @@ class Minimisers {
   }
 
  private:
-  /// Minimises every start of a solid; after a stop request, none further.
+  /// Minimises every initial state of a solid. After a stop request, returns the states found so far.
   EndStates all_states(SolidKind solid, const Variant& variant, const std::vector<double>& missed = {}) {
     EndStates states;
     for (const JammedSolid& jammed : jammed_) {
@@ -214,7 +214,7 @@ class Minimisers {
         equilibrium_.points.push_back(point);
       }
       if (states.empty()) return;
-      // A method that missed a tolerance ends in the same state for every smaller one.
+      // A method that missed a residual is not run for smaller ones. For these, its last state counts.
       for (const auto& [key, state] : carried) states.try_emplace(key, state);
       bias_.points.push_back(bias_of(variant, solid, states, reference, config_));
       carried = std::move(states);

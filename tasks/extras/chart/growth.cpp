@@ -14,7 +14,7 @@
 namespace isojam {
 namespace {
 
-/// CPU times of one method for one solid, all and by number of particles.
+/// CPU times of one method for one solid.
 struct Timed {
   std::vector<double> particles, seconds;
   std::map<int, std::vector<double>> by_size;
@@ -25,7 +25,7 @@ struct Timed {
     by_size[size].push_back(taken);
     for (const auto& [reason, count] : why) reasons[size][reason] += count;
     failed[size] |= !fine;
-    // A run that ended too early does not show the full cost.
+    // A run that ended too early does not show the full cost, so it does not contribute to the fit.
     if (!fine) return;
     particles.push_back(size);
     seconds.push_back(taken);
@@ -33,7 +33,7 @@ struct Timed {
 };
 
 constexpr std::array methods{"replicate", "equilibrium", "evaluation"};
-/// A single evaluation is too short for the clock.
+/// Number of evaluations that are timed together, because a single one is too short for the clock.
 constexpr int evaluations_timed = 20;
 
 class Growth {
@@ -69,7 +69,7 @@ class Growth {
     if (!measuring_.over()) measure_evaluation(jammed.states.back(), particles);
   }
 
-  /// The mean of several: a single one may include a rearrangement and cost many times as much.
+  /// Mean time over several equilibria. A single one may include a rearrangement, which can take many times as long.
   void measure_equilibria(const JammedSolid& jammed, const MinimiseOptions& options, int particles) {
     std::map<std::string, int> reasons;
     double total = 0;
@@ -97,7 +97,7 @@ class Growth {
 
   void measure_evaluation(const Packing& packing, int particles) {
     PackingEnergy energy;
-    energy.evaluate(packing);  // neighbours are found once and then kept
+    energy.evaluate(packing);  // not timed: the first evaluation finds the neighbours, which are then kept
     const auto taken = timed(measuring_, [&] {
       for (int k = 0; k < evaluations_timed; ++k) energy.evaluate(packing);
     });

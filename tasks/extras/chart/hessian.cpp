@@ -11,7 +11,7 @@
 namespace isojam {
 namespace {
 
-/// Every block of a dense symmetric matrix, as dense_modes() takes it.
+/// All blocks of a dense symmetric matrix, in the format that dense_modes() takes.
 BlockMatrix blocks_of(const Eigen::MatrixXd& dense) {
   BlockMatrix matrix;
   const int particles = static_cast<int>(dense.rows() / 6);
@@ -23,7 +23,7 @@ BlockMatrix blocks_of(const Eigen::MatrixXd& dense) {
   return matrix;
 }
 
-/// Samples from all packings of a task, by setting.
+/// Results of one setting, with one value for each packing of a case.
 struct Samples {
   std::vector<double> seconds, errors, negative;
   int failed = 0;
@@ -33,7 +33,7 @@ double largest_relative_difference(const Eigen::VectorXd& found, const Eigen::Ve
   return ((found - right).array().abs() / right.array().abs()).maxCoeff();
 }
 
-/// Eigenvalues below the rounding error of 0.
+/// Number of eigenvalues that are negative beyond rounding errors.
 int count_negative(const Eigen::VectorXd& eigenvalues, double tolerance) {
   return static_cast<int>((eigenvalues.array() < -tolerance).count());
 }
@@ -61,7 +61,7 @@ class Hessians {
       measuring_.progress("Hessians, " + task.task);
       compare(packing, analytic, differences);
     }
-    // If stopped in the middle, keep the measurements; n is the number of packings.
+    // If a stop was requested, the packings that were measured are still reported; n is their number.
     if (analytic.seconds.empty()) return;
     family_.points.push_back(point_of(task.task, "analytic", "analytic", analytic));
     for (const auto& [h, samples] : differences)
@@ -78,7 +78,7 @@ class Hessians {
     const double lambda_max = right.eigenvalues.cwiseAbs().maxCoeff();
     const double tolerance = rounding_bound(matrix, lambda_max);
     add(analytic, seconds, right.relative_error, count_negative(right.eigenvalues, tolerance), 0);
-    // A packing at a saddle has real negative modes; only additional ones are spurious.
+    // A packing at a saddle has negative modes; only additional ones are spurious.
     const int genuine = count_negative(right.eigenvalues, tolerance);
     for (const double h : measuring_.config.difference_steps) {
       if (measuring_.over()) return;

@@ -20,12 +20,12 @@ using Eigen::VectorXd;
 constexpr int wanted = modes_compared;
 constexpr int restarts = 100;
 constexpr double tolerance = 1e-13;
-/// Eigenvalues with a larger error are not the requested modes.
+/// If the relative error of an eigenvalue is larger, the solver found other modes than the requested ones.
 constexpr double worst_useful_mode = 1e-2;
 
 struct ComputedModes {
   std::string stopped;
-  VectorXd eigenvalues;  ///< ascending; empty unless converged
+  VectorXd eigenvalues;  ///< in ascending order; empty if the solver did not converge
 };
 
 template <class Operation>
@@ -51,8 +51,8 @@ ComputedModes by_inversion(const BlockMatrix& matrix, double shift, Index subspa
   }
 }
 
-/// D with the eigenvalue of translations moved from 0 to `lambda_max`, away from the lowest modes. Mere projection
-/// would let rounding reintroduce them.
+/// The dynamical matrix D, in which the eigenvalue of the translations is lambda_max instead of 0. It is then far from
+/// the lowest modes. With a projection alone, rounding errors would bring the translations back.
 class Raised {
  public:
   using Scalar = double;
@@ -83,7 +83,7 @@ ComputedModes by_products(const BlockMatrix& matrix, double lambda_max, Index su
   return solve(matrix, operation, {.wanted = LanczosWanted::least, .subspace = subspace});
 }
 
-/// Points of a task, by (method, setting) in the order met.
+/// Points of a case, in the order in which their (method, setting) first occurs.
 class TaskPoints {
  public:
   void add(const std::string& method, const std::string& setting, double seconds, const ComputedModes& found,
@@ -135,7 +135,7 @@ void compare(const Packing& packing, const Measuring& measuring, TaskPoints& poi
     const auto seconds = timed(measuring, [&] { found = work(); });
     points.add(method, setting, spread(seconds)->median, found, dense.eigenvalues);
   };
-  // The dense solver is the reference for the others; its own error is its error bound.
+  // The dense solver is the reference for the other solvers. Its own error is its error bound.
   points.add("dense", "all modes", spread(dense_seconds)->median,
              {"converged", dense.eigenvalues * (1 + dense.relative_error)}, dense.eigenvalues);
   const Index all = dense.eigenvalues.size();

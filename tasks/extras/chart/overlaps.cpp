@@ -15,17 +15,17 @@ namespace {
 using oracle::PairCase;
 using oracle::PairClass;
 
-/// Classes in which no two faces coincide: see reference_overlap().
+/// Classes of pairs without coinciding faces. reference_overlap() is not valid for coinciding faces.
 constexpr std::array classes{PairClass::random_contact, PairClass::near_parallel_faces, PairClass::edge_in_face,
                              PairClass::parallel_edges, PairClass::vertex_vertex,       PairClass::same_orientation};
 
-/// An answer with a larger error counts as failed.
+/// An overlap with a larger relative error counts as failed.
 constexpr double worst_useful_overlap = 1e-2;
 
-/// A pair with the data that a packing has prepared before it computes the overlap.
+/// A pair, and the data that a packing prepares before it computes overlaps.
 struct PreparedPair {
   PairCase pair;
-  Pose pose;  ///< of B; A is at the origin
+  Pose pose;  ///< pose of B; A is at the origin
   LonePlacedSolid a, b, double_double_a, double_double_b;
   DoubleDoubleVector displacement;
   QuadPose quad;
@@ -53,7 +53,7 @@ PreparedPair prepared(const PairCase& pair) {
 
 struct ComputedOverlap {
   double volume = 0;
-  std::optional<Eigen::Vector3d> area;  ///< S_A, of methods that give it
+  std::optional<Eigen::Vector3d> area;  ///< S_A, if the method computes it
 };
 
 ComputedOverlap in_doubles(const PreparedPair& pair) {

@@ -12,13 +12,13 @@
 namespace isojam {
 namespace {
 
-/// The replicates of one setting of the protocol.
+/// The replicates that were run with one setting of the protocol.
 struct Replicated {
-  std::map<int, std::vector<EnergyPoint>> energies;  ///< of jammed replicates, by number
-  std::vector<double> seconds;                       ///< of all replicates, in order of number
+  std::map<int, std::vector<EnergyPoint>> energies;  ///< states of the jammed replicates, by number of the replicate
+  std::vector<double> seconds;                       ///< CPU time of every replicate, by number
 
   int count() const { return static_cast<int>(seconds.size()); }
-  /// CPU time of the first `first` replicates.
+  /// CPU time of the replicates with a number below `first`.
   double total_seconds(int first) const { return std::accumulate(seconds.begin(), seconds.begin() + first, 0.0); }
   int failed(int first) const {
     return first - static_cast<int>(std::distance(energies.begin(), energies.lower_bound(first)));
@@ -40,7 +40,8 @@ ProtocolSetting first_setting(const PhiJConfig& config) {
   return setting;
 }
 
-/// One parameter at a time is moved away from the first setting; fit windows need no run of their own.
+/// Settings that differ from the first one in one parameter. Other fit windows need no further run and are not listed
+/// here.
 std::vector<ProtocolSetting> varied_settings(const PhiJConfig& config) {
   std::vector<ProtocolSetting> all;
   const auto vary = [&](std::string_view name, const auto& values, const auto& set) {
@@ -89,7 +90,7 @@ Densities densities(const Replicated& replicates, double window) {
   return values;
 }
 
-/// Densities with a number below `count`.
+/// The entries for replicates with a number below `count`.
 Densities first_of(const Densities& densities, int count) { return {densities.begin(), densities.lower_bound(count)}; }
 
 std::vector<double> values_of(const Densities& densities) {
@@ -98,7 +99,8 @@ std::vector<double> values_of(const Densities& densities) {
   return values;
 }
 
-/// Differences between replicates with the same initial configuration: those of one number, if N is the same.
+/// Differences between replicates with the same number. They start from the same initial configuration if N is the
+/// same.
 std::vector<double> differences(const Densities& densities, const Densities& first) {
   std::vector<double> values;
   for (const auto& [number, density] : densities) {
@@ -111,16 +113,17 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// A setting with its replicates, for comparison.
+/// A setting of the protocol with its φ_J and its cost.
 struct Compared {
   std::string task, setting;
   Densities densities;
-  double seconds = 0;  ///< of all replicates together
+  double seconds = 0;  ///< CPU time of all replicates
   int failed = 0;
   bool began_alike = true;
 };
 
-/// Error: distance of the mean from that of `first` at the far end of its 95 % confidence interval.
+/// The point of a setting. Its error is the distance from the mean of `first` to the far end of the 95 % confidence
+/// interval.
 ChartPoint point_of(const Compared& compared, const Densities& first) {
   ChartPoint point{compared.task, "protocol",          compared.setting, spread({compared.seconds}), {},
                    "done",        compared.failed > 0, Json::object()};
@@ -181,7 +184,8 @@ class Protocols {
     family_.points.push_back(point_of(compared, first_));
   }
 
-  /// All replicates of the first setting, fewer of them, and other fit windows: no further run is needed.
+  /// Adds points that need no further run: all replicates of the first setting, the first n of them, and other fit
+  /// windows.
   void add_points_of(const Replicated& first) {
     for (int n = first.count(); n >= 2; --n) {
       const auto name = fmt::format("{}replicates {}", n == first.count() ? "first setting, " : "", n);

@@ -16,7 +16,7 @@ bool asked(const ChartConfig& config, Comparison comparison) {
   return std::find(config.compare.begin(), config.compare.end(), comparison) != config.compare.end();
 }
 
-/// Everything that was requested, without measurements.
+/// A result that has all requested comparisons but no measurements yet.
 ChartResult blank_result(const ChartConfig& config) {
   ChartResult result;
   for (const Comparison comparison : all_comparisons) {
@@ -54,7 +54,7 @@ class ChartRun {
     result_.costs.push_back({std::move(part), thread_cpu_seconds() - before});
   }
 
-  /// Prepares the packings and equilibria of a comparison, unless an earlier one did.
+  /// Computes the packings and equilibria that a comparison needs, unless an earlier comparison did.
   void prepare_for(Comparison comparison) {
     const bool needs_equilibria = comparison == Comparison::hessian || comparison == Comparison::modes;
     if ((needs_equilibria || comparison == Comparison::equilibrium) && !jammed_)

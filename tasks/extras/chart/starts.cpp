@@ -12,7 +12,7 @@ std::vector<JammedSolid> jam_all(const Measuring& measuring) {
   const ChartConfig& config = measuring.config;
   JamOptions options;
   options.minimise.method = Method::newton;
-  options.compression.evaluations = 500;  // the compression is not compared here
+  options.compression.evaluations = 500;  // less than the default, because the compression is not compared here
   options.decompression.final_distance = 0.8 * *std::min_element(config.distances.begin(), config.distances.end());
   std::vector<JammedSolid> all;
   for (const SolidKind solid : config.solids) {
@@ -29,7 +29,7 @@ std::vector<JammedSolid> jam_all(const Measuring& measuring) {
 }
 
 std::optional<StrainStart> start_at(const JammedSolid& jammed, double distance) {
-  constexpr double least_step = 1.1;  // ratio of distances: nearer states are too close to the target
+  constexpr double least_step = 1.1;  // smallest ratio of the distances; nearer states are too close to the target
   const Packing* above = nullptr;
   for (const Packing& state : jammed.states) {
     if (state.density() - jammed.phi_j >= least_step * distance) above = &state;

@@ -29,13 +29,13 @@ Row row_of(const ChartPoint& point) {
   return row;
 }
 
-/// Characters as a terminal shows them: continuation bytes of UTF-8 have no width.
+/// Number of characters that a terminal shows. Continuation bytes of UTF-8 have no width.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-/// All rows have as many columns as the first.
+/// Text with aligned columns. All rows must have as many columns as the first row.
 std::string aligned(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths(rows.front().size());
   for (const Row& row : rows) {
@@ -77,7 +77,7 @@ std::string family_text(const ChartFamily& family) {
                      aligned(rows), fits_text(family.fits));
 }
 
-/// Names equal to those of the line above are omitted.
+/// A row of the table. Names that are the same as in the row above are omitted.
 Row row_of(const AtlasRun& run, const AtlasRun* above) {
   constexpr std::array<const char*, 3> verdicts{"holds", "REFUSES", "FAILS"};
   const bool same_regime = above != nullptr && above->regime == run.regime;

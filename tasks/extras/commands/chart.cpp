@@ -43,7 +43,8 @@ ExitCode chart(const ChartArguments& arguments, Console& console) {
   make_directory(directory);
   const InterruptWatcher watcher;
   warn_about_kernels(console);
-  // The token is checked between parts as well: the watcher ends a process that does not stop in time.
+  // run_chart() checks the token only between two parts. If a part takes too long after a request to stop, the watcher
+  // ends the process.
   const auto result = run_chart(config, watcher.token(), console,
                                 [&](const ChartResult& so_far) { written(config, so_far, directory); });
   console.end();

@@ -21,7 +21,7 @@ bool is_table(Exported what) {
   return what == Exported::contacts || what == Exported::replicates || what == Exported::states;
 }
 
-/// Refuses options that have no meaning for the chosen export.
+/// Throws if an option has no effect on the chosen format.
 void check_options(const ExportArguments& arguments) {
   const auto format = to_string(arguments.what);
   if (!is_table(arguments.what) && arguments.output.empty())
@@ -39,7 +39,7 @@ ExitCode export_results(const ExportArguments& arguments, Console& console) {
   return is_table(arguments.what) ? export_rows(arguments, console) : export_packings(arguments, console);
 }
 
-/// nullopt if the replicate did not fail.
+/// Text of the failure; nullopt if the replicate did not fail.
 std::optional<std::string> failure_text(const JsonPlace& record) {
   if (record.at("status").choice(std::array<std::string_view, 2>{"done", "failed"}) == 0) return std::nullopt;
   const auto failure = record.at("failure");

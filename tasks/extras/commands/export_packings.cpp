@@ -42,7 +42,7 @@ void warn_of_undecided(const std::string& name, const std::vector<ExportFrame>& 
                            undecided, frames.size()));
 }
 
-/// A stream receives only the named file, without the files that accompany it.
+/// If the output is a stream, it receives only the file that the user named, without accompanying files.
 void export_replicate(const ExportArguments& arguments, const std::optional<Manifest>& manifest,
                       const std::string& name, const fs::path& output, Console& console) {
   const auto held = own_record(arguments, manifest, name);

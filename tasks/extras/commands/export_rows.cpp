@@ -11,7 +11,7 @@
 namespace isojam {
 namespace {
 
-/// A file, or standard output if none is named.
+/// Output to a file, or to standard output if no file is named.
 class Output {
  public:
   explicit Output(const std::string& path) {
@@ -33,7 +33,7 @@ RowFormat format_of(const std::string& output) {
   return output.ends_with(".jsonl") ? RowFormat::json_lines : RowFormat::csv;
 }
 
-/// Appends the lines of a replicate one state at a time, because an expansion has millions of contacts.
+/// Appends the contacts of a replicate, one state at a time because a decompression can have millions of contacts.
 void append_contacts(const ExportArguments& arguments, const RecordedReplicate& held, Output& output) {
   for (const auto& state : stored_states(arguments.directory, held, arguments.path)) {
     output.append(contact_lines(format_of(arguments.output), {held.name, state.index, state.delta_phi}, state.packing));
@@ -43,7 +43,7 @@ void append_contacts(const ExportArguments& arguments, const RecordedReplicate& 
 }  // namespace
 
 ExitCode export_rows(const ExportArguments& arguments, Console& console) {
-  // Throws for unknown names before the first line is written.
+  // If a name is unknown, this throws before the first line is written.
   const auto names = chosen_names(arguments);
   const auto manifest = stored_manifest(arguments.directory);
   const auto format = format_of(arguments.output);

@@ -24,7 +24,7 @@ ExitCode report(const ReportArguments& arguments, Console& console) {
   }
   Json data = report_data(results, views);
   data["viewable"] = {{"most_particles", options.most_particles}, {"chosen", choice.size()}};
-  // The link is only for a reader of the directory, because the page may be sent elsewhere without it.
+  // The page links to a chart in the same folder. The link does not work if the page is sent to somebody alone.
   data["chart"] = std::filesystem::exists(output.parent_path() / "chart.html");
   write_output(output, report_page(data));
   print(output.string() + "\n");

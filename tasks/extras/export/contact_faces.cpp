@@ -20,7 +20,7 @@ void for_each_bit(std::uint64_t mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(std::countr_zero(mask));
 }
 
-/// One of the solids of a contact, in the body frame of A, and its part of the contact.
+/// One of the two solids of a contact, in the body frame of A, with its part in the contact.
 struct Body {
   const ConvexSolid& solid;
   Matrix3d rotation;
@@ -35,7 +35,7 @@ struct Body {
   Vector3d vertex(int v) const { return centre + rotation * solid.vertices()[v]; }
 };
 
-/// The faces found so far at the smallest depth.
+/// The faces with the smallest depth that was found so far.
 struct Least {
   double depth = std::numeric_limits<double>::infinity();
   ContactFaces faces;
@@ -57,7 +57,8 @@ ContactFaces aligned_faces(const Body& a, const Body& b, double cutoff) {
   return least.faces;
 }
 
-/// Finds edges of `body` in faces of `other`. named(faces of body, faces of other) returns the faces in the order A, B.
+/// Finds edges of `body` that lie in faces of `other`. named(faces of body, faces of other) returns the two in the
+/// order A, B.
 template <class Named>
 void offer_edges(const Body& body, const Body& other, double cutoff, const Named& named, Least& least) {
   for_each_bit(body.edges, [&](int e) {

@@ -14,7 +14,7 @@ namespace isojam {
 namespace fs = std::filesystem;
 namespace {
 
-/// One file per frame, and the collection that lists them.
+/// Adds one file for each state, and the .pvd file that lists them.
 template <class MakeFile>
 void append_collection(std::span<const ExportFrame> frames, const fs::path& stem, std::string_view suffix,
                        const MakeFile& make, std::vector<ExportedFile>& files) {
@@ -60,7 +60,7 @@ std::vector<ExportedFile> xyz_files(std::span<const ExportFrame> frames, const f
     files.push_back({solid, obj_file(packing.solids.only())});
     return files;
   }
-  // Each species has one shape; the size of a particle is a separate column.
+  // Each kind of solid has one shape. The sizes of the particles are a separate column.
   std::map<std::string, const ConvexSolid*> shapes;
   for (std::size_t i = 0; i < packing.poses.size(); ++i)
     shapes.emplace(packing.solids.unit(i).name(), &packing.solids.unit(i));

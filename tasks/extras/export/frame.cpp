@@ -18,7 +18,8 @@ void mark_faces(ExportFrame& frame, int particle, std::uint64_t faces, FaceConta
   const auto first = frame.first_face[static_cast<std::size_t>(particle)];
   for (; faces != 0; faces &= faces - 1) {
     auto& face = frame.faces[first + static_cast<std::size_t>(std::countr_zero(faces))];
-    // In one frame either all contacts are classified or none is, so the order of the enumeration works for both.
+    // In one frame either all contacts are classified or none. Therefore `undecided` never has to be compared with the
+    // other values.
     face = strength == FaceContact::undecided ? strength : std::max(face, strength);
   }
 }
@@ -88,13 +89,13 @@ void check_frames(std::span<const ExportFrame> frames) {
 
 namespace {
 
-/// Wraps into [low, low + 1) along each lattice vector.
+/// Moves a position by lattice vectors until its fractional coordinates are in [low, low + 1).
 WrappedPosition into_any_cell(const PeriodicCell& cell, const Eigen::Vector3d& position, double low) {
   const Eigen::Vector3d cells = (cell.fractional(position).array() - low).floor();
   Eigen::Vector3i image = cells.cast<int>();
   Eigen::Vector3d rest = cell.fractional(position - cell.translation(image));
   for (int c = 0; c < 3; ++c) {
-    // Rounding can leave a position just outside either end; it is then moved to the other end.
+    // Rounding errors can leave a coordinate slightly outside of this range. It is then set to `low`.
     if (rest[c] >= low && rest[c] < low + 1) continue;
     image[c] += rest[c] < low ? 0 : 1;
     rest[c] = low;
@@ -145,7 +146,7 @@ WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3
 Eigen::Matrix3d to_standard_frame(const PeriodicCell& cell) {
   if (cell.is_cube()) return Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d& h = cell.vectors().high;
-  Eigen::Matrix3d turn;  // rows: the new axes
+  Eigen::Matrix3d turn;  // its rows are the new axes
   turn.row(0) = h.col(0).normalized();
   turn.row(2) = h.col(0).cross(h.col(1)).normalized();
   turn.row(1) = turn.row(2).cross(turn.row(0));

@@ -13,7 +13,7 @@
 namespace isojam {
 namespace {
 
-/// A convex polyhedron in the form of the schema's page on shapes.
+/// JSON text for a convex polyhedron, as the page on shapes in the GSD documentation defines it.
 std::string shape_text(const ConvexSolid& solid) {
   Json shape;
   shape["type"] = "ConvexPolyhedron";
@@ -32,7 +32,8 @@ GsdChunk many(std::string name, const std::vector<T>& values, std::uint32_t colu
   return gsd_chunk(std::move(name), std::span<const T>(values), columns);
 }
 
-/// Solids that differ in shape or size, in the order of first appearance, and the type number of each particle.
+/// The types of the particles: solids that differ in shape or size, in the order in which they first occur. Also the
+/// type of each particle.
 struct Types {
   std::vector<const ConvexSolid*> solids;
   std::vector<std::uint32_t> of;
@@ -50,7 +51,8 @@ Types types_of(const Packing& packing) {
   return types;
 }
 
-/// Values that are constant along an expansion; other frames inherit them from the first.
+/// Adds values that are constant during a decompression. All later frames of the file inherit them from the first
+/// frame.
 void append_constants(const Packing& packing, std::vector<GsdChunk>& chunks) {
   const auto n = packing.poses.size();
   chunks.push_back(one("configuration/dimensions", std::uint8_t{3}));
@@ -69,7 +71,7 @@ void append_constants(const Packing& packing, std::vector<GsdChunk>& chunks) {
     const auto& solid = packing.solids[i];
     const double radius = solid.gyration_radius();
     masses.push_back(static_cast<float>(solid.volume()));
-    moments.insert(moments.end(), 3, static_cast<float>(solid.volume() * radius * radius));  // their mean
+    moments.insert(moments.end(), 3, static_cast<float>(solid.volume() * radius * radius));  // their mean, three times
   }
   chunks.push_back(many("particles/mass", masses));
   chunks.push_back(many("particles/moment_inertia", moments, 3));
@@ -90,8 +92,7 @@ void append_poses(const Packing& packing, std::vector<GsdChunk>& chunks) {
   chunks.push_back(many("particles/image", images, 3));
 }
 
-/// Lengths along the axes and tilts of HOOMD-blue's schema: lattice vectors (Lx, 0, 0), (xy·Ly, Ly, 0) and (xz·Lz,
-/// yz·Lz, Lz).
+/// Box in the format of HOOMD-blue. Its lattice vectors are (Lx, 0, 0), (xy·Ly, Ly, 0) and (xz·Lz, yz·Lz, Lz).
 std::vector<float> box_of(const PeriodicCell& cell) {
   const Eigen::Matrix3d& h = cell.vectors().high;
   std::vector<float> box;
@@ -100,7 +101,7 @@ std::vector<float> box_of(const PeriodicCell& cell) {
   return box;
 }
 
-/// The lattice vectors of the packing, one after the other.
+/// The components of the three lattice vectors, one vector after another.
 std::vector<double> vectors_of(const PeriodicCell& cell) {
   const Eigen::Matrix3d& h = cell.vectors().high;
   return {h.data(), h.data() + 9};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view between = "; ";
 
-/// Value at a pointer into an object; null if it is missing.
+/// Value at a JSON pointer into an object; null if it is missing.
 const Json* value_at(const Json& object, std::string_view pointer) {
   const Json* value = &object;
   while (!pointer.empty()) {
@@ -28,7 +28,7 @@ const Json* value_at(const Json& object, std::string_view pointer) {
 
 Json copy_of(const Json* value) { return value ? *value : Json(nullptr); }
 
-/// The reason that the record gives for a null value, beside the value or in one of the enclosing objects.
+/// Reason that the record states for a null value. It is stored beside the value or in an enclosing object.
 std::string reason_of(const Json& object, std::string_view pointer) {
   for (auto end = pointer.size(); end != 0; end = pointer.rfind('/', end - 1)) {
     const auto* reason = value_at(object, std::string(pointer.substr(0, end)) + "_reason");
@@ -53,7 +53,7 @@ std::vector<std::string> swept_names(const std::optional<Manifest>& manifest, co
   return names;
 }
 
-/// The largest number of kinds of a packing.
+/// The largest number of kinds of particles in a packing of this study.
 std::size_t kinds_of(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
   std::size_t most = first.summary.solid.kinds().size();
   for (const auto& solid : manifest ? manifest->solids : std::vector<Mixture>{})
@@ -61,7 +61,7 @@ std::size_t kinds_of(const std::optional<Manifest>& manifest, const RecordedRepl
   return most;
 }
 
-/// True if a quantity belongs to a kind of particles that no packing has, or that is the only one.
+/// True for a quantity of one kind of particles if no packing has this kind, or if every packing has only one kind.
 bool is_of_no_kind(std::string_view pointer, std::size_t kinds) {
   if (!pointer.starts_with(kinds_pointer)) return false;
   const auto kind = static_cast<std::size_t>(pointer[kinds_pointer.size()] - '0');
@@ -87,7 +87,7 @@ RecordRows::RecordRows(RowOf of, RowFormat format, const std::optional<Manifest>
   add("reasons", [this](const Source& s) { return reasons(s); });
 }
 
-/// A quantity may have the name of a figure that every state has. Both are then the same number.
+/// Some quantities have the same name as a number that every state has. The two are then equal, and only one is added.
 void RecordRows::add(std::string name, Value value) {
   if (std::find(columns_.begin(), columns_.end(), name) != columns_.end()) return;
   columns_.push_back(std::move(name));

@@ -26,7 +26,7 @@ std::vector<double> world_vertices(const Packing& packing) {
   return coordinates;
 }
 
-/// Corners of all polygons one after another, and where each polygon ends.
+/// Vertex numbers of all polygons, one polygon after another, and the position at which each polygon ends.
 struct Polygons {
   std::vector<std::size_t> corners, ends;
 };

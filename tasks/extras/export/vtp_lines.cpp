@@ -12,7 +12,7 @@ constexpr auto lines_explanation =
     "vertex-face, 1: edge-edge, 2: edge-face, 3: face-face, 4: none of these. force: on a. Lengths in the cube root of "
     "a particle's volume, forces in Y times its square. -->\n";
 
-/// Three points of each contact, one after the other.
+/// Three points of each contact: a centre, the point of application, and the other centre.
 std::vector<double> points_of(const Packing& packing, const std::vector<NetworkContact>& network) {
   std::vector<double> coordinates;
   for (const auto& contact : network) {
@@ -32,7 +32,7 @@ std::int32_t class_of(const NetworkContact& contact) {
   return static_cast<std::int32_t>(strength_of(*contact.contact_class));
 }
 
-/// The data of every line.
+/// Appends the data of every line.
 class LineData {
  public:
   LineData(std::string& xml, const std::vector<NetworkContact>& network) : xml_(xml), network_(network) {}

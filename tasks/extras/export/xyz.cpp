@@ -15,7 +15,7 @@ void append_frame(std::string& text, const ExportFrame& frame) {
   const auto& packing = frame.packing;
   const bool sized = !packing.solids.is_uniform();
   const Eigen::Matrix3d& h = packing.cell.vectors().high;
-  const std::vector<double> vectors(h.data(), h.data() + 9);  // one after the other
+  const std::vector<double> vectors(h.data(), h.data() + 9);  // the three lattice vectors, one after another
   fmt::format_to(Text(text),
                  "{0}\nLattice=\"{1}\" pbc=\"T T T\" "
                  "Properties=species:S:1:{3}pos:R:3:orientation:R:4:Z:I:1:cluster:I:1 phi={2}",

@@ -42,7 +42,7 @@ std::string scripts(const Parts& parts) {
   return text;
 }
 
-/// JSON in which "<" is escaped, so that it cannot end its element or begin another. A file name need not be UTF-8.
+/// JSON in which "<" is escaped, so that it cannot end the HTML element that contains it. File names need not be UTF-8.
 std::string embedded(const Json& data) {
   std::string text;
   for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
@@ -69,7 +69,7 @@ std::string assembled_page(std::span<const PagePart> own, const Json& data) {
   const auto frame = joined(parts, Kind::frame);
   std::string page;
   std::size_t done = 0;
-  // Places are found in the original frame, in order; inserted text is not searched again.
+  // The places were found in the original text and are in order. Inserted text is not searched again.
   for (const auto& [place, text] : places) {
     const auto at = frame.find(place, done);
     assert(at != std::string::npos);

@@ -8,7 +8,8 @@
 #include "tasks/records/earlier_record.hpp"
 #include "tasks/records/record.hpp"
 
-// Writes the facts that the Python module needs about the program's files, so that they are defined once.
+// Writes a file with facts about the files of the program. The Python module reads it, so that these facts are defined
+// once.
 // usage: isojam-facts PROGRAM FILE, where PROGRAM is the path of isojam relative to the module
 
 namespace {

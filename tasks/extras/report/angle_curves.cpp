@@ -19,10 +19,10 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr int samples = 80, bins_per_decade = 60;
-/// Lower end of the charts; there the random curves are straight lines in the logarithms.
+/// Smallest angle of the charts. Near it, the curves for random contacts are straight lines in logarithmic axes.
 constexpr double least_sampled = 0.001 * degree;
 
-/// More digits than a chart can show would only cost disk space and time.
+/// Rounds a number to the digits that a chart can show, which saves disk space and time.
 double shortened(double x) {
   if (x == 0) return 0;
   const double unit = nearest::pow(10, std::floor(nearest::log10(std::abs(x))) - 5);

@@ -25,7 +25,7 @@ namespace {
 
 using Members = std::vector<const RecordedReplicate*>;
 
-/// The value at a pointer, or null: a report shows whatever exists.
+/// Value at a JSON pointer, or null if it is missing: a report shows what exists.
 Json value_at(const Json& json, const std::string& pointer) {
   const Json::json_pointer place(pointer);
   return json.contains(place) ? json.at(place) : Json(nullptr);
@@ -75,7 +75,7 @@ std::string point_of(const Row& row) { return point_text(row.solid, row.particle
 
 double sixth_root(double energy) { return energy > 0 ? nearest::cbrt(std::sqrt(energy)) : 0; }
 
-/// Quantities of a state that charts draw against Δφ.
+/// Quantities of a state that the charts show as functions of Δφ.
 constexpr std::array drawn_quantities{"Z", "Z_ff", "Z_ef", "Z_l", "C", "omega_l", "omega_h", "K", "G"};
 
 Json state_points(const Json& record) {
@@ -92,7 +92,7 @@ Json state_points(const Json& record) {
   return points;
 }
 
-/// The fitted line through the states that gave φ_J, from φ_J to the farthest of them; null if it cannot be drawn.
+/// The line that was fitted to obtain φ_J, from φ_J to the farthest fitted state. Null if it cannot be drawn.
 Json extrapolation(const Json& record) {
   const auto states = state_points(record);
   std::vector<double> roots, densities;
@@ -111,7 +111,7 @@ Json extrapolation(const Json& record) {
   return {{"from", {phi_j, 0}}, {"to", {line.intercept + line.slope * *greatest, *greatest}}};
 }
 
-/// Counts of the stop reasons of minimisations, separately for compression and expansion.
+/// Numbers of minimisations by the reason why they stopped, separately for compression and decompression.
 Json stop_counts(const Json& record) {
   std::map<std::pair<std::string, std::string>, int> counts;
   for (const auto& step : list_at(record, "/path")) {
@@ -124,7 +124,7 @@ Json stop_counts(const Json& record) {
   return list;
 }
 
-/// The flags that the manifest excludes, if they can be read.
+/// The flags that the manifest excludes, or the default flags if it has no list. Unknown names are ignored.
 std::vector<Flag> exclude_of(const Json& manifest) {
   if (!value_at(manifest, "/exclude").is_array()) return usually_excluded();
   std::vector<Flag> flags;
@@ -135,7 +135,7 @@ std::vector<Flag> exclude_of(const Json& manifest) {
   return flags;
 }
 
-/// Strain, and stress over pressure, along a shear; empty without one.
+/// Points (strain, stress divided by pressure) of a shear. Empty if the replicate was not sheared.
 Json shear_points(const Json& record) {
   Json points = Json::array();
   for (const auto& state : list_at(record, "/shear/path")) {
@@ -182,7 +182,7 @@ Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vec
   return json;
 }
 
-/// Replicates that neither failed nor are excluded.
+/// The replicates that neither failed nor are excluded.
 Members counting(const Members& members, const std::vector<Flag>& exclude) {
   Members list;
   std::copy_if(members.begin(), members.end(), std::back_inserter(list), [&](const RecordedReplicate* member) {
@@ -191,7 +191,7 @@ Members counting(const Members& members, const std::vector<Flag>& exclude) {
   return list;
 }
 
-/// The angles are stored only in the state nearest jamming.
+/// The nearest state. Only this state has stored angles.
 Json state_with_angles(const Json& record) {
   for (const auto& state : list_at(record, "/states")) {
     if (state.contains("/contacts/angles"_json_pointer)) return state;
@@ -199,7 +199,7 @@ Json state_with_angles(const Json& record) {
   return value_at(record, "/nearest");
 }
 
-/// CDFs over the contacts of all members; null without angles.
+/// Distributions of the angles over the contacts of all replicates. Null if no replicate has angles.
 Json pooled_angles(const Members& members) {
   Json json;
   for (const std::string kind : {"face_face", "edge_face"}) {
@@ -221,7 +221,7 @@ Json pooled_angles(const Members& members) {
   return json;
 }
 
-/// ⟨ω⟩ ∝ Δφ^x over the states of all members near jamming; null if there are too few.
+/// Fit ⟨ω⟩ ∝ Δφ^x to the states of all replicates near jamming. Null if there are too few states.
 Json pooled_scaling(const Members& members, const std::string& key) {
   std::vector<double> distances, values;
   for (const auto* member : members) {
@@ -273,7 +273,7 @@ Json measure_list(const Results& results) {
   return measures;
 }
 
-/// Measures that could still be added; null if the manifest kept no expansions.
+/// Measures that can still be added. Null if the manifest did not keep the states of decompressions.
 Json addable_list(const Results& results, const Json& measures) {
   if (value_at(results.manifest, "/keep_path") != true) return nullptr;
   Json addable = Json::array();

@@ -17,16 +17,16 @@
 namespace isojam {
 namespace {
 
-/// Resolution that a screen can show.
+/// Numbers of units per length and per component of a mode. More digits would not be visible on a screen.
 constexpr double length_unit = 1e5, mode_unit = 1e3;
-/// Units of the output: forces as thousandths of the largest, contact positions in hundredths of a length.
+/// Forces are in thousandths of the largest one, and points of contacts in hundredths of a length.
 constexpr double force_parts = 1000, place_parts = 100;
-/// Above this size a view does not justify the minutes of the dense solver.
+/// For larger packings, the dense solver would take minutes, which is too long for a view.
 constexpr int largest_dense_view = 100;
 
 double shortened(double x, double unit) {
   const double rounded = std::round(x * unit) / unit;
-  return rounded == 0 ? 0 : rounded;  // no "-0.0"
+  return rounded == 0 ? 0 : rounded;  // avoids "-0.0"
 }
 
 template <class Vector>
@@ -69,8 +69,9 @@ void put_contacts(Json& json, std::span<const Contact> contacts, int particles) 
     json["local_Q6"].push_back(order ? Json(shortened(*order, mode_unit)) : Json(nullptr));
 }
 
-/// Point where the force of a contact acts, relative to A's centre, in A's body frame: where its line of action leaves
-/// A, towards B. On this line the force has the torque of the contact, except for the torque about the line itself.
+/// Point where the force of a contact is drawn, relative to the centre of A and in the body frame of A. It is where the
+/// line of action leaves A towards B. At this point, the force causes the torque of the contact, except for the
+/// component along the line.
 Eigen::Vector3d place_of_force(const Contact& contact, const ConvexSolid& a) {
   const auto& [area, moment] = std::tie(contact.overlap.area, contact.overlap.moment);
   const Eigen::Vector3d along = area.normalized();
@@ -90,7 +91,7 @@ void put_forces(Json& json, std::span<const Contact> contacts, const Packing& pa
   json["largest_force"] = largest;
   json["forces"] = Json::array();
   for (const auto& contact : contacts) {
-    if (!(contact.overlap.area.squaredNorm() > 0)) continue;  // the force underflows
+    if (!(contact.overlap.area.squaredNorm() > 0)) continue;  // the square of the area underflows to zero
     const auto& pose = packing.poses[static_cast<std::size_t>(contact.pair.a)];
     const Eigen::Vector3d place = pose.orientation.normalized() *
                                   place_of_force(contact, packing.solids[static_cast<std::size_t>(contact.pair.a)]);
@@ -113,7 +114,7 @@ void put_clusters(Json& json, const Packing& packing, const ClassifiedContacts& 
   if (largest->size() > 1) json["largest"] = unwrapped_cluster(packing, *largest);
 }
 
-/// Coordinates (x, R·θ) become (x, θ), the greatest entry 1.
+/// Changes coordinates (x, R·θ) to (x, θ), and scales the mode so that its largest component is 1.
 Eigen::VectorXd displacements(Eigen::VectorXd mode, const Composition& solids) {
   for (Eigen::Index i = 0; i < mode.size(); i += 6)
     mode.segment<3>(i + 3) /= solids[static_cast<std::size_t>(i / 6)].gyration_radius();
@@ -136,7 +137,7 @@ Json mode_list(const Packing& packing, PackingEnergy& energy, int modes) {
   Json list = Json::array();
   if (modes == 0) return list;
   const ModeOptions options{.lowest = modes, .highest = modes, .largest_dense = largest_dense_view};
-  // The low parts decide the softest modes: without them barely touching faces may seem apart.
+  // The low parts of the coordinates affect the softest modes: without them, faces that barely touch could be apart.
   const auto ends =
       spectrum_ends(dynamical_matrix(packing, energy.hessian(packing, Precision::double_double)), options);
   append_modes(list, ends.lowest, "lowest", packing);
@@ -193,7 +194,7 @@ Json packing_view(const Packing& packing, int modes) {
   PackingEnergy energy;
   const auto classified = classified_contacts(packing, energy);
   Json json;
-  json["solid"] = packing.solids.unit(0).name();  // the name of a mixture is written elsewhere
+  json["solid"] = packing.solids.unit(0).name();  // if this is a mixture, its name is stored elsewhere
   if (!packing.solids.is_uniform()) put_solids(json, packing.solids, packing.size());
   json["phi"] = packing.density();
   json["side"] = packing.cell.side();

@@ -9,8 +9,8 @@ namespace {
 
 using Cells = std::vector<const AtlasRow*>;
 
-/// Cells of each regime and method. The methods of a regime are grouped, although regimes and methods may alternate in
-/// the atlas.
+/// The cells of each regime and method. Cells of one method are grouped, although in the atlas regimes and methods can
+/// alternate.
 std::vector<Cells> by_regime_and_method(std::span<const AtlasRow> rows) {
   std::map<std::string, std::size_t> regimes, methods;  // in order of appearance
   std::map<std::pair<std::size_t, std::size_t>, Cells> cells;
@@ -28,7 +28,7 @@ bool alike(const AtlasRow& a, const AtlasRow& b) {
   return a.verdict == b.verdict && (a.verdict == AtlasVerdict::holds || a.reason == b.reason);
 }
 
-/// Text of the settings of the cells at these indices.
+/// Text for the settings of the cells with these indices. Consecutive cells are written as a range.
 std::string settings_text(const Cells& cells, const std::vector<std::size_t>& places) {
   std::string text;
   for (std::size_t k = 0; k < places.size();) {

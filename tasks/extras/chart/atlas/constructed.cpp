@@ -11,7 +11,7 @@ namespace {
 
 Quad3 vector_part(const QuadQuaternion& q) { return {q[1], q[2], q[3]}; }
 
-/// x rotated by q of unit length.
+/// x rotated by the unit quaternion q.
 Quad3 turned(const QuadQuaternion& q, const Quad3& x) {
   const Quad3 t = Quad(2) * cross(vector_part(q), x);
   return x + q[0] * t + cross(vector_part(q), t);
@@ -35,7 +35,7 @@ Pose pose_of(const Quad3& position, const QuadQuaternion& q) {
   return pose;
 }
 
-/// Closed form for displaced().
+/// Exact volume of the overlap that displaced() constructs; nullopt for solids without a formula.
 std::optional<double> displaced_volume(SolidKind kind, const Eigen::Vector3d& t) {
   if (kind == SolidKind::cube) return (1 - t.cwiseAbs().array()).prod();
   if (kind != SolidKind::tetrahedron) return std::nullopt;
@@ -47,7 +47,7 @@ std::optional<double> displaced_volume(SolidKind kind, const Eigen::Vector3d& t)
 }  // namespace
 
 QuadQuaternion small_turn(double angle, const Eigen::Vector3d& axis) {
-  // tan(angle/2) to 1e-32 by its series would change only the last digits of the angle, so the double is used.
+  // An exact tangent in quadruple precision would change only the last digits of the angle.
   const Quad tangent = std::tan(angle / 2);
   const Eigen::Vector3d u = axis.normalized();
   return {1, tangent * Quad(u.x()), tangent * Quad(u.y()), tangent * Quad(u.z())};

@@ -8,7 +8,8 @@ namespace isojam {
 
 namespace {
 
-/// Images farther away do not reach even a cell of 0.4 times the least side.
+/// Number of images in each direction. Even in a cell with 0.4 times the smallest allowed side, no contact involves an
+/// image that is farther away.
 constexpr int farthest_image = 3;
 
 double pair_energy(const Packing& packing, const Pose& a, const Pose& b, const Eigen::Vector3i& shift) {

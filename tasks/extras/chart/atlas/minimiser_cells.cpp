@@ -15,11 +15,11 @@ namespace isojam {
 
 namespace {
 
-/// The same for every method: Newton's needs at most about 600 down to Δφ = 2e-3. More would not help the others: their
-/// residual is of order 1 from Δφ = 0.02 on.
+/// Largest number of evaluations, the same for all methods. Newton's method needs at most about 600 for Δφ ≥ 2e-3. More
+/// evaluations would not help the other methods: for Δφ ≤ 0.02 their residual is of order 1.
 constexpr long budget = 1000;
 
-/// For multipliers, whose evaluations are of the envelope; no step needs as many.
+/// Largest number of evaluations for multipliers, which evaluate an envelope of the energy. No step needs so many.
 constexpr long follow_budget = 3000;
 
 constexpr double residual = 1e-6;
@@ -35,10 +35,10 @@ Minimiser minimiser(const std::string& name, Method method, double energy_change
   options.method = method;
   options.residual = residual;
   options.max_evaluations = budget;
-  // E/N ~ Δφ⁶ is 2e-20 at Δφ = 5e-4, below the usual cut-off for an unjammed state.
+  // At Δφ = 5e-4, E/N ~ Δφ⁶ is 2e-20. This is below the default energy at which a state counts as unjammed.
   options.unjammed_energy = 1e-26;
   options.energy_change = energy_change;
-  // Only the paper's rule.
+  // With the paper's stopping rule, the residual must not stop the minimisation first.
   if (energy_change > 0) options.residual = 1e-14;
   return {name, method == Method::newton, options};
 }
@@ -49,18 +49,18 @@ std::array<Minimiser, 5> minimisers() {
           minimiser("FIRE", Method::fire), minimiser("L-BFGS", Method::lbfgs)};
 }
 
-/// max(|F|, |T|/R) over the mean force, from a new evaluation in double-double.
+/// Largest net force, or net torque divided by R, in units of the mean contact force. Computed anew in double-double.
 double residual_of(const Packing& packing) {
   return PackingEnergy().evaluate(packing, Precision::double_double).residual;
 }
 
-/// Holds: forces balance. Fails: the method reports success but forces do not balance. Refuses: the method reports that
-/// it did not finish.
+/// Verdicts: `holds` if the forces balance, `refuses` if the method reports that it did not finish, and `fails` if it
+/// reports success although the forces do not balance.
 AtlasRow judged_end(AtlasRow row, const MinimiseSummary& summary, const Packing& packing, StopReason wanted) {
   const double left = residual_of(packing);
   row.figure = fmt::format("residual {:.0e} after {} evaluations", left, summary.evaluations + summary.work.envelopes);
   row.reason = to_string(summary.reason);
-  // A residual measured in doubles agrees with this one to its floor.
+  // The method may have measured its residual in doubles; the factor 1.1 allows for their rounding.
   const bool balanced = left <= 1.1 * residual;
   if (wanted == StopReason::unjammed ? summary.reason == wanted : balanced) {
     row.verdict = AtlasVerdict::holds;
@@ -83,7 +83,7 @@ void append_starts(const std::string& regime, const std::string& setting, const 
   }
 }
 
-/// Follows the equilibrium from which the state was strained.
+/// Follows the equilibrium `from` to a new density.
 void append_followed(const std::string& regime, const std::string& setting, const Packing& from, double distance,
                      double density, AtlasRows& rows) {
   if (rows.over()) return;
@@ -106,14 +106,15 @@ void append_distances(const AtlasStates& states, AtlasRows& rows) {
   }
 }
 
-/// A jammed packing with one particle removed: its neighbours have few contacts.
+/// A jammed packing from which one particle was removed. The neighbours of the vacancy have few contacts.
 Packing with_vacancy(const AtlasStates& states) {
   Packing packing = states.above(0.03);
   packing.poses.erase(packing.poses.begin());
   return packing;
 }
 
-/// Checks the inertia of the Hessian beside the vacancy: more than three zero modes must be explained by near-rattlers.
+/// Counts the zero modes of the packing with the vacancy. If there are more than three, near-rattlers must explain
+/// them.
 AtlasRow judged_rattlers(Packing packing, const std::stop_token& stop) {
   PackingEnergy energy;
   minimise(packing, energy, minimisers().front().options, stop);
@@ -137,7 +138,8 @@ void append_other_starts(const AtlasStates& states, AtlasRows& rows) {
   append_starts("unjammed start", "φ = 0.3", loose, StopReason::unjammed, rows);
 }
 
-/// An equilibrium whose translation through the boundary is not exact in doubles, because the low parts belong to it.
+/// Translates equilibria through the boundary of the cell. The translation is not exact in doubles, and the low parts
+/// of the coordinates contribute to the balance of forces.
 void append_translated(const AtlasStates& states, AtlasRows& rows) {
   for (const double distance : {0.1, 0.005}) {
     Packing packing = states.above(distance);

@@ -18,13 +18,14 @@ namespace isojam {
 
 namespace {
 
-/// Number of softest modes compared, beyond the three translations.
+/// Number of the softest modes that are compared, without the three translations.
 constexpr int wanted = 6;
 
-/// Relative tolerance of an eigenvalue. D, a matrix of doubles, is no more accurate at a condition number of 1e12.
+/// Allowed relative error of an eigenvalue. The dynamical matrix consists of doubles. With a condition number of 1e12,
+/// its eigenvalues are not more accurate than this.
 constexpr double mode_tolerance = 1e-3;
 
-/// Largest relative deviation of the first `wanted` of two ascending lists.
+/// Largest relative deviation among the first `wanted` elements of two ascending lists.
 double deviation(const Eigen::VectorXd& found, const Eigen::VectorXd& exact) {
   return ((found.head<wanted>() - exact.head<wanted>()).array().abs() / exact.head<wanted>().array().abs()).maxCoeff();
 }
@@ -47,7 +48,7 @@ AtlasRow by_shift_invert(AtlasRow row, const BlockMatrix& matrix, const Eigen::V
   const ModeSet found = spectrum_ends(matrix, options).lowest;
   if (found.size() < wanted) return refused(row, std::string(to_string(found.ended)));
   row = judged(row, deviation(found.eigenvalues, exact), mode_tolerance, "relative error of λ");
-  // An unsuitable shift is detected by residuals, inertia and finally the dense solver.
+  // If the shift is unsuitable, the solver finds this from residuals and inertia, and finally uses the dense solver.
   row.reason += fmt::format(", {}", to_string(found.ended));
   if (row.verdict == AtlasVerdict::fails && found.relative_error > mode_tolerance)
     return refused(row, fmt::format("its own error bound is {:.0e}", found.relative_error));
@@ -72,10 +73,11 @@ void append_conditions(const AtlasStates& states, AtlasRows& rows) {
   }
 }
 
-/// Relative tolerance of the softest mode by differences.
+/// Allowed relative error of the softest eigenvalue of a Hessian from differences.
 constexpr double difference_tolerance = 1e-2;
 
-/// Judges spurious negative modes, and the error of the softest mode.
+/// Verdict on a Hessian: it must have no spurious negative modes, and the error of its softest eigenvalue must be
+/// small.
 AtlasRow judged_hessian(AtlasRow row, const Eigen::MatrixXd& matrix, double softest) {
   const Eigen::VectorXd lambda = symmetric_eigenvalues(matrix);
   const long negative = (lambda.array() < -softest / 2).count();

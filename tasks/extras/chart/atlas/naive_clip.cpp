@@ -16,7 +16,7 @@ Polygon face_of(const PlacedSolid& solid, const Eigen::Vector3d& centre, int fac
   return polygon;
 }
 
-/// The part with normal·y ≤ offset (Sutherland and Hodgman).
+/// The part of the polygon with normal·y ≤ offset (algorithm of Sutherland and Hodgman).
 Polygon clipped(const Polygon& polygon, const Eigen::Vector3d& normal, double offset) {
   Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -35,7 +35,8 @@ Eigen::Vector3d area_of(const Polygon& polygon) {
   return twice / 2;
 }
 
-/// Adds the faces of `body` that lie inside `other` to `sum.volume`; returns their area vector.
+/// Adds to `sum.volume` the contribution of the parts of the faces of `body` that lie inside `other`. Returns the
+/// vector area of these parts.
 Eigen::Vector3d add_faces(const PlacedSolid& body, const Eigen::Vector3d& centre, const PlacedSolid& other,
                           const Eigen::Vector3d& other_centre, VolumeAndArea& sum) {
   Eigen::Vector3d total = Eigen::Vector3d::Zero();
@@ -55,7 +56,7 @@ Eigen::Vector3d add_faces(const PlacedSolid& body, const Eigen::Vector3d& centre
 VolumeAndArea naive_overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
   VolumeAndArea sum;
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  // S_A = ∂V/∂x_A: moving A outwards through its own faces gains what they cover.
+  // S_A = ∂V/∂x_A is the vector area of the faces of A inside B: if A moves, these faces sweep the gained volume.
   sum.area = add_faces(a, origin, b, r, sum);
   add_faces(b, r, a, origin, sum);
   return sum;

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array depths{1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14};
 constexpr std::array angles{1e-1, 1e-4, 1e-7, 1e-10, 1e-13, 1e-16, 0.0};
 
-/// Number of orientations and directions; a cell reports the worst.
+/// Number of orientations and directions in a cell. The cell reports the worst of them.
 constexpr int samples = 16;
 
 struct Kernel {
@@ -58,11 +58,11 @@ const std::array<Kernel, 3>& kernels() {
   return list;
 }
 
-/// Mean contact force nearest jamming, Δφ = 5e-4: that of a vertex at depth Δφ in a face, V = ⅔ δ³ and S = 2 δ². An
-/// error below a small fraction of it does not affect the force balance.
+/// Mean contact force at Δφ = 5e-4, estimated for a vertex in a face at depth δ = Δφ: V = ⅔ δ³ and S = 2 δ². Errors
+/// that are much smaller than this force do not affect the balance of forces.
 const double weakest_mean_force = 2.0 / 3 * std::pow(5e-4, 5);
 
-/// Relative error of V and, where it is compared, of S.
+/// Relative error of V if its exact value is known in closed form. Otherwise the larger relative error of V and S.
 double relative_error(const VolumeAndArea& found, const ConstructedPair& pair) {
   const VolumeAndArea& exact = pair.reference;
   const double volume = std::abs(found.volume - exact.volume) / exact.volume;
@@ -76,11 +76,11 @@ double force_error(const VolumeAndArea& found, const ConstructedPair& pair) {
   return (found.volume * found.area - exact.volume * exact.area).norm() / 2 / weakest_mean_force;
 }
 
-/// The worst pair, for one kernel.
+/// The cell of one kernel, with the result of its worst pair.
 AtlasRow judged_kernel(AtlasRow row, const Kernel& kernel, const std::vector<ConstructedPair>& pairs) {
   double worst = 0, worst_force = 0;
   const auto note = [](double error, double& sum) {
-    if (!(error <= sum)) sum = error;  // so that NaN counts as the worst
+    if (!(error <= sum)) sum = error;  // written so that NaN counts as the worst
   };
   for (const ConstructedPair& pair : pairs) {
     const VolumeAndArea found = kernel.overlap(pair);
@@ -97,14 +97,14 @@ AtlasRow judged_kernel(AtlasRow row, const Kernel& kernel, const std::vector<Con
   return row;
 }
 
-/// A generic orientation: nothing is axis-parallel, every coordinate rounds.
+/// A random rotation: no feature is parallel to an axis, and every coordinate is rounded.
 QuadQuaternion random_turn(RandomStream& random) {
   QuadQuaternion q;
   for (Quad& component : q) component = random.normal();
   return q;
 }
 
-/// A row for each kernel, the worst over designs in random orientations.
+/// Adds a cell for each kernel. Each has the worst result over all designs in random orientations.
 void append_cell(const std::string& regime, const std::string& setting,
                  const std::function<PairDesign(int sample, RandomStream&)>& design, std::vector<AtlasRow>& rows) {
   std::vector<ConstructedPair> pairs;
@@ -153,7 +153,8 @@ Eigen::Vector3d direction(RandomStream& random) {
   return u.normalized();
 }
 
-/// Pairs of one orientation: any displacement, and one within a face plane, where two pairs of faces stay coplanar.
+/// Pairs of solids with the same orientation. One displacement is arbitrary. The other is parallel to a face, so that
+/// two pairs of faces are coplanar.
 void append_same_orientation(std::vector<AtlasRow>& rows) {
   constexpr std::array lengths{1e-1, 1e-4, 1e-7, 1e-10, 1e-13, 1e-16, 0.0};
   for (const double length : lengths) {
@@ -205,8 +206,8 @@ void append_generic(std::vector<AtlasRow>& rows) {
   }
 }
 
-/// Solids of half the size are rescaled to unit volume, so that none lies within another. The clip uses only planes and
-/// can be given a pair that does.
+/// A solid of half the size inside another one. isojam scales all solids to unit volume, so none of its pairs is of
+/// this kind. The plain clip uses only planes and can compute such a pair.
 void append_inside(std::vector<AtlasRow>& rows) {
   std::vector<Eigen::Vector3d> halved = platonic(SolidKind::cube).vertices();
   for (Eigen::Vector3d& vertex : halved) vertex /= 2;

@@ -16,7 +16,8 @@ namespace isojam {
 
 namespace {
 
-/// For energies, and for forces and torques over the mean contact force. Contacts here are deep: rounding leaves 1e-14.
+/// Allowed relative error of energies, and error of forces and torques in units of the mean contact force. The contacts
+/// are deep, so rounding errors are about 1e-14.
 constexpr double tolerance = 1e-12;
 
 constexpr std::array precisions{Precision::working, Precision::double_double};
@@ -36,8 +37,8 @@ AtlasRow energy_row(const std::string& regime, const std::string& setting, const
   }
 }
 
-/// N = 2 … 8 about a corner of the cell, slightly above the least side, at it, and where particles touch two images of
-/// another.
+/// Packings with N = 2 … 8 around a corner of the cell. The side of the cell is slightly larger than the smallest
+/// allowed side, equal to it, or so small that a particle touches two images of another one.
 void append_smallest_cells(std::vector<AtlasRow>& rows) {
   const ConvexSolid& solid = platonic(SolidKind::tetrahedron);
   const double least = least_side(solid);
@@ -53,7 +54,8 @@ void append_smallest_cells(std::vector<AtlasRow>& rows) {
   }
 }
 
-/// A packing and an equivalent one: particle k of `seen` is particle from[k] of `packing`, rotated by `turn`.
+/// A packing, and an equivalent one that must have the same energy. Particle k of `seen` is particle from[k] of
+/// `packing`, rotated by `turn`.
 struct Twin {
   Packing packing, seen;
   std::vector<int> from;
@@ -66,7 +68,7 @@ Twin twin_of(const Packing& packing) {
   return twin;
 }
 
-/// Difference of energy and gradient, in units of energy and mean force.
+/// Largest difference of energy and gradient between the two packings, in units of the energy and the mean force.
 double difference(const Twin& twin, Precision precision) {
   const Evaluation a = PackingEnergy().evaluate(twin.packing, precision);
   const Evaluation b = PackingEnergy().evaluate(twin.seen, precision);
@@ -92,7 +94,7 @@ Twin translated(const Packing& packing) {
   return twin;
 }
 
-/// In the reverse order every pair (A, B) becomes (B, A).
+/// Particles in another order. In the reverse order, every pair (A, B) becomes (B, A).
 Twin relabelled(const Packing& packing, bool reversed) {
   Twin twin = twin_of(packing);
   if (reversed) {
@@ -105,7 +107,7 @@ Twin relabelled(const Packing& packing, bool reversed) {
   return twin;
 }
 
-/// Rotated by `angle` about the z axis.
+/// The packing rotated by `angle` about the z axis.
 Twin turned(const Packing& packing, double angle) {
   Twin twin = twin_of(packing);
   const Eigen::AngleAxisd turn(angle, Eigen::Vector3d::UnitZ());
@@ -119,7 +121,7 @@ Twin turned(const Packing& packing, double angle) {
   return twin;
 }
 
-/// The twin's solid is built from vertices in other units; it must outlive the twin.
+/// A twin whose solid was built from vertices in another unit of length. `solid` must outlive the twin.
 Twin in_units(const Packing& packing, const ConvexSolid& solid) {
   Twin twin = twin_of(packing);
   twin.seen.solids = solid;

@@ -11,7 +11,7 @@ AtlasStates::AtlasStates(const std::stop_token& stop) {
   JamOptions options;
   options.compression.initial_density = 0.2;
   options.decompression.final_distance = 1.3e-3;
-  options.compression.evaluations = 500;  // the compression is not examined here
+  options.compression.evaluations = 500;  // less than the default, because the compression is not examined here
   options.minimise.residual = 1e-9;
   RandomStream random{1, static_cast<std::uint64_t>(SolidKind::octahedron)};
   const ConvexSolid& solid = platonic(SolidKind::octahedron);
@@ -24,7 +24,7 @@ AtlasStates::AtlasStates(const std::stop_token& stop) {
 }
 
 const Packing& AtlasStates::above(double delta_phi) const {
-  // States are in the order of expansion, so the last one above is the nearest.
+  // The states are in the order of decompression. The last one with a larger distance is the nearest.
   const Packing* nearest = &states_.front();
   for (const Packing& state : states_) {
     if (distance_of(state) > delta_phi) nearest = &state;

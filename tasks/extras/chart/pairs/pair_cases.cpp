@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t seed = 20110711;
 
-/// Positions of B along a line: deep at displacement = start, free before start + length·direction.
+/// Positions of B along a line: B overlaps A at `start` and moves out of A along `direction`.
 struct Approach {
   Quaterniond quaternion;
   Vector3d start;
@@ -48,7 +48,7 @@ Vector3d random_normal_to(RandomStream& random, const Vector3d& axis) {
   return axis.cross(random_direction(random)).normalized();
 }
 
-/// Right-handed frame with the given first axis; the second as near to `hint` as it can be.
+/// Right-handed frame whose first axis is `axis`. The second axis is as close to `hint` as possible.
 Matrix3d frame(const Vector3d& axis, const Vector3d& hint) {
   Matrix3d f;
   f.col(0) = axis.normalized();
@@ -57,7 +57,7 @@ Matrix3d frame(const Vector3d& axis, const Vector3d& hint) {
   return f;
 }
 
-/// Rotation that takes one frame to the other.
+/// Rotation from the frame `from` to the frame `to`.
 Quaterniond taking(const Matrix3d& from, const Matrix3d& to) { return Quaterniond(Matrix3d(to * from.transpose())); }
 
 Quaterniond turn(double angle, const Vector3d& axis) {
@@ -65,7 +65,8 @@ Quaterniond turn(double angle, const Vector3d& axis) {
                      std::sin(angle / 2) * axis.z());
 }
 
-Vector3d face_centre(const Face& face) { return face.offset * face.normal; }  // the foot is the centre: regular faces
+/// The faces are regular, so the foot of the normal is the centre.
+Vector3d face_centre(const Face& face) { return face.offset * face.normal; }
 
 Approach random_contact(RandomStream& random) {
   return {random_quaternion(random), Vector3d::Zero(), random_direction(random)};
@@ -124,7 +125,7 @@ Approach vertex_vertex(RandomStream& random, const ConvexSolid& a, const ConvexS
   return {taking(frame(v, b.vertices()[(j + 1) % b.vertices().size()]), facing), Vector3d::Zero(), u.normalized()};
 }
 
-/// One of the 12 rotations of the tetrahedron: a symmetry of all five solids, without rounding in double.
+/// One of the 12 rotations of the tetrahedron. They are symmetries of all five solids and exact in doubles.
 Quaterniond exact_symmetry(RandomStream& random) {
   const std::size_t k = pick(random, 12);
   if (k < 4) return Quaterniond(k == 0, k == 1, k == 2, k == 3);
@@ -132,7 +133,7 @@ Quaterniond exact_symmetry(RandomStream& random) {
   return Quaterniond(.5, half(0), half(1), half(2));
 }
 
-/// Any rotation of the solid onto itself, exact only to rounding.
+/// Any rotation of the solid onto itself, with rounding errors.
 Quaterniond rounded_symmetry(RandomStream& random, const ConvexSolid& solid) {
   const auto face_frame = [&](const Face& face, std::size_t corner) {
     return frame(face.normal, solid.vertices()[face.vertices[corner]] - face_centre(face));
@@ -142,16 +143,16 @@ Quaterniond rounded_symmetry(RandomStream& random, const ConvexSolid& solid) {
   return taking(face_frame(from, 0), face_frame(to, pick(random, to.vertices.size())));
 }
 
-/// A vector in a face plane whose multiples by a 24-bit number stay in it without rounding.
+/// A vector parallel to a face. Its multiples by a number of 24 bits are exact.
 Vector3d exact_in_plane(RandomStream& random, SolidKind kind) {
   const auto small = [&] { return static_cast<double>(pick(random, 17)) - 8; };
   const double x = small(), y = small() + .5;
-  if (kind == SolidKind::cube) return {0, x, y};          // face normal (1, 0, 0)
-  if (kind == SolidKind::dodecahedron) return {0, y, 0};  // (g, 0, ±1)
-  return {x, y, -x - y};                                  // (1, 1, 1) is normal to a face of the other three
+  if (kind == SolidKind::cube) return {0, x, y};          // parallel to the face with the normal (1, 0, 0)
+  if (kind == SolidKind::dodecahedron) return {0, y, 0};  // parallel to a face with a normal (g, 0, ±1)
+  return {x, y, -x - y};                                  // parallel to the face with the normal (1, 1, 1)
 }
 
-/// Moves B along the approach until the rough volume is within 1 % of the target; nothing if it never is.
+/// Moves B along the line until the volume is within 1 % of `target`. Returns nullopt if this does not succeed.
 std::optional<PairCase> at_volume(SolidKind a, SolidKind b, const Approach& approach, double target) {
   double deep = 0, free = 2 * (platonic(a).circumradius() + platonic(b).circumradius());
   PairCase pair{a, b, approach.quaternion, approach.start};
@@ -178,7 +179,7 @@ std::optional<PairCase> coplanar_faces(RandomStream& random, SolidKind a, SolidK
   Vector3d within = exact ? exact_in_plane(random, a) : random_normal_to(random, n);
   const Quaterniond q = exact ? exact_symmetry(random) : rounded_symmetry(random, platonic(b));
   const double length = within.norm();
-  // Faces that share a piece need a large overlap; in a small one they are coplanar but apart.
+  // Faces that share an area need a large overlap. In a small overlap, the faces are coplanar but do not touch.
   const double target = random.uniform() < .5 ? between(random, .3, .97) : log_between(random, 1e-4, .9);
   auto pair = at_volume(a, b, {q, Vector3d::Zero(), within / length}, target);
   if (!pair || !exact) return pair;

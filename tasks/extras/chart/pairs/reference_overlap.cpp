@@ -39,7 +39,7 @@ ReferenceOverlap reference_overlap(const PairCase& pair) {
         turn * Vector{sum(b.nx[f], b.nx_low[f]), sum(b.ny[f], b.ny_low[f]), sum(b.nz[f], b.nz_low[f])};
     body.clip(normal, sum(b.offset[f], b.offset_low[f]) + dot(normal, shift));
   }
-  // Moved along, A gains what its own faces sweep.
+  // S_A is the vector area of the faces of A inside B: if A moves, these faces sweep the gained volume.
   return {body.volume(), body.original_area()};
 }
 
