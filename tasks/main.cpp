@@ -48,7 +48,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 
 constexpr auto out_of_memory = "out of memory";
 
-/// Ends the program after a resource failure, also in code that must not throw.
+/// Ends the program after a resource failure. Can also be called from code that must not throw.
 [[noreturn]] void end_after_resource_failure(const char* what) {
   std::fprintf(stderr, "isojam: error: %s; %s\n", what, how_to_resume.data());
   std::_Exit(static_cast<int>(ExitCode::some_failed));
@@ -73,9 +73,10 @@ constexpr auto out_of_memory = "out of memory";
 int main(int argc, char** argv) {
   isojam::open_standard_streams();
   std::set_terminate(isojam::terminated);
-  // Called at the first failed allocation, before unwinding, because not all code on the stack survives it.
+  // The handler is called at the first failed allocation, before the stack is unwound. Not all functions on the stack
+  // would survive an exception.
   std::set_new_handler([] { isojam::end_after_resource_failure(isojam::out_of_memory); });
-  // A file that must not grow is then an ordinary failed write.
+  // Writing to a file that must not grow then fails like any other write, instead of ending the program by a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     const auto code = isojam::parse_and_run(argc, argv);

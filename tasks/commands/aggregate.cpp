@@ -28,7 +28,7 @@ struct AggregateArguments {
   std::vector<std::string> directories;
   std::string output;  ///< path of tables.json to write; empty: none
   TableFormat format = TableFormat::text;
-  bool series = false;  ///< quantities against Δφ instead of at the state nearest jamming; JSON has both
+  bool series = false;  ///< print quantities against Δφ, not those of the nearest state; JSON always has both
   TableChoices choices;
 };
 
@@ -59,12 +59,12 @@ std::optional<std::string> read_exclude(const std::string& text, std::optional<s
   return std::nullopt;
 }
 
-/// Writes no file except the requested output.
+/// Prints the tables. Writes no file except the one that --output names.
 ExitCode aggregate_directories(const AggregateArguments& arguments, Console& console) {
   const Warn warn = [&](const std::string& message) { console.warn(message); };
   const auto table = table_of(arguments.directories, warn, arguments.choices);
-  // A base of the command line that matches no row is a typing error. A base of the manifest may match rows that have
-  // not run yet.
+  // If a base from the command line matches no row, it is a typing error. A base from the manifest may match only rows
+  // that have not run yet.
   if (const auto problem = arguments.choices.base ? misplaced_base(table) : std::nullopt) {
     console.error(*problem);
     return ExitCode::usage;

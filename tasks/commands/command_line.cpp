@@ -36,7 +36,7 @@ void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
   }
 }
 
-/// Error text for the first unknown command or option; empty if all are known.
+/// Error text for the first unknown command or option. Empty if all are known.
 std::string unknown_word(const CLI::App& app) {
   const auto given = app.get_subcommands();
   for (const auto& word : app.remaining(true)) {
@@ -95,8 +95,8 @@ ProgramDescription described_program(const CLI::App& app) {
                              .commands = {}};
   for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     auto options = described_options(*command);
-    std::erase_if(options, [](const OptionDescription& option) {  // every command has help, so it is described with the
-                                                                  // program
+    std::erase_if(options, [](const OptionDescription& option) {
+      // Every command has --help, which is described once, with the program.
       return !option.names.empty() && option.names.back() == "--help";
     });
     program.commands.push_back({command->get_name(), command->get_description(), std::move(options)});
@@ -108,7 +108,7 @@ std::string not_accepted(const std::string& text, const std::string& allowed) {
   return "\"" + text + "\" is not accepted; expected " + allowed;
 }
 
-/// Error text if the number is not positive and finite; empty if it is.
+/// Error text if the number is not positive or not finite. Empty if it is positive and finite.
 std::string not_positive(const std::string& text) {
   double value = 0;
   const bool good = CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);

@@ -32,7 +32,7 @@ std::string quoted(const std::string& text) { return "'" + replaced(text, "'", R
 
 // ---- bash ----------------------------------------------------------------------------------------------------
 
-/// Branches of a case statement on the previous word: the values that may follow an option.
+/// Adds branches to a case statement on the previous word: after an option, its values are completed.
 void add_bash_values(const std::vector<OptionDescription>& options, const std::string& indent, std::string& script) {
   for (const auto& option : options) {
     if (option.names.empty() || option.type.empty()) continue;
@@ -47,7 +47,7 @@ void add_bash_values(const std::vector<OptionDescription>& options, const std::s
   }
 }
 
-/// Completes the words of a command. A positional argument is completed by its choices or by files.
+/// Script that completes the words of a command. A positional argument is completed by its choices or by file names.
 std::string bash_command(const ProgramDescription& program, const CommandDescription& command) {
   std::string choices = names_of(command.options) + " " + names_of(program.options), files;
   for (const auto& option : command.options) {
@@ -95,7 +95,7 @@ std::string zsh_value(const OptionDescription& option) {
   return fmt::format(":{}:{}", label, is_path(option) ? "_files" : " ");
 }
 
-/// Escapes a text for brackets and colons, as _arguments reads it.
+/// Replaces brackets and escapes colons, because both have a meaning in the descriptions that _arguments reads.
 std::string zsh_text(const std::string& text) {
   return replaced(replaced(replaced(text, "[", "("), "]", ")"), ":", R"(\:)");
 }

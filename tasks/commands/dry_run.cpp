@@ -22,7 +22,7 @@ std::string point_name(const ReplicateSpec& spec) {
   return name;
 }
 
-/// Text of the range from `least` to `most` seconds.
+/// Text for the time left, which is between `least` and `most` seconds.
 std::string left_text(double least, double most) {
   if (most == 0) return "nothing";
   if (least == most) return about_text(most);

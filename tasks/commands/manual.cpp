@@ -6,7 +6,8 @@
 namespace isojam {
 namespace {
 
-/// Escapes for troff: hyphens that are dashes of options, backslashes, and lines that begin like a request.
+/// Escapes a text for troff: backslashes, hyphens (which must appear as the hyphens of options), and a first character
+/// that would make the text a request.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {

@@ -29,7 +29,7 @@ struct MeasureArguments {
   int threads = 0;
 };
 
-/// Parses comma-separated names of measures.
+/// Parses names of measures, separated by commas. Returns an error text if a name is unknown.
 std::optional<std::string> read_measures(const std::string& text, std::vector<Measure>& list) {
   for (std::size_t from = 0; from <= text.size();) {
     const auto end = std::min(text.find(',', from), text.size());
@@ -42,7 +42,7 @@ std::optional<std::string> read_measures(const std::string& text, std::vector<Me
   return std::nullopt;
 }
 
-/// Refuses measures that cannot be added to every record of the directory. Otherwise some records could never be
+/// Throws if the measures cannot be added to every record of the directory, because some records could then never be
 /// completed.
 void refuse_impossible(const std::vector<Additions::Impossible>& impossible, const std::string& directory) {
   if (impossible.empty()) return;
@@ -52,7 +52,7 @@ void refuse_impossible(const std::vector<Additions::Impossible>& impossible, con
                     std::string(how_to_keep_states)});
 }
 
-/// Leaves out all replicates but one.
+/// Removes all replicates except `name`.
 void keep_only(Additions& additions, const std::string& name) {
   const auto is_other = [&](const ReplicateSpec& spec) { return replicate_name(spec) != name; };
   std::erase_if(additions.measured, is_other);
@@ -60,7 +60,7 @@ void keep_only(Additions& additions, const std::string& name) {
   std::erase_if(additions.impossible, [&](const auto& each) { return each.name != name; });
 }
 
-/// Writes the current table.
+/// Writes and prints the tables of all present records.
 void write_table(const Store& store, Console& console) {
   const auto table = table_of(
       store.directory().string(), store.kept(), [&](const std::string& message) { console.warn(message); },
@@ -75,17 +75,18 @@ DirectoryLock lock_results(const std::string& directory) {
   return std::move(*lock);
 }
 
-/// Adds the requested measures to stored packings, and completes what an interrupted call left.
+/// Adds the requested measures to the stored states. Also adds the measures that an interrupted call did not complete.
 ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  // Both throw: they report a wrong directory or name before anything is locked.
+  // Both functions throw if the directory or the name is wrong, so that the error is reported before anything is
+  // locked.
   recorded_names(arguments.directory);
   if (!arguments.only.empty()) recorded_name(arguments.directory, arguments.only);
   const auto lock = lock_results(arguments.directory);
   const auto before = own_manifest(arguments.directory);
   const auto manifest = with_measures(before, arguments.add);
   const Plan plan(manifest);
-  // Refuse before anything is written.
+  // Find impossible measures before anything is written.
   auto found = additions(arguments.directory, plan, recorded_names(arguments.directory));
   if (manifest.measures != before.measures) refuse_impossible(found.impossible, arguments.directory);
   extend_manifest(arguments.directory, arguments.add);

@@ -20,7 +20,7 @@ ReplicateSpec planned(const Plan& plan, const std::string& name, const Store& st
 
 struct RerunArguments {
   std::string directory;
-  std::string replicate;  ///< name, as its files are called
+  std::string replicate;  ///< name of the replicate: its file in records/ without .json
   int threads = 0;
 };
 
@@ -66,8 +66,8 @@ ExitCode redo(const RerunArguments& arguments, const Store& store, const Replica
   return failed ? ExitCode::some_failed : ExitCode::done;
 }
 
-/// Recomputes a replicate from the start, replaces its record and reports whether the bits are identical. The record
-/// goes to stdout.
+/// Recomputes a replicate from the start, replaces its record, and reports whether the result has the same bits as the
+/// old record. Prints the new record on standard output.
 ExitCode rerun(const RerunArguments& arguments, Console& console) {
   auto manifest = own_manifest(arguments.directory);
   load_start(manifest);

@@ -24,7 +24,8 @@ namespace {
 
 constexpr double gibibyte = 1024.0 * 1024 * 1024;
 
-/// Result of one round.
+/// Numbers of replicates in one round. A round contains the replicates that are started before the stopping rule is
+/// checked again.
 struct Tally {
   std::size_t given = 0, stored = 0;
   int failed = 0;
@@ -44,7 +45,7 @@ void report(const Outcome& outcome, Console& console) {
   console.tick(name);
 }
 
-/// The engine's stages, but replicates resume from their checkpoints.
+/// The stages of the engine, except that a replicate with a checkpoint resumes from it.
 Stages resuming_stages(const Store& store) {
   auto stages = engine_stages();
   stages.begin = [&store, begin = stages.begin](const ReplicateSpec& spec) {
@@ -78,12 +79,12 @@ Tally run_round(Campaign& campaign, const Store& store, const Stages& stages, Gr
   return tally;
 }
 
-/// Runs rounds until nothing is left or a stop is requested.
+/// Runs rounds until no replicate is left or a stop is requested.
 ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions& options, Console& console) {
   const auto stages = resuming_stages(store);
   int failed = 0;
   for (int round = 0; campaign.open_round(); ++round) {
-    // Rounds of earlier runs are processed again without a message.
+    // If all replicates of a round have records from earlier runs, print no message.
     const auto size = campaign.round_size();
     if (round > 0 && size.replicates > size.recorded)
       console.info(fmt::format("confidence interval still too wide: running {}",
@@ -98,8 +99,8 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
   return failed + campaign.failed() > 0 ? ExitCode::some_failed : ExitCode::done;
 }
 
-/// Returns whether everything that this run made or found still exists, and reports it if not. `seen` answers for each
-/// name.
+/// True if all replicates of this run still have their files; otherwise reports an error. seen(name) is true if the
+/// files of a replicate exist.
 bool all_recorded(const Campaign& campaign, const std::function<bool(const std::string&)>& seen, Console& console) {
   const auto missing = campaign.without(seen);
   if (missing.empty()) return true;
@@ -142,7 +143,7 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
   return failed ? ExitCode::some_failed : code;
 }
 
-/// New replicates also get the measures that were added to the directory's manifest later.
+/// If measures were added to the manifest of the directory, new replicates get these measures too.
 void take_added_measures(const std::string& directory, Manifest& manifest, Console& console) {
   const auto kept = stored_manifest(directory);
   if (!kept || kept->measures == manifest.measures || !is_same_sweep(manifest, *kept)) return;
@@ -151,8 +152,8 @@ void take_added_measures(const std::string& directory, Manifest& manifest, Conso
   console.info(fmt::format("{}: new replicates also get the measures that were added to this directory", directory));
 }
 
-/// Validates, plans, runs the missing replicates and aggregates. The table goes to stdout. A shard prints none: the
-/// table is made by a run after all shards have finished.
+/// Validates the manifest, plans, runs the missing replicates, and prints the tables on standard output. A shard prints
+/// no tables; `isojam aggregate` makes them after all shards have finished.
 ExitCode run(const RunArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
   auto manifest = read_manifest(arguments.manifest);

@@ -9,7 +9,7 @@ namespace {
 
 struct Arguments {
   Shell shell = Shell::bash;
-  std::string output;  ///< empty: standard output
+  std::string output;  ///< path of the output file; empty for standard output
 };
 
 void give(const std::string& text, const std::string& output) {

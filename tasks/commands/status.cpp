@@ -13,7 +13,8 @@
 namespace isojam {
 namespace {
 
-/// A step may take minutes. A replicate on another machine without progress for longer than this is probably abandoned.
+/// A step can take minutes. For a replicate on another machine, only the time of the last step is known. After this
+/// time without a step, it counts as interrupted.
 constexpr double patience_seconds = 600;
 
 struct StatusArguments {
@@ -55,7 +56,7 @@ std::string time_left(const Survey& survey, const Totals& totals, bool has_goal)
                      counted(static_cast<std::size_t>(moving), "replicate"));
 }
 
-/// Lists the contents of a results directory and the replicates that any process is working on. Writes nothing.
+/// Lists the contents of a results directory, and the replicates on which any process works. Writes no file.
 ExitCode status(const StatusArguments& arguments, Console&) {
   const auto manifest = own_manifest(arguments.directory);
   const Plan plan(manifest);

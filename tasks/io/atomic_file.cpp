@@ -21,14 +21,15 @@ namespace {
 
 constexpr std::string_view cannot_be_written = "cannot be written";
 
-/// Hidden, so that no reader takes it for a result. Random, so that writers on different machines never collide.
+/// The name begins with a dot, so that no reader takes the file for a result. It is random, so that writers on
+/// different machines never choose the same name.
 fs::path temporary_path_for(const fs::path& path) {
   std::random_device device;
   const auto tag = (static_cast<std::uint64_t>(device()) << 32) | device();
   return path.parent_path() / fmt::format(".{}.{:016x}.tmp", path.filename().string(), tag);
 }
 
-/// A new file beside `path`. It is removed with its object unless it has replaced `path`.
+/// A new file in the folder of `path`. The destructor removes it unless it has replaced `path`.
 class Temporary {
  public:
   explicit Temporary(const fs::path& path)
@@ -43,7 +44,7 @@ class Temporary {
     if (!file_.valid() || !file_.write(content) || (durability == Durability::synced && ::fsync(file_.number()) != 0))
       throw FileError::of_errno(path_, cannot_be_written);
   }
-  /// Only the superuser can change the owner; the mode can always be set.
+  /// Copies owner and mode of the replaced file. Only the superuser can change the owner; the mode can always be set.
   void take_after(const struct stat& status) const {
     if (::fchown(file_.number(), status.st_uid, status.st_gid) != 0 && errno != EPERM)
       throw FileError::of_errno(path_, cannot_be_written);
@@ -53,7 +54,7 @@ class Temporary {
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw FileError::of_errno(path_, cannot_be_written);
     renamed_ = true;
   }
-  /// Returns false if the path exists. File systems without links may have a rename that does not replace.
+  /// Returns false if the path exists. On a file system without hard links, a rename that does not replace is used.
   bool link() {
     if (::link(temporary_.c_str(), path_.c_str()) == 0) return true;
     if (errno == EEXIST) return false;
@@ -75,7 +76,7 @@ void sync_directory_of(const fs::path& path) {
     throw FileError::of_errno(parent, "cannot be synchronised");
 }
 
-/// The number of an open descriptor that the path refers to, such as /dev/stdout to 1.
+/// Number of the open descriptor to which the path refers, for example 1 for /dev/stdout. nullopt if it refers to none.
 std::optional<int> descriptor_at(const fs::path& path) {
   const auto folder = path.parent_path();
   const auto name = path.filename().string();
@@ -85,9 +86,9 @@ std::optional<int> descriptor_at(const fs::path& path) {
   return std::stoi(name);
 }
 
-/// The end of a chain of symbolic links, whether or not it exists.
+/// Follows symbolic links to the last path of the chain, which need not exist.
 fs::path followed(fs::path path) {
-  constexpr int longest_chain = 40;  // limit of the kernel
+  constexpr int longest_chain = 40;  // the limit in the kernel
   std::error_code error;
   for (int k = 0; !descriptor_at(path) && fs::is_symlink(fs::symlink_status(path, error)); ++k) {
     if (k == longest_chain) {
@@ -120,15 +121,15 @@ bool write_exclusively(const fs::path& path, std::string_view content) {
 }
 
 struct OutputWriter::Target {
-  fs::path path;                        ///< as the user named it
-  fs::path target;                      ///< end of its symbolic links
-  std::optional<Descriptor> opened;     ///< a pipe, a device or a descriptor opened by a shell: written to directly
+  fs::path path;                        ///< path that the user named
+  fs::path target;                      ///< path at the end of its symbolic links
+  std::optional<Descriptor> opened;     ///< a pipe, a device or an open descriptor, which is written directly
   std::optional<struct stat> replaced;  ///< status of the existing file
   std::optional<Temporary> temporary;
 
   explicit Target(const fs::path& name) : path(name), target(followed(name)) {
     if (const auto number = descriptor_at(target)) {
-      // Write to the descriptor instead of creating a file of that name.
+      // Write to the descriptor. Do not create a file with this name.
       opened.emplace(::dup(*number));
       require_open();
       return;
@@ -194,7 +195,7 @@ void remove_stale_temporaries(const fs::path& directory) {
   for (const auto& entry : fs::directory_iterator(directory, error)) {
     const auto name = entry.path().filename().string();
     if (!name.starts_with('.') || !name.ends_with(".tmp")) continue;
-    // Another process may clean up too, so an error is ignored.
+    // Another process may remove the same file, so errors are ignored.
     std::error_code gone;
     const auto written = fs::last_write_time(entry.path(), gone);
     if (!gone && now - written > age) fs::remove(entry.path(), gone);

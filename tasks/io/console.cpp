@@ -20,7 +20,7 @@ constexpr auto line_interval = std::chrono::seconds(5);
 constexpr int bar_width = 24;
 constexpr std::string_view red = "\033[1;31m", yellow = "\033[1;33m", plain, info_kind = "info";
 
-/// Line width that every terminal of unknown size surely has.
+/// Width of the terminal in characters. If it is unknown, a width that every terminal has.
 std::size_t terminal_width() {
   constexpr std::size_t unknown = 80;
   winsize size{};
@@ -33,13 +33,13 @@ bool uses_colour(Colour colour, bool terminal) {
   return terminal && !(no_colour && *no_colour);
 }
 
-/// Messages may contain file names and texts of a manifest, so control characters are escaped.
+/// Writes a text whose control characters were already escaped.
 void put(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
 
-/// Names of files may be no UTF-8, which JSON requires.
+/// Prints a message as JSON. File names need not be UTF-8, which JSON requires, so invalid bytes are replaced.
 void put_object(const nlohmann::ordered_json& message) {
   put(message.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
 }
@@ -107,7 +107,8 @@ void Console::put_progress(std::string_view text) {
 void Console::show_bar(std::string_view what) {
   const auto width = terminal_width();
   auto text = total_ > 0 ? status() : printable(what);
-  // A text longer than a line could not be cleared again. Drop the bar first, then the end of the text.
+  // A text that is longer than a line could not be erased again. If it is too long, omit the bar, then shorten the
+  // text.
   if (total_ > 0 && text.size() + bar_width + 3 < width) {
     const int filled = bar_width * std::min(done_, total_) / total_;
     text = fmt::format("[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),

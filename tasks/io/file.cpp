@@ -37,7 +37,7 @@ FileError::Reason reason_of(int error) {
   }
 }
 
-/// Appends the rest of the file; returns false with the reason in errno.
+/// Appends the rest of the file to `text`. Returns false, with the reason in errno, if this fails.
 bool read_rest(int fd, std::size_t most, std::string& text) {
   for (;;) {
     const auto size = text.size();
@@ -57,10 +57,10 @@ bool read_rest(int fd, std::size_t most, std::string& text) {
   }
 }
 
-/// Returns false, with the reason in errno, if there is not enough memory. malloc is tried first, so that the error can
-/// name the file. A failure in operator new would end the program without it.
+/// Returns false, with the reason in errno, if there is not enough memory. malloc is tried first, because the caller
+/// can then name the file in its message. If operator new failed, the program would end without the name.
 bool reserve(std::string& text, std::size_t size) {
-  // NOLINTBEGIN(cppcoreguidelines-no-malloc): asked whether there is so much, and given back
+  // NOLINTBEGIN(cppcoreguidelines-no-malloc): only tests whether so much memory is available
   void* const probe = std::malloc(size);
   const bool enough = probe != nullptr && size < text.max_size();
   std::free(probe);
@@ -114,7 +114,7 @@ bool Descriptor::write(std::string_view content) const {
 std::string read_text(const std::filesystem::path& path) { return read_opened({path, O_RDONLY}, path, true); }
 
 std::string read_file(const std::filesystem::path& path) {
-  // Non-blocking, so that a pipe opens at once even without a writer.
+  // With O_NONBLOCK a pipe opens at once, even if it has no writer.
   return read_opened({path, O_RDONLY | O_NONBLOCK}, path, false);
 }
 

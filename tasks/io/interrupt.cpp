@@ -14,11 +14,10 @@
 namespace isojam {
 namespace {
 
-/// Private signal that wakes the watcher thread at shutdown. Nobody sends SIGURG to request something.
+/// Signal that wakes the watcher thread when the program ends. Nobody else sends SIGURG to request something.
 constexpr int wake = SIGURG;
 
-/// Writes to stderr without blocking: a full pipe that nobody reads, or a thread that waits for it, must not stop this
-/// one.
+/// Writes to stderr without blocking. A full pipe that nobody reads must not stop this thread.
 void say(std::string_view text) {
   pollfd err{STDERR_FILENO, POLLOUT, 0};
   if (poll(&err, 1, 0) == 1 && (err.revents & POLLOUT) != 0) [[maybe_unused]]
@@ -35,7 +34,7 @@ bool is_ignored(int signal) {
 InterruptWatcher::InterruptWatcher(std::chrono::milliseconds patience)
     : patience_{patience.count() / 1000, patience.count() % 1000 * 1'000'000} {
   sigemptyset(&signals_);
-  // sigwait would receive a blocked signal even if it is ignored.
+  // sigwait would also receive blocked signals that are ignored, so ignored signals are left out.
   for (const int signal : {SIGINT, SIGTERM}) {
     if (!is_ignored(signal)) sigaddset(&signals_, signal);
   }
@@ -48,7 +47,7 @@ InterruptWatcher::~InterruptWatcher() {
   finished_ = true;
   pthread_kill(thread_.native_handle(), wake);
   thread_.join();
-  // A signal that is still pending came too late to stop anything. It must not kill a process that has finished.
+  // A signal that is still pending arrived too late to stop anything. It must not kill a process that has finished.
   const timespec at_once{};
   while (sigtimedwait(&signals_, nullptr, &at_once) > 0) {
   }
@@ -60,7 +59,8 @@ void InterruptWatcher::watch() {
     if (sigwait(&signals_, &signal) != 0 || finished_) return;
   }
   source_.request_stop();
-  // Request a stop first. A measurement of a large packing does not check for requests and is abandoned.
+  // If the program does not stop within `patience_`, end it. Some measures of large packings do not check for requests;
+  // their results are discarded.
   if (sigtimedwait(&signals_, nullptr, &patience_) >= 0 && finished_) return;
   say(fmt::format("\nisojam: warning: {}\n", interrupted_run));
   std::_Exit(static_cast<int>(ExitCode::interrupted));

@@ -27,12 +27,12 @@ LineColumn locate(std::string_view text, std::size_t position) {
   return {line + 1, start == std::string_view::npos ? before.size() + 1 : before.size() - start};
 }
 
-/// True if a comment of another language begins here.
+/// True if the text begins like a comment in another language. JSON has no comments.
 bool is_comment(std::string_view text) {
   return text.starts_with("//") || text.starts_with("/*") || text.starts_with('#');
 }
 
-/// Checks parser events for violations that nlohmann's own builder accepts, and keeps track of the position.
+/// Reports errors that nlohmann's own builder accepts, and keeps track of the position.
 class Checker final : public nlohmann::json_sax<Json> {
  public:
   Checker(std::string_view text, const std::string& file) : text_(text), file_(file) {}

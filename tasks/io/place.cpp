@@ -11,7 +11,8 @@
 namespace isojam {
 namespace {
 
-/// Counts insertions, deletions, replacements and swaps of neighbouring letters, without regard to case.
+/// Number of insertions, deletions, replacements and swaps of neighbouring letters that change a into b. Case is
+/// ignored.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto same = [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
@@ -32,7 +33,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 constexpr std::size_t longest_shown = 40;
 
-/// A scalar as it stands in the file; only the kind of a list or an object.
+/// Text of a value for a message: a scalar as in the file, but only the type of a list or an object.
 std::string shown(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "a list";
@@ -42,14 +43,14 @@ std::string shown(const Json& value) {
 
 using Order = std::map<std::string, std::size_t>;
 
-/// Numbers every place of a document in the order of its text.
+/// Numbers all places of a document in the order of the text.
 void number_places(const Json& value, const std::string& pointer, Order& order) {
   order.emplace(pointer, order.size());
   if (value.is_primitive()) return;
   for (const auto& item : value.items()) number_places(item.value(), pointer + pointer_step(item.key()), order);
 }
 
-/// Further errors are only counted.
+/// Further errors are counted but not listed.
 constexpr std::size_t most_reported = 100;
 
 }  // namespace
@@ -168,7 +169,7 @@ void JsonPlace::expect_keys(std::span<const std::string_view> names, std::string
     auto suggestion = elsewhere ? elsewhere(key) : std::string();
     if (suggestion.empty()) suggestion = nearest_name(key, names);
     attempt([&] { at(item.key()).refuse("unknown key", one_of(names), suggestion); });
-    // The missing key follows from the misspelt key that stands in its place.
+    // The missing key is only a consequence of the misspelt key, so it is not reported separately.
     if (problems_ && !suggestion.empty() && !has(suggestion)) problems_->settle(pointer_ + pointer_step(suggestion));
   }
 }
@@ -182,7 +183,7 @@ double JsonPlace::number(const Range& range) const {
 
 std::int64_t JsonPlace::integer(const Range& range) const {
   if (!value_.is_number_integer()) not_accepted(integer_in(range));
-  // First compare as double, so that a value beyond 2^63 is out of range rather than negative. Then compare exactly.
+  // Compare as double first: a number beyond 2^63 must be reported as too large, not as negative. Then compare exactly.
   const auto n = value_.get<std::int64_t>();
   if (!range.contains(value_.get<double>()) || n > static_cast<std::int64_t>(range.high))
     not_accepted(integer_in(range));
@@ -203,7 +204,7 @@ std::size_t JsonPlace::choice(std::span<const std::string_view> names) const {
   const auto name = text(one_of(names));
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    // The only accepted value is printed in any case, so that it need not be suggested.
+    // If only one value is accepted, the message names it anyway, so it is not suggested.
     const auto suggestion = names.size() == 1 ? "" : nearest_name(name, names);
     refuse(fmt::format("unknown value {}", shown(value_)), one_of(names), suggestion);
   }

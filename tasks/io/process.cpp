@@ -12,7 +12,7 @@
 namespace isojam {
 namespace {
 
-/// Without /proc no process is known to run.
+/// Content of a file, or an empty text if it cannot be read. Without /proc, no process counts as running.
 std::string read_if_present(const std::string& file) {
   try {
     return read_text(file);
@@ -29,8 +29,8 @@ std::string this_machine() {
   return boot.substr(0, boot.find('\n')) + ' ' + numbers;
 }
 
-/// Field 22 of /proc/PID/stat; 0 if there is no such process. The name of the program may contain blanks and
-/// parentheses.
+/// Start time of a process (field 22 of /proc/PID/stat), or 0 if there is no such process. The name of the program,
+/// field 2, may contain blanks and parentheses.
 std::int64_t start_of(std::int64_t process) {
   constexpr int field_after_name = 3, start = 22;
   const auto stat = read_if_present(fmt::format("/proc/{}/stat", process));

@@ -15,7 +15,7 @@ bool is_resource_failure(const std::exception& error) {
 }
 
 bool is_resource_failure_text(std::string_view what) {
-  // oneTBB throws a runtime_error with one of these texts if a thread cannot be created.
+  // If a thread cannot be created, oneTBB throws a runtime_error whose text begins in one of these ways.
   static constexpr std::array<std::string_view, 5> beginnings{"std::bad_alloc", "pthread_", "Cannot allocate memory",
                                                               "Resource temporarily unavailable",
                                                               "Too many open files"};

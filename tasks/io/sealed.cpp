@@ -14,18 +14,19 @@ namespace isojam {
 namespace {
 
 constexpr std::string_view key = "checksum", blank = "0000000000000000", before = "\"checksum\": \"";
-/// The checksum is the second member; names of schemas are short.
+/// The checksum must begin within this number of characters. It is the second member, after the short name of the
+/// schema.
 constexpr std::size_t farthest = 200;
 constexpr std::size_t most_levels = 32;
 
-/// Position of the digits; npos if there are none.
+/// Position of the digits of the checksum; npos if there are none.
 std::size_t digits_in(std::string_view text) {
   const auto at = text.substr(0, farthest).find(before);
   if (at == std::string_view::npos || text.size() < at + before.size() + blank.size()) return std::string_view::npos;
   return at + before.size();
 }
 
-/// Copying or writing a parsed value uses stack in proportion to the nesting of the text.
+/// Throws if the text is nested too deeply. Copying or writing a parsed value uses stack in proportion to the nesting.
 void check_depth(std::string_view text, const std::string& file) {
   std::size_t depth = 0;
   bool in_string = false;
@@ -54,7 +55,7 @@ std::string read_result(const std::string& file) {
   }
 }
 
-/// Reads the leading string members of an object and stops after them.
+/// Reads the first members of an object as long as they are strings, then stops.
 class HeadReader final : public nlohmann::json_sax<Json> {
  public:
   const std::map<std::string, std::string>& head() const { return head_; }

@@ -14,7 +14,7 @@
 namespace isojam {
 namespace {
 
-/// Reports the failed write once and gives up.
+/// Reports the failed write and ends the program.
 [[noreturn]] void fail() {
   const int error = errno;
   __fpurge(stdout);
@@ -29,8 +29,8 @@ namespace {
 void open_standard_streams() {
   for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {
     if (::fcntl(fd, F_GETFD) >= 0 || errno != EBADF) continue;
-    // open() returns the lowest free number, which is this one. Standard output is opened for reading, so that writing
-    // to it fails.
+    // open() returns the lowest free number, which is that of the closed stream. Standard output is opened only for
+    // reading, so that writing to it fails.
     const int opened = ::open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY);
     if (opened >= 0 && opened != fd) ::close(opened);
   }
@@ -42,7 +42,7 @@ void print(std::string_view text) {
 }
 
 void flush_output() {
-  errno = EIO;  // from an earlier failure
+  errno = EIO;  // because errno may be that of an earlier failure
   if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail();
 }
 
