@@ -26,7 +26,7 @@ Json read_value(const JsonPlace& place, const Field& field) {
   return field_value(field, options);
 }
 
-/// Sorted by name, as the parameters of a sweep point are.
+/// Values as a JSON object, sorted by name like the parameters of a sweep point.
 Json object_of(const std::map<std::string, Json>& values) {
   Json base = Json::object();
   for (const auto& [name, value] : values) base[name] = value;
@@ -51,7 +51,7 @@ void check_parameter(const JsonPlace& place, const std::string& name, const Json
   place.refuse(problem, one_of(names), nearest_name(name, names));
 }
 
-/// Parses the value of a parameter from a command-line word.
+/// Value of a parameter from its text on the command line.
 Json value_of(const std::string& word, const Field& field) {
   JamOptions options;
   const Slot slot = field.slot(options);
@@ -67,7 +67,7 @@ std::string unknown_parameter(const std::string& name) {
   return unknown_name("parameter", name, names, "none or ");
 }
 
-/// Parses one "parameter=value"; returns an error text if this fails.
+/// Parses one "parameter=value". Returns an error text if this fails.
 std::optional<std::string> parse_part(const std::string& part, std::map<std::string, Json>& values) {
   const auto equals = part.find('=');
   if (equals == std::string::npos)

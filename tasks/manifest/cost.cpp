@@ -12,33 +12,35 @@
 namespace isojam {
 namespace {
 
-/// CPU seconds = at_100 (N/100)^power.
+/// CPU seconds of a replicate: at_100 (N/100)^power.
 struct CpuLaw {
   double at_100, power;
 };
 constexpr std::array<CpuLaw, all_solids.size()> cpu_laws{{{11, 2}, {3.5, 2}, {3.5, 2}, {3, 2}, {3.2, 2}}};
 
-/// Other solids cost about as much as cubes. Solids that resemble tetrahedra cost more.
+/// The law of a solid. All other solids are estimated like cubes; solids that resemble tetrahedra take longer than
+/// this.
 const CpuLaw& law_of(const Mixture& solid) {
   const auto kind = from_string<SolidKind>(to_string(solid)).value_or(SolidKind::cube);
   return cpu_laws[static_cast<std::size_t>(kind)];
 }
 
-/// Share of the consolidation in the CPU time of a replicate, for the given step size.
+/// Share of the compression in the CPU time of a replicate, measured with this strain step.
 constexpr double consolidation_share = 0.4, measured_step = 0.02;
 
-/// Numbers of states of an expansion and of strain steps in total.
+/// Number of states of a decompression, and number of all strain steps of a replicate.
 constexpr double states = 9, steps_of_path = 50;
-/// Bytes of a particle in a packing, and of a step and a state in a record.
+/// Bytes of a particle in a packing, of a step and of a state in a record, and of the rest of a record.
 constexpr double packing_text = 335, step_text = 400, state_text = 1500, record_text = 4000;
 
-/// Memory per particle without the factorisation: packings of the expansion, which stages pass by value, overlaps and
-/// Hessians, contacts with their forces.
+/// Bytes of memory for each particle, without the factorisation: packings of the decompression (the stages copy them),
+/// overlaps and Hessians, and contacts with their forces.
 constexpr double particle_bytes = 130e3;
-/// Memory of the factors of the Hessian and their update matrices. Fill-in grows faster than N.
+/// Bytes of memory for the factors of the Hessian and their update matrices: factor_bytes N^factor_power. Fill-in grows
+/// faster than N.
 constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
 
-/// A number from a file that holds one number; infinity if there is none ("max", or no such file).
+/// The number in a file that contains one number. Infinity if the file is missing or contains "max".
 double number_in_file(const char* path) {
   std::ifstream file(path);
   double value = 0;
@@ -55,7 +57,7 @@ double available_of_machine() {
   return std::numeric_limits<double>::infinity();
 }
 
-/// Uses version 2 of control groups if it is mounted, otherwise version 1.
+/// Free memory in the control group of this process. Version 2 of control groups is tried first, then version 1.
 double available_of_control_group() {
   const double left = number_in_file("/sys/fs/cgroup/memory.max") - number_in_file("/sys/fs/cgroup/memory.current");
   if (std::isfinite(left)) return left;
@@ -84,7 +86,8 @@ double available_memory() {
 }
 
 int replicates_in_flight(int threads, double largest, double available) {
-  // One fifth stays free to cover the error of the estimate.
+  // One fifth of the memory remains free, because the estimate can be too small. If the memory is unknown, it sets no
+  // limit.
   if (available <= 0 || largest <= 0) return threads;
   return static_cast<int>(std::clamp(0.8 * available / largest, 1.0, static_cast<double>(threads)));
 }

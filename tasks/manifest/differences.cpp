@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t most_named = 5, longest_value = 40;
 
-/// A value as it stands in the file, truncated if long; names and numbers are ASCII.
+/// Text of a value for a message, truncated if it is long. Names and numbers are ASCII.
 std::string shown(const Json& parent, const std::string& key) {
   if (!parent.contains(key)) return "not given";
   const auto text = compact(parent.at(key));
   return text.size() <= longest_value ? text : text.substr(0, longest_value - 3) + "...";
 }
 
-/// Compares object by object; lists count as values.
+/// Appends a line for each value that differs. Objects are compared key by key, lists as a whole.
 void compare(const Json& theirs, const Json& ours, const std::string& pointer, std::vector<std::string>& lines) {
   std::vector<std::string> keys;
   for (const auto* side : {&theirs, &ours}) {

@@ -61,7 +61,7 @@ constexpr std::array fields{
     field<&M::history>("history", {1, 1000}, Group::minimiser),
 };
 
-/// A key of an earlier version and its present name.
+/// A key that an earlier version used, and its present name.
 struct Renamed {
   std::string_view before, now;
 };

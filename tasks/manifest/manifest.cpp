@@ -24,10 +24,10 @@
 namespace isojam {
 namespace {
 
-constexpr double greatest_seed = 9007199254740992;  // 2^53: every JSON reader represents integers up to here exactly
+constexpr double greatest_seed = 9007199254740992;  // 2^53: every JSON reader represents smaller integers exactly
 constexpr Range particle_range{1, 100000};
 constexpr Range replicate_range{1, 1e6};
-constexpr Range least_replicate_range{2, 1e6};  // one replicate has no confidence interval
+constexpr Range least_replicate_range{2, 1e6};  // at least two, because one replicate has no confidence interval
 constexpr Range half_width_range{0, 1e6, true};
 constexpr Range mode_range{1, 1000};
 constexpr double most_replicates_in_all = 1e6;
@@ -38,7 +38,7 @@ constexpr std::array<std::string_view, 16> keys{"$schema",  "name",      "checks
                                                 "exclude",  "base",      "solids",   "start"};
 constexpr std::array<std::string_view, 4> goal_keys{"min", "max", "quantity", "half_width"};
 
-/// The object to which a misplaced parameter belongs.
+/// Name of the object to which a misplaced parameter belongs.
 std::string home_of_field(std::string_view name) {
   const auto* field = find_field(name);
   return field ? fmt::format("/{}/{}", to_string(field->group), name) : std::string();
@@ -61,7 +61,7 @@ std::string read_name(const JsonPlace& place) {
   return name;
 }
 
-/// Refuses a key of an earlier version with its new name, instead of as an unknown key.
+/// Reports keys of an earlier version with their new names, so that they are not reported as unknown keys.
 void refuse_renamed(const JsonPlace& place) {
   if (!place.value().is_object()) return;
   for (const auto& item : place.value().items()) {
@@ -79,7 +79,8 @@ std::vector<Measure> default_measures() {
   return list;
 }
 
-/// The copy in a results directory is sealed. A copy that was edited by a person counts as a user's manifest.
+/// Throws if a manifest from a results directory was changed after isojam wrote it. Without the key `checksum`, the
+/// file counts as a user's manifest and may be changed.
 void check_own_seal(std::string_view text, const std::string& file) {
   try {
     check_seal(text, file);
@@ -223,11 +224,11 @@ void check_densities(const JsonPlace& root, const std::vector<OptionSet>& sets) 
   }
 }
 
-/// Checks conditions between values that are each allowed.
+/// Checks conditions that involve several values.
 void check_together(const JsonPlace& root, const Manifest& manifest) {
   root.attempt([&] { check_goal(root, manifest); });
   root.read_if_any("base", [&](const JsonPlace& place) { check_base(place, manifest.base, manifest.swept); });
-  // Do not build combinations if there are too many.
+  // If there are too many combinations, do not make them.
   if (!root.attempt([&] { check_count(root, manifest); })) return;
   const auto sets = option_sets(manifest);
   root.attempt([&] { check_densities(root, sets); });
@@ -359,7 +360,7 @@ Json identity(const Manifest& manifest) {
   json.erase("keep_path");
   json.erase("exclude");
   json.erase("base");
-  if (json.contains("start")) json["start"].erase("packing");  // the digests identify the packings
+  if (json.contains("start")) json["start"].erase("packing");  // the digests already identify the packings
   return json;
 }
 

@@ -11,14 +11,14 @@
 namespace isojam {
 namespace {
 
-/// Pointer to a particle number in the order of the user's list.
+/// Place of a particle number in the user's list.
 JsonPlace place_of_particles(const JsonPlace& root, int particles) {
   const auto list = root.at("sweep").at("particles");
   const auto found = std::find(list.value().begin(), list.value().end(), Json(particles));
   return list.at(static_cast<std::size_t>(found - list.value().begin()));
 }
 
-/// The greatest density, with four decimals, at which the cell of so many particles is legal.
+/// The largest density, rounded down to four decimals, at which a cell with so many particles is large enough.
 double densest(const Mixture& mixture, int particles) {
   double diameter = 0;
   for (const auto& each : mixture.particles(particles))
@@ -28,7 +28,7 @@ double densest(const Mixture& mixture, int particles) {
   return steps / 1e4;
 }
 
-/// Checks that every kind of a mixture has particles.
+/// Reports an error if a kind of a mixture has no particles.
 void check_kinds(const JsonPlace& root, const Manifest& manifest) {
   for (const auto& mixture : manifest.solids) {
     double rarest = 1;

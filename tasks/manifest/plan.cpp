@@ -14,11 +14,11 @@
 namespace isojam {
 namespace {
 
-/// Longer prefixes are unreadable and replaced by a hash.
+/// A longer prefix would be unreadable; a hash replaces it.
 constexpr std::size_t longest_prefix = 96;
 
-/// Common prefix of the names of a point's replicates. Values are numbers, booleans and names of enumerators, none of
-/// which contains a separator.
+/// First part of the names of a sweep point's replicates. The values are numbers, booleans and names, which do not
+/// contain the separator.
 std::string prefix(const ReplicateSpec& spec) {
   const auto size = fmt::format("{}-N{}", to_string(spec.solid), spec.particles);
   auto text = size;
@@ -82,7 +82,7 @@ std::optional<Plan::Place> Plan::place_of(std::string_view name) const {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), replicate);
   if (point == point_of_prefix_.end() || error != std::errc() || replicate < 0 || replicate >= replicates())
     return std::nullopt;
-  // A number counts as part of a name only in its canonical spelling.
+  // The name must be spelt exactly as isojam spells it. For example, the number 1 must be written 0001.
   if (replicate_name(at(point->second, replicate)) != name) return std::nullopt;
   return Place{point->second, replicate};
 }

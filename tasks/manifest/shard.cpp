@@ -19,7 +19,7 @@ std::optional<int> whole_number(std::string_view text) {
   return value;
 }
 
-/// nullopt if the variable is not set.
+/// Value of an environment variable; nullopt if it is not set.
 std::optional<int> variable(const char* name) {
   const char* text = std::getenv(name);
   if (!text || !*text) return std::nullopt;

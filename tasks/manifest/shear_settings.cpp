@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::array<std::string_view, 5> keys{"mode", "control", "step", "until", "back"};
 
-/// Strains of one per cent are large near jamming; stresses are fractions of the pressure.
+/// Strains of 0.01 are already large near jamming. Stresses are fractions of the pressure.
 constexpr Range load_range{0, 1, true};
 
-/// More states than anyone would plot.
+/// Largest number of states of a shear; nobody would plot more.
 constexpr double most_steps = 10000;
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace isojam {
 namespace {
 
 constexpr std::string_view allowed_file = "the path of a packing in GSD, extended XYZ or the JSON of isojam";
-/// In units of the smaller particle. Deeper overlaps are no packing, and no minimiser can recover the intended one.
+/// Largest depth of an overlap, in units of the smaller particle. With deeper overlaps, the file does not describe a
+/// packing, and no minimiser can find the intended one.
 constexpr double deepest_overlap = 0.5;
 constexpr std::size_t most_files = 10000;
 
@@ -22,7 +23,7 @@ StartFile read_file_place(const JsonPlace& place) {
   const std::filesystem::path given = place.text(allowed_file);
   auto path = given.is_absolute() ? given : std::filesystem::path(place.file()).parent_path() / given;
   const auto whole = std::filesystem::absolute(path).lexically_normal().string();
-  // The manifest's own path may contain bytes that are invalid in JSON.
+  // The path of the manifest may contain bytes that are not allowed in JSON.
   constexpr auto ignored = Json::error_handler_t::ignore;
   if (Json::parse(Json(whole).dump(-1, ' ', false, ignored)) != Json(whole))
     place.refuse_with_remedy("the path is not valid UTF-8, so records could not name it",
@@ -54,7 +55,7 @@ void load_file(const JsonPlace& place, StartFile& file, const Manifest& manifest
     place.refuse(fmt::format("{}: {}", file.path, error.what()), std::string(allowed_file));
   } catch (const FileError& error) {
     if (error.reason() == FileError::Reason::resource_failure)
-      throw;  // a resource failure, not an error of the manifest
+      throw;  // a resource failure is not an error of the manifest
     place.refuse(error.what(), std::string(allowed_file));
   }
   if (!expected.empty() && file.digest != expected)

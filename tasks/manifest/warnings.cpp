@@ -14,9 +14,9 @@
 namespace isojam {
 namespace {
 
-/// Properties of a solid's packings: the density near which they jam (Table I of the paper; cubes:
-/// examples/paper/cubes.json), and the stiffness in E/N ≈ stiffness Δφ⁶ for Δφ from 0.004 to 0.05, at its greatest (N =
-/// 64 to 100).
+/// Known properties of the packings of a solid. `density` is the density near which they jam (Table I of the paper; for
+/// cubes, examples/paper/cubes.json). `stiffness` is the largest value of (E/N)/Δφ⁶ for Δφ from 0.004 to 0.05 and N =
+/// 64 to 100.
 struct Known {
   SolidKind kind;
   double density, stiffness;
@@ -26,22 +26,24 @@ constexpr std::array known{
     Known{SolidKind::octahedron, 0.68, 4},    Known{SolidKind::dodecahedron, 0.705, 25},
     Known{SolidKind::icosahedron, 0.695, 30},
 };
-/// Three standard deviations of φ_J between packings of N = 100. For cubes, which scatter more, it is less than one.
+/// Three standard deviations of φ_J between packings with N = 100. The φ_J of cubes varies more; for cubes this is less
+/// than one standard deviation.
 constexpr double scatter = 0.03;
 
-/// Methods other than Newton's use this many evaluations at Δφ = 0.008 and still end with residuals of 3e-4 and more.
-/// At 0.03 most reach 1e-6.
+/// At Δφ = 0.008, methods other than Newton's and the multipliers still have residuals of 3e-4 and more after so many
+/// evaluations. At Δφ = 0.03, most reach 1e-6.
 constexpr long insufficient_evaluations = 60000;
 constexpr double near_jamming = 0.01, residual_left = 3e-4;
 
-/// Tetrahedra that are relaxed less during compression jam at lower densities: docs/protocol.md.
+/// Tetrahedra that are relaxed with fewer evaluations during compression jam at lower densities: see docs/protocol.md.
 constexpr int relaxed_evaluations = 500;
 
 class Warnings {
  public:
   explicit Warnings(const Manifest& manifest) : manifest_(manifest) {}
 
-  /// Adds the first warning of a key, or the first for each solid if it depends on the solid.
+  /// Adds a warning, unless there is already one for this key. Warnings that depend on the solid are added once per
+  /// solid.
   void add(std::string_view name, const std::string& solid, const std::string& text) {
     if (!warned_.emplace(name, solid).second) return;
     const bool swept = std::any_of(manifest_.swept.begin(), manifest_.swept.end(),
@@ -58,9 +60,9 @@ class Warnings {
   std::vector<std::string> lines_;
 };
 
-/// Warns if φ_J will have no states to be fitted to.
+/// Warns if there will be no states to which φ_J can be fitted.
 void look_at_window(const JamOptions& options, Warnings& warnings) {
-  // The expansion ends with a state within final_distance. The previous state may be one step farther.
+  // The decompression ends with a state within final_distance. The state before it can be one step farther away.
   const double last = options.decompression.final_distance;
   const double before =
       std::min(last / (1 - options.decompression.step_fraction), last + options.decompression.longest_step);
@@ -106,10 +108,11 @@ void look_at_minimiser(const JamOptions& options, const std::vector<Flag>& exclu
   }
 }
 
-/// Warns if the density at which this solid jams, or has the target energy, is not reached.
+/// Warns if the protocol cannot reach the density at which packings of this solid jam, or at which they have the target
+/// energy.
 void look_at_density(const JamOptions& options, const Known& solid, Warnings& warnings) {
   const std::string name(to_string(solid.kind));
-  // With the other meaning of the target the consolidation ends just above jamming.
+  // If the target applies to the energy before relaxation, the compression ends just above jamming.
   const double distance = options.compression.target_before_relaxation
                               ? 0
                               : nearest::pow(options.compression.target_energy / solid.stiffness, 1.0 / 6);
@@ -119,8 +122,8 @@ void look_at_density(const JamOptions& options, const Known& solid, Warnings& wa
                                          "{} packings jam at about {:.3g} and reach target_energy {} at about "
                                          "{:.2f}",
                                          name, solid.density, options.compression.target_energy, needed);
-  // The margin is needed because a density that suffices on average is too low for some packings. Jamming itself is
-  // certain enough without a margin.
+  // Packings reach the target energy at different densities, so the mean density plus a margin is needed. To jam at
+  // all, no margin is needed.
   if (options.compression.max_density < needed + (distance == 0 ? 0 : scatter))
     warnings.add("max_density", name,
                  fmt::format("{} is too low{}: {}; increase it", options.compression.max_density,
@@ -145,7 +148,7 @@ void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warn
   const std::string name(to_string(solid.kind));
   look_at_density(options, solid, warnings);
   const double last = solid.stiffness * nearest::pow(options.decompression.final_distance, 6);
-  // Multipliers estimate the energy themselves.
+  // Multipliers estimate this energy themselves.
   if (options.minimise.method != Method::multipliers && options.minimise.unjammed_energy >= last) {
     warnings.add("unjammed_energy", name,
                  fmt::format("{} is not below the E/N of {} packings at final_distance {}, which is about {:.1g}: they "

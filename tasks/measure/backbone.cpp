@@ -7,8 +7,8 @@
 namespace isojam {
 namespace {
 
-// Properties of packings without their near-rattlers: contacts, modes, bulk modulus and rank of the remaining
-// particles. A single near-rattler can leave the modes and moduli of the whole state undefined.
+// Measures the packing without its near-rattlers: contacts, modes, bulk modulus and rank of the remaining particles. In
+// the whole packing, a single near-rattler can make modes and moduli undefined.
 
 constexpr std::string_view group = "backbone", frequency = "V_p^(-1/3) sqrt(Y/ρ)";
 constexpr Quantity removed{"backbone_removed", "/backbone/removed", group, "1", "n_{removed}"};
@@ -39,7 +39,8 @@ void put_no_rank(Json& state, const Quantity& missing_rank, std::string_view why
   for (const auto* key : {"constraints", "rank", "least_kept", "largest_dropped"}) put_absent(json, key, why);
 }
 
-/// Contacts and ranks. A contact keeps its class in the whole packing, because cut-offs are fitted to all contacts.
+/// Adds contacts and ranks. Each contact keeps the class that it has in the whole packing, because the cut-offs are
+/// fitted to all contacts.
 void put_contacts(Json& state, const Backbone& backbone, const ClassifiedContacts& whole, int particles) {
   const auto within = contacts_within(whole.contacts, backbone.kept, particles);
   put(state, Z, 2 * static_cast<double>(within.contacts.size()) / static_cast<double>(backbone.kept.size()));
@@ -67,10 +68,12 @@ void put_modes(Json& state, const Backbone& backbone) {
       "no modes, or one without a frequency");
 }
 
-/// Largest residual of a backbone that counts as balanced. The removed particles then carried almost no force.
+/// Largest residual of the remaining particles that counts as balanced. Then the removed particles carried almost no
+/// force.
 constexpr double balanced = 1e-3;
 
-/// A response exists only for an equilibrium: there is none if the backbone was supported by removed particles.
+/// Adds the bulk modulus. It is defined only for an equilibrium, so it is absent if the removed particles carried
+/// force.
 void put_response(Json& state, const Backbone& backbone) {
   const double residual = backbone.here.residual;
   put_number(state["backbone"], "residual", residual);

@@ -60,7 +60,8 @@ void put_fixed(Json& state, const ContactNumbers& numbers) {
   put(state, C_fixed, numbers.C);
 }
 
-/// The fitted value for each class, or null.
+/// `face_face` is true if the face-face cut-off is known, and `all` if both cut-offs are known. `why` is the reason if
+/// one is unknown.
 struct Known {
   bool face_face, all;
   std::string_view why;
@@ -77,7 +78,7 @@ void put_numbers(Json& json, const ContactNumbers& n, const Known& known) {
   put_if("C", n.C, known.all);
 }
 
-/// For a mixture: the numbers of each kind, and the basis of the classes for each pair of shapes.
+/// For a mixture: the contact numbers of each kind of particles, and the cut-offs for each pair of shapes.
 void put_mixture(Json& contacts, const ContactAnalysis& analysis, const Known& known) {
   for (std::size_t k = 0; k < analysis.of_kinds.size(); ++k)
     put_numbers(contacts["kind_" + std::to_string(k + 1)], analysis.of_kinds[k], known);
@@ -101,7 +102,7 @@ Json contact_record(const ContactAnalysis& analysis) {
   put(state, Z, n.Z);
   Json& contacts = state["contacts"];
   put_number(contacts, "Q6", analysis.Q6);
-  // Without a fitted cut-off there is no classification: numbers that depend on it are absent rather than zero.
+  // If a fit found no cut-off, there is no classification. Numbers that depend on it are then null, not zero.
   const auto why = undecided(analysis);
   const auto put_known = [&](const Quantity& quantity, double value, bool known) {
     put(state, quantity, known ? std::optional(value) : std::nullopt, why.value_or(""));
@@ -135,8 +136,8 @@ std::vector<std::string> contact_flags(const ContactAnalysis& nearest) {
 
 namespace {
 
-/// Ideal random contacts of a packing. The two ends are distributed over shapes as in the packing, and either end may
-/// be the particle whose face is touched.
+/// Angles of ideal random contacts between a vertex and a face, for a packing of any shapes. Each shape has the same
+/// share of contact ends as in the packing. Either particle of a contact may be the one with the vertex.
 class RandomContacts {
  public:
   RandomContacts(const Composition& solids, std::span<const Contact> contacts) {
@@ -189,8 +190,8 @@ class RandomContacts {
   std::vector<Shape> shapes_;
 };
 
-/// Random contacts of a packing with edge contacts; each kind is as frequent as among isotropic contacts of these
-/// solids.
+/// Angles of random contacts that include contacts of two edges. Contacts of a vertex and of two edges have the shares
+/// that they have for isotropic orientations of these solids.
 class IsotropicContacts {
  public:
   static RandomContact of(const Composition& solids, std::span<const Contact> contacts) {
@@ -204,8 +205,7 @@ class IsotropicContacts {
   }
 
  private:
-  using Shape = std::pair<std::string, const ConvexSolid*>;  ///< sorted by name, so that sums are taken in the order of
-                                                             ///< the shapes
+  using Shape = std::pair<std::string, const ConvexSolid*>;  ///< sorted by name: fixes the order of sums
 
   IsotropicContacts(const Composition& solids, std::span<const Contact> contacts) {
     const double one = 1 / static_cast<double>(contacts.size());
@@ -232,9 +232,9 @@ class IsotropicContacts {
   std::map<std::pair<Shape, Shape>, double> edges_;
 };
 
-/// For the state nearest jamming: the angles in ascending order, for plots of their CDFs, and whether more of them are
-/// near 0 than for ideal random contacts, both for random vertex contacts and for random vertex and edge contacts with
-/// their weights.
+/// The alignment angles of a state in ascending order, for plots of their distributions. Also states whether there are
+/// more small angles than for random contacts. Two kinds of random contacts are compared: only vertices in faces, and
+/// vertices in faces together with pairs of edges.
 Json angle_record(const Packing& packing, const ClassifiedContacts& classified) {
   std::vector<double> face_face, edge_face;
   for (const auto& alignment : classified.alignments) {

@@ -7,14 +7,15 @@
 namespace isojam {
 namespace {
 
-// Number of unstable modes by the paper's method, beside the exact count: the dynamical matrix from central differences
-// of forces and torques in double precision, symmetrised. It uses states as the minimiser left them, so it needs no
-// relaxation along negative modes. If another measure needs that, this one gets the same relaxed states.
+// Counts negative modes with the paper's method, in addition to the exact count. The paper's method computes the
+// dynamical matrix by central differences of forces and torques in double precision, and makes it symmetric. This
+// measure uses the states that the minimiser found, without relaxation along negative modes. If another measure relaxes
+// them, this measure uses the relaxed states too.
 
 constexpr std::string_view group = "modes by central differences";
 constexpr Quantity exact{"unstable_exact", "/difference_modes/exact/share", group, "1", "n_-/6N"};
 
-/// A step, in V_p^(1/3), and the resulting share of negative modes.
+/// A step of the differences, in V_p^(1/3), and the quantity for the share of negative modes with this step.
 struct Step {
   double h;
   Quantity share;
@@ -25,7 +26,7 @@ constexpr std::array steps{
     Step{1e-8, {"unstable_h8", "/difference_modes/h8/share", group, "1", "n_-/6N,\\,h=10^{-8}"}}};
 constexpr std::array quantities{exact, steps[0].share, steps[1].share, steps[2].share};
 
-/// Each step needs 12N evaluations and a dense matrix of 6N rows: minutes for a state of this size.
+/// Largest N. Each step needs 12N evaluations and a dense matrix with 6N rows. For this N, a state takes minutes.
 constexpr int largest = 400;
 
 void put_negative(Json& state, const Quantity& share, const std::optional<long>& negative, Eigen::Index modes,
@@ -36,8 +37,8 @@ void put_negative(Json& state, const Quantity& share, const std::optional<long>&
   put_optional(json, "negative", negative ? std::optional<double>(*negative) : std::nullopt, why);
 }
 
-/// An eigenvalue counts as negative below the tolerance of the exact matrix. The additional error of the differences is
-/// the effect to be measured.
+/// An eigenvalue counts as negative if it is below minus the tolerance of the exact matrix. The differences have an
+/// additional error, whose effect this measure is meant to show.
 void put_step(Json& state, const Step& step, const Packing& packing, double tolerance) {
   const auto lambda = difference_modes(packing, step.h, Precision::working);
   const bool known = lambda.size() > 0 && lambda.allFinite();

@@ -10,8 +10,8 @@
 namespace isojam {
 namespace {
 
-// Distributions of gaps between near neighbours and of contact forces, in logarithmic bins that are the same for all
-// states.
+// Distributions of the gaps between near neighbours and of the contact forces. The logarithmic bins are the same for
+// all states.
 
 constexpr std::string_view group = "gaps and forces", per_particle = "per particle";
 constexpr Quantity within_distance{"gaps_within_distance", "/gaps/within_distance", group, per_particle,
@@ -19,14 +19,14 @@ constexpr Quantity within_distance{"gaps_within_distance", "/gaps/within_distanc
 constexpr Quantity weak_forces{"weak_forces", "/gaps/weak_forces", group, "1", "P(f<\\langle f\\rangle/10)"};
 constexpr std::array quantities{within_distance, weak_forces};
 
-/// Bins per decade and ranges: gaps from 1e-8 to 0.1 V_p^(1/3), forces from 1e-6 to 10^1.6 times their mean.
+/// Bins per decade, and ranges. Gaps are from 1e-8 to 0.1 V_p^(1/3), forces from 1e-6 to 10^1.6 in units of their mean.
 constexpr int bins_per_decade = 5;
 constexpr int least_gap = -8 * bins_per_decade, gap_bins = 7 * bins_per_decade;
 constexpr int least_force = -6 * bins_per_decade, force_bins = 38;
 constexpr double widest = 0.1;
 constexpr double weak = 0.1;
 
-/// Counts of values in bins of log10, and below the first bin.
+/// Numbers of values in logarithmic bins, and number of values below the first bin.
 class Histogram {
  public:
   Histogram(int least, int bins) : least_(least), counts_(static_cast<std::size_t>(bins), 0) {}
@@ -51,7 +51,7 @@ class Histogram {
   std::vector<long> counts_;
 };
 
-/// Lower edges of the bins and upper edge of the last, log10.
+/// Base-10 logarithms of the lower edges of all bins and of the upper edge of the last bin.
 Json edges(int least, int bins) {
   Json list = Json::array();
   for (int k = 0; k <= bins; ++k) list.push_back(static_cast<double>(least + k) / bins_per_decade);

@@ -28,7 +28,7 @@ constexpr std::array quantities{omega_l,   omega_h,  zero_modes,          negati
                                 p_l,       p_h,      face_face_amplitude, face_face_particles,
                                 x_omega_l, x_omega_h};
 
-/// Up to this size all modes are computed, for the density of states.
+/// Up to this N all modes are computed, for the density of states.
 constexpr int all_modes_up_to = 150;
 
 struct Vibrations {
@@ -47,7 +47,7 @@ Vibrations vibrations_of(const Packing& packing, const BlockMatrix& matrix, cons
   return vibrations;
 }
 
-/// ω of modes above the tolerance.
+/// Frequencies ω of the modes whose eigenvalue is above the tolerance.
 Json frequencies(const Eigen::VectorXd& eigenvalues, double tolerance) {
   Json list = Json::array();
   for (const double value : eigenvalues) {
@@ -81,7 +81,7 @@ Json rattler_records(const Stability& stability) {
   return list;
 }
 
-/// Adds the share of the highest modes on particles with a face-face contact.
+/// Adds the share of the amplitude of the highest modes that is on particles with a face-face contact.
 void put_share(Json& state, const ModeSet& highest, const ClassifiedContacts& classified, int particles) {
   std::optional<AmplitudeShare> share;
   if (!undecided(classified.analysis)) {

@@ -35,7 +35,7 @@ Json moduli_record(const std::optional<ElasticTensor>& tensor) {
   return state;
 }
 
-/// K as the slope of the pressure at the state nearest jamming, from two more minimisations.
+/// Adds K of the nearest state, computed from the slope of the pressure with two more minimisations.
 void put_slope(Json& json, const Packing& packing) {
   const auto slope = pressure_slope(packing);
   put_optional(json, "K_from_pressure", slope ? std::optional(slope->bulk_modulus) : std::nullopt,

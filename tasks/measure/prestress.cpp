@@ -22,15 +22,16 @@ constexpr Quantity held_by_second{"held_by_second", "/prestress/modes/held_by_se
 constexpr Quantity held_by_prestress{"held_by_prestress", "/prestress/modes/held_by_prestress", group, "1", "n_p"};
 constexpr std::array quantities{C_s, missing_s, missing_n, self_stress_s, held_by_second, held_by_prestress};
 
-/// A tilt counts as a constraint from this stiffness s; other thresholds show how much the number depends on the
-/// choice.
+/// A tilt counts as a constraint if its relative stiffness s is above this threshold. The numbers for other thresholds
+/// show how much the result depends on this choice.
 constexpr double threshold = 10;
 constexpr std::array thresholds{1.0, 3.0, 10.0, 30.0, 100.0};
-/// Modes are counted in which normals have less than these shares of the stiffness: half, and almost none.
+/// For each of these shares, the modes are counted in which the normals have a smaller share of the stiffness.
 constexpr std::array normal_shares{.5, .1, .01};
-/// Up to this size all modes are used; for larger packings, as many as requested at the soft end.
+/// Up to this N all modes are used. For larger packings only the softest modes are used, as many as the manifest
+/// requests.
 constexpr int all_modes_up_to = 150;
-/// The states nearest to these distances, and the one nearest jamming, keep the stiffness of every contact.
+/// The stiffness of every contact is stored for the nearest state and for the states closest to these Δφ.
 constexpr std::array kept_near{.02, .005};
 
 /// (6N − 3 − rank)/N.
@@ -51,7 +52,7 @@ struct StateStiffness : ClassifiedContacts {
   std::vector<PairStiffness> pairs;
 };
 
-/// Numbers of contacts with stiff tilts by their angles; absent if contacts are not classified.
+/// Numbers of contacts and of stiff tilts in each contact class. Empty if the contacts are not classified.
 Json tilts_by_class(const StateStiffness& stiffness) {
   Json list = Json::array();
   if (undecided(stiffness.analysis)) return list;
@@ -93,7 +94,8 @@ void put_counts(Json& state, const Packing& packing, const StateStiffness& stiff
       std::count_if(stiffness.pairs.begin(), stiffness.pairs.end(), [](const auto& pair) { return !pair.has_second; });
 }
 
-/// The modes of a state, softest first, and the index of the first with a significant eigenvalue.
+/// The examined modes of a state, softest first. Modes with an eigenvalue up to `tolerance` count as zero modes. `all`
+/// is true if no mode was left out.
 struct Modes {
   ModeSet set;
   double tolerance = 0;
@@ -113,13 +115,13 @@ Modes modes_of(const Packing& packing, PackingEnergy& energy, int wanted) {
   return modes;
 }
 
-/// Support of the modes of a state that double precision resolves.
+/// Numbers of modes by the origin of their stiffness. Only modes with an eigenvalue above the tolerance count.
 struct PrestressSupport {
   int resolved = 0;
-  std::array<int, normal_shares.size()> by_second{};  ///< by share of normals
-  std::array<int, thresholds.size()> by_prestress{};  ///< by threshold of stiff tilts
-  double sum_of_logs = 0;  ///< sum of ln λ over the modes held by prestress, at the threshold of that name
-  double worst_sum = 0;    ///< largest relative deviation of the sum of shares from λ
+  std::array<int, normal_shares.size()> by_second{};  ///< modes with a small share of normals, by normal_shares
+  std::array<int, thresholds.size()> by_prestress{};  ///< modes that prestress stiffens most, by thresholds
+  double sum_of_logs = 0;                             ///< sum of ln λ over the modes that prestress stiffens most
+  double worst_sum = 0;  ///< largest relative deviation of the sum of contributions from λ
   Json lambda = Json::array(), normal = Json::array(), tilt = Json::array();
 };
 constexpr int listed_modes = 50;
@@ -151,12 +153,13 @@ PrestressSupport support_by(const StateStiffness& stiffness, const Modes& modes)
 
 constexpr std::string_view more = "all modes that were looked at are, and others may be";
 
-/// The number of modes, or nullopt if there may be more than were examined.
+/// The number of modes. nullopt if all examined modes are counted and not all modes were examined, because there may be
+/// more.
 std::optional<double> known(const Modes& modes, const PrestressSupport& support, int count) {
   return modes.all || count < support.resolved ? std::optional<double>(count) : std::nullopt;
 }
 
-/// Adds these numbers for the other choices of share and threshold.
+/// Adds the numbers of modes for all shares and thresholds.
 void put_choices(Json& json, const Modes& modes, const PrestressSupport& support) {
   Json shares = Json::array(), stiff = Json::array();
   for (std::size_t t = 0; t < normal_shares.size(); ++t) {
@@ -191,7 +194,7 @@ void put_modes(Json& state, const StateStiffness& stiffness, const Modes& modes)
   json["tilt"] = std::move(support.tilt);
 }
 
-/// s of every normal and tilt, ascending, for plots of the bands.
+/// Adds the relative stiffnesses s of all normals and tilts in ascending order, for plots of their distributions.
 void put_bands(Json& json, const std::vector<PairStiffness>& pairs) {
   constexpr double least = 0.1;
   std::vector<double> normals, tilts;
@@ -205,7 +208,7 @@ void put_bands(Json& json, const std::vector<PairStiffness>& pairs) {
   json["s_tilt"] = tilts;
 }
 
-/// The states whose contact stiffness is stored.
+/// Indices of the states for which the stiffness of every contact is stored.
 std::vector<std::size_t> kept_states(const JamResult& jam) {
   std::vector<std::size_t> kept;
   if (const auto nearest = nearest_state(jam)) kept.push_back(*nearest);

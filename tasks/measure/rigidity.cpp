@@ -7,9 +7,9 @@ namespace {
 
 constexpr std::string_view group = "rigidity";
 
-/// Result of one way of counting constraints.
+/// One set of constraints, and the quantities that are computed from it.
 struct Count {
-  std::string_view rows;  ///< key in the record
+  std::string_view rows;  ///< name of the set, a key in the record
   Quantity self_stress, floppy;
 };
 constexpr Count normals{"normals",
@@ -40,10 +40,11 @@ void put_undecided(Json& state, const Count& count, std::string_view why) {
   put(state, count.floppy, std::nullopt, why);
 }
 
-/// Factors applied to both fitted cut-offs, to show how the rank depends on them.
+/// Both fitted cut-offs are multiplied by these factors, to show how the rank depends on them.
 constexpr std::array cutoff_factors{.5, 2.0};
 
-/// Empty for solids of several shapes, whose cut-offs depend on the pair of shapes.
+/// Results with scaled cut-offs. Empty for mixtures of several shapes, because each pair of shapes has its own
+/// cut-offs.
 Json scaled_cutoffs(const Packing& packing, const ClassifiedContacts& classified) {
   Json list = Json::array();
   const ContactAnalysis& analysis = classified.analysis;

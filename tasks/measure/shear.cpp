@@ -9,8 +9,8 @@
 namespace isojam {
 namespace {
 
-// Quasi-static shear of the state nearest jamming, with the load of /shear in the manifest: stress and energy along the
-// path, rearrangements, and the residual strain after unloading.
+// Quasi-static shear of the nearest state, as /shear in the manifest requests it: stress and energy as functions of the
+// strain, rearrangements, and the residual strain after unloading.
 
 constexpr std::string_view group = "shear";
 constexpr auto of_replicate = Quantity::Of::replicate;

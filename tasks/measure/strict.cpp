@@ -6,8 +6,8 @@
 namespace isojam {
 namespace {
 
-// Stability with a variable cell (strict jamming): second derivatives with respect to particles and all six strains of
-// the cell, at the pressure of each state. In addition, the state nearest jamming after its cell was relaxed.
+// Tests whether states are strictly jammed: uses the second derivatives of the enthalpy with respect to the particles
+// and all six strains of the cell, at the pressure of the state. Also relaxes the cell of the nearest state.
 
 constexpr std::string_view group = "strict jamming";
 constexpr Quantity strictly_jammed{"strictly_jammed", "/strict/jammed", group, "1", "n_{strict}"};
