@@ -16,7 +16,7 @@ namespace {
 
 constexpr Range not_negative{0, std::numeric_limits<double>::max()};
 
-/// A residual is infinite where no contact bears a force; JSON has no infinity.
+/// If no contact carries a force, the residual is infinite. JSON has no infinity, so null is written.
 Json residual_json(double residual) { return std::isinf(residual) ? Json(nullptr) : Json(residual); }
 double read_residual(const JsonPlace& place) {
   return place.value().is_null() ? std::numeric_limits<double>::infinity() : place.number(not_negative);
@@ -108,13 +108,14 @@ JamResult read_result(const JsonPlace& root, const ReplicateSpec& spec) {
   return result;
 }
 
-/// Index in the path, or −1.
+/// Index of a step in the path, or −1 if no solution branch was lost.
 int read_lost_branch(const JsonPlace& root) {
   const auto steps = static_cast<double>(root.at("path").expect_list(list_of_steps));
   return static_cast<int>(root.at("lost").integer({-1, steps - 1}));
 }
 
-/// The build and the sweep. Measures are left out, because they may be added while a run is interrupted.
+/// Build and manifest of the checkpoint. The digest excludes measures, because measures may be added while a run is
+/// interrupted.
 Json origin(const ReplicateSpec& spec) {
   auto json = provenance(spec);
   json["manifest_digest"] = spec.sweep_digest;

@@ -10,7 +10,8 @@
 namespace isojam {
 namespace {
 
-/// In version 3 `contacts` wrote its numbers into the state itself, between "step" and the objects of other measures.
+/// In version 3, the measure `contacts` wrote its numbers into the state itself, between "step" and the objects of
+/// other measures. This function moves them into the object "contacts".
 Json upgraded_state(const Json& state) {
   if (!state.is_object()) return state;
   Json upgraded = Json::object(), contacts = Json::object();
@@ -20,7 +21,7 @@ Json upgraded_state(const Json& state) {
     (of_contacts ? contacts : upgraded)[item.key()] = item.value();
     if (item.key() != "step") continue;
     after_step = true;
-    upgraded["contacts"] = nullptr;  // its place
+    upgraded["contacts"] = nullptr;  // keeps the position of this key
   }
   if (contacts.empty()) {
     upgraded.erase("contacts");
@@ -30,7 +31,7 @@ Json upgraded_state(const Json& state) {
   return upgraded;
 }
 
-/// A member of the record in version 3; in version 4 it is `key` of the object of a measure.
+/// A key of version 3. In version 4 its value is `key` in the object of the measure.
 struct Moved {
   std::string_view before, measure, key;
 };

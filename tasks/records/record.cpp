@@ -59,7 +59,7 @@ double worst_residual(const JamResult& jam) {
   double worst = 0;
   for (const int state : jam.phi_j->states) {
     const double residual = jam.path[jam.state_steps[state]].summary.residual;
-    // Written so that a NaN wins and is reported.
+    // written so that a NaN counts as the worst and is reported
     if (!(residual <= worst)) worst = residual;
   }
   return worst;
@@ -88,7 +88,7 @@ RecordIdentity identity(const Outcome& outcome, const std::string& result_digest
   return {replicate_name(outcome.spec), outcome.spec.manifest_digest, result_digest};
 }
 
-/// Fills a failed record with the keys of a complete one, apart from flags: null, with the reason.
+/// Adds the keys of a complete record to a failed one, except flags. Their values are null, with the reason.
 void put_nothing(Json& record, const std::vector<Measure>& measures) {
   std::vector<std::string> keys{"phi_j", "nearest"};
   for (const auto& quantity : all_quantities()) {
@@ -118,7 +118,7 @@ Json to_json(const Timing& timing) {
 }
 
 std::string result_digest(const Json& record) {
-  // The text of the object that is left, without making a copy to leave something out of.
+  // Text of the object without the omitted keys, made without copying the object.
   std::string text;
   for (const auto& item : record.items()) {
     const auto& key = item.key();

@@ -34,7 +34,8 @@ std::string name_of(const RecordSummary& summary) {
   return replicate_name(spec);
 }
 
-/// Packings and paths stay as they are when something is added to their record.
+/// Identities that a packing or path of this record may state. If measures were added, the packings and paths still
+/// state the digests from before.
 std::vector<RecordIdentity> identities_of(const RecordedReplicate& replicate) {
   std::vector<RecordIdentity> identities{
       {replicate.name, replicate.summary.manifest_digest, replicate.summary.result_digest}};
@@ -106,7 +107,7 @@ std::optional<Manifest> stored_manifest(const fs::path& directory) {
 void expect_directory(const fs::path& directory) {
   std::error_code error;
   const auto status = fs::status(directory, error);
-  // A directory without permissions is reported when it is read.
+  // If the directory has no read permission, the error is reported later, when the directory is read.
   if (status.type() == fs::file_type::not_found || (fs::exists(status) && !fs::is_directory(status)))
     throw FileError(fmt::format("{}: {}; {}", directory.string(), no_directory, how_to_get_results),
                     FileError::Reason::missing);

@@ -62,7 +62,7 @@ std::optional<Failure> failure_of(const JamResult& jam) {
 
 namespace {
 
-/// Fewer than two states lie within the fit window, so that φ_J had to be fitted to others.
+/// True if fewer than two states are in the fit window. Then φ_J was fitted to states outside of it.
 bool outside_fit_window(const Outcome& outcome) {
   const auto& jam = outcome.jam;
   const auto& used = jam.phi_j->states;

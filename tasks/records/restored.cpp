@@ -14,7 +14,7 @@
 namespace isojam {
 namespace {
 
-/// As put_number() has written it.
+/// Reads a number that put_number() wrote.
 double read_number(const JsonPlace& object, const std::string& key) {
   const auto place = object.at(key);
   if (!place.value().is_null()) return place.number(any_number);

@@ -11,8 +11,8 @@
 namespace isojam {
 namespace {
 
-/// The first key whose value is not that of this identity; empty if there is none. `text_at` gives the value of a key;
-/// empty if there is none.
+/// The first key whose value differs from that of the identity; empty if all are equal. text_at(key) is the value of a
+/// key, or empty if the key is missing.
 template <class TextAt>
 std::string difference(std::string_view schema, const RecordIdentity& identity, const TextAt& text_at) {
   const Json expected = state_file_head(schema, identity);

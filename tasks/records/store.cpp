@@ -31,7 +31,7 @@ std::string digests(const std::string& theirs, const std::string& ours) {
                     std::string(choose_another_directory)});
 }
 
-/// The remedy if a manifest asks for measures that the directory lacks.
+/// Advice for the user if the manifest requests measures that the directory does not have.
 std::string how_to_add(const fs::path& directory, const Manifest& theirs, const Manifest& ours) {
   std::string names;
   for (const auto what : ours.measures) {
@@ -42,7 +42,7 @@ std::string how_to_add(const fs::path& directory, const Manifest& theirs, const 
                      compact(to_json(theirs).at("measure")), directory.string(), names);
 }
 
-/// The manifest that the directory belongs to already.
+/// Manifest of the directory; nullopt if it has none. Throws if the directory belongs to another manifest.
 std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& manifest) {
   const auto path = directory / "manifest.json";
   auto theirs = stored_manifest(directory);
@@ -53,7 +53,8 @@ std::optional<Manifest> manifest_in(const fs::path& directory, const Manifest& m
   refuse_other(path.string(), "", differences(*theirs, manifest));
 }
 
-/// Records that the plan does not know; all of them where no manifest says whose the directory is.
+/// Throws if a record belongs to another manifest. Checks records that are not in the plan, or all records if `all` is
+/// true because the directory has no manifest.
 void check_records(const fs::path& directory, const Manifest& manifest, bool all, const Warn& warn) {
   const auto names = names_in(directory / "records");
   if (names.empty()) return;
@@ -93,14 +94,14 @@ void refuse_links(const fs::path& directory) {
   }
 }
 
-/// Within a results directory.
+/// Makes a folder inside a results directory, and removes old temporary files from it.
 void make_own_folder(const fs::path& folder) {
   make_folder(folder);
   remove_stale_temporaries(folder);
 }
 
-/// Removes checkpoints of recorded replicates: a run may be killed after the record and before it removes the
-/// checkpoint.
+/// Removes the checkpoints of replicates that have a record. They remain if a run is killed after it wrote a record and
+/// before it removed the checkpoint.
 void remove_outlived_checkpoints(const fs::path& directory) {
   for (const auto& name : names_in(directory / "checkpoints")) {
     std::error_code gone;
@@ -109,8 +110,8 @@ void remove_outlived_checkpoints(const fs::path& directory) {
   }
 }
 
-/// A plan only grows: records beyond a smaller number of replicates are kept and counted, and who asks for fewer than a
-/// goal may take does not take the goal back.
+/// Number of replicates and stopping rule to be stored. A plan never becomes smaller: with fewer replicates than
+/// before, the earlier number and stopping rule are kept.
 Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
   if (!before) return manifest;
   auto& replicates = manifest.replicates;
@@ -119,7 +120,8 @@ Manifest grown(Manifest manifest, const std::optional<Manifest>& before) {
   return manifest;
 }
 
-/// Writes the manifest to the directory, or refuses a directory of another manifest. Returns the manifest kept there.
+/// Writes the manifest to the directory, and returns the manifest that is then stored. Throws if the directory belongs
+/// to another manifest.
 Manifest claim(const fs::path& directory, const Manifest& manifest) {
   const auto path = directory / "manifest.json";
   auto before = manifest_in(directory, manifest);
@@ -153,7 +155,7 @@ Store::Store(fs::path directory, const Manifest& manifest, Warn warn)
   check_directory(directory_, manifest, warn_);
   make_folder(directory_);
   kept_ = claim(directory_, manifest);
-  // Another process may have written the manifest between the two calls, so it is read back.
+  // Another process may have written its manifest in the meantime, so check again.
   manifest_in(directory_, manifest);
   remove_stale_temporaries(directory_);
   for (const auto* folder : {"records", "packings", "checkpoints"}) make_own_folder(directory_ / folder);
@@ -207,7 +209,8 @@ std::optional<Checkpoint> Store::checkpoint(const ReplicateSpec& spec) const {
 }
 
 void Store::write_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) const {
-  // Not synchronised: what a power failure cuts short is noticed, and costs this replicate only.
+  // The checkpoint is not synchronised to disk. If a power failure truncates it, isojam detects this and recomputes
+  // only this replicate.
   if (const auto document = make_checkpoint(spec, checkpoint))
     write_atomically(checkpoint_path(spec), sealed(*document), Durability::lossless);
 }
@@ -218,7 +221,8 @@ void Store::write(const Outcome& outcome) const {
   if (!outcome.failure) write_atomically(packing_path(outcome.spec), sealed(make_packing(outcome, digest)));
   if (!outcome.failure && keep_path_) write_atomically(path_path(outcome.spec), sealed(make_path(outcome, digest)));
   write_atomically(record_path(outcome.spec), sealed(record));
-  // One that stays is of no consequence, for the record comes first, and goes with the next run.
+  // If the checkpoint cannot be removed, it does no harm: the record takes precedence, and the next run removes the
+  // checkpoint.
   std::error_code ignored;
   fs::remove(checkpoint_path(outcome.spec), ignored);
 }
@@ -291,7 +295,7 @@ void for_each_record(const fs::path& directory, const std::optional<Manifest>& m
       warn(fmt::format("{}: {}; the record is ignored", (directory / "records" / (one.held->name + ".json")).string(),
                        other_manifest));
     } else {
-      // One that lacks a measure counts in tables where it can.
+      // A record without a measure still counts for the quantities that it has.
       if (manifest) one.held->summary.settings["measure"] = measures;
       use(*std::move(one.held));
     }

@@ -26,10 +26,10 @@ std::optional<double> value_below(const JsonPlace& place, std::string_view point
   return value_below(place.at(std::string(pointer.substr(1, end - 1))), pointer.substr(end));
 }
 
-/// nullopt if it was not measured, that is, if the first key of its pointer is missing, or if the packing has no such
-/// kind of particles. All other keys must be there.
+/// Value of a quantity. nullopt if its measure was not requested (the first key of the pointer is missing), or if the
+/// packing does not have this kind of particles. If another key is missing, throws.
 std::optional<double> quantity_value(const JsonPlace& place, const Quantity& quantity) {
-  // Tables read millions of values: only one that is not as it should be is worth a place with its texts.
+  // Tables read millions of values. Only an unexpected value needs a JsonPlace, which contains texts for messages.
   const Json* value = &place.value();
   for (std::string_view rest = quantity.pointer; !rest.empty();) {
     const auto end = std::min(rest.find('/', 1), rest.size());
@@ -86,7 +86,7 @@ void read_additions(const JsonPlace& added, RecordSummary& summary) {
   }
 }
 
-/// Reads the measures that this version knows.
+/// Reads the measures of a record. Measures that this version does not know are ignored.
 void read_measures(const JsonPlace& measures, RecordSummary& summary) {
   const auto count = measures.expect_list("a list of measures");
   for (std::size_t k = 0; k < count; ++k) {

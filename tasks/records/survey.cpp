@@ -94,7 +94,7 @@ void survey_checkpoints(const fs::path& directory, const Plan& plan, Survey& sur
     } catch (const InputError& damage) {
       survey.damaged.emplace_back(damage.what());
     } catch (const FileError& error) {
-      // One that has gone since it was listed is of a replicate that has just been recorded.
+      // The checkpoint was removed after the folder was listed, because its replicate now has a record.
       if (error.reason() != FileError::Reason::missing) throw;
     }
   }

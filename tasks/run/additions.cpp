@@ -33,12 +33,12 @@ bool has(const std::vector<Measure>& measures, Measure what) {
   return std::find(measures.begin(), measures.end(), what) != measures.end();
 }
 
-/// True if a replicate failed before its states were measured.
+/// True if the replicate failed before the first measure.
 bool failed_before_measures(const RecordedReplicate& held) {
   return !from_string<Measure>(held.record.at("failure").at("where").get_ref<const std::string&>());
 }
 
-/// Why nothing of a replicate without failure can be measured any more; nullopt if it can.
+/// Reason why the states of a successful replicate can no longer be measured; nullopt if they can.
 std::optional<std::string> without_path(const fs::path& directory, const RecordedReplicate& held) {
   try {
     check_companions(directory, held, true);
@@ -61,7 +61,7 @@ std::vector<Packing> packings_of(const fs::path& directory, const RecordedReplic
   return packings;
 }
 
-/// True if following the states to minima has changed one of them.
+/// True if the relaxation to minima has changed a state.
 bool has_moved(const JamResult& jam, const RecordedReplicate& held) {
   const auto& states = held.record.at("states");
   for (std::size_t k = 0; k < jam.state_steps.size(); ++k) {
@@ -103,7 +103,7 @@ Additions additions(const fs::path& directory, const Plan& plan, const std::vect
 }
 
 Adder::Adder(const Store& store, const std::vector<ReplicateSpec>& replicates) : store_(store) {
-  // Replicates run at the same time: each finds its own place, and none makes one.
+  // Replicates run at the same time. All entries are made here, so that they only look up their own entry later.
   for (const auto& spec : replicates) records_[replicate_name(spec)];
 }
 

@@ -17,7 +17,7 @@ bool Campaign::takes(std::size_t point, int replicate) const {
   return shard_.takes(point * static_cast<std::size_t>(plan_.replicates()) + static_cast<std::size_t>(replicate));
 }
 
-/// Reads what the last round brought for the goal to look at.
+/// Reads the values of the replicates of the last round, which the stopping rule uses.
 void Campaign::learn(std::size_t point) {
   auto& state = points_[point];
   const auto index = *quantity_index(rule_.goal->quantity);

@@ -1,7 +1,8 @@
-// Why a graph and not a parallel_for over replicates: stages differ in memory and cost, and writing to disk is serial.
-// The limiter bounds the number of replicates in flight, since each keeps all packings of its expansion until it is
-// stored. The measures of a replicate are tasks of one node, and no thread waits for another to finish one. When fewer
-// replicates are left than threads, the pair loop inside a stage takes the idle ones.
+// This is a flow graph instead of a parallel loop over replicates, because the stages differ in memory and cost, and
+// files are written one after the other. The limiter bounds the number of replicates at the same time, because each
+// keeps all packings of its decompression until it is stored. All measures of a replicate are tasks of one node, and no
+// thread waits for another one to finish a measure. If fewer replicates than threads are left, idle threads help in the
+// pair loops of the stages.
 
 #include "tasks/run/graph.hpp"
 
@@ -29,7 +30,7 @@ namespace {
 
 namespace flow = tbb::flow;
 
-/// Result of a stage: a value or a failure. It has neither if the run was stopped.
+/// Result of a stage: a value or a failure. If the run was stopped, it has neither.
 template <class T>
 struct StageResult {
   std::optional<T> value;
@@ -44,13 +45,14 @@ struct Started {
 
 struct Jammed {
   ReplicateSpec spec;
-  StageResult<JamResult> jam;  ///< its timing includes `begin` and earlier runs
+  StageResult<JamResult> jam;  ///< its timing includes `begin` and interrupted runs
 };
 
-/// A replicate whose measures are under way. They share the jammed result, and each writes into its own slot.
+/// A replicate whose measures are being computed. All use the same jammed result, and each writes to its own slot.
 struct Measuring {
   std::shared_ptr<const Jammed> jammed;
-  std::vector<StageResult<Measurement>> results;  ///< a slot for each of spec.measures; none without a result of jam
+  std::vector<StageResult<Measurement>>
+      results;  ///< a slot for each of spec.measures; empty if the replicate did not jam
   std::atomic<std::size_t> tasks_left = 0;
 };
 
@@ -64,7 +66,7 @@ bool is_missing(const StageResult<T>& result) {
   return !result.value && !result.failure;
 }
 
-/// Wall clock and this thread's since it was made.
+/// Wall-clock time, and CPU time of this thread, since the construction.
 class Stopwatch {
  public:
   Timing elapsed() const {
@@ -81,7 +83,7 @@ Timing operator+(const Timing& a, const Timing& b) {
   return {a.wall_seconds + b.wall_seconds, a.cpu_seconds + b.cpu_seconds};
 }
 
-/// One run; the bodies of the nodes.
+/// One call of run_graph(). Its member functions are the bodies of the nodes.
 class Run {
  public:
   Run(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
@@ -158,8 +160,8 @@ class Run {
   }
 
  private:
-  /// Runs a stage of a replicate, measures its time and turns an exception into a failure. A resource failure is no
-  /// failure of the replicate: it ends the run and leaves the result without value and failure.
+  /// Runs a stage of a replicate, measures its time, and turns an exception into a failure. A resource failure is not a
+  /// failure of the replicate: it ends the run, and the result then has neither value nor failure.
   template <class T, class Stage>
   StageResult<T> run_stage(std::string_view where, const Stage& stage) {
     StageResult<T> result;
@@ -179,7 +181,7 @@ class Run {
     return result;
   }
 
-  /// Exceptions of the caller's functions must not cross the graph.
+  /// Keeps exceptions of the caller's functions, which must not leave the graph.
   void catch_callback_error(const std::function<void()>& call) {
     try {
       call();
@@ -188,7 +190,7 @@ class Run {
     }
   }
 
-  /// The first error is thrown from run_graph, and each ends the run.
+  /// Keeps the first error, which run_graph() throws at the end, and ends the run.
   void keep(const std::exception_ptr& error) {
     const std::lock_guard lock(error_mutex_);
     if (!error_) error_ = error;
@@ -205,8 +207,8 @@ class Run {
   std::exception_ptr error_;
 };
 
-/// Ends what an exception has left: the nodes go before the graph does, and none of its tasks may still find them.
-/// The program ends where there is no memory even to wait.
+/// Waits until all tasks have ended after an exception. The nodes are destroyed before the graph, so no task may still
+/// use them. If waiting fails again and again for lack of memory, the program ends.
 void drain(flow::graph& graph) {
   constexpr int attempts = 100;
   graph.cancel();
@@ -221,7 +223,7 @@ void drain(flow::graph& graph) {
   }
 }
 
-/// A task for each measure of the replicate; one without a measure if there is none.
+/// One task for each measure of the replicate. If it has no measures, one task that only passes the replicate on.
 std::vector<MeasureTask> measure_tasks(std::shared_ptr<const Jammed> jammed) {
   const auto replicate = std::make_shared<Measuring>();
   replicate->results.resize(jammed->jam.value ? jammed->spec.measures.size() : 0);
@@ -245,7 +247,7 @@ void build_and_wait(Run& run, int in_flight) {
   });
   MeasureNode measure(graph, flow::unlimited, [&](const MeasureTask& task, MeasureNode::output_ports_type& ports) {
     run.measure(task);
-    // The last task of a replicate passes all its results on.
+    // The task that finishes last passes the results of all measures on.
     if (--task.replicate->tasks_left == 0) std::get<0>(ports).try_put(task.replicate);
   });
   flow::function_node<std::shared_ptr<const Measuring>> store(graph, flow::serial, [&](const auto& measuring) {

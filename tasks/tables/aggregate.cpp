@@ -21,8 +21,8 @@ std::string describe(const RecordSummary& record) {
                      record.replicate, record.manifest_digest);
 }
 
-/// Linear in ln Δφ between the states on either side of `distance`, for each quantity. A quantity is empty if the
-/// states do not enclose `distance` or one of them lacks the value.
+/// All quantities at `distance`, interpolated linearly in ln Δφ between the two neighbouring states. A quantity is
+/// empty if `distance` is outside of all states, or if one of the two states lacks the value.
 Values interpolated(std::span<const StateValues> states, double distance) {
   const auto above =
       std::find_if(states.begin(), states.end(), [=](const StateValues& s) { return s.delta_phi >= distance; });
@@ -36,13 +36,13 @@ Values interpolated(std::span<const StateValues> states, double distance) {
   return values;
 }
 
-/// Path of the first difference between two JSON values.
+/// JSON pointer of the first difference between two values; empty if they are equal.
 std::string difference(const Json& a, const Json& b) {
   const auto patch = Json::diff(a, b);
   return patch.empty() ? "" : patch.front().at("path").get<std::string>();
 }
 
-/// The values of a sweep point's replicates, by quantity.
+/// The values of all replicates of a sweep point, for each quantity.
 class Samples {
  public:
   void add(std::size_t quantity, double value, bool excluded) {
@@ -52,7 +52,7 @@ class Samples {
   bool empty() const {
     return std::all_of(all_.begin(), all_.end(), [](const auto& values) { return values.empty(); });
   }
-  /// Estimates without the excluded replicates, and over all of them.
+  /// Estimates without excluded replicates, and estimates over all replicates.
   std::pair<Estimates, Estimates> estimates(const std::string& point) const {
     std::pair<Estimates, Estimates> result{no_estimates(), no_estimates()};
     for (std::size_t i = 0; i < all_.size(); ++i) {
@@ -119,7 +119,7 @@ void Aggregation::add(const RecordSummary& record) {
 std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const std::optional<Replicates>& rule) {
   if (!rule || !rule->goal) return std::nullopt;
   const auto quantity = quantity_index(rule->goal->quantity);
-  // Values of replicates 0, 1, … up to the first gap, of one manifest.
+  // Values of the replicates 0, 1, … of one manifest, up to the first missing replicate.
   std::vector<std::optional<double>> values;
   for (const auto& [key, replicate] : point.replicates) {
     if (key.first != point.replicates.begin()->first.first || key.second != static_cast<int>(values.size())) break;
@@ -160,7 +160,7 @@ std::optional<Differences> Aggregation::differences(const PointKey& key, const P
   const auto& [solid, particles, parameters] = key;
   auto others = parameters;
   for (const auto& item : base_.items()) {
-    // Pooled records may include a sweep over other parameters.
+    // If records of several manifests are combined, some may have been swept over other parameters.
     if (!parameters.contains(item.key())) return std::nullopt;
     others[item.key()] = item.value();
   }

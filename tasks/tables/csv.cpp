@@ -13,7 +13,7 @@ namespace {
 
 std::string number(const std::optional<double>& x) { return x ? compact(Json(*x)) : ""; }
 
-/// The leading columns of a line.
+/// Headings of the leading columns.
 Cells head_of(const std::vector<std::string>& parameters, View view) {
   Cells head{"solid", "particles"};
   for (const auto& name : parameters) head.push_back(parameter_head(name));
@@ -33,7 +33,7 @@ Cells begin_of(const TableLine& line, const std::vector<std::string>& parameters
   return cells;
 }
 
-/// Parts of an estimate, in the order of cells_of.
+/// Names of the columns of an estimate, in the order of cells_of().
 constexpr std::array parts{"mean", "low", "high", "sd", "n", "bootstrap_low", "bootstrap_high"};
 
 Cells cells_of(const Estimate& estimate) {
@@ -43,7 +43,7 @@ Cells cells_of(const Estimate& estimate) {
           std::to_string(estimate.n), low(estimate.bootstrap95), high(estimate.bootstrap95)};
 }
 
-/// Lines grouped by row; the line nearest jamming is followed by its differences from the base.
+/// Lines grouped by row. In the view of the nearest states, a line with the differences from the base follows each row.
 std::vector<TableLine> csv_lines(const Table& table, View view) {
   std::vector<TableLine> lines;
   const auto plain = lines_of(table, view);
@@ -58,8 +58,8 @@ std::vector<TableLine> csv_lines(const Table& table, View view) {
 
 void append(Cells& cells, const Cells& more) { cells.insert(cells.end(), more.begin(), more.end()); }
 
-/// Indices in all_quantities() of the quantities with a value in some line, and on request of all quantities of the
-/// first group.
+/// Indices in all_quantities() of the quantities that have a value in at least one line. If `first_group` is true, also
+/// all quantities of the first group.
 std::vector<std::size_t> quantities_in(const std::vector<TableLine>& lines, bool first_group) {
   std::vector<std::size_t> list;
   for (std::size_t i = 0; i < all_quantities().size(); ++i) {

@@ -1,5 +1,5 @@
-// Tables are laid out in two steps. The first fills the cells, which are the same for text and LaTeX except for
-// spelling. The second turns cells into lines.
+// Tables are made in two steps. The first step fills the cells. Except for spelling, they are the same for text and
+// LaTeX. The second step turns the cells into lines.
 
 #include <fmt/format.h>
 
@@ -18,17 +18,17 @@
 namespace isojam {
 namespace {
 
-/// True for a single value, and for values that are equal to rounding.
+/// True if there is only one value, or if all values are equal within rounding errors.
 bool without_spread(const Estimate& estimate) {
   return estimate.half_width.value_or(0) <= 1e-14 * std::abs(*estimate.mean);
 }
 
-/// True for values that would be mostly zeros in decimal notation.
+/// True if most decimals of the value would be zeros.
 bool small(const Estimate& estimate) {
   return *estimate.mean != 0 && std::abs(*estimate.mean) < 1e-3 && estimate.half_width.value_or(0) < 1e-2;
 }
 
-/// A whole number is a count and is written without decimals.
+/// Text of an estimate without spread. An integer is a count and has no decimals.
 std::string text_without_spread(const Estimate& estimate, std::string_view plus_minus) {
   const double mean = *estimate.mean;
   if (mean == std::round(mean)) return fmt::format("{:.0f}", mean);
@@ -37,7 +37,7 @@ std::string text_without_spread(const Estimate& estimate, std::string_view plus_
   return text;
 }
 
-/// Written with a common power of ten.
+/// Text with one power of ten for the mean and the half width.
 std::string small_text(const Estimate& estimate, std::string_view plus_minus) {
   const double power = std::floor(nearest::log10(std::max(std::abs(*estimate.mean), *estimate.half_width)));
   const double unit = nearest::pow(10.0, power);
@@ -45,7 +45,7 @@ std::string small_text(const Estimate& estimate, std::string_view plus_minus) {
                      power);
 }
 
-/// Written with as many decimals as give the half width two significant digits.
+/// Text with as many decimals as are needed to show two significant digits of the half width.
 std::string text_with_spread(const Estimate& estimate, std::string_view plus_minus) {
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(nearest::log10(*estimate.half_width))), 0, 12);
   return fmt::format("{:.{}f}{}{:.{}f}", *estimate.mean, decimals, plus_minus, *estimate.half_width, decimals);
@@ -62,7 +62,7 @@ std::string estimate_text(const Estimate& estimate, std::string_view plus_minus,
 
 std::string residual_text(const Row& row) { return row.residual ? fmt::format("{:.1e}", *row.residual) : "-"; }
 
-/// The quantities of a group, as indices in all_quantities().
+/// The quantities of one table, as indices in all_quantities().
 struct ColumnGroup {
   std::string_view name;
   std::vector<std::size_t> quantities;
@@ -100,7 +100,7 @@ std::string_view in_latex(const char& c) {
   }
 }
 
-/// A text for a cell: on one line, and escaped for the terminal or LaTeX.
+/// Text of a cell: control characters are replaced, and special characters of LaTeX are escaped.
 std::string spelt(const std::string& text, Format format) {
   std::string cell;
   for (const char& c : text) {
@@ -116,7 +116,7 @@ std::string symbol(std::string_view text, std::string_view latex, Format format)
 
 std::string_view plus_minus(Format format) { return format == Format::text ? " ± " : " $\\pm$ "; }
 
-/// The replicates behind a line are counted in the first table only.
+/// True for the main table, which alone has the columns with the numbers of replicates.
 bool counts_replicates(const ColumnGroup& group, View view) {
   return group.name == main_group && view == View::nearest;
 }
@@ -136,7 +136,7 @@ Cells cells_of(const TableLine& line, const ColumnGroup& group, const std::vecto
                Format format) {
   const Row& row = *line.row;
   const std::string indent = format == Format::text ? "  " : "\\quad ";
-  // The second line of a row omits the cells that are equal in both.
+  // The second line of a row, `all`, omits the cells that would be the same as in the first line.
   const bool of_all = line.over == Over::all;
   const auto once = [&](const std::string& text) { return of_all ? "" : text; };
   Cells cells{of_all ? indent + "all" : spelt(std::string(to_string(row.solid)), format),
@@ -153,7 +153,7 @@ Cells cells_of(const TableLine& line, const ColumnGroup& group, const std::vecto
   return cells;
 }
 
-/// The paper's Table II, in degrees. The angles are properties of the solids.
+/// Lines of the table of critical angles (Table II of the paper), in degrees. They depend only on the solid.
 std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
   const auto head = [&](std::string_view text, std::string_view latex) { return symbol(text, latex, format); };
   std::vector<Cells> lines{{"solid", head("ef vertex-face", "\\theta_{ef}^{vf}"),
@@ -171,7 +171,7 @@ std::vector<Cells> critical_angle_lines(const Table& table, Format format) {
   return lines;
 }
 
-/// Leading columns that identify a sweep point.
+/// Headings of the columns that identify a sweep point.
 Cells point_head(const std::vector<std::string>& parameters, Format format) {
   Cells head{"solid", symbol("N", "N", format)};
   for (const auto& name : parameters) head.push_back(spelt(parameter_head(name), format));
@@ -184,10 +184,10 @@ Cells point_cells(const Row& row, const std::vector<std::string>& parameters, Fo
   return cells;
 }
 
-/// Quantities whose differences are printed for people; JSON and CSV contain all.
+/// Quantities whose differences are printed. JSON and CSV contain the differences of all quantities.
 constexpr std::array compared_quantities{"phi_j", "Z", "Z_ff", "C"};
 
-/// Differences of rows from their base; only the heading if none is compared.
+/// Lines with the differences of the rows from their base. Only the heading if no row has a base.
 std::vector<Cells> difference_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{point_head(parameters, format)};
   lines[0].emplace_back("pairs");
@@ -204,7 +204,7 @@ std::vector<Cells> difference_lines(const Table& table, const std::vector<std::s
   return lines;
 }
 
-/// Progress of the rows towards the goal; only the heading without a goal.
+/// Lines with the progress of the rows towards the goal of the stopping rule. Only the heading if there is no goal.
 std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{point_head(parameters, format)};
   lines[0].insert(lines[0].end(), {"quantity", "half width", "goal", "replicates used", "met"});
@@ -224,10 +224,10 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
 
 struct LaidOut {
   std::string title;
-  std::vector<Cells> lines;  ///< heading first
+  std::vector<Cells> lines;  ///< the first line is the heading
 };
 
-/// Adds the tables that follow the main table if they are not empty.
+/// Adds the tables for the goal and for the differences, if they are not empty.
 void add_below(std::vector<LaidOut>& tables, const Table& table, const std::vector<std::string>& parameters,
                Format format) {
   auto goals = goal_lines(table, parameters, format);
@@ -236,7 +236,7 @@ void add_below(std::vector<LaidOut>& tables, const Table& table, const std::vect
   if (differences.size() > 1) tables.push_back({difference_title(table), std::move(differences)});
 }
 
-/// The tables of all groups.
+/// All tables, one for each group of quantities, and the tables that follow them.
 std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
   const auto parameters = parameter_names(table);
   const auto lines = lines_of(table, view);
@@ -266,7 +266,7 @@ std::string aligned(const std::vector<Cells>& lines) {
   for (const auto& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) {
       const std::string padding(widths[i] - width(line[i]), ' ');
-      // Names are left-aligned, numbers right-aligned.
+      // The first column is left-aligned, the other columns are right-aligned.
       text += i == 0 ? fmt::format("{}{}", line[i], padding) : fmt::format("   {}{}", padding, line[i]);
     }
     text += '\n';

@@ -15,7 +15,7 @@ double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Linear interpolation between order statistics.
+/// Percentile of sorted values, interpolated linearly between neighbouring values.
 double percentile(std::span<const double> sorted, double p) {
   const double at = p * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(at);
@@ -35,7 +35,7 @@ Interval bootstrap(std::span<const double> values, std::uint64_t key) {
   return {percentile(means, 0.025), percentile(means, 0.975)};
 }
 
-/// Standard deviation of the sample; needs two or more values.
+/// Standard deviation of a sample of at least two values.
 double sd_of(std::span<const double> values, double mean) {
   double squares = 0;
   for (const double x : values) squares += (x - mean) * (x - mean);

@@ -21,7 +21,7 @@ std::string manifest_path(const std::string& directory) {
   return (std::filesystem::path(directory) / "manifest.json").string();
 }
 
-/// Manifest of each directory; nullopt if it has none.
+/// Manifest of each directory, or nullopt for a directory without a manifest.
 std::vector<std::optional<Manifest>> manifests_of(const std::vector<std::string>& directories) {
   std::vector<std::optional<Manifest>> manifests;
   for (const auto& directory : directories) {
@@ -30,7 +30,7 @@ std::vector<std::optional<Manifest>> manifests_of(const std::vector<std::string>
   return manifests;
 }
 
-/// The replicate rule of the manifests, if they agree.
+/// The number of replicates and the stopping rule of the manifests, if all manifests agree.
 std::optional<Replicates> common_rule(const std::vector<std::optional<Manifest>>& manifests) {
   for (const auto& manifest : manifests) {
     if (!manifest || !manifests.front() || manifest->replicates != manifests.front()->replicates) return std::nullopt;
@@ -38,7 +38,8 @@ std::optional<Replicates> common_rule(const std::vector<std::optional<Manifest>>
   return manifests.empty() ? std::nullopt : std::optional(manifests.front()->replicates);
 }
 
-/// The choice on which all manifests agree, or `usual` without manifests. `json` gives the text of a choice.
+/// The choice on which all manifests agree, or `usual` if there are no manifests. Throws if they disagree. json(choice)
+/// is used in the message.
 template <class Choice, class ToJson>
 Choice common_choice(const std::vector<std::string>& directories, const std::vector<std::optional<Manifest>>& manifests,
                      Choice Manifest::*choice, const std::string& key, const Choice& usual, const ToJson& json) {
@@ -63,7 +64,7 @@ Json common_base(const std::vector<std::string>& directories, const std::vector<
                        [](const Json& base) { return base.empty() ? "not given" : compact(base); });
 }
 
-/// The swept parameters of the rows, with their values.
+/// The parameters of the rows, each with all values that occur.
 std::vector<SweptField> swept_in(const Table& table) {
   std::map<std::string, std::set<Json>> values;
   for (const auto& row : table.rows) {

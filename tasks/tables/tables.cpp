@@ -28,7 +28,7 @@ Json to_json(const Estimate& estimate) {
   return json;
 }
 
-/// Writes the first group always, and other groups if they were measured.
+/// Writes all quantities of the first group, and those quantities of the other groups that have a value.
 void put_estimates(Json& json, const Estimates& estimates) {
   const auto quantities = all_quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -76,7 +76,7 @@ Json to_json(const GoalOutcome& outcome) {
   return json;
 }
 
-/// In degrees.
+/// Critical angles in degrees.
 Json critical_angle_record(const Mixture& solid) {
   const auto angles = critical_angles(solid);
   const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
