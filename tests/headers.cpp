@@ -1,1 +1,1 @@
-// Only the headers that most tests include; CMake precompiles them for all.
+// CMake precompiles the headers that most tests include, with this source.

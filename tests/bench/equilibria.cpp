@@ -29,7 +29,7 @@ namespace {
 
 constexpr double final_distance = 0.005, large_step = 0.35, small_step = 0.03;
 
-/// CPU seconds: independent of other programs, except through caches.
+/// CPU seconds of this process. Other programs affect them only through the caches.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double median(std::vector<double> values) {
@@ -48,7 +48,7 @@ Packing placed(SolidKind kind, int n, int seed, const JamOptions& options) {
   return random_packing(platonic(kind), n, options.compression.initial_density, random);
 }
 
-/// Costs of the steps of one kind, one entry per step.
+/// Costs of all steps of one kind.
 struct Costs {
   std::vector<double> factorisations, local, envelopes, overlaps, seconds;
   int failed = 0;
@@ -113,7 +113,7 @@ void compare(const Packing& state, bool with_newton, Comparison& found) {
   found.same += std::abs(followed.energy / summary.energy - 1) < 1e-6;
 }
 
-/// Expands with the default protocol to Δφ < 0.13 and further, and tries every state in between.
+/// Decompresses a packing with the default protocol, and measures both steps from every state with Δφ < 0.13.
 void states_of(SolidKind kind, int n, int seed, bool with_newton, Comparison& found) {
   JamOptions options;
   options.decompression.final_distance = final_distance;
@@ -189,7 +189,7 @@ void law(const std::vector<int>& sizes) {
   }
 }
 
-/// A number of particles or seeds; 0 if the text is not a number.
+/// The number in the text, or 0 if the text is not a number.
 int number(const std::string& text) {
   const int value = std::atoi(text.c_str());
   return std::to_string(value) == text ? value : 0;

@@ -1,7 +1,8 @@
-// Time of one pair: the contact loop on touching pairs, with and without second derivatives, compared with the slow
-// clip and the peers on the same pairs; on the pairs of packings, in their order; and the cached axis on pairs that
-// almost touch. Solids are placed beforehand for all methods, because a packing places them once per evaluation and not
-// once per pair. The volumes of a peer are compared before it is timed.
+// Measures the time to compute one pair. For touching pairs, it compares the contact loop, with and without second
+// derivatives, with clipping and with other programs (peers) that compute the same pairs. It also measures the pairs of
+// packings in their order, and the cached axis for pairs that almost touch. For all methods, the solids are placed
+// before the measurement, because a packing places them once per evaluation, not once per pair. Before a peer is timed,
+// its volumes are compared with ours.
 
 #include <benchmark/benchmark.h>
 
@@ -18,7 +19,7 @@
 namespace isojam::bench {
 namespace {
 
-/// Times `work(k)` over all pairs in turn, or over the first `pairs` of them if it is slow.
+/// Times `work(k)` for all pairs, or for the first `pairs` of them if it is slow.
 template <class Work>
 void time_pairs(benchmark::State& state, std::size_t pairs, const Work& work) {
   std::size_t k = 0;
@@ -28,7 +29,7 @@ void time_pairs(benchmark::State& state, std::size_t pairs, const Work& work) {
   }
 }
 
-/// A comparison is meaningful only if both compute the same.
+/// Checks that both methods compute the same volumes; otherwise a comparison of their times would be meaningless.
 template <class Volume>
 void require_equal_volumes(std::string_view peer, const PairSet& set, std::size_t pairs, double tolerance,
                            const Volume& volume) {

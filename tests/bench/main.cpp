@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Removes `--ratios FILE` and returns the file; empty if the option is absent.
+/// Removes `--ratios FILE` from the arguments and returns FILE. Returns an empty text if the option is missing.
 std::string take_ratios_path(std::vector<char*>& arguments) {
   const auto flag = std::find_if(arguments.begin(), arguments.end(),
                                  [](const char* text) { return std::strcmp(text, "--ratios") == 0; });
@@ -23,7 +23,7 @@ std::string take_ratios_path(std::vector<char*>& arguments) {
 }
 
 int run(int argc, char** argv) {
-  // Options of the command line come later and override these.
+  // The options of the command line follow these and override them.
   std::string defaults[] = {"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=9",
                             "--benchmark_min_time=0.03"};
   std::vector<char*> arguments{argv[0]};

@@ -1,5 +1,5 @@
-// Time to reach balanced forces, by method, after an affine strain step that ends at a given distance Δφ above jamming,
-// N = 100. Near jamming only one method converges; the others are stopped by their budget.
+// Time that each minimiser needs to balance the forces after an affine strain step with N = 100. The step ends at a
+// given Δφ. Near jamming only one method converges; the others stop at their largest number of evaluations.
 
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>
@@ -47,7 +47,7 @@ bool register_all() {
   for (const Case& which : cases) {
     add("minimise/newton/" + which.name, which, Method::newton, 1e-6, 5);
     add("minimise/newton_to_1e-9/" + which.name, which, Method::newton, 1e-9, 3);
-    // One repetition of the slow ones is enough: their accuracy does not matter.
+    // Repeat the slow minimisers only once, because their times need not be accurate.
     if (which.name == "tetrahedron_.01") continue;
     for (const Method method : {Method::lbfgs, Method::fire, Method::conjugate_gradient})
       add("minimise/" + std::string(to_string(method)) + "/" + which.name, which, method, 1e-6, 1);

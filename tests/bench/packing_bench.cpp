@@ -1,5 +1,5 @@
-// Benchmarks of one packing: evaluation on one core and on two, and as a function of N, with the memory used; Hessian;
-// factorisation compared with Eigen's SimplicialLDLT and CHOLMOD, and on two cores.
+// Benchmarks of one packing. Evaluation on one core, on two cores, and as a function of N, with the memory used.
+// Hessian. Factorisation compared with Eigen's SimplicialLDLT and CHOLMOD, and on two cores.
 
 #include <benchmark/benchmark.h>
 #include <malloc.h>
@@ -22,8 +22,8 @@ double bytes_in_use() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-/// Uses in turn as many packings as contain 10⁴ particles, so that branch predictors and caches learn as little about
-/// small packings as about large ones.
+/// Cycles through so many packings that they contain 10⁴ particles in total. Otherwise, branch predictors and caches
+/// would adapt to a small packing more than to a large one.
 class Turns {
  public:
   explicit Turns(int n) : packings_(relaxed(SolidKind::octahedron, n, 10000 / n)), energies_(packings_.size()) {}
@@ -39,8 +39,8 @@ class Turns {
   std::size_t turn_ = 0;
 };
 
-/// Evaluates packings that were evaluated before, one after the other. Memory is that of an evaluator, including the
-/// Hessian's working memory.
+/// Evaluates packings again that were evaluated before. The memory is that of one evaluator, including the working
+/// memory for the Hessian.
 void evaluate(benchmark::State& state, int n, std::size_t threads, Precision precision) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
   Turns turns(n);
@@ -72,7 +72,7 @@ void hessian(benchmark::State& state, int n) {
   }
 }
 
-/// A Hessian, and a shift that makes it safely positive definite.
+/// A Hessian, and a shift of its diagonal that makes it clearly positive definite.
 struct System {
   BlockMatrix matrix;
   double shift = 0;
@@ -89,12 +89,12 @@ void block_cholesky(benchmark::State& state, int n, std::size_t threads) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
   const System system = system_of(n);
   BlockCholesky factor;
-  bool done = factor.factorise(system.matrix, system.shift);  // the symbolic part, and memory
+  bool done = factor.factorise(system.matrix, system.shift);  // not timed: the symbolic part, and the allocation
   for (auto _ : state) done = factor.factorise(system.matrix, system.shift) && done;
   if (!done) state.SkipWithError("not positive definite");
 }
 
-/// Factorisation for a minimiser whose contacts open and close: it includes the symbolic part every time.
+/// Factorisation in a minimiser whose contacts open and close: the symbolic part is repeated every time.
 void block_cholesky_afresh(benchmark::State& state, int n) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   const System system = system_of(n);
@@ -103,7 +103,8 @@ void block_cholesky_afresh(benchmark::State& state, int n) {
   if (!done) state.SkipWithError("not positive definite");
 }
 
-/// The peer: approximate minimum degree, lower half, symbolic part kept; only the numerical part is timed.
+/// SimplicialLDLT with approximate minimum degree and the lower half of the matrix. Its symbolic part is kept, so only
+/// the numerical part is timed.
 void simplicial_ldlt(benchmark::State& state, int n) {
   const System system = system_of(n);
   const Eigen::SparseMatrix<double> matrix = lower_half(system.matrix, system.shift);
@@ -113,7 +114,7 @@ void simplicial_ldlt(benchmark::State& state, int n) {
   if (factor.info() != Eigen::Success) state.SkipWithError("failed");
 }
 
-/// Another peer, with its preferred order and its symbolic part kept; one core. The label states the BLAS.
+/// CHOLMOD with its preferred order, on one core. Its symbolic part is kept. The label states which BLAS it uses.
 void cholmod(benchmark::State& state, int n) {
   const System system = system_of(n);
   CholmodFactor factor(lower_half(system.matrix, system.shift));
@@ -169,7 +170,7 @@ bool register_all() {
     add("factorise/block_cholesky_afresh" + case_of(n), block_cholesky_afresh, n);
     add("factor_solve/block_cholesky" + case_of(n), block_cholesky_solve, n);
   }
-  // Wall-clock time: the ratio of the two is the gain by a second core.
+  // Wall-clock time, because the ratio of the times on one and two cores is the gain by the second core.
   for (const int n : {400, 1000, 4000}) {
     for (const std::size_t threads : {1, 2})
       add("factorise/" + std::to_string(threads) + (threads == 1 ? "_thread" : "_threads") + case_of(n), block_cholesky,

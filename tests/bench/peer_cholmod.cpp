@@ -45,7 +45,7 @@ CholmodFactor::~CholmodFactor() {
 }
 
 bool CholmodFactor::factorise() {
-  // CHOLMOD requests four threads from OpenMP, whatever number is set; this limits it.
+  // CHOLMOD requests four threads from OpenMP even if another number is set; this limits it to one.
   omp_set_max_active_levels(0);
   const int done = cholmod_factorize(&workspace_->matrix, workspace_->factor, &workspace_->common);
   return done != 0 && workspace_->common.status == CHOLMOD_OK;

@@ -14,7 +14,8 @@ struct VoroCells::Cells {
 
 namespace {
 
-/// Removes n·y > d. voro++ describes a plane by a point at twice its distance, p·y = |p|²/2.
+/// Removes the part with n·y > d. voro++ describes a plane by a point p with p·y = |p|²/2; p is at twice the distance
+/// of the plane.
 bool cut(voro::voronoicell_neighbor& cell, const Eigen::Vector3d& n, double d, int id) {
   return cell.nplane(n.x(), n.y(), n.z(), 2 * d, id);
 }

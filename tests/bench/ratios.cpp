@@ -48,11 +48,11 @@ void claim_scaling(std::vector<Claim>& claims) {
   claims.push_back({Kind::faster, "factorise/2_threads/N=1000", "factorise/1_thread/N=1000", 1.6});
   claims.push_back({Kind::faster, "factorise/2_threads/N=4000", "factorise/1_thread/N=4000", 0});
   claims.push_back({Kind::faster, "sweep/2_threads/N=40", "sweep/1_thread/N=40", 1.9});
-  // Linear in N: a particle costs the same in a packing ten or a hundred times as large, except for caches that are too
-  // small.
+  // Costs must grow linearly with N: a particle must cost the same in a packing that is ten or a hundred times as
+  // large. The factor 1.2 allows for caches that are too small.
   constexpr double linear = 1.2, particle_bytes = 5000;
   claims.push_back({Kind::absolute, "evaluate/1_thread/N=10000#bytes", "", particle_bytes, 10000});
-  // A first evaluation uses new memory, which takes the system time to provide.
+  // In the first evaluation, the system must provide new memory, which takes time.
   claims.push_back({Kind::costs, "evaluate/afresh/N=10000", "evaluate/afresh/N=1000", 0, 10000, 1000});
   for (const double n : {1000.0, 10000.0}) {
     const std::string many = "/N=" + std::to_string(static_cast<int>(n)), few = "/N=100";
@@ -72,7 +72,7 @@ void claim_minimisers(std::vector<Claim>& claims) {
     claims.push_back({Kind::absolute, "minimise/newton/" + name + "#residual", "", 1e-6});
     claims.push_back({Kind::absolute, "minimise/newton_to_1e-9/" + name + "#residual", "", 1e-9});
     if (name == far) continue;
-    // Cases where the other methods fail: their final residual, for comparison.
+    // Print the final residuals of the other methods, which fail in these cases.
     for (const char* const method : {"conjugate_gradient", "fire", "lbfgs"})
       claims.push_back({Kind::faster, "minimise/newton/" + name + "#residual",
                         std::string("minimise/") + method + "/" + name + "#residual", 10});

@@ -1,7 +1,7 @@
 // Properties tested here:
 // - The median of random lists is the middle of the sorted list, or the mean of the two in the middle.
-// - A claim holds exactly on one side of its bound, in either direction, after division by its units. A bound of 0
-//   requires nothing. A claim without measurements of both sides is ignored.
+// - A claim (a ratio of two measured quantities with a bound) holds on one side of its bound and fails on the other
+//   side. A bound of 0 requires nothing. A claim without measurements of both sides is ignored.
 // - A claim refers to two different quantities of one family, named `family/method/case`.
 
 #include "tests/bench/ratios.hpp"
@@ -46,7 +46,7 @@ TEST(RatiosTest, ClaimsHoldOnOneSideOfTheirBound) {
     EXPECT_TRUE(verdict({kind, "f/ours/x", "f/peer/x", 0}).holds);
 }
 
-TEST(RatiosTest, WhatWasNotMeasuredIsLeftOut) {
+TEST(RatiosTest, ClaimsWithoutMeasurementsAreIgnored) {
   const std::vector<Claim> claims{{Kind::faster, "f/ours/x", "f/peer/x", 5},
                                   {Kind::faster, "f/peer/x", "f/ours/x", 5},
                                   {Kind::absolute, "f/other/x", "", 5},

@@ -1,5 +1,5 @@
-// Time of whole replicates on one core, from φ = 0.05 to Δφ ≤ 0.004 (tetrahedra 0.01), and of both ends of the spectrum
-// of a packing in equilibrium.
+// Time of whole replicates on one core, from φ = 0.05 to Δφ ≤ 0.004 (0.01 for tetrahedra). Also the time to compute the
+// lowest and highest modes of a packing in equilibrium.
 
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>

@@ -8,7 +8,7 @@ namespace isojam::bench {
 
 namespace {
 
-/// First "model name" of /proc/cpuinfo.
+/// The first "model name" in /proc/cpuinfo.
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
@@ -26,7 +26,7 @@ std::string compiler() {
 #endif
 }
 
-/// Three significant digits, with a suitable unit.
+/// Text with three significant digits and a suitable unit.
 std::string readable(double value, bool is_time) {
   char text[32];
   if (!is_time) {
@@ -87,7 +87,7 @@ void MedianReporter::ReportRuns(const std::vector<Run>& runs) {
       continue;
     }
     const double unit = benchmark::GetTimeUnitMultiplier(run.time_unit) / 1e9;
-    // Benchmarks on one thread use their own CPU time, so that other processes hardly matter.
+    // Benchmarks on one thread report their own CPU time, so that other processes have little effect.
     const bool wall_clock = run.run_name.time_type == "real_time";
     samples_[name].push_back((wall_clock ? run.GetAdjustedRealTime() : run.GetAdjustedCPUTime()) / unit);
     if (!run.report_label.empty()) labels_[name] = run.report_label;

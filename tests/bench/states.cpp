@@ -39,7 +39,7 @@ const Packing& strained(SolidKind kind, int n, double distance) {
   PackingEnergy energy;
   while (true) {
     const Evaluation value = energy.evaluate(packing);
-    const double now = 6 * value.energy / n * packing.density() * packing.density() / value.pressure;  // E ∝ Δφ⁶
+    const double now = 6 * value.energy / n * packing.density() * packing.density() / value.pressure;  // by E ∝ Δφ⁶
     const double step = std::min(0.3 * now, now - distance);
     packing = strained_to(packing, packing.density() - step);
     if (step < 0.3 * now) break;

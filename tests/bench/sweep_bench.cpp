@@ -1,5 +1,5 @@
-// Throughput of a sweep of small replicates through the task graph, with records and checkpoints written, on one and on
-// two cores. Wall-clock time, because that is what a user waits for.
+// Throughput of a sweep of small replicates in the task graph, on one core and on two. Records and checkpoints are
+// written. The time is wall-clock time, because a user waits for it.
 
 #include <benchmark/benchmark.h>
 

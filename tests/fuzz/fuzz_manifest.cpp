@@ -1,4 +1,5 @@
-// Any text is either rejected with an InputError or is a manifest whose canonical form reads back as itself.
+// Property tested with arbitrary texts: a text is either rejected with an InputError, or it is a manifest whose
+// canonical form is read as the same manifest.
 
 #include <cstdint>
 #include <cstdlib>

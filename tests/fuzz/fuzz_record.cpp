@@ -1,5 +1,6 @@
-// Any document is either rejected with an InputError or gives a table. Checksums are tested on the raw text and skipped
-// for the rest, because a fuzzer would never find the checksum of its changes.
+// Property tested with arbitrary documents: a document is either rejected with an InputError, or it gives a table. The
+// checksum is tested only with the unchanged text. For all other tests it is skipped, because a fuzzer would never find
+// the checksum of a changed text.
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,10 +1,9 @@
 // Properties of evaluations in double-double tested here, with quadruple precision as reference:
-// - A few Newton steps bring jammed states, including those where double stops at 1e-8, to a residual of 1e-9 and far
-//   below. The same steps in plain double do not. The state loses this accuracy without the low parts of positions or
-//   of orientations.
-// - A residual differs from the true one by less than residual_floor, which is at most a few hundred times that
-//   difference.
-// - Energy and its differences are correct to energy_noise.
+// - A few Newton steps bring jammed states to a residual far below 1e-9. In plain double, the residual of some of these
+//   states remains above 1e-8. If the low parts of positions or orientations are removed, the accuracy is lost.
+// - The computed residual differs from the true one by less than residual_floor. residual_floor is at most a few
+//   hundred times this difference.
+// - The error of the energy, and of its differences, is at most energy_noise.
 // - The Hessian agrees with differences of the gradient in quadruple precision to 1e-9, far from jamming and near it.
 // - Energy, gradient, stress and Hessian of mixtures of shapes and sizes agree as well.
 
@@ -30,8 +29,8 @@ constexpr int particles = 40;
 
 double true_residual(const Packing& packing) { return static_cast<double>(evaluate_in_quad(packing).residual); }
 
-/// Octahedra compressed beyond jamming, then expanded towards it until E/N < `least_energy`, minimised after each
-/// strain step.
+/// States of octahedra, compressed beyond jamming and then decompressed until E/N < `least_energy`. Each state is
+/// minimised after its strain step.
 std::vector<Packing> jammed(double least_energy) {
   RandomStream random{70, 1};
   Packing packing = random_packing(platonic(SolidKind::octahedron), particles, .1, random);
@@ -52,14 +51,14 @@ std::vector<Packing> jammed(double least_energy) {
     const Evaluation here = energy.evaluate(packing);
     states.push_back(packing);
     if (here.energy < least_energy * particles) break;
-    // E ∝ Δφ⁶: the distance to jamming is 6E/(dE/dφ), dE/dφ = N p/φ².
+    // Δφ = 6E/(dE/dφ), because E ∝ Δφ⁶; dE/dφ = N p/φ².
     const double distance = 6 * here.energy * std::pow(packing.density(), 2) / (particles * here.pressure);
     packing = strained_to(packing, packing.density() - .35 * distance);
   }
   return states;
 }
 
-/// The state with the smallest evaluated residual within a few Newton steps.
+/// The state with the smallest residual among those of a few Newton steps.
 Packing polished(Packing packing, Precision precision) {
   PackingEnergy energy;
   Packing best = packing;
@@ -78,7 +77,7 @@ Packing polished(Packing packing, Precision precision) {
   return best;
 }
 
-/// From far above jamming to near it.
+/// States from far above jamming to near it.
 const std::vector<Packing>& states() {
   static const std::vector<Packing> made = jammed(5e-13);
   return made;
@@ -121,7 +120,7 @@ TEST(DoubleDoubleEnergy, FloorAndNoiseBoundTheErrors) {
   RandomStream random{70, 2};
   for (const Packing& start : states()) {
     const Packing rest = polished(start, Precision::double_double);
-    // The remaining residual is rounding. A floor far above it would be useless.
+    // The remaining residual consists of rounding errors. A floor far above it would be useless.
     EXPECT_GE(true_residual(rest), 1e-3 * PackingEnergy().evaluate(rest, Precision::double_double).residual_floor);
     for (const double kick : {0.0, 1e-16, 1e-13, 1e-10, 1e-7}) {
       const Packing packing = moved(rest, kick * random_direction(random));
@@ -129,7 +128,7 @@ TEST(DoubleDoubleEnergy, FloorAndNoiseBoundTheErrors) {
       const QuadEvaluation right = evaluate_in_quad(packing);
       EXPECT_EQ(here.contacts, right.contacts);
       EXPECT_LE(std::abs(static_cast<double>(Quad(here.energy) - right.energy)), here.energy_noise);
-      // For large residuals this is the rounding error of the residual itself.
+      // Rounding error of a large residual itself.
       const double error = std::abs(static_cast<double>(Quad(here.residual) - right.residual));
       EXPECT_LE(error, here.residual_floor + 1e-12 * here.residual)
           << "density " << start.density() << ", kick " << kick << ", residual " << here.residual;
@@ -137,7 +136,8 @@ TEST(DoubleDoubleEnergy, FloorAndNoiseBoundTheErrors) {
   }
 }
 
-/// The derivative of the gradient with respect to rotations, minus its symmetric part: ½ θ×T.
+/// The part of the derivative of the gradient that the symmetric Hessian does not contain, because rotations do not
+/// commute: ½ θ×T.
 VectorXd turned_gradient(const Packing& packing, const VectorXd& gradient, const VectorXd& direction) {
   VectorXd result = VectorXd::Zero(direction.size());
   for (int i = 0; i < packing.size(); ++i) {
@@ -157,7 +157,7 @@ TEST(DoubleDoubleEnergy, HessianIsTheDifferenceOfGradientsInQuadruplePrecision) 
     for (int k = 0; k < 4; ++k) {
       const VectorXd direction =
           k < 2 ? random_direction(random) : VectorXd::Unit(6 * particles, 6 * (7 * k) + 3 * (k % 2)).eval();
-      // Far below the depth of any contact, far above the rounding of the state.
+      // The step is far below the depth of any contact, and far above the rounding of the state.
       const VectorXd differences =
           difference_of_gradients(start, direction, 1e-17) - turned_gradient(start, gradient, direction);
       const double error = (hessian * direction - differences).norm() / differences.norm();
@@ -168,7 +168,7 @@ TEST(DoubleDoubleEnergy, HessianIsTheDifferenceOfGradientsInQuadruplePrecision) 
   std::printf("Hessian against differences in quadruple precision: largest relative error %.1e\n", worst);
 }
 
-/// Three shapes in four sizes, the largest seven times the smallest.
+/// A packing of three shapes in four sizes. The largest particle is seven times as large as the smallest.
 Packing mixed_packing() {
   RandomStream random{70, 5};
   std::vector<Particle> list;
@@ -185,7 +185,7 @@ Packing mixed_packing() {
   return random_packing(list, .8, random);
 }
 
-TEST(DoubleDoubleEnergy, OfMixturesIsThatOfQuadruplePrecision) {
+TEST(DoubleDoubleEnergy, MixturesAgreeWithQuadruplePrecision) {
   RandomStream random{70, 6};
   const Packing packing = mixed_packing();
   PackingEnergy energy;

@@ -1,6 +1,6 @@
-// Property tested here, by differences in quadruple precision, in cells of every shape, for all five solids and both
-// precisions: the gradient of the enthalpy with respect to particles and to every freedom of the cell, and border and
-// corner of its second derivatives, have relative errors of at most 1e-9.
+// Property tested here for all five solids, cells of every shape and both precisions. The references are differences in
+// quadruple precision. The gradient of the enthalpy with respect to the particles and to all components of the cell has
+// a relative error of at most 1e-9. So do those second derivatives of the enthalpy that involve the cell.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr int particles = 70;
 
-/// A random packing in a cell sheared and stretched at random that is still legal.
+/// A random packing in a cell that is sheared and stretched at random, but not too small.
 Packing skewed(SolidKind kind, std::uint64_t seed) {
   RandomStream random{81, seed, static_cast<std::uint64_t>(kind)};
   const Packing packing = random_packing(platonic(kind), particles, .55, random);
@@ -55,7 +55,7 @@ Case a_case(SolidKind kind, CellFreedom cell, std::uint64_t seed) {
   return {packing, Enthalpy(control, packing.cell), along};
 }
 
-/// H in quadruple precision.
+/// The enthalpy H in quadruple precision.
 Quad quad_enthalpy(const Case& at, const Packing& packing) {
   const Quad volume = widened(packing.cell.volume_double_double());
   return evaluate_in_quad(packing).energy + Quad(at.enthalpy.control().pressure) * volume;
@@ -66,9 +66,9 @@ std::vector<Quad> quad_gradient(const Case& at, const Packing& packing) {
   return gradient_of(evaluate_in_quad(packing), packing, at.enthalpy.control());
 }
 
-/// Terms of the derivative of the gradient along moved() that the Hessian does not contain: ½ θ×T, because rotations do
-/// not commute, and for the strains the work of forces and antisymmetric stress along the step. All of them vanish in
-/// equilibrium.
+/// Terms of the derivative of the gradient along moved() that the Hessian does not contain. For rotations it is ½ θ×T,
+/// because rotations do not commute. For strains it is the work of forces and of the antisymmetric stress during the
+/// step. All these terms vanish in equilibrium.
 VectorXd out_of_balance(const Case& at, const Evaluation& here) {
   const Packing& packing = at.packing;
   VectorXd result = VectorXd::Zero(at.along.size());

@@ -28,10 +28,10 @@ using Mesh = CGAL::Surface_mesh<Point>;
 struct Body {
   ExactSolid solid;
   std::vector<Point> vertices;
-  std::vector<Plane> planes;  ///< positive side: outside
+  std::vector<Plane> planes;  ///< the positive side of each plane is outside
 };
 
-/// Planes of A and of B that contain a point.
+/// The planes of A and of B that contain a point.
 struct Incidence {
   std::uint32_t a = 0, b = 0;
 };
@@ -49,7 +49,7 @@ Body make_body(ExactSolid solid) {
   return body;
 }
 
-/// Planes of `body` that contain the point; nullopt if it is outside.
+/// The planes of `body` that contain the point; nullopt if the point is outside.
 std::optional<std::uint32_t> incident_planes(const Body& body, const Point& point) {
   std::uint32_t incident = 0;
   for (std::size_t i = 0; i < body.planes.size(); ++i) {
@@ -61,13 +61,13 @@ std::optional<std::uint32_t> incident_planes(const Body& body, const Point& poin
 }
 
 void add(Candidates& candidates, const Point& point, const Incidence& incidence) {
-  CGAL::exact(point);  // a tight interval now saves exact evaluations in later predicates
+  CGAL::exact(point);  // exact coordinates now make later predicates faster
   Incidence& known = candidates[point];
   known.a |= incidence.a;
   known.b |= incidence.b;
 }
 
-/// Vertices of `inner` inside `other`, and points where its edges cross the faces of `other`.
+/// Adds the vertices of `inner` that are inside `other`, and the points where its edges cross the faces of `other`.
 void add_features(Candidates& candidates, const Body& inner, const Body& other, bool inner_is_a) {
   const auto put = [&](const Point& point, std::uint32_t own, std::uint32_t others) {
     add(candidates, point, inner_is_a ? Incidence{own, others} : Incidence{others, own});
@@ -95,7 +95,8 @@ void add_features(Candidates& candidates, const Body& inner, const Body& other, 
   }
 }
 
-/// 3 for a body, 2 for a polygon, 1 or 0 below that, −1 for none.
+/// Dimension of the hull of the points: 3 for a solid, 2 for a polygon, 1 for a segment, 0 for a point, and −1 if there
+/// is none.
 int affine_dimension(const Candidates& candidates) {
   std::vector<Point> basis;
   for (const auto& [point, incidence] : candidates) {
@@ -147,7 +148,7 @@ class HullSums {
   }
 
  private:
-  using Heights = Eigen::MatrixXd;  ///< row: plane of a body, column: corner of the hull; negative inside
+  using Heights = Eigen::MatrixXd;  ///< height of a corner of the hull (column) over a plane (row)
 
   std::array<std::size_t, 3> corners_of(Mesh::Face_index f) const {
     const Mesh::Halfedge_index h = hull_.halfedge(f);
@@ -195,7 +196,8 @@ class HullSums {
     return result;
   }
 
-  /// Area of the part of a triangle of one body that is within `shift` of a face plane of the other.
+  /// Upper bound for the area of those parts of a triangle of one body that are within `shift` of a face plane of the
+  /// other.
   double contested_area(Mesh::Face_index f, const Heights& heights, double shift) const {
     const auto [i, j, k] = corners_of(f);
     const RealVector &p = corners_[i], &q = corners_[j], &r = corners_[k];
@@ -204,8 +206,8 @@ class HullSums {
     for (int plane = 0; plane < heights.rows(); ++plane) {
       const double nearest = -std::max({heights(plane, i), heights(plane, j), heights(plane, k)});
       const double farthest = -std::min({heights(plane, i), heights(plane, j), heights(plane, k)});
-      // The height is linear: in a triangle that reaches the plane, at most the fraction 2 shift/farthest is that near
-      // to it.
+      // The height over the plane is linear. In a triangle that reaches the plane, at most the fraction 2
+      // shift/farthest is within `shift`.
       if (nearest <= shift) contested += farthest <= 2 * shift ? area : area * 2 * shift / farthest;
     }
     return contested;
@@ -215,7 +217,7 @@ class HullSums {
   const Body& a_;
   const Body& b_;
   std::vector<RealVector> corners_;
-  std::vector<Incidence> faces_;  ///< the planes that contain a whole triangle
+  std::vector<Incidence> faces_;  ///< the planes that contain the whole triangle
 };
 
 RationalVector rational_displacement(const ExactPose& pose) {

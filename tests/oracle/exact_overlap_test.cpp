@@ -1,11 +1,12 @@
-// Properties of the oracle alone tested here (no algorithm of the engine is run):
+// Properties tested here of the exact reference itself, without the engine:
 // - The five solids have unit volume to 1e-55, alone and coincident in every exact symmetry.
 // - Cubes, tetrahedra and wedges agree with the closed forms of V, S and M to 1e-50.
-// - V increases as the third power of the depth near first contact in a random orientation.
+// - Near the first contact of two solids in random orientations, V grows as the third power of the depth.
 // - V from the hull equals V from successive cuts, in every class of pairs, including degenerate ones.
 // - Exchanging the solids gives the same V, −S, and −M + r×S.
 // - S = ∂V/∂x_A and M = ∂V/∂θ_A by central differences of V with steps of 1e-12.
-// - Shared faces are reported as not single-valued, clean contacts as single-valued.
+// - If two faces lie in one plane, the gradient of V has no single value, and this is reported. For other contacts it
+//   is single-valued.
 // - Disjoint and touching pairs have V = 0.
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ double relative(const RealVector& found, const RealVector& right) {
   return static_cast<double>(Real((found - right).norm() / right.norm()));
 }
 
-/// The pose of B seen from A after rotating A by q about its own centre.
+/// The pose of B relative to A after A was rotated by q about its own centre.
 ExactPose a_turned(const ExactPose& pose, const RealQuaternion& q) {
   const ExactPose frame = inverse({q, RealVector(-pose.displacement)});
   return {RealQuaternion(frame.quaternion * pose.quaternion), frame.displacement};
@@ -67,7 +68,7 @@ TEST(ExactOverlap, CornersOfCubesHaveTheirClosedForm) {
 
 TEST(ExactOverlap, VertexInAFaceOfATetrahedronHasItsClosedForm) {
   const Real edge = cbrt(6 * sqrt(Real(2)));
-  const Real height = edge * sqrt(Real(2) / 3);  // B above a vertex of A, equally oriented: a small tetrahedron is cut
+  const Real height = edge * sqrt(Real(2) / 3);  // B above a vertex of A: the overlap is a tetrahedron
   for (const double depth : {1e-12, 1e-6, .01, .3}) {
     const Real step = (height - depth) / sqrt(Real(3));
     const ExactOverlap overlap =
@@ -86,8 +87,8 @@ TEST(ExactOverlap, WedgeInAFaceGrowsAsTheSquareOfTheDepth) {
     const ExactOverlap overlap = exact_overlap(SolidKind::cube, SolidKind::cube, pose);
     const Real expected = Real(25) / 24 * depth * depth;
     EXPECT_LT(relative(overlap.volume, expected), 1e-40) << depth;
-    // The tops and bottoms of the two cubes are coplanar: their contributions to S cancel by symmetry, but belong to
-    // neither.
+    // The tops and bottoms of the two cubes are coplanar. Their contributions to S cancel by symmetry, but each could be
+    // counted for either cube.
     EXPECT_FALSE(overlap.single_valued);
     const ExactOverlap lifted =
         exact_overlap(SolidKind::cube, SolidKind::cube, {q, pose.displacement + RealVector(0, 0, .25)});

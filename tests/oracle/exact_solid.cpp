@@ -8,10 +8,10 @@ namespace isojam::oracle {
 
 namespace {
 
-/// Nearest multiple of 2^-200 (error below 1e-60). Short numbers keep exact arithmetic fast.
+/// The nearest multiple of 2^-200, with an error below 1e-60. Exact arithmetic is faster with short numbers.
 Rational shortened(const Real& value) { return to_rational(ldexp(round(ldexp(value, 200)), -200)); }
 
-/// (x, y, z) with every combination of signs; a zero gets only one sign.
+/// Adds (±x, ±y, ±z) with every combination of signs. A coordinate that is zero gets only one sign.
 void add_signs(std::vector<RationalVector>& points, const RationalVector& p) {
   for (int signs = 0; signs < 8; ++signs) {
     RationalVector v = p;
@@ -36,9 +36,9 @@ struct ClosedForm {
   Real volume;
 };
 
-/// Textbook coordinates and volume. The golden ratio g is a rational approximation, and yet all faces are planar:
-/// triangles and squares are so for any g, and (±1,±1,±1), (0, ±(1−h²), ±(1+h)) has planar pentagons for every h = g −
-/// 1.
+/// Coordinates and volume as in textbooks. The golden ratio g is replaced by a rational approximation. All faces are
+/// still exactly planar: triangles and squares are planar for any g, and the pentagons of (±1, ±1, ±1), (0, ±(1−h²),
+/// ±(1+h)) are planar for every h = g − 1.
 ClosedForm closed_form(SolidKind kind) {
   const Real root5 = sqrt(Real(5));
   const Real g = (1 + root5) / 2;
@@ -72,7 +72,7 @@ ClosedForm closed_form(SolidKind kind) {
   return form;
 }
 
-/// The exact vertex next to each vertex of the engine, so that both have the same indices of features.
+/// The exact vertices in the order of the engine's vertices, so that features have the same indices.
 std::vector<RationalVector> snapped(SolidKind kind, const std::vector<RationalVector>& exact) {
   const std::vector<Eigen::Vector3d>& given = platonic(kind).vertices();
   if (given.size() != exact.size()) throw std::logic_error("vertex count of " + std::string(to_string(kind)));

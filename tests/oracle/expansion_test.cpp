@@ -1,6 +1,6 @@
-// Property tested here, for whole replicates of N = 100, compressed, jammed and expanded to Δφ ≤ 0.004 (tetrahedra
-// 0.01): with a requested residual of 1e-9, every kept state is an equilibrium to 1e-9, by an evaluation of the stored
-// state in quadruple precision. The table is printed to standard output.
+// Property tested here for whole replicates with N = 100, compressed, and decompressed to Δφ ≤ 0.004 (0.01 for
+// tetrahedra). If a residual of 1e-9 is requested, every stored state has a residual of at most 1e-9 in quadruple
+// precision. A table of the residuals is printed to standard output.
 
 #include <gtest/gtest.h>
 

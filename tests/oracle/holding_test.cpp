@@ -1,13 +1,13 @@
-// Properties of the stiffness of jammed octahedra, tetrahedra and icosahedra tested here, with quadruple precision as
+// Properties tested here for the stiffness of jammed octahedra, tetrahedra and icosahedra, with quadruple precision as
 // reference:
 // - The contributions to the energy of random motions, of the softest modes and of floppy motions sum to uᵀ(∂²E)u. The
-//   reference is differences of gradients, to 1e-7 of that energy and to the rounding of the second terms; the Hessian
-//   in double is far off there. The contribution of the normals is ½ Σ (∇V·u)², even if only the rounding of u is left
-//   of it.
-// - Rows of normals are ∇V/|∇V|, rows of tilt span the rotations of edge and face, and the force residual is as
-//   reported.
-// - Both kinds of rows have the rank and the states of self-stress that Gaussian elimination with complete pivoting
-//   finds. Nonzero pivots are far above the others.
+//   error is at most 1e-7 of this energy plus the rounding error of the second terms; the Hessian in double has much
+//   larger errors. The reference is differences of gradients. The contribution of the normals is ½ Σ (∇V·u)², even if
+//   it is as small as the rounding of u causes.
+// - The rows of normals are ∇V/|∇V|. The rows of tilts span the rotations that the edge or face opposes. The reported
+//   force residual is correct.
+// - The matrix of normals, and the matrix of normals and tilts, have the rank and the number of states of self-stress
+//   that Gaussian elimination with complete pivoting finds. The pivots that count as nonzero are far above the others.
 
 #include <gtest/gtest.h>
 
@@ -39,12 +39,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-/// Fraction of the rounding bound that is likely to be reached.
+/// Fraction of the rounding bound that the errors are expected to reach.
 constexpr double likely = .25;
 
 Quad size_of(Quad x) { return x < 0 ? -x : x; }
 
-/// One contact: V, |S|, and ∇V with respect to {x_A, R·θ_A, x_B, R·θ_B}, lab frame.
+/// A contact: V, |S|, and ∇V with respect to {x_A, R·θ_A, x_B, R·θ_B} in the lab frame.
 struct QuadContact {
   Quad volume = 0, area = 0;
   double rounding = 0;  ///< ρ of Evaluation::residual_floor: relative error of V and ∇V in double
@@ -63,7 +63,7 @@ QuadContact in_quad(const Packing& packing, const NeighbourPair& pair) {
   const QuadOverlap overlap = clipped_overlap(packing.solids[pair.a], packing.solids[pair.b], relative_pose(a, b, r));
   const QuadMatrix q = quad_rotation(a);
   const Quad3 area = q * overlap.area, turn_a = q * overlap.moment;
-  // V does not change if the pair rotates as a whole about A's centre.
+  // V does not change if both particles rotate together about the centre of A.
   const Quad3 turn_b = cross(r, area) - turn_a;
   const Quad radius_a = packing.solids[pair.a].gyration_radius(), radius_b = packing.solids[pair.b].gyration_radius();
   QuadContact contact{overlap.volume, norm(area), 0, {}};
@@ -79,7 +79,7 @@ QuadContact in_quad(const Packing& packing, const NeighbourPair& pair) {
   return contact;
 }
 
-/// A jammed state with all results of the engine for it.
+/// A jammed state with all results of the engine that are tested.
 struct Held {
   Held(std::string its_name, const JamResult& jam)
       : name(std::move(its_name)),
@@ -95,7 +95,7 @@ struct Held {
     }
   }
 
-  /// Three of the motions that no normal opposes.
+  /// Three motions that no normal opposes.
   MatrixXd some_floppy() const {
     const MatrixXd all = right_singular(MatrixXd(normals.rows)).vectors.rightCols(analyse_rigidity(normals).floppy);
     MatrixXd some(all.rows(), 3);
@@ -114,7 +114,7 @@ struct Held {
   double least_depth = std::numeric_limits<double>::infinity();
 };
 
-/// Three solids, and one of them nearer to jamming.
+/// Jammed states of three solids. One of the solids has a second state nearer to jamming.
 const std::vector<Held>& states() {
   static const std::vector<Held> made = [] {
     std::vector<Held> list;
@@ -127,7 +127,7 @@ const std::vector<Held>& states() {
   return made;
 }
 
-/// ½ Σ (∇V·u)², and its rounding error.
+/// ½ Σ (∇V·u)², and the rounding error of this sum.
 std::pair<Quad, Quad> normal_energy(const Held& held, const VectorXd& u) {
   Quad energy = 0, rounding = 0;
   for (std::size_t c = 0; c < held.contacts.size(); ++c) {
@@ -156,14 +156,15 @@ double second_rounding(const Held& held, const VectorXd& u) {
   return eps * sum;
 }
 
-/// Largest errors: of the total, and relative to the rounding errors of the total and of the normals.
+/// The largest errors: of the sum of all contributions, and of this sum and of the normals relative to their rounding
+/// errors.
 struct Worst {
   double total = 0, of_rounding = 0, normal_of_rounding = 0;
 };
 
 void check_shares(const Held& held, const VectorXd& u, Worst& worst) {
   const auto shares = stiffness_shares(held.contacts, held.pairs, 10, u);
-  // Far below every depth: the next order contributes the square of that.
+  // The step is far below the depth of every contact; the next order contributes the square of this ratio.
   const double step = 1e-8 * held.least_depth / u.cwiseAbs().maxCoeff();
   const double whole = u.dot(difference_of_gradients(held.packing, u, step));
   const auto [normal, rounding] = normal_energy(held, u);
@@ -177,7 +178,7 @@ void check_shares(const Held& held, const VectorXd& u, Worst& worst) {
   worst.normal_of_rounding = std::max(worst.normal_of_rounding, normal_off);
 }
 
-/// Two random motions, and the three softest modes for which the Hessian is accurate to some digits.
+/// Two random motions, and the three softest modes whose energy the Hessian gives to some digits.
 MatrixXd some_motions(const Held& held, RandomStream& random) {
   const ModeSet modes = dense_modes(held.hessian);
   const double known = 1e3 * eps * modes.eigenvalues.tail(1)[0];
@@ -189,7 +190,7 @@ MatrixXd some_motions(const Held& held, RandomStream& random) {
   return motions;
 }
 
-TEST(HoldingTest, SharesAddUpToTheEnergyOfAMotion) {
+TEST(HoldingTest, ContributionsSumToTheEnergyOfAMotion) {
   RandomStream random{71, 1};
   for (const Held& held : states()) {
     SCOPED_TRACE(held.name);
@@ -218,7 +219,7 @@ QuadRow unit_row(const Packing& packing, const NeighbourPair& pair, const std::a
   return row;
 }
 
-/// The rotation of A minus that of B about an axis in the lab frame.
+/// The rotation of A minus that of B, about an axis in the lab frame.
 QuadRow tilt_row(const Packing& packing, const NeighbourPair& pair, const Quad3& axis) {
   const Quad radius_a = packing.solids[pair.a].gyration_radius(), radius_b = packing.solids[pair.b].gyration_radius();
   std::array<Quad, 12> entries{};
@@ -226,8 +227,8 @@ QuadRow tilt_row(const Packing& packing, const NeighbourPair& pair, const Quad3&
   return unit_row(packing, pair, entries);
 }
 
-/// Axes of the rotations that a contact of that class opposes: two in the plane of the faces; edge × normal of the
-/// face.
+/// Axes of the rotations that a contact of this class opposes. Face-face contacts have two in the plane of the faces,
+/// and edge-face contacts have one: edge × normal of the face.
 std::vector<Quad3> tilt_axes(const Packing& packing, const NeighbourPair& pair, const Alignment& angle,
                              ContactClass its_class) {
   if (its_class == ContactClass::lower_order) return {};
@@ -245,7 +246,7 @@ std::vector<Quad3> tilt_axes(const Packing& packing, const NeighbourPair& pair, 
                 (angle.edge_of_a ? to_lab_b : to_lab_a) * of_face.normal(angle.face))};
 }
 
-/// |pivots| of Gaussian elimination with complete pivoting, descending.
+/// Absolute values of the pivots of Gaussian elimination with complete pivoting, in descending order.
 std::vector<double> pivots_of(std::vector<QuadRow> rows) {
   std::vector<double> pivots;
   while (!rows.empty()) {
@@ -276,7 +277,7 @@ std::vector<double> pivots_of(std::vector<QuadRow> rows) {
   return pivots;
 }
 
-/// The rows of a state, and the contact of each.
+/// All rows of a state, and the contact to which each row belongs.
 struct QuadRows {
   QuadRows(const Held& held, const std::vector<Alignment>& angles, const std::vector<ContactClass>& classes) {
     std::vector<Quad> unbalanced(6 * held.packing.poses.size());
@@ -305,7 +306,7 @@ struct QuadRows {
   }
 
   std::vector<QuadRow> rows;
-  std::vector<Index> first;  ///< first row of every contact, and the number of rows
+  std::vector<Index> first;  ///< first row of every contact, and the number of all rows
   double imbalance = 0;
 };
 
@@ -317,7 +318,7 @@ void check_rows(const Held& held, const RigidityMatrix& matrix, const QuadRows& 
     const Index row = exact.first[c], tilts = exact.first[c + 1] - row - 1;
     const double off = (found.row(row) - right.row(row)).norm();
     worst_normal = std::max(worst_normal, off / held.exact[c].rounding);
-    // Any two axes in the plane are equivalent.
+    // The two axes in the plane can be any; only their span is compared.
     const auto of_found = found.middleRows(row + 1, tilts), of_right = right.middleRows(row + 1, tilts);
     worst_tilt = std::max(worst_tilt, (of_found.transpose() * of_found - of_right.transpose() * of_right).norm());
   }
@@ -329,7 +330,7 @@ void check_rows(const Held& held, const RigidityMatrix& matrix, const QuadRows& 
 void check_rank(const char* what, const Held& held, const RigidityMatrix& matrix, const QuadRows& exact) {
   check_rows(held, matrix, exact);
   const Rigidity rigidity = analyse_rigidity(matrix);
-  // The forces are a state of self-stress apart from the force residual.
+  // The contact forces are a state of self-stress, except for the force residual.
   EXPECT_NEAR(matrix.imbalance, exact.imbalance, .01 * exact.imbalance);
   const double zero = RigidityOptions{}.margin * exact.imbalance;
   const std::vector<double> pivots = pivots_of(exact.rows);

@@ -2,16 +2,16 @@
 // pairs:
 // - For random contacts with V/V_p in 1e-5..3e-2 the relative error of V has a median of at most 1e-14 and a maximum of
 //   5e-12.
-// - For near-parallel faces, edges in faces, parallel edges and vertex on vertex it is at most 1e-10.
+// - For near-parallel faces, edges in faces, parallel edges and vertices on vertices, the relative error of V is at
+//   most 1e-10.
 // - For equal orientation, coplanar faces, coincidence and near-coincidence the error of V is at most 1e-6.
-// - The errors of S and M are at most 1e-10 in every contact, and elsewhere if a pose in double determines them to that
-//   accuracy.
+// - The errors of S and M are at most 1e-10 for all these contacts. For the other pairs this holds if a pose in double
+//   determines S and M to this accuracy.
 // - clipped_overlap() meets the same limits, although overlap() would not use it for most of these pairs.
 // - The masks of faces and edges of random contacts are exact.
 // - Pairs of different solids meet the same limits.
 // - The checks reject a volume with an error of 1e-9, a force or torque with the opposite sign, a torque about another
-//   centre, and NaN.
-// A table of errors and of the path used is printed to standard output.
+//   centre, and NaN. A table of errors and of the path used is printed to standard output.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ double greatest(const std::vector<double>& values) {
 /// Results for one class of pairs.
 struct Survey {
   std::vector<double> volume, area,
-      moment;  ///< relative errors; S and M only if the pose determines them to the tolerance
+      moment;  ///< relative errors; of S and M only if the pose determines them accurately enough
   int loop = 0, clip = 0, separated = 0;
 };
 
@@ -141,7 +141,7 @@ TEST(OverlapAccuracyMixed, DifferentSolidsAgreeWithExactArithmetic) {
   }
 }
 
-/// Incorrect results, each typical of an error in the algorithm.
+/// Incorrect results, each typical of an error in an algorithm.
 TEST(OverlapChecks, RejectWrongAnswers) {
   for (const SolidKind kind : all_solids) {
     for (const PairCase& pair : pair_cases(kind, kind, PairClass::random_contact, 20)) {

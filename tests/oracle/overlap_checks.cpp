@@ -62,7 +62,7 @@ std::string disagreement(const Overlap& measured, const ExactOverlap& exact, Sol
   const double gradient = gradient_limit(exact, a, tolerance);
   std::ostringstream wrong;
   wrong << std::setprecision(17);
-  // Written so that a NaN is a disagreement.
+  // written so that a NaN counts as a disagreement
   const bool volume_ok =
       error.volume <= tolerance.volume || abs(Real(measured.volume - exact.volume)) <= tolerance.volume_floor;
   if (!volume_ok) {

@@ -1,8 +1,8 @@
 // Properties tested here, for the pairs used by the accuracy tests:
-// - They depend only on their arguments, and no two of a class are equal, except coincident pairs.
+// - They depend only on the arguments of pair_cases(). All pairs of a class are different, except coincident pairs.
 // - Contacts have V/V_p in 1e-5..3e-2, spread over that range.
-// - Each class has the geometry in its name: tilts, parallel edges, facing vertices, symmetric orientations,
-//   displacements in a face plane or of 1e-16..1e-8.
+// - Each class has the geometry in its name: small tilts, parallel edges, vertices that face each other, symmetric
+//   orientations, displacements parallel to a face, or displacements of 1e-16..1e-8.
 // - Quaternions of random contacts are not normalised.
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// The error of directions of unit vectors is a few ulp.
+/// Allowed error of the directions of unit vectors, which is a few ulp.
 constexpr double direction_error = 32 * std::numeric_limits<double>::epsilon();
 
 constexpr std::array contact_classes{PairClass::random_contact, PairClass::near_parallel_faces, PairClass::edge_in_face,
@@ -69,7 +69,8 @@ double edge_angle(const PairCase& pair) {
   return least;
 }
 
-/// Smallest sine of the angle of the displacement with a vertex of A and, reversed, with one of B.
+/// Smallest sine of the angle between the displacement and a vertex of A, or between the reversed displacement and a
+/// vertex of B, whichever is larger.
 double vertex_angle(const PairCase& pair) {
   const auto least = [](const ConvexSolid& solid, const Vector3d& direction) {
     double sine = 1;
@@ -82,7 +83,7 @@ double vertex_angle(const PairCase& pair) {
   return std::max(least(platonic(pair.a), pair.displacement), least(platonic(pair.b), from_b));
 }
 
-/// Largest distance of a rotated vertex of B from the nearest vertex of A: 0 for a symmetry.
+/// Largest distance of a rotated vertex of B from the nearest vertex of A; 0 if the rotation is a symmetry.
 double asymmetry(const PairCase& pair) {
   const Matrix3d turn = rotation(pair);
   double greatest = 0;
@@ -94,14 +95,14 @@ double asymmetry(const PairCase& pair) {
   return greatest;
 }
 
-/// Smallest height of the displacement over a plane parallel to a face.
+/// Smallest distance of the displacement from a plane through the origin that is parallel to a face.
 double out_of_plane(const PairCase& pair) {
   double least = std::numeric_limits<double>::infinity();
   for (const Face& f : platonic(pair.a).faces()) least = std::min(least, std::abs(f.normal.dot(pair.displacement)));
   return least;
 }
 
-TEST(PairCases, AreAFunctionOfTheirArguments) {
+TEST(PairCases, DependOnlyOnTheArguments) {
   for (const SolidKind kind : all_solids) {
     for (const PairClass pair_class : all_pair_classes) {
       const auto first = pair_cases(kind, kind, pair_class, 6), again = pair_cases(kind, kind, pair_class, 5);

@@ -40,7 +40,7 @@ QuadEvaluation evaluate_in_quad(const Packing& packing) {
     sum.force[pair.a] = sum.force[pair.a] + force;
     sum.force[pair.b] = sum.force[pair.b] - force;
     sum.torque[pair.a] = sum.torque[pair.a] + torque;
-    // The same line of action relative to B's centre.
+    // Torque of the same force about the centre of B.
     sum.torque[pair.b] = sum.torque[pair.b] - torque + cross(r, force);
     for (int c = 0; c < 3; ++c) sum.virial[c] = sum.virial[c] + force[c] * r;
     sum.mean_force += norm(force);

@@ -1,6 +1,6 @@
-// Properties tested here, for the evaluation in quadruple precision, which is the reference of all others:
+// Properties tested here, for the evaluation in quadruple precision, which is the reference for the engine:
 // - Forces and torques are the derivatives of its energy, by central differences, to 1e-12.
-// - Forces sum to zero to the last bits of quadruple precision.
+// - The sum of all forces is zero within the rounding of quadruple precision.
 // - It agrees with PackingEnergy where double is accurate enough, contact by contact.
 
 #include "tests/oracle/quad_packing.hpp"
@@ -41,7 +41,7 @@ TEST_P(QuadPacking, ForcesAreTheSlopesOfTheEnergy) {
   RandomStream random{63, 2};
   for (int k = 0; k < 3; ++k) {
     const VectorXd direction = random_direction(random);
-    // Truncation is proportional to h², rounding to 1e-33/h.
+    // The truncation error is proportional to h², the rounding error to 1e-33/h.
     const double h = 1e-10;
     const Quad rise = evaluate_in_quad(moved(packing, h * direction)).energy -
                       evaluate_in_quad(moved(packing, -h * direction)).energy;

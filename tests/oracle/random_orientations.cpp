@@ -25,7 +25,7 @@ Vector3d along(const ConvexSolid& solid, const Edge& edge) {
   return (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
 }
 
-/// Smallest elevation of the edges that meet in the outermost vertex.
+/// Smallest elevation over the plane normal to `direction` of the edges that meet in the outermost vertex.
 double least_elevation(const ConvexSolid& solid, const Vector3d& direction) {
   const auto& vertices = solid.vertices();
   const auto outermost = std::max_element(vertices.begin(), vertices.end(), [&](const Vector3d& u, const Vector3d& v) {

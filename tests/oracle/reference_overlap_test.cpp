@@ -1,5 +1,5 @@
-// Property tested here: volumes and area vectors in 50 digits agree with exact rational arithmetic, for pairs whose
-// faces do not coincide.
+// Property tested here: volumes and vector areas computed with 50 digits agree with exact rational arithmetic, for
+// pairs without coinciding faces.
 
 #include "tasks/extras/chart/pairs/reference_overlap.hpp"
 
@@ -15,7 +15,7 @@
 namespace isojam::oracle {
 namespace {
 
-TEST(ReferenceOverlap, IsThatOfRationalArithmetic) {
+TEST(ReferenceOverlap, AgreesWithRationalArithmetic) {
   double worst = 0;
   for (const SolidKind solid : {SolidKind::tetrahedron, SolidKind::dodecahedron}) {
     for (const PairClass pair_class :

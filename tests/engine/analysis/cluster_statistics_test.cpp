@@ -1,8 +1,9 @@
 // Properties tested here, for clusters with exactly known results:
-// 1. S, l_max and the longest cluster follow from sizes and extents.
-// 2. D is 1 for straight chains, near 2 for sheets, near 3 for blocks, and near the closed form for a self-similar
-//    cluster.
-// 3. Rings through the boundary, small clusters and coincident particles have no D, and the verdict states why.
+// 1. S, l_max and the longest cluster are correct for clusters with given sizes and extents.
+// 2. The fractal dimension D is 1 for straight chains, near 2 for sheets, near 3 for blocks, and near the exact value
+//    for a self-similar cluster.
+// 3. Rings through the periodic boundary, small clusters and coincident particles have no D. The verdict states the
+//    reason.
 
 #include "engine/analysis/cluster_statistics.hpp"
 
@@ -26,7 +27,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 
 TEST(ClusterStatistics, FollowFromSizesAndExtents) {
-  // Chains of 5, 3 and 1 along y, and optionally a ring of 2 through the boundary along x.
+  // Chains of 5, 3 and 1 particles along y, and optionally a ring of 2 particles through the boundary along x.
   for (const bool ring : {false, true}) {
     std::vector<Vector3d> centres = row(11, 1);
     Structure structure = at(20, centres);
@@ -69,8 +70,9 @@ TEST(FractalDimension, OfSheetsAndBlocks) {
   EXPECT_NEAR(cube.D, 3, 0.15);
 }
 
-/// Vicsek's cross in three dimensions: at each level seven copies of itself in a block of side 3, D = log 7/log 3.
-TEST(FractalDimension, OfASelfSimilarClusterIsItsClosedForm) {
+/// Vicsek's cross in three dimensions. At each level, it consists of seven copies of itself in a block with side 3, so
+/// D = log 7/log 3.
+TEST(FractalDimension, OfASelfSimilarClusterIsExact) {
   std::vector<Vector3d> centres{Vector3d::Zero()};
   for (int level = 0, width = 1; level < 3; ++level, width *= 3) {
     const std::vector<Vector3d> copy = centres;
@@ -95,7 +97,7 @@ TEST(FractalDimension, OfASelfSimilarClusterIsItsClosedForm) {
   EXPECT_NEAR(dimension.D, std::log(7) / std::log(3), 0.1);
 }
 
-TEST(FractalDimension, IsNotDefinedForSmallOrSizelessClusters) {
+TEST(FractalDimension, IsUndefinedForSmallOrCoincidentClusters) {
   EXPECT_EQ(FractalDimension().verdict, DimensionVerdict::not_called);
   for (const int n : {1, 2, 3}) {
     Structure chain = at(20, row(n, 0));

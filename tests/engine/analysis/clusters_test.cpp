@@ -1,14 +1,15 @@
 // Properties tested here, for clusters with exactly known results:
-// 1. Single particles, a chain, a helix and a plane sheet do not wind. A ring through the boundary winds once, a sheet
-//    through it twice, a full lattice three times, a helix through it once. Extents are those of the construction.
-// 2. A chain that is longer than the cell spans without winding; a shorter one does not span.
-// 3. Windings are found for any closing path: a knight's move, a double winding, one particle and its own image, and
-//    two strands in opposite directions.
-// 4. Labels, sizes, extents and rank do not depend on the order, direction or repetition of bonds, nor on the periodic
-//    image of a particle's position. Renumbering the particles renumbers the labels. On random bonds they agree with a
-//    breadth-first search in space and with the rank of its cycles by another method.
-// 5. Bonds of face-face contacts are those of the class. Bonds of unknown particles and statistics of no cluster are
-//    rejected.
+// 1. A winding is a closed path of bonds that ends at another periodic image. Single particles, a chain, a helix and a
+//    plane sheet have no winding. A ring or a helix through the boundary has one independent winding, a sheet through
+//    the boundary has two, and a full lattice has three. The extents are those of the construction.
+// 2. A chain that is longer than the cell spans, but has no winding. A shorter chain does not span.
+// 3. Windings are found for all closed paths: a knight's move, a double winding, and a particle bonded to its own
+//    image. Two strands in opposite directions have none.
+// 4. The results do not depend on the order, direction or repetition of bonds, or on the periodic image of a particle's
+//    position. Renumbering the particles renumbers the labels. For random bonds, they agree with a breadth-first search
+//    through the periodic images. The number of independent windings agrees with another method.
+// 5. The bonds of face-face contacts are those of contacts in this class. Bonds of particles that do not exist, and
+//    statistics without a cluster, are rejected.
 
 #include "engine/analysis/clusters.hpp"
 
@@ -39,7 +40,7 @@ using constructed::row;
 using constructed::statistics_of;
 using constructed::Structure;
 
-/// Random centres in the cell and random bonds between them, with shifts of up to one cell.
+/// Random centres in the cell, and random bonds between them with shifts of up to one cell.
 Structure random_structure(int particles, int bonds, RandomStream& random) {
   std::vector<Vector3d> centres;
   for (int k = 0; k < particles; ++k)
@@ -47,7 +48,7 @@ Structure random_structure(int particles, int bonds, RandomStream& random) {
   Structure structure = at(5, centres);
   const auto any = [&](int n) { return static_cast<int>(random.uniform() * n); };
   for (int k = 0; k < bonds; ++k) {
-    // Mostly within the cell, so that some clusters wind and others do not.
+    // Most bonds are within the cell, so that some clusters have windings and others have none.
     const auto shift = [&] { return random.uniform() < 0.8 ? 0 : any(3) - 1; };
     const int a = any(particles), b = any(particles);
     const int x = shift(), y = shift(), z = shift();
@@ -97,7 +98,7 @@ TEST(Clusters, OfAChainThatSpansOrNot) {
   }
 }
 
-TEST(Clusters, ThroughTheBoundaryWindAsOftenAsTheyClose) {
+TEST(Clusters, ThroughTheBoundaryHaveTheirWindings) {
   for (int mask = 0; mask < 8; ++mask) {
     const std::array<bool, 3> closed{(mask & 1) != 0, (mask & 2) != 0, (mask & 4) != 0};
     const Structure structure = block({4, 4, 4}, closed, 4);
@@ -142,7 +143,7 @@ TEST(Clusters, HelixWindsOnlyWhenItsEndsMeet) {
   EXPECT_FALSE(closed.extent[2]);
 }
 
-TEST(Clusters, WindHoweverTheyClose) {
+TEST(Clusters, WindingsOfAllClosedPathsAreFound) {
   Structure alone = at(3, row(1, 0));
   alone.bonds.push_back({0, 0, Vector3i::UnitX()});
   EXPECT_EQ(clusters_of(alone).front().winding_rank(), 1);
@@ -155,7 +156,7 @@ TEST(Clusters, WindHoweverTheyClose) {
   alone.bonds.push_back({0, 0, {3, 2, 1}});
   EXPECT_EQ(clusters_of(alone).front().winding_rank(), 3);
 
-  // Two strands, out through the boundary and back: they close, but not on another image.
+  // Two strands, one out through the boundary and one back. They form a closed path that does not end at another image.
   Structure back_and_forth = at(4, row(4, 0));
   add_chain(back_and_forth, 0, 4);
   back_and_forth.bonds.push_back({3, 0, Vector3i::UnitX()});
@@ -167,7 +168,7 @@ TEST(Clusters, WindHoweverTheyClose) {
   EXPECT_EQ(clusters_of(returning).front().extent[0], 6) << "0, 5, 6, 3 unwrapped";
 }
 
-/// Per particle: the label, the image and the windings of its cluster, by breadth-first search in space.
+/// For each particle: the label, the image and the windings of its cluster, from a breadth-first search.
 struct Searched {
   std::vector<int> label;
   std::map<int, std::vector<Vector3d>> cycles;
@@ -208,7 +209,7 @@ long rank_of(const std::vector<Vector3d>& cycles) {
   return Eigen::FullPivLU<Eigen::MatrixXd>(matrix).rank();
 }
 
-TEST(Clusters, OfRandomBondsAreThoseOfASearch) {
+TEST(Clusters, OfRandomBondsAgreeWithASearch) {
   RandomStream random{31};
   std::array<int, 4> ranks{};
   for (int trial = 0; trial < 400; ++trial) {
@@ -226,7 +227,7 @@ TEST(Clusters, OfRandomBondsAreThoseOfASearch) {
   for (const int count : ranks) EXPECT_GT(count, 10) << "the bonds should give clusters of every rank";
 }
 
-TEST(Clusters, DependOnNothingButTheNetwork) {
+TEST(Clusters, DependOnlyOnTheNetwork) {
   RandomStream random{32};
   for (int trial = 0; trial < 100; ++trial) {
     const int n = 30;
@@ -268,7 +269,7 @@ TEST(Clusters, DependOnNothingButTheNetwork) {
       EXPECT_EQ(same.winding_rank(), cluster.winding_rank());
       for (int axis = 0; axis < 3; ++axis) {
         ASSERT_EQ(same.extent[axis].has_value(), cluster.extent[axis].has_value());
-        // Rounding error for positions up to three cells away and paths of n cells.
+        // Rounding errors of positions up to three cells away, and of paths with n bonds.
         if (cluster.extent[axis]) {
           EXPECT_NEAR(*same.extent[axis], *cluster.extent[axis], 4e-16 * n * 5);
         }
@@ -290,7 +291,7 @@ TEST(Clusters, BondsAreTheContactsOfAClass) {
   EXPECT_THROW(bonds_of(contacts, std::span(classes).first(3)), std::invalid_argument);
 }
 
-TEST(Clusters, RefuseBondsOfNobody) {
+TEST(Clusters, RejectBondsOfUnknownParticles) {
   Structure structure = at(9, row(3, 0));
   for (const NeighbourPair& bond : {NeighbourPair{0, 3, {}}, NeighbourPair{-1, 2, {}}}) {
     structure.bonds = {bond};

@@ -1,12 +1,14 @@
 // Properties tested here:
-// 1. Forces and torques of all contacts sum up, for each particle, to the gradient of the energy in double-double,
-//    within rounding: in random packings, jammed ones, mixtures and sheared cells. V, S and M are those of the kernel.
-// 2. About the point of attack a force has only a torque along itself, for either solid; the torques of both differ by
-//    r × F. The point is half way between the ends of the intersection.
-// 3. Two bricks face to face have the depth, area, force and point of attack of elementary geometry.
+// 1. For each particle, the forces and torques of its contacts sum to the gradient of the energy in double-double,
+//    within rounding errors. This holds in random packings, jammed packings, mixtures and sheared cells. V, S and M of
+//    a contact are those that overlap() computes.
+// 2. About its point of application, a force only has a torque along itself, for both solids. The torques of the two
+//    solids differ by r × F. The point is half way between the ends of the intersection.
+// 3. For two bricks face to face, depth, area, force and point of application agree with elementary geometry.
 // 4. Vertices in faces, crossed edges, edges in faces and faces on faces are identified, for random constructions with
 //    every Platonic solid and for both orders of the solids.
-// 5. Exchange of the two solids, a lattice translation and a rotation of the whole only change the frame.
+// 5. If the two solids are exchanged, translated by a lattice vector or rotated together, the results change only as
+//    the frame does.
 // 6. Contacts are found in double-double by default: a flat contact with a depth of 1e-17 then has its force to 1e-9.
 
 #include "engine/analysis/contact_force.hpp"
@@ -84,7 +86,7 @@ TEST(ContactForces, SumUpToTheGradient) {
       sum.segment<3>(6 * a + 3) -= forces[k].torque_a / radius(a);
       sum.segment<3>(6 * b + 3) -= forces[k].torque_b / radius(b);
       const Overlap& overlap = contacts[k].overlap;
-      // Documented errors of the kernel in double-double: 1e-15 for contacts with V < 1e-8, 1e-12 for others.
+      // Documented limits of the errors in double-double: 1e-15 for contacts with V < 1e-8, and 1e-12 for others.
       EXPECT_NEAR(forces[k].volume, overlap.volume, 1e-12 * overlap.volume) << "contact " << k;
       EXPECT_NEAR(forces[k].area, overlap.area.norm(), 1e-12 * forces[k].area) << "contact " << k;
       sizes += forces[k].force_a.norm();
@@ -96,7 +98,7 @@ TEST(ContactForces, SumUpToTheGradient) {
   }
 }
 
-TEST(ContactForces, ActAlongALineThroughTheirPointOfAttack) {
+TEST(ContactForces, ActAlongALineThroughTheirPointOfApplication) {
   for (const Packing& packing : samples()) {
     SCOPED_TRACE(name_of(packing));
     const auto contacts = PackingEnergy().contacts(packing);
@@ -117,7 +119,7 @@ TEST(ContactForces, ActAlongALineThroughTheirPointOfAttack) {
   }
 }
 
-/// Two solids in a large cell; the first one is at the origin, not rotated.
+/// Two solids in a large cell. The first one is at the origin and is not rotated.
 Packing pair_of(const ConvexSolid& solid, const RelativePose& pose) {
   Packing packing{solid, PeriodicCell(20), std::vector<Pose>(2)};
   packing.poses[1].position = pose.displacement;
@@ -125,12 +127,13 @@ Packing pair_of(const ConvexSolid& solid, const RelativePose& pose) {
   return packing;
 }
 
-TEST(ContactForces, OfTwoCubesAreThoseOfARuler) {
+TEST(ContactForces, OfTwoCubesAgreeWithElementaryGeometry) {
   RelativePose pose;
-  pose.displacement = Vector3d(.25, -.5, .96875);  // exact in binary: 1/32 deep, 3/4 by 1/2 wide
+  pose.displacement = Vector3d(.25, -.5, .96875);  // exact in binary: the overlap is 1/32 deep, and 3/4 by 1/2 wide
   const Packing packing = pair_of(platonic(SolidKind::cube), pose);
   const ContactForce f = contact_force(packing, {0, 1, {0, 0, 0}});
-  // S = ∇V, V the product of the three widths. The total force on three sides of the box passes through its centre.
+  // S = ∇V, where V is the product of the three widths. The total force on three sides of the box passes through its
+  // centre.
   const Vector3d width(.75, .5, 1. / 32),
       gradient(width.y() * width.z(), -width.x() * width.z(), width.x() * width.y());
   const double volume = width.prod(), area = gradient.norm();
@@ -143,7 +146,7 @@ TEST(ContactForces, OfTwoCubesAreThoseOfARuler) {
   EXPECT_EQ(f.kind, ContactKind::face_face);
 }
 
-/// Kind of the contact, and of the contact with A and B exchanged.
+/// The kind of the contact, and its kind if A and B are exchanged.
 std::array<ContactKind, 2> kinds_of(const ConvexSolid& solid, const Contact& contact) {
   const Contact other = constructed::exchanged(contact);
   const auto kind = [&](const QuadPose& pose) {
@@ -153,7 +156,7 @@ std::array<ContactKind, 2> kinds_of(const ConvexSolid& solid, const Contact& con
   return {kind(widened(contact.pose)), kind(widened(other.pose))};
 }
 
-TEST(ContactKinds, AreToldFromTheIntersection) {
+TEST(ContactKinds, AreIdentifiedFromTheIntersection) {
   RandomStream random{9};
   const auto any = [&](std::size_t count) { return static_cast<int>(random.uniform() * static_cast<double>(count)); };
   for (const SolidKind kind : all_solids) {
@@ -171,7 +174,7 @@ TEST(ContactKinds, AreToldFromTheIntersection) {
       };
       expect(constructed::contact(vertex, face, spin, tilt, depth), ContactKind::vertex_face);
       expect(constructed::contact(face, face, spin, 1e-3 * depth * tilt, depth), ContactKind::face_face);
-      // A spin for which the edges are far from parallel.
+      // An angle about the normal for which the edges are far from parallel.
       const double cross = std::numbers::pi * (.2 + .6 * random.uniform());
       expect(constructed::contact(edge, other_edge, cross, none, depth), ContactKind::edge_edge);
       expect(constructed::contact(edge, face, spin, 1e-3 * depth * tilt, depth), ContactKind::edge_face);
@@ -194,7 +197,7 @@ TEST(ContactForces, DoNotDependOnFrameImageOrOrder) {
     shifted.poses[0].position += packing.cell.translation(image);
     for (const Contact& contact : contacts) {
       const ContactForce f = contact_force(packing, contact.pair), g = contact_force(turned, contact.pair);
-      // Rotated coordinates are rounded to 1e-16 of the cell, which moves faces and changes the depth by as much.
+      // Coordinates are rounded to 1e-16 of the cell. This moves faces, and changes the depth, by as much.
       const double loose = 1e3 * epsilon * packing.cell.side() / (f.volume / f.area);
       EXPECT_NEAR(g.volume, f.volume, loose * f.volume);
       EXPECT_LT((q * f.force_a - g.force_a).norm(), loose * f.force_a.norm());
@@ -216,7 +219,7 @@ TEST(ContactForces, DoNotDependOnFrameImageOrOrder) {
 }
 
 TEST(Contacts, AreAsExactAsTheState) {
-  // Two cubes with a depth of 1e-17, which only the low part of the second position contains.
+  // Two cubes with a depth of 1e-17. Only the low part of the second position contains this depth.
   RelativePose pose;
   pose.displacement = Vector3d(.25, .25, 1);
   Packing packing = pair_of(platonic(SolidKind::cube), pose);

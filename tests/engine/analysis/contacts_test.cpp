@@ -1,18 +1,18 @@
 // Properties tested here:
-// 1. Classes: face-face below its cut-off, else edge-face below its own, else lower order. An angle equal to a cut-off
-//    is not below it.
+// 1. Classes: a contact is face-face if θ_ff is below its cut-off. Otherwise it is edge-face if θ_ef is below its
+//    cut-off, and lower-order if not. An angle equal to a cut-off is not below it.
 // 2. Numbers: each contact counts for two particles, Z = Z_ff + Z_ef + Z_l, C = 3 Z_ff + 2 Z_ef + Z_l. Larger fixed
-//    cut-offs never lower C (as in column 2 of Table III of Smith, Fisher and Alam 2011).
-// 3. Contacts of all four topologies, constructed at random and overlapped by the kernel, are recognised for every
-//    Platonic solid and in any order.
-// 4. Each angle is fitted on its own window [0, θ_c,min/2].
-// 5. If a fit collapses or has too few angles, its class is empty.
-// 6. The gap finds the same face-face contacts if they are decades below the others. Without a gap the verdict states
-//    that.
-// 7. Fixed cut-offs give the means over six classifications, and count far more constraints.
-// 8. A pool of packings is fitted once, like one packing with all contacts, and each packing is classified separately.
-//    A pool of one is the packing itself.
-// 9. No contact, one contact and perfectly aligned contacts have defined results.
+//    cut-offs never decrease C.
+// 3. Random contacts of all four topologies, as overlap() finds them, are identified for every Platonic solid and in
+//    any order.
+// 4. Each angle is fitted in its own window [0, θ_c,min/2], where θ_c,min is its smallest critical angle.
+// 5. If a fit finds no jump, or has too few angles, its class contains no contacts.
+// 6. The gap method finds the same face-face contacts if their angles are decades below the others. If there is no gap,
+//    the verdict states this.
+// 7. Fixed cut-offs give means over six classifications, and a much larger constraint number.
+// 8. The contacts of several packings are fitted together, like those of one packing. Each packing is then classified
+//    separately. A pool of one packing gives the same as the packing itself.
+// 9. The results for no contact, one contact, and perfectly aligned contacts are defined.
 
 #include "engine/analysis/contacts.hpp"
 
@@ -106,7 +106,8 @@ class ContactsOf : public testing::TestWithParam<SolidKind> {
   Site any_edge() { return constructed::edge_site(solid, any(solid.edges().size())); }
   Site any_face() { return constructed::face_site(solid, any(solid.faces().size())); }
   double spin() { return 2 * pi * random.uniform(); }
-  /// Spread over decades; none of them is near the resolution of the CDF fits.
+  /// An angle of a face-face contact. These angles are spread over decades, and none is near the resolution of the
+  /// fits.
   double ultra_low() { return std::pow(10.0, -7 + 3 * random.uniform()); }
 
   Contact face_on_face() {
@@ -115,7 +116,7 @@ class ContactsOf : public testing::TestWithParam<SolidKind> {
     return constructed::contact(a, any_face(), spin(), ultra_low() * axis, 1e-3);
   }
 
-  /// An edge in a face, rotated about itself through the whole range of θ_ff.
+  /// A contact of an edge in a face. The solid is rotated about the edge through the whole range of θ_ff.
   Contact edge_on_face() {
     const int edge = any(solid.edges().size());
     const Site a = constructed::edge_site(solid, edge);
@@ -133,7 +134,7 @@ class ContactsOf : public testing::TestWithParam<SolidKind> {
 
   Contact edge_on_edge() { return constructed::contact(any_edge(), any_edge(), spin(), Vector3d::Zero(), 1e-4); }
 
-  /// n contacts: one tenth face-face and two tenths edge-face.
+  /// n contacts: one tenth are face-face and two tenths edge-face.
   std::vector<Contact> mixture(int n) {
     std::vector<Contact> contacts;
     for (int k = 0; k < n; ++k) {
@@ -156,7 +157,7 @@ TEST_P(ContactsOf, TopologiesAreRecognised) {
   ASSERT_EQ(analysis.face_face.verdict, FitVerdict::fitted);
   ASSERT_EQ(analysis.edge_face.verdict, FitVerdict::fitted);
 
-  // The error of the fits is the sampling noise of a_0. Face-face contacts have edges in faces too.
+  // The error of a fit is the sampling noise of a_0. Face-face contacts also have edges in faces.
   const double ff_noise = 4 * analysis.face_face.a0_error, ef_noise = 4 * analysis.edge_face.a0_error;
   EXPECT_NEAR(analysis.face_face.a[0], 0.1, ff_noise);
   EXPECT_NEAR(analysis.edge_face.a[0], 0.3, ef_noise);
@@ -199,7 +200,7 @@ TEST_P(ContactsOf, OrderDoesNotMatter) {
 }
 
 TEST_P(ContactsOf, CollapsedAndEmptyFitsLeaveTheirClassEmpty) {
-  // θ_ff evenly spread: no jump. θ_ef all above the window: no angles.
+  // θ_ff is evenly spread, so there is no jump. All θ_ef are above the window, so there are no angles to fit.
   std::vector<Alignment> all;
   for (int k = 0; k < 400; ++k) all.push_back(angles((k + 0.5) / 400 * critical.ff_min(), critical.ef_min()));
   const ContactAnalysis analysis = analyse_contacts(solid, 100, all);
@@ -219,7 +220,7 @@ TEST_P(ContactsOf, TheGapFindsTheSameFaceFaceContacts) {
   ASSERT_EQ(analysis.face_face_gap.verdict, GapVerdict::separated);
   ASSERT_TRUE(analysis.Z_ff_gap && analysis.disagreement());
   EXPECT_EQ(analysis.disagreement(), *analysis.Z_ff_gap - analysis.numbers.Z_ff);
-  // Some of the other contacts are equally well aligned by chance, within the decades of the face-face contacts.
+  // By chance, some other contacts are as well aligned as the face-face contacts.
   int below = 0, by_chance = 0;
   for (int k = 0; k < contacts; ++k) {
     const bool aligned = all[k].face_face < analysis.face_face_gap.cutoff;
@@ -285,7 +286,7 @@ TEST_P(ContactsOf, APoolIsFittedOnceAndClassifiedOneByOne) {
   EXPECT_TRUE(analyse_pooled(solid, 50, {}).empty());
 }
 
-TEST_P(ContactsOf, FewOrPerfectContactsHaveAnswers) {
+TEST_P(ContactsOf, FewOrPerfectContactsHaveDefinedResults) {
   for (const int contacts : {0, 1}) {
     const ContactAnalysis analysis = analyse_contacts(solid, 3, std::vector<Alignment>(contacts, angles(0, 0)));
     EXPECT_EQ(analysis.face_face.verdict, FitVerdict::too_few);

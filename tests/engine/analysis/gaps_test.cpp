@@ -1,8 +1,8 @@
 // Properties tested here:
-// - Gaps of packings are those of all pairs and images by brute force; no touching pair is among them.
-// - A face parallel to a vertex, edge or face at a distance h has a gap of h, and so have crossed edges. The kind is
-//   reported correctly. A gap does not depend on the order of the particles.
-// - Widths that are not positive are rejected.
+// - Gaps in packings agree with a search over all pairs and images. Pairs that touch have no gap.
+// - The gap is h if a vertex, an edge or a face is at a distance h from a parallel face, or if two crossed edges are at
+//   this distance. The kind of the gap is correct. A gap does not depend on the order of the particles.
+// - A largest gap that is not positive is rejected.
 
 #include "engine/analysis/gaps.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(GapsTest, AreThoseOfBruteForce) {
+TEST(GapsTest, AgreeWithASearchOverAllPairs) {
   for (const SolidKind kind : all_solids) {
     const Packing packing = small_packing(kind, .55, 41);
     const auto gaps = near_gaps(packing, .1);
@@ -46,7 +46,7 @@ TEST(GapsTest, AreThoseOfBruteForce) {
   }
 }
 
-/// Checks the gap of two bodies at a distance h, and with the bodies exchanged.
+/// Checks the gap of two bodies at a distance h, and the gap with the bodies exchanged.
 void expect_gap(const ConvexSolid& solid, const Contact& apart, double h, bool of_faces) {
   for (const bool exchanged : {false, true}) {
     const RelativePose& pose = apart.pose;
@@ -60,7 +60,7 @@ void expect_gap(const ConvexSolid& solid, const Contact& apart, double h, bool o
   }
 }
 
-TEST(GapsTest, ConstructedOnes) {
+TEST(GapsTest, OfConstructedPairsAreTheirDistance) {
   RandomStream random{42};
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);

@@ -1,15 +1,17 @@
 // Properties tested here, for a packing of octahedra (N = 48) near its jamming point, and for states above it:
-// 1. Contacts that are vertex-face or edge-edge by their features are below the critical angles of Table II, and come
-//    close to the larger ones.
-// 2. The fit and the gap agree on the face-face contacts within their errors. Fixed cut-offs count far more constraints
-//    than both. The pool of all states has the cut-offs of a fit to all their angles, and counts the contacts of each
-//    state by them.
-// 3. θ_ef is hyper-random at small angles, as in the paper, and more contacts are aligned than random ones.
-// 4. Clusters of face-face contacts partition the particles, contain every bond, and give the S of their sizes.
-// 5. The packing is disordered: Q6 is below the crystalline threshold, and orientations are not more aligned than by
-//    chance.
-// 6. A perfect crystal of cubes under slight compression has defined results: all contacts are face-face by both
-//    methods, one cluster winds in all directions and so has neither length nor dimension, and the order is perfect.
+// 1. Contacts whose features show that they are vertex-face or edge-edge have angles below the critical angles of the
+//    paper's Table II. Some angles are close to the larger critical angles.
+// 2. The methods with fits and with gaps find the same face-face contacts within their errors. Fixed cut-offs give a
+//    much larger constraint number. If all states are pooled, their cut-offs are those of a fit to all angles, and the
+//    contacts of each state are counted with them.
+// 3. There are more small θ_ef than for random contacts (hyper-random), as in the paper.
+// 4. Every particle belongs to one cluster of face-face contacts, and every bond is inside a cluster. S follows from
+//    the sizes.
+// 5. The packing is disordered: Q6 is below the limit for `crystalline`, and the orientations are not more aligned than
+//    by chance.
+// 6. A perfect crystal of slightly compressed cubes has defined results. All contacts are face-face with both methods,
+//    and the order is perfect. One cluster winds in all directions and therefore has neither l_max nor a fractal
+//    dimension.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +32,7 @@ constexpr int particles = 48;
 
 const ConvexSolid& solid() { return platonic(SolidKind::octahedron); }
 
-/// Jammed once in each process.
+/// The packing is jammed once in each process.
 const JamResult& jammed() {
   static const JamResult result = [] {
     JamOptions options;
@@ -56,7 +58,7 @@ std::vector<double> edge_face_angles(const std::vector<Alignment>& alignments) {
   return angles;
 }
 
-TEST(JammedPacking, IsAtHand) {
+TEST(JammedPacking, IsJammed) {
   ASSERT_TRUE(jammed().status == JamStatus::jammed || jammed().status == JamStatus::goal_not_reached)
       << to_string(jammed().status);
   ASSERT_GE(jammed().states.size(), 2U);
@@ -163,7 +165,7 @@ TEST(JammedPacking, EdgesLieInFacesMoreOftenThanByChance) {
   EXPECT_EQ(found.verdict, RandomnessVerdict::hyper_random);
 }
 
-TEST(JammedPacking, ClustersHoldItsFaceFaceContacts) {
+TEST(JammedPacking, ClustersContainItsFaceFaceContacts) {
   const std::vector<Contact> contacts = contacts_of(nearest());
   const ContactAnalysis analysis = analyse_contacts(solid(), particles, alignments(solid(), contacts));
   const std::vector<NeighbourPair> bonds = bonds_of(contacts, analysis.classes);
@@ -183,7 +185,7 @@ TEST(JammedPacking, ClustersHoldItsFaceFaceContacts) {
               to_string(statistics.D_max.verdict).data());
   EXPECT_NEAR(statistics.S, mean, 1e-12 * mean);
   EXPECT_EQ(statistics.winding_rank, 0);
-  // The distance of touching particles is below two circumradii.
+  // The centres of touching particles are closer than two circumradii.
   const double longest_bond = 2 * solid().circumradius() / nearest().cell.side();
   EXPECT_LE(statistics.l_max.value(), (statistics.largest - 1) * longest_bond);
 }
@@ -198,7 +200,7 @@ TEST(JammedPacking, IsDisordered) {
   EXPECT_GT(order.local_Q6.value(), order.Q6);
 }
 
-TEST(PerfectCrystal, OfCubesHasAnswers) {
+TEST(PerfectCrystal, OfCubesHasDefinedResults) {
   constexpr int n = 4;
   Packing crystal{platonic(SolidKind::cube), PeriodicCell(0.98 * n), {}};
   for (int k = 0; k < n * n * n; ++k)

@@ -1,10 +1,11 @@
 // Properties tested here, for packings of several shapes and sizes:
 // - Every contact is classified by the cut-offs of its own pair of shapes, which are fitted only to their contacts.
 // - All contacts of one shape in several sizes are fitted together, as for a single size.
-// - Numbers of kinds, weighted by their particle numbers, give those of all particles.
-// - Critical angles of two shapes do not depend on their order, and are the solid's own for two equal ones. For crossed
-//   edges they are the largest that a search over rotations of both edges finds.
-// - The alignment refers to the features of each of the two solids.
+// - The contact numbers of the kinds, weighted by their numbers of particles, give the contact numbers of all
+//   particles.
+// - The critical angles of two shapes do not depend on their order. For two equal shapes they are those of the solid.
+//   For crossed edges they are the largest angles that a search over rotations of both edges finds.
+// - The alignment angles belong to the features of the two solids, whichever is A.
 
 #include <gtest/gtest.h>
 
@@ -91,7 +92,7 @@ TEST(MixtureContacts, OfOneShapeAreFittedTogether) {
   EXPECT_FALSE(order_of(mixed, PackingEnergy().contacts(mixed)).S.has_value());
 }
 
-TEST(MixtureContacts, OfKindsAreThoseOfAll) {
+TEST(MixtureContacts, OfKindsSumToThoseOfAll) {
   const Packing packing = packing_of(three(), 300, 1, 4);
   const auto [contacts, angles, analysis] = analysed(packing);
   ASSERT_EQ(analysis.of_kinds.size(), 3U);
@@ -126,8 +127,8 @@ double half_opening(const ConvexSolid& solid) {
   return least;
 }
 
-/// The largest θ_ff that two crossed edges allow, over the angle between them and rotations of both about themselves: A
-/// below, with normals at α to either side of up, B above.
+/// The largest θ_ff that two crossed edges allow, over the angle between the edges and rotations of both about
+/// themselves. A is below, its normals are at the angle α on either side of the vertical; B is above.
 double searched_crossing(double alpha, double beta) {
   constexpr int steps = 40;
   double best = 0;
@@ -140,7 +141,7 @@ double searched_crossing(double alpha, double beta) {
         for (const int p : {-1, 1}) {
           for (const int q : {-1, 1}) {
             const double a = turn_a + p * alpha, b = turn_b + q * beta;
-            const Vector3d n(0, std::sin(a), std::cos(a));  // A's edge is along x
+            const Vector3d n(0, std::sin(a), std::cos(a));  // the edge of A is along x
             const Vector3d m =
                 -Vector3d(-std::sin(between) * std::sin(b), std::cos(between) * std::sin(b), std::cos(b));
             least = std::min(least, std::atan2(n.cross(m).norm(), -n.dot(m)));
@@ -171,7 +172,7 @@ TEST(MixtureContacts, HaveTheCriticalAnglesOfTwoShapes) {
   }
 }
 
-/// A face of a cube on a face of a tetrahedron; either can be A, for both numberings.
+/// A face of a cube on a face of a tetrahedron. Either of them can be A, with both numberings.
 TEST(MixtureContacts, AlignTheFeaturesOfEach) {
   const ConvexSolid &cube = platonic(SolidKind::cube), &tetrahedron = platonic(SolidKind::tetrahedron);
   const Vector3d down = -Vector3d::UnitZ();

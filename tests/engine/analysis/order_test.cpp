@@ -1,7 +1,7 @@
 // Properties tested here:
-// - Q_l of parallel and antiparallel bonds is 1, without bonds 0.
+// - Q_l is 1 for parallel and antiparallel bonds, and 0 without bonds.
 // - Q4 and Q6 of the simple cubic, face-centred cubic and icosahedral neighbour shells agree with their closed forms.
-// - Q_l does not depend on rotation, length or order of the bonds, and is about 1/sqrt(n) for independent ones.
+// - Q_l does not depend on rotation, length or order of the bonds, and is about 1/sqrt(n) for n independent bonds.
 
 #include "engine/analysis/order.hpp"
 
@@ -51,7 +51,7 @@ TEST(SteinhardtOrder, OfParallelBondsAndOfNone) {
   EXPECT_EQ(steinhardt_order(Bonds{}, 6), 0);
 }
 
-TEST(SteinhardtOrder, DependsOnDirectionsAlone) {
+TEST(SteinhardtOrder, DependsOnlyOnDirections) {
   RandomStream random{3, 1};
   Bonds bonds;
   for (int k = 0; k < 40; ++k) bonds.push_back(random_vector(random));
@@ -63,7 +63,7 @@ TEST(SteinhardtOrder, DependsOnDirectionsAlone) {
   EXPECT_NEAR(steinhardt_order(changed, 6), value, 1e-13);
 }
 
-TEST(SteinhardtOrder, OfIndependentBondsFallsAsTheirRoot) {
+TEST(SteinhardtOrder, OfIndependentBondsIsOneOverTheRoot) {
   RandomStream random{3, 2};
   double sum = 0;
   constexpr int sets = 50, n = 200;
@@ -73,7 +73,7 @@ TEST(SteinhardtOrder, OfIndependentBondsFallsAsTheirRoot) {
     const double q = steinhardt_order(bonds, 6);
     sum += q * q;
   }
-  // n Q² has mean 1 and variance 2/13 per set.
+  // n Q² of a set has mean 1 and variance 2/13.
   EXPECT_NEAR(sum / sets * n, 1, 5 * std::sqrt(2.0 / 13 / sets));
 }
 

@@ -1,13 +1,15 @@
 // Properties tested here:
-// 1. The rank is 3, 4, 4, 6, 6 for the Platonic solids and 2 for a box; lower ranks vanish.
-// 2. Products of harmonics are the double sums of P_l over vertices; those of a particle with itself are 1.
-// 3. Particles rotated by symmetries of their solid remain aligned, S = 1. Two grains give sqrt((1 + q)/2). Independent
-//    orientations give N·S² = 1 on average. Rotating the whole packing changes nothing.
+// 1. The rank is 3, 4, 4, 6, 6 for the Platonic solids and 2 for a box. The order at lower ranks is zero.
+// 2. The product of two particles, computed from harmonics, is the double sum of P_l over their vertices. The product
+//    of a particle with itself is 1.
+// 3. Particles that are rotated by symmetries of their solid are still aligned: S = 1. Two grains of equal size whose
+//    particles have the product q give S = sqrt((1 + q)/2). Independent orientations give N·S² = 1 on average. Rotating
+//    the whole packing changes nothing.
 // 4. For cubes S is the cubatic order of their three axes.
 // 5. Local Q_l of a simple cubic lattice is the closed form; a particle without contacts has none.
-// 6. The pair correlation is a brute-force mean over pairs and images. Its counts are those of a lattice's shells. It
-//    is 1 for aligned particles, and 0 within statistical error for random ones.
-// 7. N = 1, 2, 3 and no contacts have defined results. Invalid input is rejected.
+// 6. The pair correlation agrees with a direct mean over pairs and images. For a lattice, its counts are those of the
+//    neighbour shells. It is 1 for aligned particles, and 0 within statistical errors for random ones.
+// 7. The results for N = 1, 2, 3 and for no contacts are defined. Invalid input is rejected.
 
 #include "engine/analysis/orientation_order.hpp"
 
@@ -49,7 +51,7 @@ double double_sum(const ConvexSolid& solid, const Quaterniond& p, const Quaterni
   return sum;
 }
 
-/// A rotation that maps the solid to itself; there are as many as directed edges.
+/// A random rotation that maps the solid to itself. There are as many such rotations as directed edges.
 Quaterniond symmetry(const ConvexSolid& solid, RandomStream& random) {
   const auto frame = [&](const Edge& edge, bool reversed) {
     const Vector3d tail = solid.vertices()[edge.tail], head = solid.vertices()[edge.head];
@@ -116,11 +118,11 @@ TEST_P(OrientationOf, IndependentOrientationsGiveOneOverTheRoot) {
   constexpr int sets = 200, n = 30;
   double sum = 0;
   for (int set = 0; set < sets; ++set) sum += std::pow(order_of(scattered(solid, n, 10, random)), 2) * n;
-  // N S² is a mean of 2l + 1 squares of almost normal components: variance 2/(2l + 1).
+  // N S² is a mean of 2l + 1 squares of almost normal components, so its variance is 2/(2l + 1).
   EXPECT_NEAR(sum / sets, 1, 5 * std::sqrt(2.0 / (2 * rank + 1) / sets));
 }
 
-TEST_P(OrientationOf, TurningAllChangesNothing) {
+TEST_P(OrientationOf, RotatingAllChangesNothing) {
   Packing packing = scattered(solid, 20, 10, random);
   const double before = order_of(packing);
   const Quaterniond turn = random_orientation(random);
@@ -128,7 +130,7 @@ TEST_P(OrientationOf, TurningAllChangesNothing) {
   EXPECT_NEAR(order_of(packing), before, 1e-12);
 }
 
-TEST_P(OrientationOf, FewParticlesHaveAnswers) {
+TEST_P(OrientationOf, FewParticlesHaveDefinedResults) {
   for (const int n : {1, 2, 3}) {
     const Packing packing = scattered(solid, n, 10, random);
     const Order order = order_of(packing, {});
@@ -171,7 +173,7 @@ TEST(OrientationOrder, OfCubesIsThatOfTheirAxes) {
   EXPECT_NEAR(order_of(packing), std::sqrt(sum / self), 1e-12);
 }
 
-/// n³ cubes with distance 1 that fill the cell, each touching its six neighbours.
+/// n³ cubes at distance 1 that fill the cell. Each touches its six neighbours.
 struct Lattice {
   Packing packing;
   std::vector<Contact> contacts;
@@ -202,7 +204,7 @@ TEST(Order, OfASimpleCubicLattice) {
   EXPECT_EQ(order.Q6, contact_q6(lattice.contacts));
 }
 
-TEST(Order, LocalOrderIsThatOfOwnContacts) {
+TEST(Order, LocalOrderUsesOnlyTheOwnContacts) {
   std::vector<Contact> contacts(3);
   contacts[0].pair = {0, 1, Vector3i::Zero()};
   contacts[0].displacement = Vector3d::UnitX();
@@ -247,7 +249,7 @@ TEST(OrientationCorrelation, IsTheMeanOverPairs) {
       weighted += sums[k];
       all += pairs[k];
     }
-    // Products of independent unit vectors of 9 components have variance 1/9.
+    // Products of independent unit vectors with 9 components have variance 1/9.
     EXPECT_LT(std::abs(weighted), 5 * std::sqrt(static_cast<double>(all) / 9));
   }
 }
@@ -258,7 +260,7 @@ TEST(OrientationCorrelation, OfALatticeShowsItsShells) {
   const OrientationCorrelation found =
       orientation_correlation(lattice.packing, harmonics, {.width = 0.1, .reach = 2.05});
   ASSERT_EQ(found.bins.size(), 20U);
-  // 6, 12 and 8 neighbours at 1, √2 and √3, each pair once.
+  // There are 6, 12 and 8 neighbours at the distances 1, √2 and √3. Each pair counts once.
   for (std::size_t k = 0; k < found.bins.size(); ++k) {
     const long expected = k == 10 ? 3 : k == 14 ? 6 : k == 17 ? 4 : 0;
     EXPECT_EQ(found.bins[k].pairs, expected * 216) << k;

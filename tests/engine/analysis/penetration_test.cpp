@@ -1,9 +1,10 @@
 // Properties tested here:
-// 1. A vertex pushed into a face, and an edge pushed into a crossed edge, have the depth by which they were pushed, for
-//    every Platonic solid and from either side.
-// 2. No direction of a sample separates two solids, equal or different, by a shorter translation.
-// 3. Faces that are parallel except for an angle below the resolution of double have the same depth from either side,
-//    in quadruple precision.
+// 1. If a vertex is pushed into a face, or an edge into a crossed edge, the depth is the distance of the push. This
+//    holds for every Platonic solid, whichever is A.
+// 2. No sampled direction separates two solids with a shorter translation than the depth. The solids are equal or
+//    different.
+// 3. If two faces are parallel within the rounding of double, quadruple precision gives the same depth whichever solid
+//    is A.
 
 #include "engine/geometry/overlap/penetration.hpp"
 
@@ -22,7 +23,7 @@ using Eigen::Vector3d;
 
 constexpr double epsilon = 2.220446049250313e-16;
 
-/// Checks the contact from A's side and from B's side.
+/// Checks the depth of the contact, and its depth with A and B exchanged.
 void expect_depth(const ConvexSolid& solid, const Contact& contact, double depth) {
   const Contact other = constructed::exchanged(contact);
   for (const RelativePose& pose : {contact.pose, other.pose}) {
@@ -31,7 +32,7 @@ void expect_depth(const ConvexSolid& solid, const Contact& contact, double depth
   }
 }
 
-TEST(Penetration, OfConstructedContactsIsTheWayTheyWerePushed) {
+TEST(Penetration, OfConstructedContactsIsTheDistanceOfThePush) {
   RandomStream random{17};
   const auto any = [&](std::size_t count) { return static_cast<int>(random.uniform() * static_cast<double>(count)); };
   for (const SolidKind kind : all_solids) {
@@ -50,7 +51,7 @@ TEST(Penetration, OfConstructedContactsIsTheWayTheyWerePushed) {
   }
 }
 
-/// Distance by which B must move along the unit vector u until it is beyond A.
+/// Distance by which B must move along the unit vector u to be separated from A.
 double way_along(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, const Vector3d& u) {
   double most_a = -a.diameter(), least_b = a.diameter() + b.diameter() + pose.displacement.norm();
   for (const Vector3d& v : a.vertices()) most_a = std::max(most_a, u.dot(v));
@@ -58,7 +59,7 @@ double way_along(const ConvexSolid& a, const ConvexSolid& b, const RelativePose&
   return most_a - least_b;
 }
 
-TEST(Penetration, NoDirectionPartsThemByAShorterWay) {
+TEST(Penetration, NoDirectionSeparatesWithAShorterTranslation) {
   RandomStream random{18};
   for (const SolidKind kind : all_solids) {
     for (const SolidKind other : all_solids) {
@@ -86,8 +87,8 @@ TEST(Penetration, OfFacesNearlyParallelIsTheSameFromEitherSide) {
       const auto face = static_cast<int>(random.uniform() * static_cast<double>(solid.faces().size()));
       const Face& own = solid.faces()[static_cast<std::size_t>(face)];
       const auto corner = [&](std::size_t c) { return solid.arrays().vertex(own.vertices[c]); };
-      // Rotated about the normal, with the opposite face on this one, shifted from centre to centre: parallel within
-      // the rounding of its orientation.
+      // The opposite face is placed on this face, rotated about the normal. The centres are shifted. The two faces are
+      // parallel within the rounding of the orientation.
       Pose a, b;
       b.orientation = Eigen::AngleAxisd(6 * random.uniform(), own.normal);
       const Quad3 r = (2 * solid.arrays().plane_offset(face) - Quad(2e-15)) * solid.arrays().normal(face) +

@@ -1,8 +1,9 @@
 // Properties tested here:
-// - Exact power laws are recovered with a confidence interval of width 0. Scales of x and y affect only the prefactor.
-// - For noisy power laws 95 of 100 confidence intervals contain the exponent.
+// - For data that follow a power law exactly, the fit gives its exponent with a confidence interval of width 0. The
+//   units of x and y affect only the prefactor.
+// - For noisy data, 95 % of the confidence intervals contain the exponent.
 // - The exponent of three points agrees with a calculation by hand. Two points have no confidence interval.
-// - Points without a logarithm are ignored. Without two different x there is no result.
+// - Points that are not positive and finite are ignored. Without two different x there is no result.
 
 #include "engine/analysis/power_law.hpp"
 
@@ -36,7 +37,7 @@ TEST(PowerLawTest, RecoversExactLaws) {
   }
 }
 
-TEST(PowerLawTest, IntervalsHoldTheExponentAsOftenAsTheySay) {
+TEST(PowerLawTest, NinetyFivePercentOfTheIntervalsContainTheExponent) {
   RandomStream random{102};
   const int trials = 4000;
   int held = 0;
@@ -54,7 +55,8 @@ TEST(PowerLawTest, IntervalsHoldTheExponentAsOftenAsTheySay) {
 }
 
 TEST(PowerLawTest, ThreePointsByHand) {
-  // ln x = 0, 1, 2; ln y = 0, 1, 4: slope 2, residuals 1/3, −2/3, 1/3, their squares 2/3, over Sxx = 2.
+  // ln x = 0, 1, 2 and ln y = 0, 1, 4 give the slope 2 and the residuals 1/3, −2/3, 1/3. The sum of their squares is
+  // 2/3, and is divided by Sxx = 2.
   const std::vector<double> x{1, std::exp(1), std::exp(2)}, y{1, std::exp(1), std::exp(4)};
   const auto law = fit_power_law(x, y);
   ASSERT_TRUE(law);
@@ -63,7 +65,7 @@ TEST(PowerLawTest, ThreePointsByHand) {
   EXPECT_NEAR(law->ci95_half_width, 12.706204736 * std::sqrt(1.0 / 3), 1e-8);
 }
 
-TEST(PowerLawTest, LeavesOutWhatHasNoLogarithm) {
+TEST(PowerLawTest, IgnoresPointsThatAreNotPositive) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const std::vector<double> x{1, 2, -1, 0, 3, nan, inf}, y{1, 4, 1, 1, -2, 1, 1};
   const auto law = fit_power_law(x, y);
@@ -73,7 +75,7 @@ TEST(PowerLawTest, LeavesOutWhatHasNoLogarithm) {
   EXPECT_EQ(law->ci95_half_width, 0);
 }
 
-TEST(PowerLawTest, NotDefined) {
+TEST(PowerLawTest, EqualXGiveNoResult) {
   EXPECT_FALSE(fit_power_law({}, {}));
   EXPECT_FALSE(fit_power_law(std::vector{1.0}, std::vector{1.0}));
   EXPECT_FALSE(fit_power_law(std::vector{2.0, 2.0}, std::vector{1.0, 3.0}));

@@ -1,4 +1,4 @@
-// Compiles, means something, and is laid out as no file of this project may be.
+// Valid code with a wrong layout: clang-format must reject it.
 namespace isojam
 {
     int   twice( int x ){ return 2*x ; }

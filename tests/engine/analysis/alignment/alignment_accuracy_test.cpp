@@ -1,7 +1,7 @@
-// Property tested here, for every Platonic solid, on pairs in the lab frame that pass through the packing's own
-// contacts: two faces exactly opposite, or tilted by 1e-16 .. 1e-2 rad, have the same θ_ff as the same coordinates in
-// quadruple precision. Edges of one solid on the face of the other have the same θ_ef. The errors are a few 1e-15 rad,
-// hundreds of times smaller than the documented 1e-12.
+// Property tested here for every Platonic solid. Pairs in the lab frame are passed through the functions that find the
+// contacts of a packing. Two faces that are exactly opposite, or tilted by 1e-16 .. 1e-2 rad, then have the same θ_ff
+// as the same coordinates in quadruple precision. Edges of one solid on the face of the other have the same θ_ef. The
+// errors are a few 1e-15 rad, hundreds of times smaller than the documented limit of 1e-12.
 
 #include <gtest/gtest.h>
 
@@ -22,10 +22,10 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// Angle with this sine and cosine, from the sine in quadruple precision: exact to a double for small angles.
+/// The angle with this sine and cosine. The sine is in quadruple precision, so that small angles are exact in double.
 double angle(Quad sine, Quad cosine) { return std::atan2(static_cast<double>(sine), static_cast<double>(cosine)); }
 
-/// Both angles over the features in the masks, with orientations from the packing.
+/// Both angles in quadruple precision, for the features in the masks and the orientations in the packing.
 Alignment in_quad(const ConvexSolid& solid, const Packing& packing, const Contact& contact) {
   const SolidArrays& arrays = solid.arrays();
   const QuadMatrix a = quad_rotation(packing.poses[contact.pair.a]), b = quad_rotation(packing.poses[contact.pair.b]);
@@ -70,8 +70,8 @@ class AlignmentAccuracyOf : public testing::TestWithParam<SolidKind> {
 
   int any(std::size_t size) { return static_cast<int>(random.uniform() * static_cast<double>(size)); }
 
-  /// Face on face at `depth`, rotated about a random axis in the plane by `tilt`, with a random orientation of the pair
-  /// in the lab frame.
+  /// A face on a face at `depth`. The pair has a random orientation in the lab frame. B is tilted by `tilt` about a
+  /// random axis in the plane of the face.
   Packing pair_of_faces(double tilt, double depth) {
     const constructed::Site a = constructed::face_and_edges_site(solid, any(solid.faces().size()));
     const constructed::Site b = constructed::face_and_edges_site(solid, any(solid.faces().size()));
@@ -92,7 +92,7 @@ TEST_P(AlignmentAccuracyOf, NearlyParallelFacesHaveTheAnglesOfQuadruplePrecision
   for (double tilt = 1e-16; tilt < 2e-2; tilt *= 10) tilts.push_back(tilt);
   for (const double tilt : tilts) {
     for (int trial = 0; trial < 10; ++trial) {
-      // So deep that the faces overlap over their whole width.
+      // The depth is so large that the faces overlap over their whole width.
       const Packing packing = pair_of_faces(tilt, 1e-2 + 2 * tilt);
       PackingEnergy energy;
       const std::vector<Contact> contacts = energy.contacts(packing);
@@ -100,12 +100,12 @@ TEST_P(AlignmentAccuracyOf, NearlyParallelFacesHaveTheAnglesOfQuadruplePrecision
       const Alignment found = alignment(solid, contacts[0]), expected = in_quad(solid, packing, contacts[0]);
       worst_ff = std::max(worst_ff, std::abs(found.face_face - expected.face_face));
       worst_ef = std::max(worst_ef, std::abs(found.edge_face - expected.edge_face));
-      // The construction itself is rounded, which the oracle takes into account.
+      // The coordinates of the pair are rounded too; the reference takes this into account.
       EXPECT_NEAR(found.face_face, tilt, 1e-14) << "tilt " << tilt;
     }
   }
   std::printf("%s: θ_ff wrong by %.1e, θ_ef by %.1e at most\n", solid.name().c_str(), worst_ff, worst_ef);
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // a dozen unit vectors
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // for about a dozen unit vectors
   EXPECT_LT(worst_ff, rounding);
   EXPECT_LT(worst_ef, rounding);
 }

@@ -1,9 +1,11 @@
 // Properties tested here, for every Platonic solid:
-// 1. Two faces tilted by 1e-12 .. 1 rad have this θ_ff, and an edge raised by as much has this θ_ef, within rounding.
-// 2. Vertex-face, edge-edge (any crossing angle) and edge-face contacts have the angles of their closed forms.
+// 1. If two faces are tilted by an angle of 1e-12 .. 1 rad, θ_ff is this angle within rounding errors. If an edge is
+//    raised by such an angle, θ_ef is this angle.
+// 2. Vertex-face, edge-edge (any crossing angle) and edge-face contacts have the angles that closed forms give.
 // 3. overlap() finds exactly the faces and edges of a constructed contact.
-// 4. Exchange of A and B and rotation of both change neither angle.
-// 5. The angles are the smallest ones over the masks, by another formula, and belong to the reported features.
+// 4. The angles do not change if A and B are exchanged, or if both are rotated.
+// 5. The angles are the smallest ones over the features in the masks, computed with another formula. They belong to the
+//    reported features.
 // 6. Without an edge θ_ef = π/2, without a face θ_ff = π. Features outside the masks do not count.
 
 #include "engine/analysis/alignment/alignment.hpp"
@@ -33,7 +35,7 @@ using constructed::vertex_site;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-// An angle follows from the pose after about a dozen roundings of unit vectors.
+// An angle is computed from the pose with about a dozen roundings of unit vectors.
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double depth = 1e-3;
 
@@ -46,7 +48,7 @@ double dihedral(const ConvexSolid& solid) {
   return pi - std::acos(solid.faces()[edge.left].normal.dot(solid.faces()[edge.right].normal));
 }
 
-/// Angle of two unit vectors by half chords (Kahan), accurate on [0, π].
+/// Angle between two unit vectors from half chords (Kahan); it is accurate on [0, π].
 double chord_angle(const Vector3d& u, const Vector3d& v) { return 2 * std::atan2((u - v).norm(), (u + v).norm()); }
 
 Vector3d normal_in_a(const ConvexSolid& solid, const Contact& c, int face) {
@@ -84,7 +86,7 @@ class AlignmentOf : public testing::TestWithParam<SolidKind> {
     return overlapped(solid, {.pair = {}, .displacement = lab, .pose = relative_pose(a, b, lab), .overlap = {}});
   }
 
-  /// Two random orientations at a distance at which they overlap.
+  /// Two solids with random orientations, at a distance at which they overlap.
   Contact random_overlap() {
     while (true) {
       const Vector3d lab = random_direction(random) * (2 * solid.circumradius() * random.uniform());
@@ -146,7 +148,7 @@ TEST_P(AlignmentOf, CrossedEdgesGiveTheClosedFormAtAnyAngle) {
     const Alignment found = alignment(solid, c);
     EXPECT_NEAR(std::cos(found.face_face), sine * sine + cosine * cosine * std::abs(std::cos(crossing)), rounding);
     EXPECT_NEAR(std::sin(found.edge_face), cosine * std::sin(crossing), rounding);
-    // Edges that cross at a small angle leave the body before they separate.
+    // If edges cross at a small angle, the contact reaches beyond their ends.
     if (std::sin(crossing) > 0.2) expect_masks_of_sites(c);
   }
 }
@@ -164,7 +166,7 @@ TEST_P(AlignmentOf, EdgeInFaceGivesTheSlopeOfTheNearerFace) {
   }
 }
 
-TEST_P(AlignmentOf, OverlappingFacesAreSeenByTheKernel) {
+TEST_P(AlignmentOf, EngineFindsOverlappingFaces) {
   for (double tilt = 1e-10; tilt < 2e-4; tilt *= 10) {
     const int face_a = pick(random, solid.faces().size()), face_b = pick(random, solid.faces().size());
     const Site a = face_and_edges_site(solid, face_a), b = face_and_edges_site(solid, face_b);
@@ -185,7 +187,7 @@ TEST_P(AlignmentOf, ExchangeOfTheBodiesChangesNothing) {
     const Alignment there = alignment(solid, c), back = alignment(solid, constructed::exchanged(c));
     EXPECT_NEAR(there.face_face, back.face_face, rounding);
     EXPECT_NEAR(there.edge_face, back.edge_face, rounding);
-    // The kernel itself finds the same contact from B's side.
+    // The engine finds the same contact with A and B exchanged.
     const Alignment again = alignment(solid, overlapped(solid, constructed::exchanged(c)));
     EXPECT_NEAR(there.face_face, again.face_face, rounding);
     EXPECT_NEAR(there.edge_face, again.edge_face, rounding);
@@ -204,7 +206,7 @@ TEST_P(AlignmentOf, RotationOfBothBodiesChangesNothing) {
   }
 }
 
-TEST_P(AlignmentOf, AnglesAreTheLeastOverTheMasks) {
+TEST_P(AlignmentOf, AnglesAreTheSmallestOverTheMasks) {
   const auto in = [](std::uint64_t mask, std::size_t k) { return (mask >> k & 1) != 0; };
   for (int trial = 0; trial < 200; ++trial) {
     const Vector3d tilt = random_direction(random) * random.uniform();
@@ -253,7 +255,7 @@ TEST_P(AlignmentOf, MissingFeaturesGiveTheLargestAngles) {
   EXPECT_EQ(alignment(solid, c).face_a, -1);
 }
 
-TEST_P(AlignmentOf, ManyAreTheOnesInOrder) {
+TEST_P(AlignmentOf, AlignmentsOfManyContactsAreThoseOfSingleContacts) {
   std::vector<Contact> contacts;
   for (int k = 0; k < 10; ++k) contacts.push_back(random_overlap());
   const std::vector<Alignment> all = alignments(solid, contacts);

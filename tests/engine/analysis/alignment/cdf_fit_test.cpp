@@ -1,12 +1,13 @@
 // Properties tested here:
-// 1. The fit is the minimum. Its error equals the integral computed by another method. No change of a coefficient and
-//    no other α (each with its own least-squares solution) has a smaller error. α is an angle or a stationary point.
-// 2. Angles drawn from a jump and a cubic give this cubic, more accurately for more angles.
-// 3. A fraction f of face-face angles among uniform ones is found within the standard error of the fit. The angles
-//    below the cut-off are the fraction a_0 within half an angle.
-// 4. A CDF without a jump, or with a jump of one angle, is collapsed; a larger jump is not. Two jumps in the window are
-//    bimodal, one in its upper half is out of range. Fewer angles than parameters are too_few. a_0 never exceeds c.
-// 5. Results do not depend on the order or the unit of the angles, bit by bit, nor on counting every angle twice.
+// 1. The fit has the smallest error, which equals the integral computed by another method. No change of a coefficient
+//    gives a smaller error, and no other α with its own least-squares solution. α is one of the angles, or a stationary
+//    point of the error.
+// 2. If angles are drawn from a distribution with a jump and a cubic, the fit finds this cubic.
+// 3. If a fraction f of the angles are face-face angles and the others are uniform, the fit finds f within its standard
+//    error. The fraction of angles below the cut-off is a_0, within half an angle.
+// 4. The verdict is `collapsed` without a jump or with a jump of one angle, `bimodal` if two jumps are in the window,
+//    `out_of_range` if the jump is in its upper half, and `too_few` with fewer angles than parameters. a_0 is at most c.
+// 5. The result has the same bits if the order or the unit of the angles changes, or if every angle is counted twice.
 // 6. Equal angles at the jump, also at 0, are below the cut-off. Invalid angles are rejected.
 
 #include "engine/analysis/alignment/cdf_fit.hpp"
@@ -30,7 +31,7 @@ using Vector4l = Eigen::Matrix<long double, 4, 1>;
 
 constexpr double upper = 0.3;
 
-/// n angles: a fraction f is spread over decades up to 1e-3, the rest is uniform up to `top`.
+/// n angles. A fraction f is spread over several decades up to 1e-3; the rest is uniform up to `top`.
 std::vector<double> mixture(int n, double f, double top, RandomStream& random) {
   std::vector<double> angles;
   const int ultra_low = static_cast<int>(std::lround(f * n));
@@ -40,7 +41,7 @@ std::vector<double> mixture(int n, double f, double top, RandomStream& random) {
   return angles;
 }
 
-/// Different kinds of sets of angles: few and many, with and without a jump, curved, in clumps, with a gap.
+/// Sets of angles of different kinds: few and many, with and without a jump, with a curved CDF, in clumps, with a gap.
 std::vector<std::vector<double>> families(RandomStream& random) {
   std::vector<std::vector<double>> sets;
   for (const int n : {8, 40, 300}) {
@@ -59,7 +60,8 @@ std::vector<std::vector<double>> families(RandomStream& random) {
   return sets;
 }
 
-/// The oracle: ∫ (c_f − c)² dθ as a quadratic form in a, from the antiderivatives of powers of θ − α.
+/// The reference: the error ∫ (c_f − c)² dθ as a quadratic form in the coefficients a, from the antiderivatives of the
+/// powers of θ − α.
 class Oracle {
  public:
   Oracle(std::vector<double> angles, double alpha) {
@@ -80,7 +82,7 @@ class Oracle {
     constant_ += height * height * (to - from);
     from = std::max(from, alpha);
     if (to <= from) return;
-    long double power[7], high = to - alpha, low = from - alpha;  // ∫ (θ − α)^n
+    long double power[7], high = to - alpha, low = from - alpha;  // integrals of (θ − α)^n
     for (int n = 0; n < 7; ++n, high *= to - alpha, low *= from - alpha) power[n] = (high - low) / (n + 1);
     for (int i = 0; i < 4; ++i) {
       const int sign_i = i == 0 ? 1 : -1;
@@ -96,7 +98,7 @@ class Oracle {
 
 Vector4l coefficients(const CdfFit& fit) { return {fit.a[0], fit.a[1], fit.a[2], fit.a[3]}; }
 
-TEST(CdfFit, ErrorIsTheLeastOverCoefficients) {
+TEST(CdfFit, NoOtherCoefficientsAreBetter) {
   RandomStream random{15};
   for (const std::vector<double>& angles : families(random)) {
     const CdfFit fit = fit_cdf(angles, upper);
@@ -126,7 +128,7 @@ TEST(CdfFit, NoOtherAlphaIsBetter) {
       others.push_back(fit.alpha + step);
     }
     for (const double alpha : others) {
-      if (alpha < 0 || alpha > 0.99 * upper) continue;  // the oracle's powers are ill-conditioned on short intervals
+      if (alpha < 0 || alpha > 0.99 * upper) continue;  // on short intervals the powers are ill-conditioned
       const Oracle oracle(angles, alpha);
       const double error = static_cast<double>(oracle.error(oracle.best()));
       ASSERT_GE(error, fit.error * (1 - 1e-9))
@@ -155,7 +157,7 @@ TEST(CdfFit, AlphaBetweenAnglesIsStationary) {
   EXPECT_GT(between, 50);
 }
 
-TEST(CdfFit, CubicBehindTheAnglesComesBack) {
+TEST(CdfFit, FindsTheCubicFromWhichAnglesAreDrawn) {
   constexpr double alpha = 0.02, a0 = 0.15, a1 = -1.2, a2 = 1.5, a3 = -0.9;
   const auto cdf = [&](double theta) {
     const double x = theta - alpha;
@@ -171,7 +173,8 @@ TEST(CdfFit, CubicBehindTheAnglesComesBack) {
     }
     const CdfFit fit = fit_cdf(angles, upper);
     ASSERT_EQ(fit.verdict, FitVerdict::fitted);
-    // c is within half a step of the cubic, and a_n scales with its n-th derivative over the window.
+    // The CDF of n angles is within half a step of the cubic. The error of a_n scales with its n-th derivative over the
+    // window.
     const double step = 0.5 / n;
     EXPECT_NEAR(fit.alpha, alpha, std::numeric_limits<double>::epsilon());
     EXPECT_NEAR(fit.a[0], a0, step) << n;
@@ -224,7 +227,7 @@ TEST(CdfFit, RandomUniformAnglesMostlyCollapse) {
     RandomStream random{18, seed};
     collapsed += fit_cdf(mixture(n, 0, 1, random), upper).verdict == FitVerdict::collapsed;
   }
-  // α is also fitted to the noise, which causes more false jumps than the 2.3 % of 2 standard errors.
+  // α is also fitted to the noise. This causes more false jumps than the 2.3 % for two standard errors.
   EXPECT_GT(collapsed, 0.7 * seeds) << collapsed << " of " << seeds;
 }
 
@@ -320,7 +323,7 @@ TEST(CdfFit, OrderUnitAndRepetitionDoNotMatter) {
     std::vector<double> shuffled = angles;
     for (std::size_t k = shuffled.size(); k > 1; --k) std::swap(shuffled[k - 1], shuffled[random.bits() % k]);
     const CdfFit same = fit_cdf(shuffled, upper);
-    for (double& angle : shuffled) angle *= 4;  // a power of two does not change any rounding
+    for (double& angle : shuffled) angle *= 4;  // multiplying by a power of two does not change any rounding
     const CdfFit scaled = fit_cdf(shuffled, 4 * upper);
     EXPECT_EQ(fit.verdict, same.verdict);
     EXPECT_EQ(fit.verdict, scaled.verdict);
@@ -343,7 +346,7 @@ TEST(CdfFit, EqualAnglesAtTheJumpFallBelowTheCutoff) {
   for (const double at : {0.0, 1e-9, 0.01}) {
     std::vector<double> angles(60, at);
     for (int k = 0; k < 240; ++k) angles.push_back(0.02 + (k + 0.5) / 240);
-    for (const double beyond : {0.0, 1.0}) {  // the second time only the jump is left in the window
+    for (const double beyond : {0.0, 1.0}) {  // with 1, only the jump is left in the window
       for (std::size_t k = 60; k < angles.size(); ++k) angles[k] += beyond;
       const CdfFit fit = fit_cdf(angles, upper);
       ASSERT_EQ(fit.verdict, FitVerdict::fitted) << "at " << at << ", a_0 " << fit.a[0];
@@ -377,7 +380,7 @@ TEST(CdfFit, HeightOfTheJumpIsBetweenOneAngleAndTheCdf) {
   }
 }
 
-TEST(CdfFit, RefusesWhatIsNoAngle) {
+TEST(CdfFit, RejectsInvalidAngles) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, infinity, -1e-9}) {
     const std::vector<double> angles{0.1, bad, 0.2};

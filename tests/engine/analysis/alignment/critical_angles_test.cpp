@@ -2,11 +2,11 @@
 // 1. The angles of the tetrahedron, octahedron, dodecahedron and icosahedron agree with Table II of Smith, Fisher and
 //    Alam (2011) to its last printed digit. For the cube they are 35.3, 45, 54.7, 60 and 45 degrees.
 // 2. They agree with the closed forms for the Schläfli symbol {p, q}, and obey the duality of the solids.
-// 3. They are extremal: no orientation of a contact of that topology has larger angles, and a search over orientations
-//    reaches them.
-// 4. Contacts that overlap() finds at random are below the critical angles of their topology.
-// 5. The normal cones give the same angles for these solids. For other solids they give the smallest value over the
-//    vertices of the maxima that a search over orientations reaches.
+// 3. They are the largest angles: no orientation of a contact with this topology has larger ones, and a search over
+//    orientations reaches them.
+// 4. The angles of random contacts, as overlap() finds them, are below the critical angles of their topology.
+// 5. The method with normal cones gives the same angles for these solids. For other solids, a search over orientations
+//    finds the largest angle of each vertex; the critical angle is the smallest of these.
 
 #include "engine/analysis/alignment/critical_angles.hpp"
 
@@ -68,10 +68,10 @@ Schlafli schlafli(const ConvexSolid& solid) {
           2 * static_cast<double>(solid.edges().size()) / static_cast<double>(solid.vertices().size())};
 }
 
-TEST(CriticalAngles, AreTheClosedFormsOfTheSchlafliSymbol) {
+TEST(CriticalAngles, AgreeWithClosedFormsOfTheSchlafliSymbol) {
   for (const SolidKind kind : all_solids) {
     const auto [p, q] = schlafli(platonic(kind));
-    const double sine = std::cos(pi / q) / std::sin(pi / p);  // sine of δ/2
+    const double sine = std::cos(pi / q) / std::sin(pi / p);  // sine of δ/2, where δ is the dihedral angle
     const double cosine = std::sqrt(1 - sine * sine);
     const CriticalAngles c = critical_angles(platonic(kind));
     EXPECT_NEAR(std::cos(c.ef_vertex_face), std::cos(pi / p) / std::sin(pi / q), rounding) << to_string(kind);
@@ -98,7 +98,7 @@ using Parameters = std::vector<double>;  // each in [0, 1]
 using Pose = std::function<Contact(const Parameters&)>;
 using Angle = double Alignment::*;
 
-/// Largest angle over the poses: the best of many random poses, followed by a search in ever smaller boxes around it.
+/// Largest angle over all poses: the best of many random poses, then a search in smaller and smaller boxes around it.
 double largest_angle(const ConvexSolid& solid, const Pose& pose, std::size_t dimensions, Angle angle,
                      RandomStream& random) {
   Parameters best(dimensions, 0.5), trial(dimensions);
@@ -124,7 +124,8 @@ class CriticalAnglesOf : public testing::TestWithParam<SolidKind> {
   const CriticalAngles critical = critical_angles(solid);
   RandomStream random{12, static_cast<std::uint64_t>(GetParam())};
 
-  /// Every direction in which the vertex is the outermost point: a convex combination of the normals around it.
+  /// Poses in which the vertex is the outermost point. The direction is a convex combination of the normals around the
+  /// vertex.
   Pose vertex_on_face() const {
     return [this](const Parameters& t) {
       Site site = constructed::vertex_site(solid, 0);
@@ -140,7 +141,7 @@ class CriticalAnglesOf : public testing::TestWithParam<SolidKind> {
     };
   }
 
-  /// The edge with the outward direction between its two normals at the fraction t.
+  /// Poses in which the edge is outermost. t is the position of the direction between the two normals of the edge.
   Site leaning_edge(double t) const {
     Site site = constructed::edge_site(solid, 0);
     const Vector3d& left = solid.faces()[solid.edges()[0].left].normal;
@@ -164,7 +165,7 @@ class CriticalAnglesOf : public testing::TestWithParam<SolidKind> {
   void expect_extremal(const Pose& pose, std::size_t dimensions, Angle angle, double claimed, const char* what) {
     const double found = largest_angle(solid, pose, dimensions, angle, random);
     EXPECT_LE(found, claimed + rounding) << what;
-    EXPECT_GE(found, claimed * (1 - 1e-3)) << what;  // a random search stops at kinks
+    EXPECT_GE(found, claimed * (1 - 1e-3)) << what;  // the search cannot find a maximum at a kink exactly
   }
 };
 
@@ -207,23 +208,23 @@ TEST_P(CriticalAnglesOf, BoundTheContactsThatTheKernelFinds) {
 INSTANTIATE_TEST_SUITE_P(Solids, CriticalAnglesOf, testing::ValuesIn(all_solids),
                          [](const auto& solid) { return std::string(to_string(solid.param)); });
 
-TEST_P(CriticalAnglesOf, ComeFromConesOfNormalsToo) {
+TEST_P(CriticalAnglesOf, AgreeWithConesOfNormals) {
   const auto closed = as_array(critical_angles(platonic(GetParam())));
   const auto of_cones = as_array(critical_angles_of_cones(platonic(GetParam())));
   for (std::size_t k = 0; k < closed.size(); ++k) EXPECT_NEAR(of_cones[k], closed[k], rounding) << k;
 }
 
-TEST(CriticalAngles, OfUnlikeVerticesAreTheLeast) {
+TEST(CriticalAngles, AreTheSmallestOverUnlikeVertices) {
   std::vector<Vector3d> box, pyramid{{0, 0, 1}};
   for (int k = 0; k < 8; ++k) box.emplace_back(k & 1 ? 1 : -1, k & 2 ? 2 : -2, k & 4 ? 3 : -3);
   for (int k = 0; k < 4; ++k) pyramid.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, 0);
-  // The cones and edges of any box are those of a cube.
+  // The normal cones and edges of any box are those of a cube.
   const auto cube = as_array(critical_angles(platonic(SolidKind::cube)));
   const auto of_box = as_array(critical_angles(ConvexSolid("box", box)));
   for (std::size_t k = 0; k < cube.size(); ++k) EXPECT_NEAR(of_box[k], cube[k], rounding) << k;
-  // At the apex four faces have an angle of 45° to the base, 120° between neighbours. Their normals are 45° from the
-  // axis, so that the corners lie on a circle of 45°, and the edges rise by 35.26°. At the base three faces meet, and a
-  // search finds smaller angles.
+  // At the apex, four faces have an angle of 45° to the base and 120° between neighbours. Their normals are at 45° from
+  // the axis, and the edges rise by 35.26°. At the corners of the base three faces meet, and a search finds smaller
+  // angles there.
   const CriticalAngles of_pyramid = critical_angles(ConvexSolid("pyramid", pyramid));
   EXPECT_NEAR(of_pyramid.ff_edge_face, pi / 6, rounding) << "of the widest dihedral angle, 120°";
   EXPECT_LE(of_pyramid.ff_vertex_face, pi / 4 + rounding);
@@ -231,14 +232,15 @@ TEST(CriticalAngles, OfUnlikeVerticesAreTheLeast) {
 }
 
 TEST(CriticalAngles, OfAFlatVertexAreThoseOfItsTwoLowestEdges) {
-  // Its four edges rise by 0.1 over lengths of 1 and 2. The inscribed circle of the normal cone touches two opposite
-  // sides and no third one.
+  // The four edges of the flat vertex rise by 0.1 over lengths of 1 and 2. The inscribed circle of its normal cone
+  // touches only two sides, which are opposite to each other.
   const std::vector<Vector3d> vertices{{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, .1}, {0, 0, -.1}};
   const ConvexSolid flat("flat", vertices);
   EXPECT_NEAR(critical_angles(flat).ef_vertex_face, std::atan(.1 / 2), 20 * rounding);
 }
 
-/// The largest of the smallest angles over directions of the cone of each vertex, by brute force: a lower bound.
+/// A lower bound of the critical angles by brute force: the largest angle over directions in the cone of each vertex,
+/// and the smallest of these over the vertices.
 CriticalAngles searched(const ConvexSolid& solid, RandomStream& random) {
   std::vector<double> ef(solid.vertices().size(), 0), ff(solid.vertices().size(), 0);
   std::vector<std::vector<Vector3d>> normals(ff.size()), along(ff.size());
@@ -267,12 +269,12 @@ CriticalAngles searched(const ConvexSolid& solid, RandomStream& random) {
   return least;
 }
 
-TEST(CriticalAngles, OfOtherSolidsAreWhatASearchClimbsTo) {
+TEST(CriticalAngles, OfOtherSolidsAgreeWithASearch) {
   RandomStream random{63};
   std::vector<Vector3d> rock;
   for (int k = 0; k < 9; ++k) rock.push_back(Vector3d(random.normal(), random.normal(), random.normal()).normalized());
-  // In the origin three faces meet whose normals form a triangle that does not contain its circumcentre. The angles
-  // between edges there are 110°, 110° and 30°.
+  // Three faces meet at the origin. Their normals form a triangle that does not contain its circumcentre. The angles
+  // between the edges are 110°, 110° and 30°.
   const double half = pi / 12, down = std::cos(11 * pi / 18) / std::cos(half);
   const std::vector<Vector3d> leaning{{0, 0, 0},
                                       {std::cos(half), std::sin(half), 0},

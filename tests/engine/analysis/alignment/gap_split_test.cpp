@@ -1,10 +1,13 @@
 // Properties tested here:
-// 1. The split has the largest variance between groups, by a search over all splits in another form. The cut-off is at
-//    the middle of two neighbouring angles' logarithms.
-// 2. Angles from a power law with any exponent have η near 0.648, and angles spread evenly over decades near 3/4, with
-//    the scatter assumed in the critical value. Neither is classified as a gap more often than expected.
-// 3. Two groups that are decades apart are separated, for any ratio of their sizes, and every angle is on its side.
-// 4. A group far below the end of the window is all_alike, also at 0. Few angles are too_few.
+// 1. The split has the largest variance between its two groups of all splits. The test searches all splits with
+//    another formula. The cut-off is in the middle between the logarithms of two neighbouring angles.
+// 2. Let η be the fraction of the variance that the split explains. Angles from a power law with any exponent have η
+//    near 0.648. Angles spread evenly over decades have η near 3/4. η scatters as much as the critical value assumes.
+//    Gaps are found in such angles only as often as expected.
+// 3. Two groups that are decades apart are separated, for any ratio of their sizes, and every angle is in the correct
+//    group.
+// 4. If all angles are far below the end of the window, also at 0, the verdict is `all_alike`. If there are few angles,
+//    it is `too_few`.
 // 5. Order and unit of the angles do not matter. Angles beyond the window do not count. Invalid input is rejected.
 
 #include "engine/analysis/alignment/gap_split.hpp"
@@ -24,7 +27,7 @@ namespace {
 
 constexpr double upper = 0.3;
 
-/// n angles from upper·10^−decades to upper, uniform in the logarithm.
+/// n angles from upper·10^−decades to upper; their logarithms are uniform.
 std::vector<double> log_uniform(int n, double decades, RandomStream& random) {
   std::vector<double> angles;
   for (int k = 0; k < n; ++k) angles.push_back(upper * std::pow(10, -decades * (1 - random.uniform())));
@@ -37,7 +40,7 @@ std::vector<double> power_law(int n, double exponent, RandomStream& random) {
   return angles;
 }
 
-/// A few very small angles, the rest uniform up to twice the window.
+/// `low` very small angles, and `high` angles that are uniform up to twice the window.
 std::vector<double> two_groups(int low, int high, RandomStream& random) {
   std::vector<double> angles;
   for (int k = 0; k < low; ++k) angles.push_back(std::pow(10, -8 + 3 * random.uniform()));
@@ -45,7 +48,7 @@ std::vector<double> two_groups(int low, int high, RandomStream& random) {
   return angles;
 }
 
-/// η of the split of sorted logarithms below position k, from the definition.
+/// η of the split of the sorted logarithms before position k, computed from its definition.
 double separation(const std::vector<double>& x, std::size_t k) {
   const auto mean = [&](std::size_t from, std::size_t to) {
     long double sum = 0;
@@ -66,7 +69,7 @@ TEST(GapSplit, IsTheBestOfAllSplits) {
     const std::vector<double> angles = trial % 3 == 0   ? log_uniform(n, 4, random)
                                        : trial % 3 == 1 ? power_law(n, 1, random)
                                                         : two_groups(n, n, random);
-    const GapSplit split = split_at_gap(angles, upper, {.quantile = -100});  // always separated, for any η
+    const GapSplit split = split_at_gap(angles, upper, {.quantile = -100});  // every split is a gap
     ASSERT_EQ(split.verdict, GapVerdict::separated);
     std::vector<double> x;
     for (const double angle : angles) {
@@ -103,7 +106,7 @@ Scatter scatter(int sets, const Draw& draw) {
   return result;
 }
 
-TEST(GapSplit, WithoutAGapSeparationIsKnown) {
+TEST(GapSplit, SeparationWithoutAGapHasTheKnownMean) {
   RandomStream random{42};
   constexpr int sets = 1000;
   for (const int n : {20, 60, 200, 1000}) {
@@ -115,7 +118,7 @@ TEST(GapSplit, WithoutAGapSeparationIsKnown) {
     const Scatter s = scatter(sets, [&] { return log_uniform(n, 5, random); });
     std::printf("n %4d, even over decades: η %.4f ± %.4f (%.4f expected), separated %.3f\n", n, s.mean, s.sd,
                 std::sqrt(0.075 / n), s.separated / static_cast<double>(sets));
-    // The best of many splits exceeds the one at the middle by the order of 1/n.
+    // η of the best split is larger than that of the split in the middle, by the order of 1/n.
     EXPECT_NEAR(s.mean, 0.75, 5 * std::sqrt(0.075 / n / sets) + 0.5 / n) << n;
     EXPECT_NEAR(s.sd / std::sqrt(0.075 / n), 1, 0.1) << n;
     EXPECT_LE(s.separated, 0.1 * sets) << n;
@@ -147,7 +150,7 @@ TEST(GapSplit, OneGroupIsAllAlike) {
   std::vector<double> narrow;
   for (int k = 0; k < 100; ++k) narrow.push_back(1e-10 * (1 + 9 * random.uniform()));
   EXPECT_EQ(split_at_gap(narrow, upper).verdict, GapVerdict::all_alike);
-  // Two values have only one split.
+  // Two different values have only one split.
   std::vector<double> two(15, 0.0);
   two.insert(two.end(), 15, 0.2);
   const GapSplit split = split_at_gap(two, upper);
@@ -180,7 +183,7 @@ TEST(GapSplit, OrderAndUnitDoNotMatter) {
   EXPECT_NEAR(scaled.separation, split.separation, 1e-12);
 }
 
-TEST(GapSplit, RefusesWhatIsNoAngle) {
+TEST(GapSplit, RejectsInvalidAngles) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(split_at_gap(std::vector<double>{0.1, nan}, upper), std::invalid_argument);
   EXPECT_THROW(split_at_gap(std::vector<double>{-0.1}, upper), std::invalid_argument);

@@ -1,15 +1,17 @@
 // Properties tested here, for every Platonic solid:
-// 1. A million random orientations follow the closed forms of θ_ff and θ_ef, and a million rotations about an edge
-//    follow that of θ_ff under the constraint, by the Kolmogorov–Smirnov test. The test would fail for a different
-//    solid.
+// 1. The Kolmogorov–Smirnov test confirms the closed forms with a million random orientations for θ_ff and θ_ef, and
+//    with a million rotations about an edge for θ_ff under the constraint that this edge lies in the face. The test
+//    would fail for another solid.
 // 2. The closed forms increase from 0 to 1 continuously. At small angles they are the paper's: p(θ_ff) ∝ sin θ_ff on
 //    all of [0, θ_c,min], p(θ_ef) → const, p(θ_ff) = const under the constraint.
 // 3. The sampled angles are those that alignment() finds if the solid is pressed on a face.
-// 4. Contacts drawn at random are classified as random, except for the fraction given by the level. With more or fewer
-//    small angles they are hyper-random or sub-random. Probabilities are the binomial sums.
-// 5. An empirical CDF is a count, its distance is the largest one of a dense search, and its probability agrees with
-//    tables.
-// 6. A stratified sample agrees with the closed form to six times n^(-3/4), and for other solids with random samples.
+// 4. Contacts drawn at random get the verdict random, except for the fraction given by the significance level. With
+//    more small angles than random the verdict is hyper-random, with fewer it is sub-random. The probabilities are
+//    binomial sums.
+// 5. An empirical CDF counts values. Its distance from a distribution is the largest one that a dense search finds, and
+//    the probability of this distance agrees with tables.
+// 6. A stratified sample of n angles agrees with the closed form within six times n^(-3/4). For solids without a closed
+//    form it agrees with random samples.
 // 7. NaN and invalid fractions are rejected.
 
 #include "engine/analysis/alignment/random_alignment.hpp"
@@ -45,7 +47,7 @@ using std::numbers::pi;
 using Angle = double AlignmentAngles::*;
 
 constexpr int million = 1000000;
-/// Six times n^(-3/4), n the size of a stratified sample.
+/// Allowed deviation of a stratified sample of size n: six times n^(-3/4).
 const double of_sampling = 6 * std::pow(65536, -.75);
 
 std::vector<double> column(const std::vector<AlignmentAngles>& sample, Angle angle) {
@@ -75,12 +77,12 @@ TEST_P(RandomAlignmentOf, AMillionOrientationsFollowTheClosedForms) {
   std::printf("%s: P %.3f for θ_ff, %.3f for θ_ef\n", solid.name().c_str(), ff, ef);
   EXPECT_GT(ff, 1e-3);
   EXPECT_GT(ef, 1e-3);
-  // This number of orientations reveals an error of one per cent.
+  // With this number of orientations, the test detects an error of one per cent.
   EXPECT_LT(agreement(face_face, [&](double theta) { return ideal.face_face(1.01 * theta); }), 1e-6);
   EXPECT_LT(agreement(edge_face, [&](double theta) { return ideal.edge_face(1.01 * theta); }), 1e-6);
 }
 
-TEST_P(RandomAlignmentOf, AMillionTurnsFollowTheConstrainedForm) {
+TEST_P(RandomAlignmentOf, AMillionRotationsFollowTheConstrainedForm) {
   const std::vector<AlignmentAngles> sample = sample_edge_constrained(solid, million, random);
   const EmpiricalCdf face_face = empirical_cdf(column(sample, &AlignmentAngles::face_face));
   EXPECT_GT(agreement(face_face, [&](double theta) { return ideal.constrained_face_face(theta); }), 1e-3);
@@ -119,15 +121,16 @@ TEST_P(RandomAlignmentOf, SmallAnglesFollowThePaper) {
   for (double theta = 1e-3; theta < critical_angles(solid).ff_edge_face; theta *= 1.1) {
     EXPECT_NEAR(ideal.face_face(theta), faces * (1 - std::cos(theta)) / 2, 1e-12) << "∫ sin over the caps";
   }
-  // The strip along a side of the polygon: its length over the area of all polygons, two sides per edge.
+  // Expected value from the area of a narrow strip along all sides of the polygons: the length of the sides divided by
+  // the area of the polygons.
   const double arc = pi - std::acos(-std::cos(2 * ideal.constrained_ff_max()));
   const double slope = 2 * static_cast<double>(solid.edges().size()) * arc / (4 * pi);
   for (const double theta : {1e-3, 1e-4, 1e-5})
     EXPECT_NEAR(ideal.edge_face(theta) / theta, slope, 10 * theta * slope) << theta;
 }
 
-TEST_P(RandomAlignmentOf, SamplesAreWhatAlignmentFindsOnAFace) {
-  // Two equal streams: both draw the direction from which the face is pressed on the solid.
+TEST_P(RandomAlignmentOf, SamplesAreThoseOfSolidsPressedOnAFace) {
+  // Two streams with the same numbers: both draw the direction from which the face is pressed on the solid.
   RandomStream fresh{52, static_cast<std::uint64_t>(GetParam())}, twin = fresh;
   for (const AlignmentAngles& expected : sample_unconstrained(solid, 300, fresh)) {
     const double z = 2 * twin.uniform() - 1, azimuth = 2 * pi * twin.uniform(), r = std::sqrt(1 - z * z);
@@ -158,7 +161,7 @@ Randomness compare(const std::vector<double>& angles) {
       angles, [](double theta) { return octahedral().edge_face(theta); }, octahedral().ef_max());
 }
 
-TEST(Randomness, OfRandomContactsAndOfOthers) {
+TEST(Randomness, IsFoundForRandomContactsOnly) {
   RandomStream random{53};
   constexpr int sets = 500, n = 400;
   int unlikely = 0;
@@ -201,14 +204,14 @@ TEST(Randomness, ProbabilityIsTheBinomialSum) {
   }
 }
 
-TEST(Randomness, OfFewContactsIsUndecided) {
+TEST(Randomness, IsUndecidedForFewContacts) {
   EXPECT_EQ(Randomness().verdict, RandomnessVerdict::not_called);
   EXPECT_EQ(compare({}).verdict, RandomnessVerdict::too_few);
   EXPECT_EQ(compare({0.0}).verdict, RandomnessVerdict::too_few);
   EXPECT_EQ(compare({0.0, 0.0, 0.0}).verdict, RandomnessVerdict::hyper_random);
 }
 
-TEST(EmpiricalCdf, IsACount) {
+TEST(EmpiricalCdf, CountsValues) {
   RandomStream random{54};
   std::vector<double> values;
   for (int k = 0; k < 200; ++k) values.push_back(std::floor(50 * random.uniform()) / 50);
@@ -225,7 +228,7 @@ TEST(EmpiricalCdf, IsACount) {
   EXPECT_THROW(empirical_cdf(std::vector<double>{1, std::numeric_limits<double>::quiet_NaN()}), std::invalid_argument);
 }
 
-TEST(EmpiricalCdf, DistanceIsTheGreatest) {
+TEST(EmpiricalCdf, DistanceIsTheLargest) {
   RandomStream random{55};
   const auto square = [](double x) { return x * x; };
   const auto root = [](double x) { return std::sqrt(x); };
@@ -233,7 +236,7 @@ TEST(EmpiricalCdf, DistanceIsTheGreatest) {
     std::vector<double> values;
     for (int k = 0; k < n; ++k) values.push_back(random.uniform());
     const EmpiricalCdf cdf = empirical_cdf(values);
-    // One distribution is below the values, one above.
+    // One distribution is above the empirical CDF, the other one below.
     for (const auto& distribution : {+square, +root}) {
       double greatest = 0;
       for (int k = 0; k <= 100000; ++k) greatest = std::max(greatest, std::abs(cdf(k * 1e-5) - distribution(k * 1e-5)));
@@ -243,8 +246,8 @@ TEST(EmpiricalCdf, DistanceIsTheGreatest) {
   EXPECT_EQ(kolmogorov_distance(EmpiricalCdf(), square), 0);
 }
 
-TEST(EmpiricalCdf, ProbabilityIsKolmogorovs) {
-  // Median and percentage points of the limiting distribution.
+TEST(EmpiricalCdf, ProbabilityAgreesWithTables) {
+  // Median and quantiles of the limiting distribution, from tables.
   EXPECT_NEAR(kolmogorov_probability(0.82757 / 1e4, 100000000), 0.5, 1e-4);
   EXPECT_NEAR(kolmogorov_probability(0.5 / 1e4, 100000000), 0.96394, 1e-4);
   EXPECT_NEAR(kolmogorov_probability(1.3581 / 1e4, 100000000), 0.05, 1e-4);
@@ -253,7 +256,7 @@ TEST(EmpiricalCdf, ProbabilityIsKolmogorovs) {
   EXPECT_LT(kolmogorov_probability(1, 100), 1e-80);
 }
 
-TEST_P(RandomAlignmentOf, ASampleIsTheClosedFormToWithinItsError) {
+TEST_P(RandomAlignmentOf, StratifiedSampleAgreesWithTheClosedForm) {
   const RandomAlignment sampled(solid, RandomAlignment::Way::sampled);
   ASSERT_TRUE(sampled.is_sampled());
   const auto expect_near = [&](const auto& exact, const auto& found, double largest, double allowed, const char* what) {
@@ -273,12 +276,12 @@ TEST_P(RandomAlignmentOf, ASampleIsTheClosedFormToWithinItsError) {
               "constrained");
 }
 
-TEST(RandomAlignment, OfOtherSolidsFollowsWhatIsDrawn) {
+TEST(RandomAlignment, OfOtherSolidsAgreesWithRandomSamples) {
   RandomStream random{53};
   std::vector<Solid> solids;
   for (const char* name : {"truncated_tetrahedron", "cuboctahedron", "rhombic_dodecahedron", "prism6", "antiprism5"})
     solids.push_back(*Solid::named(name));
-  // The solid looks different from above and from below.
+  // A pyramid looks different from above and from below.
   const std::vector<Eigen::Vector3d> pyramid{{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, 2}};
   solids.push_back(Solid::made_of("pyramid", pyramid));
   for (const Solid& each : solids) {
@@ -306,7 +309,7 @@ TEST(RandomAlignment, OfOtherSolidsFollowsWhatIsDrawn) {
   }
 }
 
-TEST(RandomAlignment, RefusesWhatIsNoFraction) {
+TEST(RandomAlignment, RejectsInvalidFractions) {
   EXPECT_THROW(compare_with_random({}, [](double x) { return x; }, 1, {.fraction = 1}), std::invalid_argument);
   EXPECT_THROW(compare_with_random({}, [](double x) { return x; }, 1, {.level = 0}), std::invalid_argument);
 }

@@ -1,15 +1,15 @@
 // Properties tested here:
-// 1. The edge-edge fraction of random contacts is 60 % for tetrahedra, 56 % for octahedra, 52 % for dodecahedra and
-// icosahedra.
-//    Surface and mean curvature of cubes and boxes are correct for any size. Fractions sum to 1 and follow the order of
-//    the solids.
-// 2. The parallelograms of the Minkowski sum over random rotations of one solid have the mean total area M_A M_B/2π.
-//    Their angles, weighted by area, follow the given distributions: for every Platonic solid, for two different ones
-//    and for solids with different edges. Unweighted they would not.
+// 1. The edge-edge fraction of random contacts is 60 % for tetrahedra, 56 % for octahedra, and 52 % for dodecahedra and
+//    icosahedra. Surface and mean curvature of cubes and boxes are correct for any size. The fractions of a pair sum to
+//    1. If the two solids are exchanged, their fractions are exchanged too.
+// 2. If one of two solids with mean curvatures M_A and M_B is rotated at random, the parallelograms of the Minkowski
+//    sum have the mean total area M_A M_B/2π. Their angles, weighted by area, follow the given distributions: for every
+//    Platonic solid, for two different ones, and for solids with different edges. Without the weights they would not
+//    follow them.
 // 3. The drawn angles are those that alignment() finds if the edges touch.
-// 4. Distributions increase from 0 to 1 continuously and reach 1 at the critical angles of two edges. Near 0 they are 4
-//    θ²/α² and 16 θ/(πα). Two computations give the same bits.
-// 5. The distribution for all contacts is the sum of both kinds weighted by their fractions.
+// 4. The distributions increase continuously from 0 to 1, and reach 1 at the critical angles of two edges. Near 0 they
+//    are 4 θ²/α² and 16 θ/(πα). Computing them twice gives the same bits.
+// 5. The distribution for all contacts is the sum of the distributions of both kinds, weighted by their fractions.
 
 #include "engine/analysis/alignment/random_contact.hpp"
 
@@ -36,7 +36,7 @@ double angle_between(const Vector3d& u, const Vector3d& v) { return std::atan2(u
 
 const Face& face_of(const ConvexSolid& solid, int face) { return solid.faces()[static_cast<std::size_t>(face)]; }
 
-/// An edge with its normals.
+/// An edge and the normals of its two faces.
 struct Side {
   Vector3d edge, left, right;
 };
@@ -51,14 +51,15 @@ double exterior(const ConvexSolid& solid) {
   return angle_between(side.left, side.right);
 }
 
-/// A parallelogram of a Minkowski sum.
+/// A parallelogram of the Minkowski sum.
 struct Drawn {
   std::size_t edge_a, edge_b;
   Vector3d normal;  ///< outward from A
   double area, face_face, edge_face;
 };
 
-/// Intersection of the arc from left to right with the arc from −left to −right of the other edge, if there is one.
+/// True if the arc between the normals of edge a crosses the arc between the negative normals of edge b. `at` is then
+/// the intersection.
 bool crosses(const Side& a, const Side& b, Vector3d& at) {
   const Vector3d across_a = a.left.cross(a.right), across_b = b.left.cross(b.right);
   at = across_a.cross(across_b).normalized();
@@ -71,7 +72,7 @@ bool crosses(const Side& a, const Side& b, Vector3d& at) {
   return false;
 }
 
-/// All parallelograms of A + (−B), with B rotated.
+/// Appends all parallelograms of A + (−B) to the list, where B is rotated.
 void draw(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Quaterniond& turn, std::vector<Drawn>& list) {
   for (std::size_t i = 0; i < a.edges().size(); ++i) {
     const Side one = side_of(a, i);
@@ -94,7 +95,7 @@ void draw(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Quaterniond& 
   }
 }
 
-/// Largest distance of the CDF of weighted values from a distribution.
+/// Largest distance between the CDF of weighted values and a distribution.
 double distance(std::vector<std::pair<double, double>> values, const std::function<double(double)>& distribution) {
   std::sort(values.begin(), values.end());
   double sum = 0, cumulative = 0, greatest = 0;
@@ -108,7 +109,7 @@ double distance(std::vector<std::pair<double, double>> values, const std::functi
   return greatest;
 }
 
-TEST(ContactShares, AreTheKnownOnes) {
+TEST(ContactShares, AgreeWithKnownValues) {
   const auto share = [](SolidKind kind) { return RandomContact(platonic(kind)).edge_edge_share(); };
   EXPECT_EQ(std::lround(100 * share(SolidKind::tetrahedron)), 60);
   EXPECT_EQ(std::lround(100 * share(SolidKind::octahedron)), 56);
@@ -127,7 +128,7 @@ TEST(ContactShares, AreTheKnownOnes) {
   EXPECT_EQ(shares.edge_edge, exchanged.edge_edge);
 }
 
-/// Compares drawn angles with the given distributions.
+/// Checks that drawn angles follow the given distributions.
 void expect_followed(const ConvexSolid& a, const ConvexSolid& b, int turns, RandomStream& random) {
   std::vector<Drawn> drawn;
   for (int k = 0; k < turns; ++k) draw(a, b, constructed::random_orientation(random), drawn);
@@ -147,8 +148,8 @@ void expect_followed(const ConvexSolid& a, const ConvexSolid& b, int turns, Rand
   const double other = distance(by_number, [&](double theta) { return ideal.edge_face(theta); });
   std::printf("%s and %s: %zu parallelograms, area %.4f of %.4f, distances %.4f and %.4f, by number %.4f\n",
               a.name().c_str(), b.name().c_str(), drawn.size(), area, expected, ff, ef, other);
-  // Angles of one rotation are not independent: the tolerance is twice the 1 % level, plus the error of the fixed
-  // points.
+  // The angles of one rotation are not independent. The tolerance is therefore twice the 1 % level, plus the error of
+  // the numerical integration with fixed points.
   const double allowed = 2 * 1.63 / std::sqrt(static_cast<double>(drawn.size())) + 2e-3;
   EXPECT_LE(ff, allowed);
   EXPECT_LE(ef, allowed);
@@ -166,7 +167,7 @@ TEST(RandomEdgeContact, FollowsMinkowskiSums) {
   expect_followed(*truncated, *prism, 8000, random);
 }
 
-TEST(RandomEdgeContact, AnglesDrawnAreWhatAlignmentFinds) {
+TEST(RandomEdgeContact, DrawnAnglesAreThoseOfTouchingEdges) {
   RandomStream random{62};
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);
@@ -180,7 +181,7 @@ TEST(RandomEdgeContact, AnglesDrawnAreWhatAlignmentFinds) {
                           b = constructed::edge_site(solid, static_cast<int>(drawn[i].edge_b));
         a.outward = drawn[i].normal;
         b.outward = turn.conjugate() * -drawn[i].normal;
-        // The spin that rotates B's edge into its direction.
+        // The angle about the normal that rotates the edge of B into its direction.
         const Vector3d along = constructed::direction(solid, static_cast<int>(drawn[i].edge_b));
         const Vector3d wanted = turn * along;
         const Vector3d found = constructed::contact(a, b, 0, Vector3d::Zero(), 1e-9).pose.rotation * along;
