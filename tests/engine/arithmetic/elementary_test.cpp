@@ -1,8 +1,8 @@
 // Properties tested here:
 // - Every function of nearest:: returns the double nearest to its value in 50 digits, at random arguments of all
-//   magnitudes, close to its zeros and to the ends of its domain.
+//   magnitudes, near its zeros and near the ends of its domain.
 // - Infinities, NaN, signed zeros and arguments outside the domain give the same as with the standard library.
-// - sinc has a relative error of at most 2 ε up to 1 and beyond, is even, and is 1 at 0.
+// - sinc has a relative error of at most 2 ε. It is even, and 1 at 0.
 
 #include "engine/arithmetic/elementary.hpp"
 
@@ -22,7 +22,7 @@ using Exact = boost::multiprecision::cpp_bin_float_50;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Random number with a magnitude from 2^low to 2^high and either sign.
+/// A random number of either sign, with a magnitude from 2^low to 2^high.
 double of_any_size(RandomStream& random, int low, int high) {
   const double size = std::ldexp(1 + random.uniform(), low + static_cast<int>(random.uniform() * (high - low)));
   return random.uniform() < 0.5 ? -size : size;
@@ -34,7 +34,7 @@ struct Case {
   Exact (*exact)(const Exact&);
   double (*standard)(double);
   double lower, upper;  ///< ends of its domain
-  int low, high;        ///< magnitudes of arguments, powers of two
+  int low, high;        ///< arguments have magnitudes from 2^low to 2^high
 };
 
 const Case cases[] = {
@@ -70,7 +70,7 @@ TEST_P(Nearest, IsTheNearestDouble) {
   EXPECT_GT(tried, 900);
 }
 
-TEST_P(Nearest, IsAsTheStandardHasItWhereThereIsNoNumber) {
+TEST_P(Nearest, SpecialValuesAreThoseOfTheStandardLibrary) {
   const Case& function = GetParam();
   for (const double x : {0.0, -0.0, infinity, -infinity, std::nan(""), 2.0, -2.0}) {
     const double ours = function.ours(x), standard = function.standard(x);

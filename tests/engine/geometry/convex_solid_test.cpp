@@ -1,7 +1,7 @@
 // Properties tested here:
 // - The Platonic solids have unit volume, centroid 0, Euler characteristic 2 and the radii of their closed forms.
-// - Every edge is in the vertex order of its left face, and reversed in that of its right face.
-// - A solid rejects vertices that are not extreme, too few, or coplanar.
+// - Every edge follows the order of vertices in its left face, and the reverse order in its right face.
+// - The constructor rejects too few vertices, coplanar vertices, and points that are not corners.
 
 #include "engine/geometry/convex_solid.hpp"
 
@@ -36,12 +36,12 @@ TEST_P(Platonic, HasUnitVolumeAndCentroidZero) {
   EXPECT_LT(first.norm(), 1e-15 * solid.circumradius() * 10);
 }
 
-TEST_P(Platonic, ClosesByEulersFormula) {
+TEST_P(Platonic, ObeysEulersFormula) {
   const ConvexSolid& solid = platonic(GetParam());
   EXPECT_EQ(solid.vertices().size() + solid.faces().size(), solid.edges().size() + 2);
 }
 
-/// True if `to` follows `from` in the polygon of the face.
+/// True if `to` follows `from` in the order of the face's vertices.
 bool runs_along(const Face& face, int from, int to) {
   const std::size_t n = face.vertices.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -55,7 +55,7 @@ TEST_P(Platonic, EdgesRunBetweenTheirFaces) {
   for (const Edge& edge : solid.edges()) {
     const Eigen::Vector3d along = solid.vertices()[edge.head] - solid.vertices()[edge.tail];
     const Eigen::Vector3d left = solid.faces()[edge.left].normal, right = solid.faces()[edge.right].normal;
-    // The outward normal rotates from left to right about the edge.
+    // The outward normal rotates about the edge from left to right.
     EXPECT_GT(left.cross(right).dot(along), 0) << edge.tail << " → " << edge.head;
     EXPECT_TRUE(runs_along(solid.faces()[edge.left], edge.tail, edge.head)) << edge.tail << " → " << edge.head;
     EXPECT_TRUE(runs_along(solid.faces()[edge.right], edge.head, edge.tail)) << edge.tail << " → " << edge.head;
@@ -66,7 +66,7 @@ TEST_P(Platonic, EdgesRunBetweenTheirFaces) {
   }
 }
 
-TEST_P(Platonic, FacesAreEquallyFar) {
+TEST_P(Platonic, FacesHaveTheSameDistance) {
   const ConvexSolid& solid = platonic(GetParam());
   for (const Face& face : solid.faces()) {
     EXPECT_NEAR(face.offset, solid.inradius(), 1e-15);
@@ -83,7 +83,7 @@ TEST(ConvexSolidTest, RadiiMatchClosedForms) {
   EXPECT_NEAR(platonic(SolidKind::octahedron).inradius(), std::cbrt(3 / std::sqrt(2.0)) / std::sqrt(6.0), 1e-15);
 }
 
-TEST(ConvexSolidTest, RefusesWhatIsNoConvexSolid) {
+TEST(ConvexSolidTest, RejectsInvalidVertices) {
   using Points = std::vector<Eigen::Vector3d>;
   const Points with_inner{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {0.1, 0.1, 0.1}};
   EXPECT_THROW(ConvexSolid("inner", with_inner), std::invalid_argument);
@@ -93,7 +93,7 @@ TEST(ConvexSolidTest, RefusesWhatIsNoConvexSolid) {
   EXPECT_THROW(ConvexSolid("few", few), std::invalid_argument);
 }
 
-TEST(ConvexSolidTest, NamesRoundTrip) {
+TEST(ConvexSolidTest, NamesAreReadAsWritten) {
   for (const SolidKind kind : all_solids) EXPECT_EQ(from_string<SolidKind>(to_string(kind)), kind);
   EXPECT_FALSE(from_string<SolidKind>("sphere"));
 }

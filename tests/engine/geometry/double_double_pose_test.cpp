@@ -1,9 +1,10 @@
 // Properties tested here, with quadruple precision as reference:
 // - moved() and scaled() keep the low parts: steps of 1e-25 are not lost, a thousand steps add up to their sum, and the
 //   high part is the nearest double.
-// - moved() rotates by exp(θ) and keeps |q| = 1 to 1e-31. Any q except 0 represents the rotation by q/|q|.
+// - moved() rotates by exp(θ) and keeps |q| = 1 to 1e-31. A quaternion q other than 0 represents the same rotation as
+//   q/|q|.
 // - rotation_matrix() and the vertices and normals of placed solids have errors of at most 1e-31.
-// - relative_pose() with low parts is the quotient of the rotations, and agrees with the version in double.
+// - relative_pose() with low parts gives the rotation of B relative to A, and agrees with the version in double.
 // - A solid's constants are correct to 1e-31: planes through their vertices, unit normals, unit volume, centroid 0.
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ namespace {
 using namespace testing_pairs;
 using Eigen::Vector3d;
 
-/// A few times the last bit of a double-double of order 1.
+/// A few times the last bit of a double-double number near 1.
 constexpr double last_bits = 1e-31;
 constexpr int cases = 200;
 
@@ -72,7 +73,7 @@ TEST(DoubleDoublePoseTest, SmallStepsAreNotLost) {
       EXPECT_LE(size(shift - Quad3{dx.x(), dx.y(), dx.z()}), last_bits) << h;
       const QuadMatrix turned = quad_rotation(there) - quad_rotation(pose);
       const QuadMatrix expected = small_turn(theta) * quad_rotation(pose) - quad_rotation(pose);
-      // The rotation is known only to its last bits, and the series only to third order.
+      // The rotation has rounding errors in its last bits, and the series is exact only to third order.
       EXPECT_LE(size(turned - expected), 16 * last_bits + 16 * epsilon * h + h * h * h) << h;
     }
   }
@@ -98,7 +99,7 @@ TEST(DoubleDoublePoseTest, ManySmallStepsAddUp) {
   EXPECT_LE(size(quad_rotation(pose) - small_turn(angle) * quad_rotation(start)), steps * last_bits);
 }
 
-TEST(DoubleDoublePoseTest, LargeTurnsAreThoseOfDoubles) {
+TEST(DoubleDoublePoseTest, LargeRotationsAgreeWithDoubles) {
   RandomStream random{62, 3};
   for (int k = 0; k < cases; ++k) {
     const Pose pose = random_pose(random);
@@ -107,7 +108,7 @@ TEST(DoubleDoublePoseTest, LargeTurnsAreThoseOfDoubles) {
     expect_normal_form(there);
     const Eigen::Vector4d expected = rotated(pose.orientation, theta).coeffs();
     EXPECT_LE((there.orientation.coeffs() - expected).norm(), 16 * epsilon) << theta.transpose();
-    // The same rotation, from a quaternion of another norm.
+    // The same rotation, by a quaternion with another norm.
     Pose longer = pose;
     longer.orientation.coeffs() *= 8;
     longer.orientation_low *= 8;
@@ -129,7 +130,7 @@ TEST(DoubleDoublePoseTest, ScalingKeepsLowParts) {
   }
 }
 
-TEST(DoubleDoublePoseTest, RotationMatricesAreRight) {
+TEST(DoubleDoublePoseTest, RotationMatricesAreAccurate) {
   RandomStream random{62, 6};
   for (int k = 0; k < cases; ++k) {
     Pose pose = random_pose(random);
@@ -144,7 +145,7 @@ TEST(DoubleDoublePoseTest, RotationMatricesAreRight) {
   }
 }
 
-TEST(DoubleDoublePoseTest, NotANumberStaysOne) {
+TEST(DoubleDoublePoseTest, NaNStaysNaN) {
   Pose pose;
   pose.orientation.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(rotation_matrix(pose).high.hasNaN());
@@ -153,7 +154,7 @@ TEST(DoubleDoublePoseTest, NotANumberStaysOne) {
   EXPECT_FALSE(rotation_matrix(pose).high.allFinite());
 }
 
-TEST(DoubleDoublePoseTest, RelativePoseIsTheQuotient) {
+TEST(DoubleDoublePoseTest, RelativePoseIsTheRotationRelativeToA) {
   RandomStream random{62, 5};
   for (int k = 0; k < cases; ++k) {
     const Pose a = random_pose(random), b = random_pose(random);

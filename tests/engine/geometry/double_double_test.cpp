@@ -33,7 +33,7 @@ double relative_error(Quad value, Quad exact) {
   return static_cast<double>(error / (exact < 0 ? -exact : exact));
 }
 
-/// Relative error of a result; infinite if it is not in normal form.
+/// Relative error of a result; infinite if its high part is not the nearest double.
 double error_of(const DoubleDouble& value, Quad exact) {
   if (value.high != value.high + value.low) return INFINITY;
   return exact == 0 && value.high == 0 ? 0 : relative_error(widened(value), exact);
@@ -83,7 +83,7 @@ TEST(DoubleDoubleTest, NearlyOppositeNumbersKeepTheDigitsOfTheirSum) {
     DoubleDouble b = -a;
     b.low *= 1 + random_double(random, 3) * u;
     b = two_sum(b.high, b.low);
-    // The high parts cancel. Quadruple precision contains the rest, though not always a and b themselves.
+    // The high parts cancel. Quadruple precision contains the rest exactly, but not always a and b themselves.
     const Quad exact = (Quad(a.high) + Quad(b.high)) + (Quad(a.low) + Quad(b.low));
     EXPECT_LE(error_of(a + b, exact), 4 * u * u) << a.high << " + " << a.low;
   }

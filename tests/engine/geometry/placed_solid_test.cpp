@@ -1,10 +1,12 @@
 // Properties tested here, for random pairs of all solids:
-// - A placed solid is the rotated solid, within rounding, in all its arrays.
-// - The table of distances follows its definition. A vertex without a row is outside the other solid, and so is an edge
-//   that is not listed. The extremes are those of the rows. classify() is correct after entries have been changed.
+// - All arrays of a placed solid are those of the rotated solid within rounding errors.
+// - The entries of the table of distances are as defined. Vertices without a row and edges that are not listed are
+//   outside the other solid. The smallest and largest entries are those of the rows. After entries have been changed,
+//   classify() is correct.
 // - The overlap of placed solids is the overlap of the pair seen from A, rotated into the lab frame. The same holds for
-//   all three blocks of its Hessian, which come with exactly the same volume.
-// - An axis separates placed solids exactly if its gap seen from A exceeds the tolerance, apart from rounding.
+//   all three blocks of its Hessian, whose computation gives exactly the same volume.
+// - An axis separates placed solids if, and only if, its gap in A's frame is larger than the tolerance, apart from
+//   rounding errors.
 
 #include "engine/geometry/placed_solid.hpp"
 
@@ -27,7 +29,7 @@ using namespace testing_pairs;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int cases = 10;  // per pair of solids
+constexpr int cases = 10;  // for each pair of solids
 
 struct Placed {
   explicit Placed(const Pair& pair)
@@ -54,7 +56,7 @@ void for_each_near_pair(std::uint64_t seed, const Check& check) {
   }
 }
 
-TEST(PlacedSolidTest, IsTheSolidTurned) {
+TEST(PlacedSolidTest, IsTheRotatedSolid) {
   for_each_near_pair(1, [](const Pair& pair) {
     const ConvexSolid& solid = pair.solid_a();
     const Placed both(pair);
@@ -77,7 +79,7 @@ double distance(const PlacedSolid& body, int vertex, const PlacedSolid& other, i
   return other.normal(face).dot(body.vertex(vertex) - to_other) - other.offset()[face];
 }
 
-/// A table that owns its memory.
+/// A table of distances that owns its memory.
 struct Table : Distances {
   Table(const PlacedSolid& body, const PlacedSolid& other, const Vector3d& to_other)
       : memory(static_cast<std::size_t>(size(body, other))) {
@@ -133,7 +135,7 @@ TEST(DistancesTest, UnlistedEdgesAreOutside) {
         continue;
       }
       ++unlisted;
-      // Seven points of the edge: each is outside some plane.
+      // Seven points of the edge. Each of them is outside some plane.
       for (int k = 0; k <= 6; ++k) {
         const Vector3d y = placed.a.vertex(edge.tail) * (6 - k) / 6 + placed.a.vertex(edge.head) * k / 6 - placed.r;
         double outermost = -SolidArrays::far;
@@ -158,7 +160,7 @@ TEST(DistancesTest, AChangedTableIsClassifiedAnew) {
     EXPECT_EQ(table.edges, before.edges) << "nothing was changed: " << describe(pair);
     EXPECT_EQ(table.nearest, before.nearest);
     EXPECT_EQ(table.least_penetration, before.least_penetration);
-    // Outside all planes: no edge remains, and every plane separates.
+    // If all entries are positive, everything is outside of all planes: no edge remains, and every plane separates.
     for (double& entry : table.memory) entry = std::abs(entry) + 1;
     classify(pair.solid_a(), table);
     EXPECT_EQ(table.edges, 0U);
@@ -168,7 +170,7 @@ TEST(DistancesTest, AChangedTableIsClassifiedAnew) {
   });
 }
 
-TEST(PlacedSolidTest, OverlapIsThatOfTheRelativePoseTurned) {
+TEST(PlacedSolidTest, OverlapIsThatOfTheRotatedRelativePose) {
   int touching = 0;
   for_each_near_pair(5, [&](const Pair& pair) {
     const Placed placed(pair);
@@ -208,7 +210,7 @@ TEST(PlacedSolidTest, OverlapIsThatOfTheRelativePoseTurned) {
   EXPECT_GT(touching, 50);
 }
 
-TEST(PlacedSolidTest, AnAxisSeparatesIfItsGapSaysSo) {
+TEST(PlacedSolidTest, AnAxisSeparatesIfItsGapIsLargeEnough) {
   std::map<SeparatingAxis::Kind, int> separated, joined;
   for_each_near_pair(6, [&](const Pair& pair) {
     const Placed placed(pair);

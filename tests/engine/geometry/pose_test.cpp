@@ -1,8 +1,8 @@
 // Properties tested here:
 // - A relative pose transforms points of B's body frame like the transformation through the lab frame.
-// - Exchanging A and B inverts it, and rotating both bodies does not change it.
+// - If A and B are exchanged, the relative pose is inverted. If both bodies are rotated together, it does not change.
 // - rotated(q, θ) is exp(θ)·q: it follows Rodrigues' formula with θ in the lab frame, rotations about the same axis add
-//   up, and the norm stays 1. θ = 0 and the smallest θ are no special cases.
+//   up, and the norm stays 1. θ = 0 and the smallest θ need no separate treatment.
 
 #include "engine/geometry/pose.hpp"
 
@@ -49,7 +49,7 @@ TEST(RelativePoseTest, ExchangeInverts) {
   }
 }
 
-TEST(RelativePoseTest, IsTheSameForBothBodiesTurned) {
+TEST(RelativePoseTest, DoesNotChangeIfBothBodiesRotate) {
   RandomStream random{1, 13};
   for (int k = 0; k < cases; ++k) {
     const Pair pair = random_pair(random, SolidKind::cube, SolidKind::cube, 3 * random.uniform());
@@ -67,7 +67,7 @@ TEST(RotatedTest, IsRodriguesFormulaInTheLabFrame) {
   for (int k = 0; k < cases; ++k) {
     const Quaterniond q = random_orientation(random);
     const Vector3d axis = random_direction(random), y = random_direction(random);
-    // From far below an ulp to more than a full rotation.
+    // Angles from far below an ulp to more than a full rotation.
     const double angle = 10 * std::pow(10.0, -20 * random.uniform());
     const Vector3d x = q * y;
     const Vector3d turned =
@@ -78,7 +78,7 @@ TEST(RotatedTest, IsRodriguesFormulaInTheLabFrame) {
   }
 }
 
-TEST(RotatedTest, TurnsAboutOneAxisAdd) {
+TEST(RotatedTest, RotationsAboutOneAxisAdd) {
   RandomStream random{1, 15};
   for (int k = 0; k < cases; ++k) {
     const Quaterniond q = random_orientation(random);
@@ -89,7 +89,7 @@ TEST(RotatedTest, TurnsAboutOneAxisAdd) {
   }
 }
 
-TEST(RotatedTest, NoTurnAndTheLeastTurnAreRegular) {
+TEST(RotatedTest, ZeroAndSmallestRotationsAreRegular) {
   RandomStream random{1, 16};
   const Quaterniond q = random_orientation(random);
   for (const double angle : {0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::min()}) {

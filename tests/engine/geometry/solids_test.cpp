@@ -1,11 +1,13 @@
 // Properties tested here:
 // - The built-in solids have the numbers of faces, edges and vertices of their definitions, edges of equal length to
-//   1e-30, and the volume given by closed forms for that length. Prisms and antiprisms have the right n.
-// - The hull of points in general position has each of them as a vertex, and every face is a supporting plane.
+//   1e-30, and the volume given by closed forms for that length. Prisms and antiprisms have the requested number n of
+//   sides.
+// - The hull of points on a sphere has each of them as a vertex, and all points are on one side of every face.
 // - A hull with more than 64 vertices, faces or edges is rejected with a message; one with 64 edges is accepted.
-// - If points do not form a solid, the error names the point that causes it: coincident points, and points on an edge,
-//   on a face, or inside.
-// - The inertia tensor of a box agrees with textbooks, and spherical tops are identified.
+// - If a point is no vertex of the hull, the error names it: it coincides with another point, or is on an edge, on a
+//   face, or inside.
+// - The inertia tensor of a box agrees with textbooks. Solids whose three moments of inertia are equal (spherical tops)
+//   are identified.
 // - Equal names and vertices give the same Solid, and the order of solids is as documented.
 
 #include "engine/geometry/solids/solid.hpp"
@@ -57,7 +59,7 @@ std::vector<Expected> expected_solids() {
   return list;
 }
 
-TEST(NamedSolids, AreWhatTheyAreCalled) {
+TEST(NamedSolids, HaveTheFeaturesOfTheirNames) {
   for (const Expected& expected : expected_solids()) {
     const auto solid = Solid::named(expected.name);
     ASSERT_TRUE(solid) << expected.name;
@@ -87,7 +89,7 @@ TEST(NamedSolids, HaveNoOtherNames) {
     EXPECT_FALSE(Solid::named(name)) << name;
 }
 
-TEST(Hull, OfPointsOnASphereHasAllOfThemForVertices) {
+TEST(Hull, AllPointsOnASphereAreVertices) {
   RandomStream random{61};
   for (int trial = 0; trial < 40; ++trial) {
     Points points;
@@ -102,7 +104,7 @@ TEST(Hull, OfPointsOnASphereHasAllOfThemForVertices) {
   }
 }
 
-/// The vertex named by the error; −1 if none is named, −2 without an error.
+/// Index of the point that the error names; −1 if it names none, −2 if there is no error.
 int blamed(const Points& points) {
   try {
     const ConvexSolid solid("x", points);
@@ -112,7 +114,7 @@ int blamed(const Points& points) {
   }
 }
 
-TEST(Hull, BlamesThePointThatIsNoVertex) {
+TEST(Hull, ErrorNamesThePointThatIsNoVertex) {
   const Points cube = platonic(SolidKind::cube).vertices();
   const auto with = [&](const Vector3d& point) {
     Points points = cube;
@@ -154,7 +156,7 @@ TEST(Hull, IsRefusedWithMoreThanSixtyFourFeatures) {
       all.emplace_back(.6 * std::cos(2 * pi * k / corners), .6 * std::sin(2 * pi * k / corners), .8);
     return all;
   };
-  // All faces except the top are triangles: E = 3V − 6 − (corners − 3).
+  // All faces except the top are triangles, so E = 3V − 6 − (corners of the top − 3).
   EXPECT_EQ(refusal(with_top(1)), "") << "63 edges";
   points.erase(points.end() - 1);
   EXPECT_EQ(refusal(with_top(3)), "a solid may have at most 64 faces and edges instead of 44 and 66");
@@ -181,7 +183,7 @@ TEST(Inertia, OfABoxIsThatOfTextbooks) {
   EXPECT_FALSE(box.is_spherical_top());
 }
 
-TEST(Inertia, TellsSphericalTops) {
+TEST(Inertia, IdentifiesSphericalTops) {
   for (const std::string_view name : named_solids()) {
     const Solid solid = *Solid::named(name);
     EXPECT_TRUE(solid->is_spherical_top()) << name << "\n" << solid->inertia();
@@ -190,7 +192,7 @@ TEST(Inertia, TellsSphericalTops) {
   EXPECT_FALSE((*Solid::named("prism6"))->is_spherical_top());
 }
 
-TEST(SolidTest, IsOneForOneNameAndOneSetOfVertices) {
+TEST(SolidTest, IsTheSameForEqualNamesAndVertices) {
   const Points points = platonic(SolidKind::cube).vertices();
   const Solid one = Solid::made_of("mine", points), again = Solid::made_of("mine", points);
   EXPECT_EQ(&*one, &*again);
@@ -202,7 +204,7 @@ TEST(SolidTest, IsOneForOneNameAndOneSetOfVertices) {
   EXPECT_EQ(Solid::of(*one), one);
 }
 
-TEST(SolidTest, IsOrderedByWhatItIs) {
+TEST(SolidTest, OrderIsAsDocumented) {
   const Points points = platonic(SolidKind::cube).vertices();
   Points other = points;
   for (Vector3d& v : other) v *= 2;
@@ -214,7 +216,8 @@ TEST(SolidTest, IsOrderedByWhatItIs) {
   ascending.push_back(Solid::made_of("a", other));
   ascending.push_back(Solid::made_of("b", points));
   if (ascending[ascending.size() - 2] < ascending[ascending.size() - 3])
-    std::swap(ascending[ascending.size() - 2], ascending[ascending.size() - 3]);  // same name: ordered by vertices
+    std::swap(ascending[ascending.size() - 2],
+              ascending[ascending.size() - 3]);  // equal names: sorted by vertices
   for (std::size_t i = 0; i < ascending.size(); ++i) {
     for (std::size_t j = 0; j < ascending.size(); ++j)
       EXPECT_EQ(ascending[i] < ascending[j], i < j) << to_string(ascending[i]) << " " << to_string(ascending[j]);

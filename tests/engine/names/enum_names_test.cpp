@@ -1,6 +1,6 @@
 // Properties tested here:
-// - Every enumerator has one name and is found by it; another name finds nothing.
-// - Values and names have the order of the list, and are constants.
+// - Every enumerator has one name and is found by this name. Other names find nothing.
+// - Values and names are in the order of the list, and are known at compile time.
 
 #include "engine/names/enum_names.hpp"
 
@@ -21,7 +21,7 @@ static_assert(NamedEnum<Phase> && !NamedEnum<Nameless> && !NamedEnum<int>);
 static_assert(to_string(Phase::jammed) == "jammed" && from_string<Phase>("liquid") == Phase::liquid);
 static_assert(all_of<Phase> == std::array{Phase::liquid, Phase::jammed});
 
-TEST(EnumNames, FindEachOther) {
+TEST(EnumNames, NamesAndEnumeratorsAreFound) {
   for (const Phase phase : all_of<Phase>) EXPECT_EQ(from_string<Phase>(to_string(phase)), phase);
   for (const auto* other : {"", "Liquid", "liquid ", "jamme"}) EXPECT_FALSE(from_string<Phase>(other)) << other;
   const std::set<std::string_view> names(all_names<Phase>.begin(), all_names<Phase>.end());

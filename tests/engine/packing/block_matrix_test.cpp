@@ -32,7 +32,7 @@ BlockMatrix random_block_matrix(RandomStream& random, int n) {
   return matrix;
 }
 
-TEST(BlockMatrixTest, ProductIsThatOfTheFullMatrix) {
+TEST(BlockMatrixTest, ProductAgreesWithTheFullMatrix) {
   RandomStream random{9, 1};
   for (int n = 1; n < 12; ++n) {
     const BlockMatrix matrix = random_block_matrix(random, n);

@@ -1,8 +1,9 @@
 // Properties tested here for random packings of all solids, with central differences as reference:
-// - The gradient is that of the energy, along random directions of all 6N coordinates and along single ones. The same
-//   check rejects a wrong sign in the torques or in the forces.
+// - The gradient is the derivative of the energy along random directions of all 6N coordinates and along single
+//   coordinates. The same check detects a wrong sign of the torques or of the forces.
 // - The pressure is −dE/dV_cell, and N p/φ² = dE/dφ.
-// - The stress is (1/V_cell) dE/dε for each of the nine strains of the displacements of the contacts.
+// - The stress is (1/V_cell) dE/dε for each of the nine components of the strain ε that is applied to the displacements
+//   of the contacts.
 // - The Hessian is the derivative of the gradient, up to ½ θ×T for rotations of particles that are not in equilibrium.
 //   Translations are its null vectors.
 
@@ -32,13 +33,13 @@ Evaluation evaluate(const Packing& packing) { return PackingEnergy().evaluate(pa
 
 /// Description of the deviation of the gradient along `direction`; empty if there is none.
 std::string slope_disagreement(const Packing& packing, const VectorXd& direction, const Evaluate& evaluation) {
-  const double h = 1e-5;  // far less than the depths that determine the energy
+  const double h = 1e-5;  // far less than the depths of the contacts
   const Evaluation here = evaluation(packing);
   const double slope = here.gradient.dot(direction);
   const double differences =
       (evaluation(moved(packing, h * direction)).energy - evaluation(moved(packing, -h * direction)).energy) / (2 * h);
-  // Third derivatives of E are of the order of V and S, like the gradient. The tolerance is h² times that, plus
-  // rounding divided by h.
+  // The third derivatives of E are of the order of V and S, like the gradient. The error of the differences is
+  // therefore h² times the gradient, plus the rounding error divided by h.
   const double limit = 1e-7 * here.gradient.norm() * direction.norm() + energy_tolerance(here) / h;
   if (std::abs(slope - differences) <= limit) return "";
   std::ostringstream text;
@@ -59,7 +60,7 @@ TEST(EnergyDerivativesTest, GradientIsThatOfTheEnergy) {
   }
 }
 
-TEST(EnergyDerivativesTest, WrongGradientsAreRefused) {
+TEST(EnergyDerivativesTest, WrongGradientsAreDetected) {
   RandomStream random{22};
   const Packing packing = sample(SolidKind::tetrahedron, particles, density, 22);
   const auto slip = [](int first) {
@@ -92,7 +93,7 @@ TEST(EnergyDerivativesTest, PressureIsTheSlopeInTheVolume) {
   }
 }
 
-/// E of the contacts with their displacements strained by ε and unchanged orientations.
+/// Energy of the contacts if their displacements are strained by ε and the orientations do not change.
 double strained_energy(const Packing& packing, const std::vector<Contact>& contacts, const Matrix3d& strain) {
   double energy = 0;
   for (const Contact& contact : contacts) {
@@ -127,7 +128,7 @@ TEST(EnergyDerivativesTest, StressIsTheSlopeInEveryStrain) {
   }
 }
 
-/// ½ θ×T: the derivative of the gradient with respect to rotations, minus its symmetric part.
+/// The antisymmetric part of the derivative of the gradient with respect to rotations: ½ θ×T.
 VectorXd turned_gradient(const Packing& packing, const VectorXd& gradient, const VectorXd& direction) {
   VectorXd result = VectorXd::Zero(direction.size());
   for (int i = 0; i < packing.size(); ++i) {
@@ -151,7 +152,7 @@ TEST(EnergyDerivativesTest, HessianIsTheDerivativeOfTheGradient) {
       const VectorXd differences = (energy.evaluate(moved(packing, h * direction)).gradient -
                                     energy.evaluate(moved(packing, -h * direction)).gradient) /
                                    (2 * h);
-      // V'' is continuous but has kinks, and some contact is always near one.
+      // The second derivative of V is continuous but has kinks, and some contact is always near a kink.
       EXPECT_LE((product - differences).norm(), 1e-5 * product.norm())
           << describe(packing) << ", direction " << k << ", |Hd| " << product.norm();
     }

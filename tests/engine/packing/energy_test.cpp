@@ -1,10 +1,11 @@
 // Properties tested here, for random packings of all solids:
-// - Energy, gradient, stress, contacts and mean force are the sums over all pairs found by brute force.
-// - Forces sum to zero; torques sum to the value given by the asymmetric part of the stress.
+// - Energy, gradient, stress, contacts and mean force agree with sums over all pairs of particles.
+// - Forces sum to zero. The sum of the torques follows from the antisymmetric part of the stress.
 // - The energy does not change if all particles are translated, one particle is shifted by the side, particles are
 //   renumbered, or the whole cell is rotated by 90°. The gradient transforms accordingly.
 // - Residual and mean force follow their definitions, including the special cases without contacts.
-// - Every listed pair is out of reach, rejected by its axis, or overlapped.
+// - Every pair in the neighbour list is counted once: as out of reach, as rejected by its separating axis, or as passed
+//   to overlap().
 
 #include "engine/packing/energy.hpp"
 
@@ -30,7 +31,7 @@ using Eigen::VectorXd;
 constexpr int particles = 70;
 constexpr double density = .7;
 
-/// Rounding error of one entry of the gradient: the stiffest particle moved by a few ulp of the side.
+/// Rounding error of one entry of the gradient: the stiffest particle is displaced by a few ulp of the side.
 double gradient_tolerance(const Evaluation& evaluation) {
   return 16 * evaluation.residual_floor * evaluation.mean_force;
 }
@@ -42,7 +43,7 @@ struct Sums {
   long contacts = 0;
 };
 
-/// Sums over every pair, from the formulae of the pair only.
+/// Sums over all pairs, computed only from the formulae for one pair.
 Sums sums_over_pairs(const Packing& packing) {
   Sums sums;
   sums.gradient = VectorXd::Zero(6 * packing.size());
@@ -90,7 +91,8 @@ TEST(PackingEnergyTest, ForcesBalanceAndTorquesMatchTheStress) {
     }
     const double all_forces = got.mean_force * static_cast<double>(got.contacts);
     EXPECT_LE(force.norm(), 64 * epsilon * all_forces) << describe(packing);
-    // E does not change if everything is rotated: the rotations of the bodies and of the displacements cancel.
+    // E does not change if everything is rotated, so the contributions of rotating the bodies and of rotating the
+    // displacements cancel.
     const Matrix3d s = got.stress * packing.cell.volume();
     const Vector3d axial(s(2, 1) - s(1, 2), s(0, 2) - s(2, 0), s(1, 0) - s(0, 1));
     EXPECT_GT(axial.norm(), 1e-6 * s.norm()) << "a random packing has net torque";
@@ -100,7 +102,7 @@ TEST(PackingEnergyTest, ForcesBalanceAndTorquesMatchTheStress) {
   }
 }
 
-TEST(PackingEnergyTest, TranslationOfAllLeavesEverything) {
+TEST(PackingEnergyTest, TranslationOfAllChangesNothing) {
   RandomStream random{13};
   for (const Packing& packing : samples(13, particles, density)) {
     const Evaluation before = PackingEnergy().evaluate(packing);
@@ -115,14 +117,14 @@ TEST(PackingEnergyTest, TranslationOfAllLeavesEverything) {
   }
 }
 
-TEST(PackingEnergyTest, WrappingOneParticleLeavesEverything) {
+TEST(PackingEnergyTest, WrappingOneParticleChangesNothing) {
   for (const Packing& packing : samples(14, particles, density)) {
     const Evaluation before = PackingEnergy().evaluate(packing);
     for (const Vector3d& sides : {Vector3d(1, 0, 0), Vector3d(0, -2, 1), Vector3d(-1, 1, 3)}) {
       Packing wrapped = packing;
       wrapped.poses[7].position += packing.cell.side() * sides;
       const Evaluation after = PackingEnergy().evaluate(wrapped);
-      // Coordinates four times as large have four times the rounding error.
+      // If the coordinates are four times as large, their rounding errors are four times as large.
       EXPECT_EQ(after.contacts, before.contacts) << describe(packing);
       EXPECT_NEAR(after.energy, before.energy, 4 * energy_tolerance(before)) << describe(packing);
       EXPECT_LE((after.gradient - before.gradient).cwiseAbs().maxCoeff(), 4 * gradient_tolerance(before))
@@ -132,7 +134,7 @@ TEST(PackingEnergyTest, WrappingOneParticleLeavesEverything) {
   }
 }
 
-TEST(PackingEnergyTest, RelabellingPermutesTheGradient) {
+TEST(PackingEnergyTest, RenumberingPermutesTheGradient) {
   RandomStream random{15};
   for (const Packing& packing : samples(15, particles, density)) {
     const Evaluation before = PackingEnergy().evaluate(packing);
@@ -153,7 +155,7 @@ TEST(PackingEnergyTest, RelabellingPermutesTheGradient) {
   }
 }
 
-TEST(PackingEnergyTest, TurningTheCellTurnsForcesAndStress) {
+TEST(PackingEnergyTest, RotatingTheCellRotatesForcesAndStress) {
   const Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()));
   for (const Packing& packing : samples(16, particles, density)) {
     const Evaluation before = PackingEnergy().evaluate(packing);
@@ -201,7 +203,8 @@ TEST(PackingEnergyTest, CountsAddUp) {
       EXPECT_EQ(now.listed, now.out_of_reach + now.by_axis + now.overlapped) << describe(packing);
       EXPECT_EQ(now.touching - before.touching, contacts) << describe(packing);
       EXPECT_GE(now.overlapped - before.overlapped, contacts) << describe(packing);
-      // The first evaluation knows no axis. Later ones know an axis for almost every separated pair within reach.
+      // In the first evaluation no separating axis is known. Later, one is known for almost every separated pair within
+      // reach.
       if (k == 1) {
         EXPECT_EQ(now.by_axis, 0) << describe(packing);
       } else {

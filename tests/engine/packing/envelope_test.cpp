@@ -1,9 +1,10 @@
 // Properties tested here, for random packings of every solid:
-// - With the multipliers of the present contacts the envelope equals the energy: value, gradient, contacts.
+// - With the multipliers of the present contacts, value, gradient and contacts of the envelope are those of the energy.
 // - Its gradient agrees with differences of its value, and its curvature with differences of its gradient.
-// - It is below the energy for all multipliers for which the ghosts touch, and increases with the stiffness.
-// - The contacts for a set of flagged particles are those contacts of the full list that have a flagged particle. If
-//   only these particles move, the full result is composed of theirs and of the unchanged contacts.
+// - The envelope is below the energy for all multipliers for which the ghosts (the shifted copies of particles) touch.
+//   It increases with the stiffness.
+// - An evaluation for a set of flagged particles gives those contacts of the full list that have a flagged particle. If
+//   only these particles move, these contacts and the unchanged ones give the full result.
 // - Earlier evaluations and the number of threads change no bit.
 
 #include "engine/packing/envelope/envelope.hpp"
@@ -32,7 +33,7 @@ bool same_bits(const EnvelopeEvaluation& p, const EnvelopeEvaluation& q) {
          });
 }
 
-/// Multipliers of the contacts, each changed at random by as much as its own size.
+/// Multipliers of the contacts, each changed at random by about its own size.
 std::vector<ContactMultiplier> changed(const EnvelopeEvaluation& exact, RandomStream& random) {
   std::vector<ContactMultiplier> forces = forces_of(exact);
   for (ContactMultiplier& force : forces) {
@@ -42,7 +43,7 @@ std::vector<ContactMultiplier> changed(const EnvelopeEvaluation& exact, RandomSt
   return forces;
 }
 
-/// A stiffness that affects the contacts of this packing: their mean force over a depth.
+/// A stiffness of the order of this packing's contacts: the mean force divided by a depth.
 double some_stiffness(const EnvelopeEvaluation& exact) { return exact.mean_force / 0.02; }
 
 class EnvelopeOf : public testing::TestWithParam<SolidKind> {
@@ -73,7 +74,7 @@ TEST_P(EnvelopeOf, DerivativesAgreeWithDifferences) {
   RandomStream random{312, static_cast<std::uint64_t>(GetParam())};
   EnvelopeEnergy envelope;
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
-  // So stiff that shifts are small, because contacts of a random packing overlap deeply.
+  // The stiffness is so large that shifts are small, although the contacts of a random packing overlap deeply.
   const double stiffness = 100 * some_stiffness(exact);
   const std::vector<ContactMultiplier> forces = changed(exact, random);
   const EnvelopeEvaluation here = envelope.evaluate(packing_, forces, stiffness);
@@ -108,7 +109,7 @@ TEST_P(EnvelopeOf, LiesBelowTheEnergyAndGrowsWithTheStiffness) {
   EXPECT_NEAR(last, exact.value, 1e-3 * exact.value) << "nothing gives way";
 }
 
-TEST_P(EnvelopeOf, FlaggedParticlesHaveTheirContactsAndNoOther) {
+TEST_P(EnvelopeOf, FlaggedParticlesGiveOnlyTheirContacts) {
   RandomStream random{314, static_cast<std::uint64_t>(GetParam())};
   EnvelopeEnergy envelope;
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
@@ -129,7 +130,7 @@ TEST_P(EnvelopeOf, FlaggedParticlesHaveTheirContactsAndNoOther) {
   EXPECT_GT(next, 0U);
 }
 
-TEST_P(EnvelopeOf, IsMadeUpOfWhatMovedAndWhatDidNot) {
+TEST_P(EnvelopeOf, CombinesMovedAndUnchangedContacts) {
   RandomStream random{317, static_cast<std::uint64_t>(GetParam())};
   EnvelopeEnergy envelope;
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
@@ -152,7 +153,7 @@ TEST_P(EnvelopeOf, IsMadeUpOfWhatMovedAndWhatDidNot) {
   EXPECT_FALSE(same_bits(made_up, before));
 }
 
-TEST_P(EnvelopeOf, IsTheSameBitsWhateverCameBefore) {
+TEST_P(EnvelopeOf, EarlierEvaluationsChangeNoBit) {
   RandomStream random{315, static_cast<std::uint64_t>(GetParam())};
   const EnvelopeEvaluation exact = EnvelopeEnergy().unshifted(packing_, 1);
   const std::vector<ContactMultiplier> forces = changed(exact, random);

@@ -1,13 +1,14 @@
 // Properties tested here:
-// - Without a probe distance the pairs are those that touch. With one there are additional pairs, in order: those whose
-//   solids overlap once one of them is moved closer.
-// - Both linearised overlaps of a pair are tangents of V: in the present state and with the gap closed (central
-//   differences).
-// - Flat faces separated by a gap have a tangent with the gap closed. It is −area·gap at rest, and its slope for the
-//   approach is the area.
-// - For a flat contact V is above both tangents, for every small approach and tilt.
+// - Without a probe distance the pairs are those that touch. With a probe distance there are also pairs that would
+//   overlap if one of the two were moved closer by this distance. The pairs are in order.
+// - A pair has two linearised overlaps. They are the tangents of V in the present state and in the state with the gap
+//   closed, by central differences.
+// - For two parallel faces at a distance `gap`, the second tangent has the value −area·gap in the present state. Its
+//   slope for the approach is the area.
+// - For a flat contact, V is above both tangents for every small approach and tilt.
 // - Two nearly parallel faces that touch at a corner get the tilt stiffness of the whole face, if the probe distance is
-//   at least the height of the tilt. It is 0 about the common normal and positive about every axis in the face.
+//   at least the height by which the tilt raises the far edge. This stiffness is 0 about the common normal and positive
+//   about every axis in the face.
 
 #include "engine/packing/incipient_contact.hpp"
 
@@ -35,7 +36,7 @@ double volume_at(const ConvexSolid& solid, const Packing& packing, const Incipie
   return relative_overlap(solid, solid, relative_pose(a.orientation, b.orientation, r)).volume;
 }
 
-/// Two unit cubes face to face along x, `gap` apart, in a cell so large that it does not matter.
+/// Two unit cubes face to face along x, `gap` apart. The cell is so large that periodic images do not matter.
 Packing two_cubes(double gap, const Vector3d& tilt = Vector3d::Zero()) {
   Packing packing{cube(), PeriodicCell(10), std::vector<Pose>(2)};
   packing.poses[0].position = Vector3d(4, 5, 5);
@@ -78,8 +79,8 @@ TEST(IncipientContactTest, ProbingAddsPairs) {
   }
 }
 
-/// Largest |V difference − tangent| over the slope, for the present tangent or the one with the gap closed, along a
-/// random direction.
+/// Largest difference between V and a tangent, divided by the slope, along a random direction. Both tangents are
+/// tested.
 TEST(IncipientContactTest, BothAreTangents) {
   RandomStream random{52};
   for (const Packing& packing : samples(52, 100, .65)) {
@@ -92,7 +93,7 @@ TEST(IncipientContactTest, BothAreTangents) {
       const Vector3d r = packing.cell.nearest_image(packing.poses[pair.b].position - packing.poses[pair.a].position);
       for (const bool closed : {false, true}) {
         const LinearisedOverlap& tangent = closed ? pair.closed : pair.now;
-        if (!(tangent.at_rest > 1e-5)) continue;  // deep enough for steps of h
+        if (!(tangent.at_rest > 1e-5)) continue;  // deep enough for differences with step h
         const Vector3d shift = closed ? Vector3d(-probe_distance * r.normalized()) : Vector3d::Zero();
         const double difference = (volume_at(packing.solids.only(), ahead, pair, shift) -
                                    volume_at(packing.solids.only(), behind, pair, shift)) /
@@ -132,16 +133,17 @@ TEST(IncipientContactTest, VolumeLiesAboveTheTangentsOfAFlatContact) {
     VectorXd step = approach(size * random.normal());
     for (int axis = 1; axis < 3; ++axis) step[9 + axis] = size * random.normal();
     const double volume = volume_at(cube(), moved(packing, step), pairs[0], Vector3d::Zero());
-    // Tangents are linear in the small lengths, motions of solids are not: they differ by products of two lengths.
+    // The tangents are linear in the small lengths. The motions of solids are not: they differ by products of two
+    // lengths.
     const double slack = 10 * std::pow(depth + size + step.norm(), 2);
     EXPECT_GE(volume, pairs[0].now.at(step, 0, 1) - slack) << "size " << size;
     EXPECT_GE(volume, pairs[0].closed.at(step, 0, 1) - slack) << "size " << size;
   }
 }
 
-TEST(IncipientContactTest, ACornerOfAFaceStiffensLikeTheFace) {
+TEST(IncipientContactTest, ACornerOfAFaceHasTheTiltStiffnessOfTheFace) {
   const double tilt = 1e-5;
-  // The far edge of B's face is higher than its middle by `tilt`; the near edge touches by a hundredth of that.
+  // The far edge of B's face is higher than its middle by `tilt`. The near edge overlaps by a hundredth of this.
   const Packing packing = two_cubes(tilt / 2 * 0.99, Vector3d(0, 0, tilt));
   const IncipientContact touching = PackingEnergy().second_order(packing, 0).pairs.at(0);
   const IncipientContact probed = PackingEnergy().second_order(packing, 2 * tilt).pairs.at(0);

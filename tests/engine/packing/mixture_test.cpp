@@ -1,9 +1,9 @@
 // Properties tested here:
 // - The numbers of each kind are exact, sizes are the quantiles of their distribution, and the mean volume is 1.
-// - A mixture of one kind and one size is that solid, and its packings have the same bits.
-// - Neighbours by actual radii agree with a search over all pairs, for sizes up to 30 : 1 and in skew cells. They are
-//   far fewer than those within the reach of the largest particles.
-// - Energies are sums over all pairs of the slow kernel, after any earlier evaluations.
+// - A mixture of one kind and one size is the same as the solid, and its packings have the same bits.
+// - Neighbours, found with the radii of the particles, agree with a search over all pairs, for sizes up to 30 : 1 and
+//   in skew cells. There are far fewer of them than pairs within the reach of the largest particles.
+// - Energies agree with sums over all pairs, which clipping computes, whatever was evaluated before.
 // - With the multipliers of the present contacts the envelope equals the energy. Its gradient is the derivative of its
 //   value for any multipliers.
 // - A step rotates every particle by R·θ divided by its own R.
@@ -26,7 +26,7 @@ namespace {
 
 using namespace testing_packings;
 
-/// Octahedra, cubes and tetrahedra; the largest are `ratio` times as long as the smallest.
+/// Octahedra, cubes and tetrahedra. The largest particles are `ratio` times as long as the smallest.
 std::vector<Particle> three_shapes(int n, double ratio) {
   return Mixture({{SolidKind::octahedron, .25, {.from = 1}},
                   {SolidKind::cube, .25, {.law = SizeLaw::uniform, .from = 1 / ratio, .to = 1}},
@@ -52,7 +52,7 @@ TEST(Mixture, HasExactNumbers) {
   }
 }
 
-TEST(Mixture, HasTheSizesOfItsLawAndMeanVolumeOne) {
+TEST(Mixture, HasTheSizesOfItsDistributionAndMeanVolumeOne) {
   constexpr int n = 5000;
   const Mixture uniform({{SolidKind::cube, 1, {.law = SizeLaw::uniform, .from = .5, .to = 1.5}}}, ""),
       log_normal({{SolidKind::cube, 1, {.law = SizeLaw::log_normal, .from = 2, .sigma = .3}}}, ""),
@@ -62,7 +62,7 @@ TEST(Mixture, HasTheSizesOfItsLawAndMeanVolumeOne) {
     for (const Particle& particle : mixture.particles(n)) volume += std::pow(particle.scale, 3);
     EXPECT_NEAR(volume / n, 1, 1e-12) << mixture.name();
   }
-  // Moments of the distributions; the mean volume of sizes uniform on [a, b] is (b⁴ − a⁴)/4(b − a).
+  // Moments of the distributions. For sizes uniform on [a, b], the mean volume is (b⁴ − a⁴)/(4 (b − a)).
   double mean = 0, log_mean = 0, log_square = 0;
   for (const Particle& particle : uniform.particles(n)) mean += particle.scale / n;
   EXPECT_NEAR(mean, std::cbrt(4 / (std::pow(1.5, 4) - std::pow(.5, 4))), 1e-6);
@@ -90,11 +90,11 @@ TEST(Mixture, OfOneSizeIsTheSolid) {
   for (const Particle& particle : equal.particles(11)) EXPECT_EQ(particle.scale, 1);
 }
 
-TEST(Mixture, IsMixedByTheSeedAlone) {
+TEST(Mixture, OrderDependsOnlyOnTheSeed) {
   const Packing one = mixed(100, 5, .5, 1), same = mixed(100, 5, .5, 1), other = mixed(100, 5, .5, 2);
   EXPECT_TRUE(one.solids == same.solids);
   EXPECT_FALSE(one.solids == other.solids);
-  int along = 0;  // neighbours in the order of particles of the same kind: about half of all
+  int along = 0;  // number of successive particles of the same kind, which is about half of all
   for (std::size_t i = 1; i < 100; ++i) along += one.solids.kind(i) == one.solids.kind(i - 1);
   EXPECT_GT(along, 20);
   EXPECT_LT(along, 60);
@@ -106,7 +106,7 @@ void expect_same_pairs(const Packing& packing, double skin) {
   for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(canonical_key(found[k]), canonical_key(expected[k])) << k;
 }
 
-TEST(MixtureNeighbours, AreThoseOfAPlainSearch) {
+TEST(MixtureNeighbours, AgreeWithASearchOverAllPairs) {
   for (const double ratio : {1.0, 1.4, 3.0, 10.0, 30.0}) {
     for (const int n : {40, 400, 1500}) {
       const Packing packing = mixed(std::max(n, least_particles(platonic(SolidKind::cube), .5) * 8), ratio, .5, 3);
@@ -118,8 +118,8 @@ TEST(MixtureNeighbours, AreThoseOfAPlainSearch) {
   }
 }
 
-TEST(MixtureNeighbours, OfSmallParticlesDoNotPayForLargeOnes) {
-  // One particle in a hundred is ten times as long as the others and a thousand times as heavy.
+TEST(MixtureNeighbours, LargeParticlesDoNotAddPairsOfSmallOnes) {
+  // One particle in a hundred is ten times as long as the others, and has a thousand times their volume.
   const std::vector<Particle> particles =
       Mixture({{SolidKind::octahedron, .99}, {SolidKind::octahedron, .01, {.from = 10}}}, "").particles(4000);
   RandomStream random{9};
@@ -190,7 +190,7 @@ TEST(MixtureEnvelope, IsTheEnergyAndHasItsSlopes) {
   }
 }
 
-TEST(MixtureSteps, TurnEachByItsOwnRadius) {
+TEST(MixtureSteps, RotateEachParticleWithItsOwnRadius) {
   const Packing packing = mixed(80, 4, .4, 7);
   Eigen::VectorXd step = Eigen::VectorXd::Zero(6 * packing.size());
   for (int i = 0; i < packing.size(); ++i) step[6 * i + 5] = .1;

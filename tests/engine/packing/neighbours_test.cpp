@@ -1,9 +1,9 @@
 // Properties tested here:
 // - Both neighbour searches give every pair and image within reach exactly once, and no others. The reference is a
-//   plain search over many images. Reaches are from a fraction of the mean distance to beyond half the side and the
-//   whole side. Positions include some outside the cell and on the borders of grid cells.
-// - The grid search agrees with brute force up to N = 2000, in canonical order.
-// - The same holds in skew cells, and in cells that are not reduced: pairs and distances are those of the reduced cell.
+//   search over many images. The reach is from a fraction of the mean distance to more than the side of the cell. Some
+//   positions are outside the cell or on the borders of grid cells.
+// - The grid search gives the same pairs in the same order as the search over all pairs, up to N = 2000.
+// - The same is true in skew cells. In cells that are not reduced, pairs and distances are those of the reduced cell.
 // - On a simple cubic lattice every particle has 6 neighbours, then 18, then 26.
 
 #include "engine/packing/neighbours.hpp"
@@ -32,7 +32,8 @@ std::vector<Key> keys(const std::vector<NeighbourPair>& pairs) {
   return result;
 }
 
-/// Points, some of them several sides outside the cell. The neighbour search does not check whether the solids fit.
+/// Points, some of them several sides outside of the cell. The neighbour search does not check whether solids fit into
+/// the cell.
 Packing points(int n, double side, std::uint64_t seed) {
   RandomStream random{8, seed};
   Packing packing{platonic(SolidKind::cube), PeriodicCell(side), std::vector<Pose>(static_cast<std::size_t>(n))};
@@ -45,7 +46,7 @@ Packing points(int n, double side, std::uint64_t seed) {
   return packing;
 }
 
-/// Tests every shift in a range that certainly contains all neighbours.
+/// All pairs within reach, by testing every shift in a range that contains all neighbours.
 std::vector<Key> all_within(const Packing& packing, double reach) {
   std::vector<Key> result;
   const double side = packing.cell.side();
@@ -91,7 +92,7 @@ TEST(NeighboursTest, SeveralImagesOccurBeyondHalfTheSide) {
   EXPECT_GT(found.size(), 2 * pairs.size());
 }
 
-TEST(NeighboursTest, CellListIsTheBruteForceList) {
+TEST(NeighboursTest, GridSearchAgreesWithTheSearchOverAllPairs) {
   for (const int n : {500, 2000}) {
     const Packing packing = points(n, 12, static_cast<std::uint64_t>(n));
     for (const double reach : {.01, .9, 2.0, 2.7, 3.999, 4.001, 5.9}) {
@@ -176,13 +177,13 @@ TEST(NeighboursTest, DoNotDependOnTheVectorsThatSpanTheLattice) {
   }
 }
 
-TEST(NeighboursTest, LatticePointsOnTheBordersOfCellsAreSeen) {
+TEST(NeighboursTest, LatticePointsOnTheBordersOfGridCellsAreFound) {
   const int m = 6;
   const double spacing = 1.25;
   Packing lattice{platonic(SolidKind::cube), PeriodicCell(m * spacing), {}};
   for (int k = 0; k < m * m * m; ++k) {
     Pose pose;
-    // Some points are a whole side away, and a few coordinates are negative zeros or just below a border.
+    // Some points are moved by a whole side. A few coordinates are negative zeros or just below a border.
     const int x = k % m - m * (k % 5 == 0), y = k / m % m, z = k / (m * m);
     pose.position = spacing * Vector3d(x, y, z);
     lattice.poses.push_back(pose);

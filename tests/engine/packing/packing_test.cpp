@@ -1,11 +1,11 @@
 // Properties tested here:
 // - A random packing has the requested density, depends only on its stream, and is distributed evenly in the cell and
 //   on SO(3).
-// - It is rejected for zero particles, a density outside (0, 1] and a cell too small for the minimum image. So is the
-//   energy of such a packing.
+// - random_packing() throws for zero particles, for a density outside (0, 1], and for a cell that is too small for the
+//   minimum image convention. The energy of a packing in such a cell throws too.
 // - In the smallest legal cell no particle touches two images of another one, nor itself.
-// - Strain moves centres affinely and does not change orientations. moved() adds dx and rotates by dθ. Both keep low
-//   parts: strain and its inverse return positions to 1e-30, and a step of 1e-25 is not lost.
+// - Strain moves centres affinely and does not change orientations. moved() adds dx and rotates by dθ. Both keep the
+//   low parts: a strain followed by its inverse changes positions by at most 1e-30, and a step of 1e-25 is not lost.
 
 #include "engine/packing/packing.hpp"
 
@@ -54,7 +54,8 @@ TEST(RandomPackingTest, FillsTheCellAndTheRotationsEvenly) {
     rotation += r / n;
     squares += r.cwiseAbs2() / n;
   }
-  // Five standard errors. Entries of a uniform random rotation have mean 0, variance 1/3 and ⟨x⁴⟩ − ⟨x²⟩² = 1/5 − 1/9.
+  // Five standard errors. The entries x of a uniform random rotation have mean 0 and variance 1/3, and ⟨x⁴⟩ − ⟨x²⟩² =
+  // 1/5 − 1/9.
   const double error = 5 / std::sqrt(n);
   EXPECT_LE((mean.array() - .5).abs().maxCoeff(), error * std::sqrt(1.0 / 12)) << mean.transpose();
   EXPECT_LE((square.array() - 1.0 / 3).abs().maxCoeff(), error * std::sqrt(1.0 / 5 - 1.0 / 9)) << square.transpose();
@@ -62,7 +63,7 @@ TEST(RandomPackingTest, FillsTheCellAndTheRotationsEvenly) {
   EXPECT_LE((squares.array() - 1.0 / 3).abs().maxCoeff(), error * std::sqrt(1.0 / 5 - 1.0 / 9)) << squares;
 }
 
-TEST(RandomPackingTest, RefusesWhatIsNoPacking) {
+TEST(RandomPackingTest, RejectsInvalidNumbersAndDensities) {
   const ConvexSolid& solid = platonic(SolidKind::octahedron);
   RandomStream random{7, 1};
   for (const int n : {0, -1}) EXPECT_THROW(random_packing(solid, n, .05, random), std::invalid_argument) << n;
@@ -71,7 +72,7 @@ TEST(RandomPackingTest, RefusesWhatIsNoPacking) {
     EXPECT_THROW(random_packing(solid, 1000, density, random), std::invalid_argument) << density;
 }
 
-TEST(RandomPackingTest, RefusesACellTooSmall) {
+TEST(RandomPackingTest, RejectsACellTooSmall) {
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);
     RandomStream random{7, 2};
@@ -83,7 +84,7 @@ TEST(RandomPackingTest, RefusesACellTooSmall) {
   }
 }
 
-TEST(PackingEnergyTest, RefusesACellTooSmall) {
+TEST(PackingEnergyTest, RejectsACellTooSmall) {
   for (Packing& packing : samples(4, 80, .5)) {
     PackingEnergy energy;
     packing.cell = PeriodicCell(least_side(packing.solids.only()));
@@ -94,7 +95,7 @@ TEST(PackingEnergyTest, RefusesACellTooSmall) {
   }
 }
 
-TEST(PackingEnergyTest, NoParticleTouchesTwoImagesInTheLeastCell) {
+TEST(PackingEnergyTest, NoParticleTouchesTwoImagesInTheSmallestCell) {
   for (const SolidKind kind : all_solids) {
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       const Packing packing = sample(kind, least_particles(platonic(kind), 1), 1, seed);
@@ -121,7 +122,7 @@ TEST(StrainedToTest, MovesCentresAffinely) {
   }
 }
 
-TEST(MovedTest, AddsTheStepAndTurns) {
+TEST(MovedTest, AddsTheStepAndRotates) {
   RandomStream random{7, 3};
   const Packing packing = sample(SolidKind::tetrahedron, 80, .5, 6);
   const Eigen::VectorXd step = random_step(random, packing.size());

@@ -1,11 +1,13 @@
 // Properties tested here, for pairs of every solid from deep overlaps to gaps, with multipliers and stiffnesses over
 // six decades:
-// - The computed shift is a minimum of e(w) + ½ρ|w|² − μ·w: no other trial shift gives a smaller value. The test
-//   computes the minimand separately from the pose of the ghost. The envelope is below the energy.
-// - Value, gradient and curvature agree with each other by differences.
-// - Moving both bodies together changes only the frame. A gap has no force and is shifted by μ/ρ.
-// - With the multiplier ∇e the shift is 0, and the envelope is the energy.
-// - Two faces pressed together have the envelope of a spring, known in closed form, at depths down to 1e-10.
+// - The computed shift w of the ghost minimises e(w) + ½ρ|w|² − μ·w: no other trial shift gives a smaller value. Here e
+//   is the energy of the pair with the shifted ghost, ρ the stiffness and μ the multiplier. The envelope is below the
+//   energy.
+// - The gradient is the difference of the value, and the curvature is the difference of the gradient.
+// - If both bodies move together, only the frame changes. If there is a gap, there is no force, and the shift is μ/ρ.
+// - With the multiplier μ = ∇e, the shift is 0 and the envelope is the energy.
+// - For two faces pressed together, the envelope is that of a spring, which is known in closed form, at depths down to
+//   1e-10.
 
 #include "engine/packing/envelope/proximal_contact.hpp"
 
@@ -56,7 +58,8 @@ Pose turned(const Pose& pose, RandomStream& random) {
   return result;
 }
 
-/// A pair whose centres are closer or farther than at contact by up to `depth`, found by bisection.
+/// A pair whose distance differs from that at contact by up to `depth`, in either direction. The distance is found by
+/// bisection.
 Pair random_pair(SolidKind kind, double depth, RandomStream& random) {
   Pair pair{&platonic(kind), {}, {}};
   pair.a = turned(pair.a, random);
@@ -75,7 +78,7 @@ Pair random_pair(SolidKind kind, double depth, RandomStream& random) {
   return pair;
 }
 
-/// e(w) + ½ρ|w|² − μ·w from its definition, with the ghost as a separate body.
+/// e(w) + ½ρ|w|² − μ·w from its definition; the ghost is a separate body.
 double minimand(const Pair& pair, const ProximalTerms& terms, const Vector6d& w) {
   Pose ghost = pair.b;
   const Eigen::Vector3d half = w.tail<3>() / (2 * pair.radius());
@@ -94,7 +97,8 @@ struct Case {
   ProximalTerms terms;
 };
 
-/// Multipliers of the order of the contact's own force, and stiffnesses for which such a force shifts by up to a depth.
+/// Multipliers of the order of the contact's own force, and stiffnesses with which such a force causes a shift of up to
+/// a depth.
 Case random_case(SolidKind kind, RandomStream& random) {
   const double depth = std::pow(10, -1 - 3 * random.uniform());
   Case made{random_pair(kind, depth, random), {}};
@@ -163,7 +167,8 @@ TEST_P(ProximalContactOf, DerivativesAgreeWithDifferences) {
     const double predicted = here.predicted(a, b) - here.value - slope;
     const PairHessian c = here.curvature();
     EXPECT_NEAR(predicted, (a.dot(c.aa * a) + 2 * a.dot(c.ab * b) + b.dot(c.bb * b)) / 2, 1e-9 * terms.stiffness * 12);
-    // Accurate to first order in the shift, which is at most the rotation of the ghost. Kinks are skipped.
+    // The differences are accurate to first order in the shift, which can rotate the ghost. Steps across a kink are
+    // skipped.
     if (std::abs(forth.energy - back.energy) > 0.1 * here.energy) continue;
     const double first_order = here.shift.norm() + 1e-4;
     worst_curvature =
@@ -194,14 +199,14 @@ TEST_P(ProximalContactOf, MovesWithBothBodies) {
     }
     const ProximalContact moved_one = envelope(there, terms);
     const double scale = here.shift.norm() + here.wrench.norm() / terms.stiffness;
-    // For shallow flat contacts the rounding of the poses is not small compared with their depth.
+    // For shallow flat contacts, the rounding errors of the poses are not small compared with the depth.
     EXPECT_LT((moved_one.shift - here.shift).norm(), 1e-6 * scale + 1e-12) << "case " << k;
     const Vector6d gradient = joined(turn * here.gradient_b.head<3>(), turn * here.gradient_b.tail<3>());
     EXPECT_LT((moved_one.gradient_b - gradient).norm(), terms.stiffness * (1e-6 * scale + 1e-12)) << "case " << k;
   }
 }
 
-TEST_P(ProximalContactOf, GapIsShiftedByItsMultiplierAndBearsNone) {
+TEST_P(ProximalContactOf, GapIsShiftedByItsMultiplierAndHasNoForce) {
   RandomStream random{304, static_cast<std::uint64_t>(GetParam())};
   Pair pair = random_pair(GetParam(), 1e-3, random);
   pair.b.position *= 1.1;
@@ -216,7 +221,7 @@ TEST_P(ProximalContactOf, GapIsShiftedByItsMultiplierAndBearsNone) {
   EXPECT_EQ(nothing.shift.norm(), 0);
 }
 
-TEST_P(ProximalContactOf, ItsOwnForceLeavesItUnshifted) {
+TEST_P(ProximalContactOf, ItsOwnForceCausesNoShift) {
   RandomStream random{305, static_cast<std::uint64_t>(GetParam())};
   for (int k = 0; k < 30; ++k) {
     const auto [pair, terms] = random_case(GetParam(), random);
@@ -236,8 +241,8 @@ TEST_P(ProximalContactOf, ItsOwnForceLeavesItUnshifted) {
 TEST(ProximalContact, PressedFacesAreASpringInClosedForm) {
   const ConvexSolid& cube = platonic(SolidKind::cube);
   for (const double depth : {1e-2, 1e-5, 1e-8, 1e-10}) {
-    // Face on face, one rotated by 45°, where the area of the section is smallest: V = A·depth. The force passes
-    // through both centres and has no torque.
+    // A face on a face, one rotated by 45°. At this angle the common area is smallest, V = A·depth, and the force
+    // passes through both centres without a torque.
     Pair pair{&cube, {}, {}};
     pair.b.position = {1, 0, 0};
     pair.b.position_low = {-depth, 0, 0};
@@ -245,11 +250,11 @@ TEST(ProximalContact, PressedFacesAreASpringInClosedForm) {
     const double k =
         unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 1).wrench.norm() / depth;
     EXPECT_GT(k, 0.1) << "A²/2";
-    // For smaller stiffnesses the minimum would shift sideways, because the section shrinks when it slides.
+    // With a smaller stiffness, the minimum would be at a sideways shift, because sliding reduces the common area.
     for (const double stiffness : {100 * depth * depth * k, 1e-3 * k, k}) {
       ProximalTerms terms{Vector6d::Zero(), stiffness};
       terms.multiplier[0] = -0.3 * k * depth;
-      // Minimum of e(w) = k (depth − w)²/2 with ½ρw² − μw.
+      // The minimum of e(w) + ½ρw² − μw, where e(w) = k (depth − w)²/2.
       const double w = (k * depth + terms.multiplier[0]) / (k + stiffness);
       const ProximalContact found = envelope(pair, terms);
       std::printf("depth %.0e, ρ/k %.0e: shift %.9e, expected %.9e\n", depth, stiffness / k, found.shift[0], w);
@@ -263,9 +268,9 @@ TEST(ProximalContact, PressedFacesAreASpringInClosedForm) {
   }
 }
 
-// Near jamming stiffnesses are 0.1 and 1e-11, and only the small ones stabilise a packing. The coupling of both by
-// rounding must not appear as negative curvature.
-TEST(ProximalContact, FacesSlideFreelyHoweverFlat) {
+// Near jamming, stiffnesses of 0.1 and of 1e-11 occur in one contact, and only the small ones make the packing stable.
+// Rounding errors that mix the two must not appear as a negative curvature.
+TEST(ProximalContact, FlatFacesSlideWithoutNegativeCurvature) {
   const ConvexSolid& cube = platonic(SolidKind::cube);
   RandomStream random{306, 0};
   for (const double depth : {1e-9, 1e-11, 1e-13}) {
@@ -278,7 +283,7 @@ TEST(ProximalContact, FacesSlideFreelyHoweverFlat) {
       pair.b.position = frame * Eigen::Vector3d(1 - depth, 0.3 * random.uniform(), 0.3 * random.uniform());
       force =
           unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 1).wrench.head<3>().norm();
-      // Lower-order contacts with that force have a depth of about its fifth root.
+      // A lower-order contact with this force has a depth of about the fifth root of the force.
       const double soft = force / std::pow(force, 0.2);
       const ProximalContact contact =
           unshifted_contact(placed(pair), *pair.solid, pair.b, displacement(pair.a, pair.b), 300 * soft);
@@ -289,7 +294,7 @@ TEST(ProximalContact, FacesSlideFreelyHoweverFlat) {
       worst = std::max(worst, std::abs(2 * predicted - step.dot(curvature * step)) / (300 * soft * step.squaredNorm()));
     }
     std::printf("depth %.0e: least eigenvalue %.1e of soft contacts', predictions to %.1e of ρ\n", depth, least, worst);
-    // Forces rotate with their contacts, which causes curvatures of that order.
+    // Forces rotate with their contacts, which causes curvatures of this order.
     EXPECT_GT(least, -3 * std::pow(force, 0.2));
     EXPECT_LT(worst, 1e-6);
   }

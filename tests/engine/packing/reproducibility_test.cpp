@@ -2,7 +2,8 @@
 // - An evaluation, a Hessian (in either precision) and a list of contacts depend only on the packing. They do not
 //   depend on earlier evaluations (other solids, sizes, densities, cells; moves that keep or rebuild the neighbour
 //   list), on 1 or 2 threads, or on cancellation of the enclosing task.
-// - Eigen cuts products of matrices into the same blocks for caches of 32, 256 and 2048 KiB, whatever the machine has.
+// - Eigen divides products of matrices into the blocks for caches of 32, 256 and 2048 KiB, whatever caches the machine
+//   has.
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -16,7 +17,7 @@ namespace {
 
 using namespace testing_packings;
 
-constexpr int particles = 300;  // thousands of pairs: enough for several threads
+constexpr int particles = 300;  // thousands of pairs, enough for several threads
 constexpr double density = .7;
 
 /// All results of the energy for a packing.
@@ -100,7 +101,7 @@ TEST(ReproducibilityTest, OtherPackingsBeforeChangeNothing) {
     used.evaluate(strained_to(packing, .4));
     used.hessian(sample(SolidKind::cube, 90, .9, 31));
     used.evaluate(
-        sample(SolidKind::tetrahedron, particles, density, 32));  // the same size: another solid, or positions
+        sample(SolidKind::tetrahedron, particles, density, 32));  // the same size, but another solid or other positions
     expect_same_bits(answer(used, packing), fresh(packing));
   }
 }
@@ -121,7 +122,7 @@ TEST(ReproducibilityTest, AnotherSolidBeforeChangesNothing) {
   for (const Packing& packing : samples(36, particles, density)) {
     SCOPED_TRACE(describe(packing));
     PackingEnergy used;
-    // Only the solid differs; the dodecahedron has the smallest reach.
+    // Only the solid differs. The dodecahedron has the smallest reach.
     Packing other = packing;
     other.solids =
         platonic(packing.solids.only().name() == "dodecahedron" ? SolidKind::icosahedron : SolidKind::dodecahedron);
@@ -130,14 +131,14 @@ TEST(ReproducibilityTest, AnotherSolidBeforeChangesNothing) {
   }
 }
 
-/// Pairs in the list that an evaluation uses: another list of thousands of pairs has another length.
+/// Number of pairs in the list that an evaluation uses. Different lists with thousands of pairs have different lengths.
 long listed_by(PackingEnergy& energy, const Packing& packing) {
   const long before = energy.counts().listed;
   energy.evaluate(packing);
   return energy.counts().listed - before;
 }
 
-TEST(ReproducibilityTest, AWalkBeforeChangesNothing) {
+TEST(ReproducibilityTest, EarlierMovesChangeNothing) {
   for (const Packing& packing : samples(33, particles, density)) {
     SCOPED_TRACE(describe(packing));
     RandomStream random{33};
@@ -153,7 +154,7 @@ TEST(ReproducibilityTest, AWalkBeforeChangesNothing) {
     EXPECT_GT(kept, 0) << "no evaluation used the list of the one before";
     EXPECT_GT(rebuilt, 0) << "one list served the whole walk";
     expect_same_bits(answer(used, current), fresh(current));
-    // Back to the start in one step.
+    // The packing returns to its initial state in one step.
     EXPECT_NE(listed_by(used, packing), before) << "the list of the walk's end serves its start";
     expect_same_bits(answer(used, packing), fresh(packing));
   }
@@ -184,8 +185,8 @@ TEST(ReproducibilityTest, ACancelledTaskChangesNothing) {
   }
 }
 
-// Sums of products round differently if they are cut differently. The sizes that Eigen asks the processor for would
-// differ between machines; the sizes it assumes otherwise may differ between releases.
+// Sums of products are rounded differently if they are divided into other blocks. The cache sizes that Eigen reads from
+// the processor differ between machines, and its default sizes can differ between versions.
 TEST(ReproducibilityTest, TheCachesOfTheMachineChangeNothing) {
   constexpr std::ptrdiff_t kibibyte = 1024;
   EXPECT_EQ(Eigen::l1CacheSize(), 32 * kibibyte);

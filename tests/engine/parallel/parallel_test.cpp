@@ -1,9 +1,11 @@
 // Properties tested here, for 1, 2 and 5 threads:
-// - A loop calls every index once. A forest calls every node once, after its children, and sees what they wrote.
+// - A loop calls every index once. A forest (a set of trees) calls every node once, after its children, and each node
+//   sees what its children wrote.
 // - If a node returns false, the forest returns false and skips its ancestors.
-// - An exception of a call is rethrown when no call is running any more: from a loop, a forest, and a loop inside it.
-// - A thread that waits in a loop or a forest starts no work of an enclosing loop, and cancellation there skips no
-//   calls.
+// - An exception of a call is thrown to the caller after all running calls have ended. The test uses a loop, a forest,
+//   and a loop inside a forest.
+// - A thread that waits in a loop or a forest does not start calls of an enclosing loop. If the enclosing loop is
+//   cancelled, the inner loop does not skip calls.
 
 #include "engine/parallel/parallel.hpp"
 
@@ -26,7 +28,7 @@ namespace {
 
 class OnThreads : public testing::TestWithParam<std::size_t> {
  protected:
-  // Without the arena, TBB has at most as many threads as the machine has cores.
+  // Without an arena, TBB uses at most as many threads as the machine has cores.
   template <class Work>
   static void with_threads(const Work& work) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, GetParam());
@@ -37,7 +39,7 @@ class OnThreads : public testing::TestWithParam<std::size_t> {
 
 INSTANTIATE_TEST_SUITE_P(Parallel, OnThreads, testing::Values(1, 2, 5));
 
-/// The parent of a node has a larger index.
+/// A random forest: the parent of each node, which has a larger index.
 std::vector<int> random_forest(int n, RandomStream& random) {
   std::vector<int> parents(static_cast<std::size_t>(n), -1);
   for (int k = 0; k + 1 < n; ++k) {
@@ -82,7 +84,7 @@ TEST_P(OnThreads, AForestCallsChildrenFirst) {
     std::vector<std::vector<int>> forests{{}, {-1}, {-1, -1}, chain(100)};
     for (int round = 0; round < 40; ++round) forests.push_back(random_forest(1 + 10 * round, random));
     for (const std::vector<int>& parents : forests) {
-      // Not atomic: a parent must see what its children wrote.
+      // The sums are not atomic, because a parent must see what its children wrote.
       std::vector<long> subtree(parents.size(), 0), needed(parents.size(), 1);
       for (std::size_t k = 0; k < parents.size(); ++k) {
         if (parents[k] >= 0) needed[parents[k]] += needed[k];
@@ -99,7 +101,7 @@ TEST_P(OnThreads, AForestCallsChildrenFirst) {
   });
 }
 
-TEST_P(OnThreads, ARefusalLeavesOutTheAncestors) {
+TEST_P(OnThreads, AFailedNodeSkipsItsAncestors) {
   RandomStream random{4};
   with_threads([&random] {
     for (int round = 0; round < 100; ++round) {
@@ -121,7 +123,7 @@ TEST_P(OnThreads, ARefusalLeavesOutTheAncestors) {
   });
 }
 
-TEST_P(OnThreads, WhatACallThrowsComesOut) {
+TEST_P(OnThreads, ExceptionsReachTheCaller) {
   RandomStream random{5};
   with_threads([&random] {
     std::atomic<int> under_way = 0;
@@ -155,7 +157,7 @@ TEST_P(OnThreads, WhatACallThrowsComesOut) {
   });
 }
 
-/// Number of times that a thread inside `call` began another call of an enclosing loop.
+/// Number of times that a thread, while it was inside `call`, began another call of an enclosing loop.
 template <class Call>
 int begun_while_waiting(const Call& call) {
   static thread_local bool inside = false;
@@ -174,10 +176,10 @@ int begun_while_waiting(const Call& call) {
   return nested;
 }
 
-TEST_P(OnThreads, WhoWaitsStartsNothingFromOutside) {
+TEST_P(OnThreads, WaitingThreadsDoNotStartOuterCalls) {
   if (GetParam() == 1) return;  // a single thread never waits
   with_threads([] {
-    // Each part sleeps, so that other threads take parts and the first thread has to wait for them.
+    // Each call sleeps, so that other threads take some of the calls and the first thread has to wait for them.
     const auto part = [](std::size_t) { std::this_thread::sleep_for(std::chrono::microseconds(200)); };
     EXPECT_EQ(begun_while_waiting([&] { for_each_index(6, part); }), 0);
     EXPECT_EQ(begun_while_waiting([&] {
@@ -197,7 +199,7 @@ TEST_P(OnThreads, WhoWaitsStartsNothingFromOutside) {
   });
 }
 
-TEST_P(OnThreads, ACancelledTaskLeavesNothingOut) {
+TEST_P(OnThreads, ACancelledTaskSkipsNothing) {
   with_threads([] {
     tbb::task_group group;
     std::atomic<int> calls = 0;

@@ -1,5 +1,5 @@
 // Properties tested here:
-// - The bits of a stream depend only on its key, and are those prescribed by the C++ standard.
+// - The bits of a stream depend only on its key, and are those that the C++ standard prescribes.
 // - Keys that differ in a word, in the upper half of a word, in order or in length give different streams.
 // - Uniform numbers are multiples of 2^-53 in [0, 1) from the upper bits of the stream, evenly distributed and
 //   uncorrelated.
@@ -41,11 +41,11 @@ TEST(RandomStreamTest, DifferentKeysGiveDifferentStreams) {
   for (RandomStream& stream : streams) {
     for (int k = 0; k < 100; ++k) seen.insert(stream.bits());
   }
-  // 1000 draws of 64 bits contain a repetition with probability 3e-14.
+  // Among so many different streams, equal numbers occur by chance with probability 3e-14.
   EXPECT_EQ(seen.size(), 100 * streams.size());
 }
 
-TEST(RandomStreamTest, UniformsAreTheTopBits) {
+TEST(RandomStreamTest, UniformsUseTheUpperBits) {
   RandomStream random{11}, same{11};
   for (int k = 0; k < 1000; ++k) {
     const double u = random.uniform();
@@ -55,7 +55,7 @@ TEST(RandomStreamTest, UniformsAreTheTopBits) {
 }
 
 constexpr int draws = 200000;
-/// Tolerance of a mean of `draws` values in standard errors. With a random seed one test in 1.7 million would fail.
+/// Tolerance of a mean of `draws` values, in standard errors. With a random seed, one test in 1.7 million would fail.
 constexpr double standard_errors = 5;
 
 TEST(RandomStreamTest, UniformsAreEvenlySpreadAndUncorrelated) {
@@ -86,7 +86,7 @@ TEST(RandomStreamTest, NormalsHaveTheirMoments) {
     product += x * last / draws;
     last = x;
   }
-  // ⟨x^p⟩ of the standard normal distribution, and the variance ⟨x^2p⟩ − ⟨x^p⟩² of x^p.
+  // ⟨x^p⟩ of the standard normal distribution, and the variance of x^p, which is ⟨x^2p⟩ − ⟨x^p⟩².
   const std::array<double, 5> exact{1, 0, 1, 0, 3}, variance{0, 1, 2, 15, 96};
   for (std::size_t p = 1; p < moment.size(); ++p)
     EXPECT_NEAR(moment[p], exact[p], standard_errors * std::sqrt(variance[p] / draws)) << "moment " << p;
@@ -95,7 +95,7 @@ TEST(RandomStreamTest, NormalsHaveTheirMoments) {
 
 TEST(HashTextTest, IsFnv1a) {
   const auto hash = [](std::string_view text) { return hash_of(text); };
-  // The published test vectors.
+  // Published test vectors.
   EXPECT_EQ(hash(""), 0xcbf29ce484222325U);
   EXPECT_EQ(hash("a"), 0xaf63dc4c8601ec8cU);
   EXPECT_EQ(hash("foobar"), 0x85944171f73967e8U);

@@ -1,12 +1,14 @@
 // Properties tested here:
-// - Normals and second terms of all contacts sum to the Hessian of the packing, in jammed states of four solids and in
-//   random packings.
-// - Tilts are orthonormal, perpendicular to the normal and to motions of the pair as a whole, and diagonalise the
-//   second term in descending order.
-// - Contributions to the energy of any motion, and of any mode, sum to its energy, for any threshold.
-// - A vertex in a face has no stiff tilt. An edge in a face has one, with s proportional to 1/depth. A face flat on a
-//   face has none, and one or more if both separate within their polygon.
-// - Rows have unit length, their number is C_s N/2, and their forces give the gradient.
+// - The stiffness of a contact consists of its normal and the second term. The sum over all contacts is the Hessian of
+//   the packing, in jammed states of four solids and in random packings.
+// - Tilts are orthonormal. They are perpendicular to the normal and to common motions of the pair. They diagonalise the
+//   second term, with stiffnesses in descending order.
+// - For any threshold, the contributions of normals, stiff tilts and prestress sum to the energy of any motion or mode.
+// - A vertex in a face has no stiff tilt. An edge in a face has one, whose stiffness s is proportional to 1/depth. Two
+//   faces that touch over their whole polygon have none. If the faces separate within the polygon, they have one or
+//   more.
+// - The rows of constraints have unit length, and their number is C_s N/2. The rows multiplied by the forces give the
+//   gradient.
 
 #include "engine/rigidity/pair_stiffness.hpp"
 
@@ -56,7 +58,7 @@ std::vector<Packing> states_to_try() {
   return states;
 }
 
-TEST(PairStiffnessTest, AddsUpToTheHessian) {
+TEST(PairStiffnessTest, SumsToTheHessian) {
   for (const Packing& packing : states_to_try()) {
     const Stiff stiff(packing);
     MatrixXd sum = MatrixXd::Zero(stiff.hessian.rows(), stiff.hessian.cols());
@@ -74,7 +76,7 @@ TEST(PairStiffnessTest, AddsUpToTheHessian) {
   }
 }
 
-TEST(PairStiffnessTest, TiltsAreTheMotionsThatAreLeft) {
+TEST(PairStiffnessTest, TiltsAreAllOtherRelativeMotions) {
   for (const Packing& packing : states_to_try()) {
     const Stiff stiff(packing);
     for (std::size_t c = 0; c < stiff.contacts.size(); ++c) {
@@ -87,7 +89,7 @@ TEST(PairStiffnessTest, TiltsAreTheMotionsThatAreLeft) {
       diagonal.diagonal() -= pair.tilt_stiffness;
       EXPECT_LE(diagonal.norm(), 100 * eps * pair.second.norm());
       for (int k = 0; k < 4; ++k) EXPECT_GE(pair.tilt_stiffness[k], pair.tilt_stiffness[k + 1]);
-      // A rotation of the pair as a whole about A's centre.
+      // A rotation of the pair as a whole about the centre of A.
       const double radius = packing.solids.only().gyration_radius();
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3d turn = Vector3d::Unit(axis);
@@ -99,7 +101,7 @@ TEST(PairStiffnessTest, TiltsAreTheMotionsThatAreLeft) {
   }
 }
 
-TEST(PairStiffnessTest, SharesAddUp) {
+TEST(PairStiffnessTest, ContributionsSumToTheEnergy) {
   RandomStream random{98};
   for (const Packing& packing : states_to_try()) {
     const Stiff stiff(packing);
@@ -125,7 +127,7 @@ TEST(PairStiffnessTest, SharesAddUp) {
   }
 }
 
-/// The stiffness of a constructed contact, with a random orientation of A.
+/// The stiffness of a constructed contact, where A has a random orientation.
 PairStiffness stiffness_of(const ConvexSolid& solid, const Contact& touching, RandomStream& random) {
   Packing packing{solid, PeriodicCell(100), std::vector<Pose>(2)};
   const Eigen::Quaterniond q = constructed::random_orientation(random);
@@ -138,7 +140,7 @@ PairStiffness stiffness_of(const ConvexSolid& solid, const Contact& touching, Ra
   return pair_stiffnesses(packing, contacts).front();
 }
 
-TEST(PairStiffnessTest, ShapesHaveTheirTilts) {
+TEST(PairStiffnessTest, ContactShapesHaveTheExpectedStiffTilts) {
   RandomStream random{99};
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);
@@ -154,8 +156,8 @@ TEST(PairStiffnessTest, ShapesHaveTheirTilts) {
       const auto shallow = made(edge, face, Vector3d::Zero(), 1e-6), deeper = made(edge, face, Vector3d::Zero(), 1e-4);
       EXPECT_EQ(shallow.stiff_tilts(10), 1) << to_string(kind);
       EXPECT_NEAR(shallow.relative_tilt(0) / deeper.relative_tilt(0), 100, 5) << to_string(kind);
-      // If a flat contact covers its whole polygon, V is the area of the polygon times the depth at its centroid, so
-      // that a tilt about it changes nothing. A tilt does if the faces separate within the polygon.
+      // If a flat contact covers the whole polygon, V is the area of the polygon times the depth at its centroid. A
+      // tilt about the centroid then does not change V. If the faces separate within the polygon, it does.
       const auto flat = constructed::face_and_edges_site(solid, k);
       const Vector3d in_plane = flat.outward.unitOrthogonal();
       EXPECT_EQ(made(flat, face, 1e-9 * in_plane, 1e-4).stiff_tilts(10), 0) << to_string(kind);

@@ -1,14 +1,16 @@
 // Properties tested here:
 // - Rows have unit length and vanish for translations, and rowsᵀ·forces is the gradient of the energy.
-// - Class rows allow the motions that the shape of a constructed contact allows (slides and spins; rotations about an
-//   edge), and oppose the others. Their number is C·N/2.
-// - For every state of jammed octahedra, tetrahedra and icosahedra, and of cubes, the number of constraints is that of
-//   the contacts by their angles. Ranks, states of self-stress and floppy motions agree with all singular values. Zero
-//   and nonzero singular values are orders of magnitude apart.
-// - Nearest to jamming the normals have exactly one state of self-stress, which the forces of the equilibrium form.
-//   Cubes have more than one redundant constraint per particle.
-// - Bases of states of self-stress are orthonormal and balance.
-// - Ranks known by construction are found: repeated rows, rows of a tree, no rows.
+// - The rows of a constructed contact, chosen by its class, do not oppose the motions that its shape allows: sliding,
+//   rotation about the normal, and rotation about an edge in a face. They oppose all other motions. The number of rows
+//   is C·N/2.
+// - For every state of jammed octahedra, tetrahedra and icosahedra, and of cubes, the number of constraints follows
+//   from the classes of the contacts. The numbers of states of self-stress and floppy motions, and the rank, agree with
+//   the singular values. Zero and nonzero singular values are orders of magnitude apart.
+// - In the nearest state the normals have exactly one state of self-stress: the contact forces. Cubes have more than
+//   one redundant constraint per particle.
+// - A basis of the states of self-stress is orthonormal, and each of its elements balances on every particle.
+// - The rank is correct for matrices whose rank is known: with repeated rows, with the rows of a tree, and without
+//   rows.
 
 #include "engine/rigidity/rigidity.hpp"
 
@@ -34,7 +36,7 @@ using Eigen::VectorXd;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// A state with known data of its contacts.
+/// A state, and numbers that follow from its contacts.
 struct Known {
   explicit Known(const Packing& packing) : state(packing) {
     PackingEnergy energy;
@@ -45,7 +47,7 @@ struct Known {
   }
   RigidityMatrix normals() const { return normal_constraints(state, contacts); }
   RigidityMatrix by_class() const { return class_constraints(state, contacts, angles, analysis.classes); }
-  /// 3, 2 and 1 constraints for every face-face, edge-face and lower-order contact.
+  /// Number of constraints: 3, 2 and 1 for every face-face, edge-face and lower-order contact.
   int by_counting() const {
     int sum = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -83,7 +85,7 @@ TEST(RigidityMatrixTest, RowsAreUnitAndForcesGiveTheGradient) {
   }
 }
 
-/// Two touching bodies, A in a random orientation, and the motions of B about the touching point.
+/// Two touching bodies, where A has a random orientation, and motions of B about the touching point.
 struct Pair {
   Pair(const ConvexSolid& solid, const Contact& in_frame_of_a, const Vector3d& touch, RandomStream& random)
       : packing{solid, PeriodicCell(100), std::vector<Pose>(2)},
@@ -95,8 +97,8 @@ struct Pair {
     contact.displacement = q * contact.pose.displacement;
   }
 
-  /// |rows · dr| for a motion where B moves by `slide` and rotates by `turn` (frame of A) about the touching point;
-  /// |dr| = 1.
+  /// |rows · dr| for a motion dr of unit length, in which B moves by `slide` and rotates by `turn` about the touching
+  /// point, in the frame of A.
   double opposed(const RigidityMatrix& matrix, const Vector3d& slide, const Vector3d& turn) const {
     const Eigen::Quaterniond& q = packing.poses[0].orientation;
     const Vector3d theta = q * turn;
@@ -108,11 +110,12 @@ struct Pair {
 
   Packing packing;
   Contact contact;
-  Vector3d lever;  ///< from B's centre to the touching point, lab frame
+  Vector3d lever;  ///< from the centre of B to the touching point, in the lab frame
 };
 
 constexpr double depth = 1e-4;
-constexpr double free_motion = 30 * depth;  ///< remainder of a row for a free motion, due to the finite depth
+constexpr double free_motion =
+    30 * depth;  ///< largest value for a motion without resistance; it is not 0 because of the depth
 constexpr double opposed_motion = 0.1;
 
 TEST(RigidityMatrixTest, FaceOnFaceSlidesAndSpins) {
@@ -139,7 +142,7 @@ TEST(RigidityMatrixTest, FaceOnFaceSlidesAndSpins) {
   }
 }
 
-TEST(RigidityMatrixTest, EdgeInFaceTurnsAboutItself) {
+TEST(RigidityMatrixTest, EdgeInFaceRotatesAboutItself) {
   RandomStream random{93};
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);
@@ -147,7 +150,7 @@ TEST(RigidityMatrixTest, EdgeInFaceTurnsAboutItself) {
       const constructed::Site a = constructed::edge_site(solid, edge);
       const Contact touching = constructed::contact(a, constructed::face_site(solid, 2), random.uniform(),
                                                     0.1 * constructed::direction(solid, edge), depth);
-      const bool swap = edge % 2 == 1;  // B's edge in A's face
+      const bool swap = edge % 2 == 1;  // the edge belongs to B and the face to A
       const Contact seen = swap ? constructed::exchanged(touching) : touching;
       const Eigen::Matrix3d to_frame = swap ? seen.pose.rotation : Eigen::Matrix3d::Identity().eval();
       const Vector3d touch = swap ? Vector3d(seen.pose.displacement + to_frame * a.point) : a.point;
@@ -171,7 +174,7 @@ TEST(RigidityMatrixTest, EdgeInFaceTurnsAboutItself) {
   }
 }
 
-TEST(RigidityMatrixTest, RefusesWhatDoesNotMatch) {
+TEST(RigidityMatrixTest, RejectsListsOfDifferentLengths) {
   const Packing packing = small_packing(SolidKind::octahedron, 0.6, 94);
   const Known known(packing);
   EXPECT_THROW(class_constraints(packing, known.contacts, {}, known.analysis.classes), std::invalid_argument);
@@ -183,7 +186,7 @@ TEST(RigidityMatrixTest, RefusesWhatDoesNotMatch) {
   }
 }
 
-/// Checks the numbers of constraints, states of self-stress and floppy motions against contacts and singular values.
+/// Checks the numbers of constraints, states of self-stress and floppy motions with contacts and singular values.
 void expect_counts(const Rigidity& rigidity, const RigidityMatrix& matrix, int constraints, int particles) {
   const VectorXd sigma = singular_values_of(MatrixXd(matrix.rows));
   const int rank = static_cast<int>((sigma.array() > rigidity.tolerance).count());
@@ -214,7 +217,7 @@ struct System {
   double final_distance;
 };
 
-/// Cubes order instead of jamming: one compressed state.
+/// States of a system. Cubes crystallise instead of jamming, so they have only one compressed state.
 std::vector<Packing> states_of(const System& system) {
   if (system.kind != SolidKind::cube) return jammed(system.kind, system.n, system.final_distance).states;
   Packing packing = small_packing(system.kind, over_compressed(system.kind), 96, system.n);
@@ -253,7 +256,8 @@ TEST_P(RigidityOf, EveryState) {
     expect_stresses(of_classes, by_class);
     EXPECT_GE(of_classes.rank, of_normals.rank);
     EXPECT_GE(of_normals.self_stress, 1) << "an equilibrium is a state of self-stress";
-    // The forces are a state of self-stress: subtracting their projection leaves nothing.
+    // The contact forces are a state of self-stress, so nothing remains if their projection on these states is
+    // subtracted.
     const VectorXd forces = normals.forces.normalized();
     const VectorXd rest = forces - of_normals.stresses * (of_normals.stresses.transpose() * forces);
     EXPECT_LE(rest.norm(), normals.imbalance / of_normals.least_kept * 100);
@@ -279,8 +283,9 @@ TEST_P(RigidityOf, NearestJamming) {
   EXPECT_NEAR(along, 1, 1e-6) << "the forces of the equilibrium are that state";
 }
 
-/// Every second row repeats the one before: far more states of self-stress than by counting.
-TEST(RigidityTest, RowsGivenTwice) {
+/// Every second row repeats the previous one. There are far more states of self-stress than the number of rows
+/// suggests.
+TEST(RigidityTest, RepeatedRowsAreRedundant) {
   const Known known(nearest_state(jammed(SolidKind::icosahedron, 32, .01)));
   const RigidityMatrix once = known.normals();
   RigidityMatrix twice = once;
@@ -298,7 +303,7 @@ TEST(RigidityTest, RowsGivenTwice) {
   EXPECT_EQ(of_twice.rank, (singular_values_of(MatrixXd(twice.rows)).array() > of_twice.tolerance).count());
 }
 
-TEST(RigidityTest, RefusesWhatIsNotANumber) {
+TEST(RigidityTest, RejectsNaN) {
   RigidityMatrix matrix = Known(nearest_state(jammed(SolidKind::icosahedron, 32, .01))).normals();
   matrix.rows.coeffRef(3, 17) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(analyse_rigidity(matrix), std::invalid_argument);
@@ -314,7 +319,7 @@ TEST(RigidityTest, KnownRanks) {
 
   RandomStream random{95};
   for (int rank = 1; rank < 15; ++rank) {
-    // More rows than their rank, each a combination of a basis.
+    // A matrix with more rows than its rank; each row is a combination of a basis.
     MatrixXd basis(rank, 18), mixture(rank + 4, rank);
     for (double& entry : basis.reshaped()) entry = random.normal();
     for (double& entry : mixture.reshaped()) entry = random.normal();

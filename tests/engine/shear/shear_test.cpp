@@ -1,14 +1,16 @@
 // Properties tested here, for jammed octahedra and dodecahedra in a variable cell, in both modes and with both
 // controls:
-// - Stress over strain of a small step is the shear modulus of the elastic tensor, to 1e-6; with stress control that of
-//   its inverse.
-// - Stress is the derivative of the energy: work and energy agree to second order in the step, so that nothing is
-//   dissipated without a rearrangement.
-// - A load that is reversed within the elastic range restores the energy to 1e-9.
-// - With stress control the stress is the requested one, −p·1 + τ, to the residual, at the initial pressure.
-// - At large loads the packing rearranges: the drop is reported, energy is dissipated, and stored energy decreases.
-// - Beyond the yield stress no equilibrium is reported.
-// - A packing that is not jammed, and steps that lead nowhere, are rejected.
+// - With strain control, stress divided by strain of a small step is the shear modulus of the elastic tensor, to 1e-6.
+//   With stress control, it is the modulus that follows from the inverse tensor.
+// - Stress is the derivative of the energy: work and energy agree to second order in the step. Without a rearrangement,
+//   no energy is dissipated.
+// - If a load within the elastic range is reversed, the energy returns to its initial value, to 1e-9.
+// - With stress control, the stress is the requested one, −p·1 + τ, within the residual. The pressure p is the initial
+//   one.
+// - At large loads the packing rearranges. The drop of the stress is reported, energy is dissipated, and the stored
+//   energy decreases.
+// - Beyond the yield stress there is no equilibrium, and this is reported.
+// - Packings that are not jammed, and invalid steps, are rejected.
 
 #include "engine/shear/shear.hpp"
 
@@ -42,7 +44,7 @@ const Packing& jammed(SolidKind kind) {
   RandomStream random{23, static_cast<std::uint64_t>(kind)};
   JamResult result = jam(random_packing(platonic(kind), 60, options.compression.initial_density, random), options);
   settle(result, options);
-  // Minimised as far as possible, because the remaining stress is part of every difference.
+  // Minimised to the smallest possible residual, because the remaining stress is a part of every difference.
   Packing packing = result.states.back();
   PackingEnergy energy;
   MinimiseOptions exact;
@@ -76,7 +78,7 @@ class ShearOf : public testing::TestWithParam<Case> {
     return *elastic_tensor(start_, energy.hessian(start_, Precision::double_double), energy.contacts(start_), here);
   }
 
-  /// ε for unit γ, in Mandel's components.
+  /// Strain for γ = 1, in Mandel components.
   Vector6d direction() const {
     Eigen::Matrix3d strain = deviator_with(.5, GetParam().mode);
     return strain_components(strain);
@@ -96,7 +98,7 @@ TEST_P(ShearOf, TheFirstStepHasTheShearModulus) {
   const double step = 1e-6;
   const ShearResult forth = shear(start_, options(ShearControl::strain, step, 2 * step));
   ASSERT_EQ(forth.states.size(), 3U);
-  // Terms of second order cancel.
+  // With this formula the terms of second order cancel.
   const double slope = (4 * forth.states[1].stress - forth.states[2].stress - 3 * forth.states[0].stress) / (2 * step);
   std::printf("G %.9e, by stress over strain %.9e\n", expected, slope);
   EXPECT_NEAR(slope, expected, 1e-6 * std::abs(expected));
@@ -113,7 +115,7 @@ TEST_P(ShearOf, StressIsTheSlopeOfTheEnergy) {
   }
 }
 
-TEST_P(ShearOf, TakenBackTheLoadLeavesTheEnergyThatWas) {
+TEST_P(ShearOf, ReversingTheLoadRestoresTheEnergy) {
   for (const ShearControl control : {ShearControl::strain, ShearControl::stress}) {
     ShearOptions there_and_back =
         options(control, control == ShearControl::strain ? 5e-5 : 1e-3, control == ShearControl::strain ? 1e-4 : 2e-3);
@@ -128,13 +130,13 @@ TEST_P(ShearOf, TakenBackTheLoadLeavesTheEnergyThatWas) {
   }
 }
 
-TEST_P(ShearOf, UnderStressControlTheStressIsTheOneAskedFor) {
+TEST_P(ShearOf, UnderStressControlTheStressIsTheRequestedOne) {
   const ShearResult result = shear(start_, options(ShearControl::stress, 1e-4, 3e-4));
   ASSERT_EQ(result.ended, ShearEnd::completed);
   const double pressure = result.states.front().pressure;
   const Matrix6d compliance = [&] {
     Matrix6d stiffness = tensor().relaxed;
-    stiffness.topLeftCorner<3, 3>().array() += pressure;  // at constant pressure
+    stiffness.topLeftCorner<3, 3>().array() += pressure;  // response at constant pressure
     return Matrix6d(stiffness.inverse());
   }();
   const Vector6d load = strain_components(deviator_with(1, GetParam().mode));
@@ -145,14 +147,14 @@ TEST_P(ShearOf, UnderStressControlTheStressIsTheOneAskedFor) {
     EXPECT_LE((state.full_stress - wanted).cwiseAbs().maxCoeff(), 1e-8 * pressure) << k;
     EXPECT_NEAR(state.pressure, pressure, 1e-8 * pressure);
     if (state.dropped) break;
-    // Compliance and strain are linear to a few per cent for such a small load.
+    // For such a small load, compliance and strain are linear to a few per cent.
     const double expected = 2 * direction().dot(compliance * load) * state.load * pressure;
     std::printf("s/p %.0e: strain %.6e, linear %.6e\n", state.load, state.strain, expected);
     EXPECT_NEAR(state.strain, expected, .02 * std::abs(expected)) << k;
   }
 }
 
-TEST_P(ShearOf, FarEnoughThePackingGivesWay) {
+TEST_P(ShearOf, AtLargeLoadsThePackingRearranges) {
   const ShearResult result = shear(start_, options(ShearControl::strain, 6e-3, .06));
   int drops = 0;
   for (const ShearState& state : result.states) {
@@ -167,7 +169,7 @@ TEST_P(ShearOf, FarEnoughThePackingGivesWay) {
   for (const ShearState& state : beyond.states) EXPECT_TRUE(std::isfinite(state.strain) && std::isfinite(state.stress));
 }
 
-TEST(ShearTest, RefusesWhatIsNotJammedAndStepsThatLeadNowhere) {
+TEST(ShearTest, RejectsUnjammedPackingsAndInvalidSteps) {
   Packing loose{platonic(SolidKind::octahedron), PeriodicCell(9), {Pose{}, Pose{}}};
   loose.poses[1].position.setConstant(4);
   EXPECT_THROW(shear(loose, {}), std::invalid_argument);

@@ -1,10 +1,12 @@
-// Properties tested here, for Hessians of random packings of 1 … 200 particles, with particles without contacts, and
-// for random matrices of other shapes (a chain, a star, two clusters, a full matrix), each plus a shift:
-// - H x by blocks is H x by the dense matrix.
-// - The solution has a backward error of a few roundings. It agrees with Eigen's dense LLT and sparse SimplicialLDLT as
-//   well as the condition number permits.
-// - A shift slightly above −λ_min is accepted; one slightly below and a singular matrix are rejected.
-// - A factor used before (for the same pattern, another one, or a rejected matrix) gives the bits of a new one.
+// Properties tested here for matrices plus a shift of the diagonal. The matrices are Hessians of random packings with 1
+// … 200 particles, some without contacts, and random matrices with other patterns (a chain, a star, two clusters, a
+// full matrix):
+// - The product H x is the same with the blocks and with the dense matrix.
+// - The solution has a backward error of a few roundings. It agrees with Eigen's dense LLT and sparse SimplicialLDLT
+//   within the error that the condition number allows.
+// - A shift slightly above −λ_min is accepted. A shift slightly below it and a singular matrix are rejected.
+// - A factor that was used before gives the same bits as a new factor. The earlier matrix had the same pattern or
+//   another one, or was rejected.
 
 #include "engine/solve/factor/block_cholesky.hpp"
 
@@ -53,7 +55,7 @@ Packing pair_packing(SolidKind kind) {
   return packing;
 }
 
-/// Symmetric matrix of random blocks; `coupled(i, j)` is true for the pairs i < j that have one.
+/// A symmetric matrix of random blocks. Block (i, j) with i < j is nonzero if coupled(i, j) is true.
 template <class Coupled>
 BlockMatrix random_blocks(int n, const Coupled& coupled) {
   RandomStream random{21, static_cast<std::uint64_t>(n)};
@@ -88,7 +90,7 @@ std::vector<System> systems() {
   list.push_back(system_of("N=200 dense", hessian_of(sized_packing(SolidKind::octahedron, 200, 0.7, 6))));
   list.push_back(system_of("chain", random_blocks(30, [](int i, int j) { return j == i + 1; })));
   list.push_back(system_of("star", random_blocks(25, [](int i, int j) { return i == 12 || j == 12; })));
-  // Fronts wider than the columns used in one pass, with rows below them.
+  // The fronts are wider than the number of columns that are processed in one pass, and there are rows below them.
   const auto cluster = [](int i) { return i / 30; };
   list.push_back(system_of("two clusters", random_blocks(65, [&](int i, int j) {
                              return cluster(i) == cluster(j) || std::max(cluster(i), cluster(j)) == 2;
@@ -97,7 +99,7 @@ std::vector<System> systems() {
   return list;
 }
 
-/// A scale for shifts, even if the Hessian is zero.
+/// A scale for shifts, which is nonzero even if the Hessian is zero.
 double stiffness(const System& system) { return system.highest > 0 ? system.highest : 1.0; }
 
 /// ‖A x − b‖ / (‖A‖‖x‖ + ‖b‖).
@@ -105,7 +107,7 @@ double backward_error(const Eigen::MatrixXd& a, double norm, const Eigen::Vector
   return (a * x - b).norm() / (norm * x.norm() + b.norm());
 }
 
-TEST(BlockCholesky, SystemsCoverLonelyParticles) {
+TEST(BlockCholesky, SomeSystemsHaveParticlesWithoutContacts) {
   const Packing dilute = sized_packing(SolidKind::icosahedron, 20, 0.1, 2);
   const int lonely = without_contacts(dilute);
   EXPECT_GT(lonely, 0);
@@ -153,7 +155,7 @@ TEST(BlockCholesky, MultipliesAsTheDenseMatrixDoes) {
   }
 }
 
-TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {
+TEST(BlockCholesky, RejectsMatricesThatAreNotPositiveDefinite) {
   int indefinite = 0;
   for (const System& system : systems()) {
     const double margin = 1e-6 * stiffness(system);
@@ -172,7 +174,7 @@ TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(BlockCholesky().factorise(zero, 0));
 }
 
-TEST(BlockCholesky, RefusesWhatIsNotANumber) {
+TEST(BlockCholesky, RejectsNaN) {
   BlockMatrix matrix = hessian_of(sized_packing(SolidKind::dodecahedron, 20, 0.75, 3));
   const double shift = 10 * dense(matrix).cwiseAbs().rowwise().sum().maxCoeff();
   ASSERT_TRUE(BlockCholesky().factorise(matrix, shift));
@@ -187,7 +189,7 @@ TEST(BlockCholesky, ReuseGivesTheBitsOfANewFactor) {
   for (int round = 0; round < 30; ++round) {
     const System& system = list[random.bits() % list.size()];
     const double high = 2 * (std::max(0.0, -system.lowest) + stiffness(system));
-    // The same pattern twice with different values, sometimes with a rejected matrix in between.
+    // The same pattern twice with different values. In some cases a matrix is rejected in between.
     for (const double factor : {1.0, 0.7}) {
       if (random.uniform() < 0.3) {
         ASSERT_FALSE(used.factorise(system.matrix, -high)) << system.name;
@@ -201,7 +203,7 @@ TEST(BlockCholesky, ReuseGivesTheBitsOfANewFactor) {
   }
 }
 
-TEST(BlockCholesky, FollowsPatternsOfEqualSize) {
+TEST(BlockCholesky, DistinguishesPatternsOfEqualSize) {
   RandomStream random{14};
   BlockCholesky used;
   Packing packing = sized_packing(SolidKind::icosahedron, 40, 0.3, 8);

@@ -1,8 +1,11 @@
-// Properties tested here, for states of every solid from random to converged, where energies no longer resolve a step:
-// - A step of Descent::advance moves the packing by last_step() times the direction, and no particle beyond the longest
-//   displacement. It raises the energy by at most its noise, and packing and evaluation agree afterwards.
-// - A direction that leads uphill is rejected and nothing moves.
-// - The verdict is energy_change exactly if the last step changed the energy by less than that fraction.
+// Properties tested here for states of every solid, from random ones to converged ones, in which the energy change of a
+// step is below the rounding error:
+// - A step of Descent::advance moves the packing by last_step() times the direction, and no particle by more than the
+//   longest displacement. It increases the energy at most by the rounding error of the energy. Afterwards, packing and
+//   evaluation agree.
+// - A direction in which the energy increases is rejected, and nothing moves.
+// - The verdict is energy_change if, and only if, the relative change of the energy in the last step was smaller than
+//   requested.
 
 #include "engine/solve/minimise/descent.hpp"
 
@@ -18,7 +21,7 @@ class DescentOf : public testing::TestWithParam<SolidKind> {};
 INSTANTIATE_TEST_SUITE_P(Solids, DescentOf, testing::ValuesIn(all_solids),
                          [](const auto& test) { return std::string(to_string(test.param)); });
 
-/// Largest difference between the positions of `after` and those of `before` moved by `step`.
+/// Largest difference between the positions of `after` and the positions of `before` moved by `step`.
 double misplaced(const Packing& before, const Packing& after, const Eigen::VectorXd& step) {
   double worst = 0;
   const Packing expected = moved(before, step);
@@ -27,7 +30,8 @@ double misplaced(const Packing& before, const Packing& after, const Eigen::Vecto
   return worst;
 }
 
-/// Takes steps along random descent directions and counts those whose energy change is below the noise.
+/// Takes steps along random descent directions. Returns the number of steps whose energy change is below the rounding
+/// error.
 int wander(Packing& packing, int steps, RandomStream& random) {
   PackingEnergy energy;
   MinimiseOptions options;
@@ -99,7 +103,7 @@ TEST_P(DescentOf, JudgesRelativeChangesOfEnergy) {
   EXPECT_GT(moving, 10);
 }
 
-TEST_P(DescentOf, RefusesToClimb) {
+TEST_P(DescentOf, RejectsUphillDirections) {
   Packing packing = small_packing(GetParam(), over_compressed(GetParam()), 33);
   const Packing before = packing;
   PackingEnergy energy;

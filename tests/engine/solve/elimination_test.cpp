@@ -1,7 +1,8 @@
-// Properties tested here, for random graphs of 0 … 120 particles from empty to complete, and for packings:
+// Properties tested here of the elimination plan, for random graphs of 0 … 120 particles from empty to complete, and
+// for packings:
 // - Every particle is eliminated once, children before parents, and every supernode except the roots has one parent.
-// - The fill-in is within the supernodes. The reference eliminates a dense pattern one by one.
-// - On packings fewer than half of the entries of supernodes are zeros.
+// - All fill-in is inside the supernodes. The reference eliminates the particles of a dense pattern one by one.
+// - For packings, fewer than half of the entries of the supernodes are zeros.
 // - The plan depends only on the pattern.
 
 #include "engine/solve/factor/elimination.hpp"
@@ -36,7 +37,8 @@ std::vector<BlockMatrix> graphs() {
   return list;
 }
 
-/// Later positions that each position couples to once the earlier ones are eliminated.
+/// For each position of the elimination, the later positions that are coupled to it when the earlier ones have been
+/// eliminated.
 std::vector<std::set<int>> filled_in(const BlockMatrix& matrix, const std::vector<int>& node_of) {
   std::vector<int> place_of(node_of.size());
   for (std::size_t k = 0; k < node_of.size(); ++k) place_of[node_of[k]] = static_cast<int>(k);
@@ -55,7 +57,7 @@ std::vector<std::set<int>> filled_in(const BlockMatrix& matrix, const std::vecto
   return later;
 }
 
-TEST(Elimination, TakesEveryParticleOnce) {
+TEST(Elimination, EliminatesEveryParticleOnce) {
   for (const BlockMatrix& matrix : graphs()) {
     const Elimination plan = plan_elimination(matrix, fill_reducing_order(matrix));
     std::vector<int> sorted = plan.node_of;
@@ -80,7 +82,7 @@ TEST(Elimination, TakesEveryParticleOnce) {
   }
 }
 
-TEST(Elimination, HoldsWhatFillsIn) {
+TEST(Elimination, SupernodesContainTheFillIn) {
   for (const BlockMatrix& matrix : graphs()) {
     const Elimination plan = plan_elimination(matrix, fill_reducing_order(matrix));
     const std::vector<std::set<int>> later = filled_in(matrix, plan.node_of);
@@ -93,7 +95,7 @@ TEST(Elimination, HoldsWhatFillsIn) {
               << "places " << k << " and " << row << " of N " << matrix.size();
       }
       EXPECT_TRUE(node.rows.empty() || node.rows.front() >= end);
-      // A child passes its update matrix to its parent, which must contain all its rows.
+      // A child passes its update matrix to its parent, so the parent must contain all its rows.
       for (const int child : node.children) {
         for (const int row : plan.supernodes[child].rows)
           EXPECT_TRUE(row < end || std::binary_search(node.rows.begin(), node.rows.end(), row));
@@ -102,7 +104,7 @@ TEST(Elimination, HoldsWhatFillsIn) {
   }
 }
 
-TEST(Elimination, TakesInFewZeros) {
+TEST(Elimination, SupernodesContainFewZeros) {
   for (const SolidKind kind : all_solids) {
     const BlockMatrix matrix = PackingEnergy().hessian(small_packing(kind, 0.6, 3, 150));
     const Elimination plan = plan_elimination(matrix, fill_reducing_order(matrix));
@@ -116,7 +118,7 @@ TEST(Elimination, TakesInFewZeros) {
   }
 }
 
-TEST(Elimination, IsAFunctionOfThePattern) {
+TEST(Elimination, DependsOnlyOnThePattern) {
   for (BlockMatrix matrix : graphs()) {
     const Elimination plan = plan_elimination(matrix, fill_reducing_order(matrix));
     for (BlockMatrix::Block& block : matrix.off_diagonal) block.value.setConstant(3);

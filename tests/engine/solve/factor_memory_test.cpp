@@ -1,7 +1,7 @@
 // Properties tested here, with a malloc that fails at a chosen call:
-// - If any single allocation fails while a matrix is dissected, planned and factorised, on one or several threads,
-//   factorise throws std::bad_alloc or succeeds without that memory.
-// - As soon as memory is available, a factor that was used for another matrix gives the bits of a new one.
+// - If any single allocation fails during the dissection, planning or factorisation of a matrix, on one or several
+//   threads, factorise() either throws std::bad_alloc or succeeds without this memory.
+// - When memory is available again, the factor gives the same bits as a new one.
 
 #include <oneapi/tbb/global_control.h>
 
@@ -13,7 +13,7 @@
 #include "tests/engine/solve/scattered_blocks.hpp"
 #include "tests/engine/solve/solve_support.hpp"
 
-// A sanitizer has its own malloc.
+// The sanitizers replace malloc, so this test cannot replace it too.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 namespace {
@@ -42,7 +42,7 @@ namespace {
 
 enum class Came { through, short_of_memory };
 
-/// Lets the k-th allocation fail; 0 lets none fail.
+/// Factorises, while the k-th allocation fails; with k = 0, none fails.
 Came factorise(BlockCholesky& factor, const BlockMatrix& matrix, long k) {
   calls = 0;
   refused = k;
@@ -61,7 +61,7 @@ Came factorise(BlockCholesky& factor, const BlockMatrix& matrix, long k) {
 void refuse_one_after_the_other(int n, std::size_t threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const BlockMatrix matrix = scattered_blocks(n, 9);
-  BlockMatrix before = matrix;  // needs less memory
+  BlockMatrix before = matrix;  // A matrix that needs less memory.
   std::erase_if(before.off_diagonal, [](const BlockMatrix::Block& block) { return block.column % 3 == 0; });
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(Eigen::Index{6} * n, -1, 1);
   BlockCholesky fresh;
@@ -84,9 +84,9 @@ void refuse_one_after_the_other(int n, std::size_t threads) {
   EXPECT_GT(2 * short_of_memory, tried);
 }
 
-TEST(FactorOutOfMemory, SmallOnes) { refuse_one_after_the_other(60, 1); }
-TEST(FactorOutOfMemory, DissectedOnes) { refuse_one_after_the_other(400, 1); }
-TEST(FactorOutOfMemory, DissectedOnesOnTwoThreads) { refuse_one_after_the_other(400, 2); }
+TEST(FactorOutOfMemory, SmallMatrices) { refuse_one_after_the_other(60, 1); }
+TEST(FactorOutOfMemory, DissectedMatrices) { refuse_one_after_the_other(400, 1); }
+TEST(FactorOutOfMemory, DissectedMatricesOnTwoThreads) { refuse_one_after_the_other(400, 2); }
 
 }  // namespace
 }  // namespace isojam

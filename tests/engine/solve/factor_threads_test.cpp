@@ -1,12 +1,12 @@
-// Properties tested here, for graphs of scattered points large enough to be dissected and shared among threads:
-// - The solution is that of Eigen's dense LLT.
-// - It has the same bits for 1, 2, 3 and 6 threads, and in several threads of a caller at once.
-// - A failing pivot, in a leaf, in a shared front, or in several places at once, is always reported. Later
-//   factorisations have the bits of a new factor.
-// - A plan divides subtrees and fronts among threads, and two updates that may be needed at the same time do not
-//   overlap.
-// - A dissection is a permutation. It has less fill-in than minimum degree for the numbers of particles for which it is
-//   used, and does not depend on simultaneous dissections.
+// Properties tested here, for graphs of random points that are large enough to be dissected and divided among threads:
+// - The solution agrees with Eigen's dense LLT.
+// - It has the same bits for 1, 2, 3 and 6 threads, and if several threads factorise at the same time.
+// - If a pivot is not positive, the factorisation always reports this: in a leaf, in a shared front, or in several
+//   places at the same time. Later factorisations give the same bits as a new factor.
+// - A plan divides subtrees and fronts among threads. Update matrices that can be needed at the same time do not
+//   overlap in memory.
+// - A dissection is a permutation. For the numbers of particles for which it is used, it has less fill-in than minimum
+//   degree. It does not depend on other dissections that run at the same time.
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -31,13 +31,13 @@ Eigen::VectorXd right_side(int n) {
   return normal_vector(6 * n, random);
 }
 
-/// A given number of threads, even if the machine has fewer cores.
+/// Runs work with a given number of threads, even if the machine has fewer cores.
 class Team {
  public:
   explicit Team(std::size_t threads)
       : limit_(tbb::global_control::max_allowed_parallelism, threads), arena_(static_cast<int>(threads)) {}
 
-  /// (matrix + safe_shift)⁻¹ b; empty if rejected.
+  /// (matrix + safe_shift)⁻¹ b; empty if the matrix is rejected.
   Eigen::VectorXd solution(const BlockMatrix& matrix, BlockCholesky& factor) {
     bool done = false;
     arena_.execute([&] { done = factor.factorise(matrix, safe_shift); });
@@ -61,7 +61,7 @@ TEST(FactorThreads, SolveAsTheDenseFactorDoes) {
   EXPECT_LE((Team(2).solution(matrix) - expected).norm(), 1e-12 * expected.norm());
 }
 
-TEST(FactorThreads, TheirNumberChangesNothing) {
+TEST(FactorThreads, TheNumberOfThreadsChangesNothing) {
   for (const int n : {350, dissected}) {
     const BlockMatrix matrix = scattered_blocks(n, 2);
     const Eigen::VectorXd one = Team(1).solution(matrix);
@@ -94,7 +94,7 @@ TEST(FactorThreads, SeveralFactorsAtOnceChangeNothing) {
   });
 }
 
-TEST(FactorThreads, APivotThatFailsIsARefusal) {
+TEST(FactorThreads, AFailedPivotIsAlwaysReported) {
   const BlockMatrix good = scattered_blocks(dissected, 4);
   const FrontPlan plan = plan_fronts(good);
   const Eigen::VectorXd expected = Team(1).solution(good);
@@ -115,7 +115,7 @@ TEST(FactorThreads, APivotThatFailsIsARefusal) {
   }
 }
 
-/// The parent of every front, −1 for none.
+/// The parent of every front; −1 if it has none.
 std::vector<int> parents_of(const FrontPlan& plan) {
   std::vector<int> parents(plan.fronts.size(), -1);
   for (std::size_t f = 0; f < plan.fronts.size(); ++f) {
@@ -129,7 +129,7 @@ bool is_below(int k, int ancestor, const std::vector<int>& parents) {
   return k == ancestor;
 }
 
-TEST(FactorThreads, UpdatesNeededAtTheSameTimeLieApart) {
+TEST(FactorThreads, UpdatesNeededAtTheSameTimeDoNotOverlap) {
   for (const int n : {100, 350, dissected}) {
     const FrontPlan plan = plan_fronts(scattered_blocks(n, 5));
     const std::vector<int> parents = parents_of(plan);
@@ -148,7 +148,8 @@ TEST(FactorThreads, UpdatesNeededAtTheSameTimeLieApart) {
       for (int f = 0; f < g; ++f) {
         const Front& early = plan.fronts[f];
         if (early.update_size() == 0 || late.update_size() == 0) continue;
-        // Already consumed before the later one begins: by a front below it, or by an earlier one of the same thread.
+        // The update was used before the later front begins: by a front below it, or by an earlier front of the same
+        // thread.
         const bool gone = parents[f] < g && (is_below(parents[f], g, parents) || range_of[parents[f]] == range_of[g]);
         const bool apart =
             early.update + early.update_size() <= late.update || late.update + late.update_size() <= early.update;
@@ -168,7 +169,7 @@ double work_of(const BlockMatrix& matrix, const std::vector<int>& order) {
   return work;
 }
 
-TEST(FactorThreads, DissectionFillsInLess) {
+TEST(FactorThreads, DissectionHasLessFillIn) {
   for (const int n : {350, 700, 1400}) {
     const BlockMatrix matrix = scattered_blocks(n, 6);
     const std::vector<int> order = fill_reducing_order(matrix);
@@ -183,7 +184,7 @@ TEST(FactorThreads, DissectionFillsInLess) {
   EXPECT_EQ(fill_reducing_order(scattered_blocks(100, 6)), minimum_degree_order(scattered_blocks(100, 6)));
 }
 
-TEST(FactorThreads, DissectsAlikeWhoeverElseDoes) {
+TEST(FactorThreads, SimultaneousDissectionsChangeNothing) {
   const BlockMatrix matrix = scattered_blocks(dissected, 7);
   const std::vector<int> alone = dissection_order(matrix);
   std::vector<char> same(8, 0);

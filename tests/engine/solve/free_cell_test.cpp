@@ -1,13 +1,13 @@
 // Properties tested here, for packings in a variable cell:
-// - With pressure control and a free cell the states of an expansion have the stress −p·1 to 1e-6 of p, at the
-//   requested decreasing pressures. E ∝ Δφ⁶ and p ∝ Δφ⁵ give the same φ_J. In a cube the stress of the same solids is
-//   not hydrostatic.
-// - With density control and a free cell shape the stress is hydrostatic too, and the volume is that of the density.
-// - The isotropic pressure path gives the states of the density path from the same start, with the same energies, and
-//   the cell remains a cube.
+// - With pressure control and a variable cell, the states of a decompression have the requested pressures p and the
+//   stress −p·1, to 1e-6 of p. E ∝ Δφ⁶ and p ∝ Δφ⁵ give the same φ_J. In a cube, the stress of the same solids is not
+//   hydrostatic.
+// - With density control and a variable cell, the stress is hydrostatic too, and the volume follows from the density.
+// - With pressure control and a cube, a decompression from the same initial state passes through the same states as
+//   with density control. The cell remains a cube.
 // - Every minimiser finds the minimum of the enthalpy, not only Newton's method.
-// - A run that continues from any of its steps gives the bits of an uninterrupted run.
-// - A cell that would become too small for its solids ends the run with that reason, and without NaN.
+// - If a run is continued from any of its steps, it gives the same bits as an uninterrupted run.
+// - If the cell would become too small for its solids, the run ends with this reason and without NaN.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Solids, FreeCell,
                                          System{SolidKind::dodecahedron, 40}, System{SolidKind::icosahedron, 40}),
                          [](const auto& test) { return std::string(to_string(test.param.kind)); });
 
-TEST_P(FreeCell, BearsAHydrostaticStressAtEveryPressure) {
+TEST_P(FreeCell, StressIsHydrostaticAtEveryPressure) {
   const JamResult& result = jammed(GetParam(), Control::pressure, CellShape::free);
   ASSERT_EQ(result.status, JamStatus::jammed);
   for (std::size_t k = 0; k < result.states.size(); ++k) {
@@ -79,7 +79,7 @@ TEST_P(FreeCell, BearsAHydrostaticStressAtEveryPressure) {
   }
   const JamStep& nearest = step_of(result, result.states.size() - 1);
   EXPECT_NEAR(nearest.density - distance_to_jamming(nearest), result.phi_j->density, .002);
-  // A cube supports a stress that a free cell does not.
+  // A cube keeps stresses that are not hydrostatic.
   const JamResult& cube = jammed(GetParam(), Control::density, CellShape::isotropic);
   EXPECT_GE(step_of(cube, cube.states.size() - 1).deviator, .005);
 }
@@ -98,13 +98,13 @@ TEST_P(FreeCell, TheIsotropicPressurePathIsTheDensityPath) {
   const JamResult& by_pressure = jammed(GetParam(), Control::pressure, CellShape::isotropic);
   const JamResult& by_density = jammed(GetParam(), Control::density, CellShape::isotropic);
   ASSERT_EQ(by_pressure.status, JamStatus::jammed);
-  // The same start, to the bit.
+  // Both begin with the same state, to the last bit.
   EXPECT_EQ(step_of(by_pressure, 0).energy_per_particle, step_of(by_density, 0).energy_per_particle);
   int same = 0;
   for (std::size_t k = 1; k < by_pressure.states.size(); ++k) {
     const Packing& goal = by_pressure.states[k];
     EXPECT_TRUE(goal.cell.is_cube()) << k;
-    // From the state before to that density, like the density path.
+    // From the previous state to this density, as with density control.
     Packing packing = by_pressure.states[k - 1];
     PackingEnergy energy;
     const JamOptions options = options_of(Control::density, CellShape::isotropic);
@@ -116,7 +116,7 @@ TEST_P(FreeCell, TheIsotropicPressurePathIsTheDensityPath) {
     std::printf("phi %.6f: E %.9e by pressure, %.9e by density\n", goal.density(), here, there);
     same += std::abs(there - here) <= 1e-6 * here;
   }
-  // After a rearrangement both paths may be on different branches.
+  // After a rearrangement, the two paths can be on different solution branches.
   EXPECT_GE(3 * same, static_cast<int>(by_pressure.states.size()) - 1);
   EXPECT_GE(same, 1);
 }
@@ -133,7 +133,7 @@ TEST(FreeCellTest, EveryMinimiserFindsTheMinimumOfTheEnthalpy) {
       options.method = method;
       options.residual = 1e-5;
       options.max_evaluations = 60000;
-      // Slightly below its pressure, so that everything moves.
+      // Slightly below the pressure of the state, so that everything moves.
       options.control = {cell, .97 * step_of(result, 0).pressure};
       const Enthalpy enthalpy(options.control, packing.cell);
       const MinimiseSummary summary = minimise(packing, energy, options);
@@ -150,7 +150,7 @@ TEST(FreeCellTest, EveryMinimiserFindsTheMinimumOfTheEnthalpy) {
   }
 }
 
-TEST(FreeCellTest, GoesOnFromAnyStepWithTheSameBits) {
+TEST(FreeCellTest, ContinuesFromAnyStepWithTheSameBits) {
   JamOptions options = options_of(Control::pressure, CellShape::free);
   options.decompression.final_distance = .05;
   std::vector<JamProgress> steps;
@@ -168,7 +168,7 @@ TEST(FreeCellTest, GoesOnFromAnyStepWithTheSameBits) {
 }
 
 TEST(FreeCellTest, ACellThatBecomesTooSmallEndsTheRunWithThatReason) {
-  // So few particles that the cube at the requested pressure is smaller than the solids allow.
+  // With so few particles, the cube at the requested pressure would be smaller than the solids allow.
   Packing packing = start_of(SolidKind::icosahedron, 12);
   MinimiseOptions options;
   options.method = Method::lbfgs;

@@ -18,7 +18,7 @@ GradientCheck check_gradient(const EnergyFunction& function, const Packing& pack
     const double slope = here.gradient.dot(direction);
     const double variation =
         std::max(std::abs(ahead.gradient.dot(direction) - slope), std::abs(behind.gradient.dot(direction) - slope));
-    // Rounding error of the energies, and of positions of order L through the forces on them.
+    // Rounding errors of the energies, and of positions of order L, which the forces turn into errors of the energy.
     const double ulp = std::numeric_limits<double>::epsilon();
     const double rounding = ulp * (8 * std::abs(here.energy) + packing.cell.side() * here.gradient.lpNorm<1>()) / step;
     const double allowed = variation + rounding;

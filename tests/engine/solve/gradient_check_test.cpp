@@ -1,7 +1,7 @@
-// Properties tested here, for every solid, for random over-compressed packings and nearly relaxed ones:
+// Properties tested here for every solid, with random compressed packings and with almost relaxed ones:
 // - The gradient of PackingEnergy passes a check against central differences of its energy.
-// - The same check rejects an incorrect gradient: off by one per cent, without the factor 1/R of a torque, with torques
-//   about another centre or with the opposite sign, with one component of one particle missing.
+// - The same check detects incorrect gradients: with an error of one per cent, without the factor 1/R of a torque, with
+//   torques about another centre, with torques of the opposite sign, and without one component of one particle.
 
 #include "tests/engine/solve/gradient_check.hpp"
 
@@ -67,7 +67,7 @@ class GradientOf : public testing::TestWithParam<SolidKind> {};
 INSTANTIATE_TEST_SUITE_P(Solids, GradientOf, testing::ValuesIn(all_solids),
                          [](const auto& test) { return std::string(to_string(test.param)); });
 
-TEST_P(GradientOf, PassesOnlyWhenItIsRight) {
+TEST_P(GradientOf, OnlyTheCorrectGradientPasses) {
   RandomStream random{21};
   PackingEnergy energy;
   for (const long evaluations : {0L, 60L}) {

@@ -1,11 +1,12 @@
-// Properties tested here, for expansions with unexpected events:
-// - A failed step is repeated at half its length, whichever limit determined it, until the retries are spent.
-// - With event_resolution a step with a rearrangement is halved until it is short enough.
-// - A step that slides without finding an equilibrium is halved once; then its branch has ended.
-// - A packing that loses most of the target energy in full minimisation is compressed further.
-// - No two steps of an expansion start from the same state with the same density as goal.
-// - A packing that unjams in a step is compressed again, and expanded on its new branch. Only the states of that branch
-//   give φ_J. A run continues from anywhere in this process with the same bits.
+// Properties tested here for decompressions with unexpected events:
+// - A failed step is repeated with half its length, whichever limit determined the length, until no retries are left.
+// - With event_resolution, a step with a rearrangement is halved until it is short enough.
+// - A step that keeps moving without reaching an equilibrium is halved once. If this happens again, the solution branch
+//   has ended.
+// - A packing is compressed further if a complete minimisation removes most of its energy.
+// - No two steps of a decompression start from the same state with the same target density.
+// - A packing that unjams in a step is compressed again, and then decompressed on its new solution branch. Only the
+//   states of this branch give φ_J. If a run is continued from any point of this process, it gives the same bits.
 
 #include <cmath>
 #include <set>
@@ -18,7 +19,7 @@
 namespace isojam {
 namespace {
 
-/// An expansion whose last state indicates that jamming is `distance` below its density.
+/// A decompression whose last state indicates that φ_J is `distance` below its density.
 JamProgress expanding(const Packing& packing, double distance, const JamOptions& options) {
   JamProgress progress = begin_jam(packing, options);
   progress.stage = JamStage::expansion;
@@ -33,15 +34,15 @@ JamProgress expanding(const Packing& packing, double distance, const JamOptions&
   return progress;
 }
 
-/// The expansion of a few dodecahedra.
+/// The decompression of a few dodecahedra.
 JamResult expanded(JamOptions& options) {
   options = lax();
   options.decompression.fit_window = 0.1;
   return jam(start_of(small, 71, options), options);
 }
 
-/// An expansion that continues from the last state of another one, with a distance to jamming that is overestimated by
-/// `factor`, in steps of 0.4 of that distance.
+/// A decompression that continues from the last state of another one. Its distance to jamming is overestimated by
+/// `factor`, and its steps are 0.4 of this distance.
 JamProgress misled(const JamResult& before, double factor, JamOptions& options) {
   const JamStep& last = before.path[static_cast<std::size_t>(before.state_steps.back())];
   JamProgress progress = expanding(before.states.back(), factor * distance_to_jamming(last), options);
@@ -54,7 +55,7 @@ JamProgress misled(const JamResult& before, double factor, JamOptions& options) 
   return progress;
 }
 
-TEST(JamTest, AFailedExpansionStepIsTriedAgainAtHalfItsLength) {
+TEST(JamTest, AFailedDecompressionStepIsRepeatedWithHalfItsLength) {
   RandomStream random{91};
   const Packing packing = small_packing(SolidKind::dodecahedron, 0.72, 91);
   int by_fraction = 0, by_length = 0, by_goal = 0;
@@ -87,11 +88,11 @@ TEST(JamTest, AFailedExpansionStepIsTriedAgainAtHalfItsLength) {
   EXPECT_GE(std::min({by_fraction, by_length, by_goal}), 20) << "samples that do not reach every bound";
 }
 
-TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
+TEST(JamTest, AnUnjammedPackingIsCompressedAgain) {
   JamOptions options;
   const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
-  const JamProgress progress = misled(before, 4, options);  // the steps therefore pass the jamming point
+  const JamProgress progress = misled(before, 4, options);  // the steps pass the jamming point
   std::vector<JamProgress> along;
   const JamResult result = jam(progress, options, {}, [&](const JamProgress& reached) { along.push_back(reached); });
   for (const JamStep& step : result.path)
@@ -117,11 +118,11 @@ TEST(JamTest, APackingThatComesApartIsCompressedAgain) {
   }
 }
 
-TEST(JamTest, EventsAreLocatedWhereThatIsAskedFor) {
+TEST(JamTest, RearrangementsAreLocatedOnRequest) {
   JamOptions options;
   const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
-  const JamProgress progress = misled(before, 4, options);  // so every step except a short one looks like an event
+  const JamProgress progress = misled(before, 4, options);  // every step except a short one looks like a rearrangement
   options.decompression.event_resolution = 0.06;
   const JamResult result = jam(progress, options);
   const double from = before.states.back().density(), distance = distance_to_jamming(progress.result.path[0]);
@@ -142,12 +143,12 @@ TEST(JamTest, EventsAreLocatedWhereThatIsAskedFor) {
   EXPECT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
 }
 
-TEST(JamTest, ASlideIsHalvedOnceAndThenEndsItsBranch) {
+TEST(JamTest, AStepWithoutEquilibriumEndsItsBranch) {
   JamOptions options;
   const JamResult before = expanded(options);
   ASSERT_EQ(before.status, JamStatus::jammed);
   JamProgress progress = misled(before, 1, options);
-  options.decompression.final_distance = 0.001;  // a longer expansion
+  options.decompression.final_distance = 0.001;  // a longer decompression
   const JamOptions usual = options;
   options.minimise.max_evaluations = 3;  // no step reaches an equilibrium
   const double from = progress.packing.density();
@@ -164,15 +165,15 @@ TEST(JamTest, ASlideIsHalvedOnceAndThenEndsItsBranch) {
   EXPECT_EQ(progress.lost, 0);
   EXPECT_EQ(progress.packing.density(), second.density);
   ASSERT_FALSE(progress.ended());
-  // From there it is compressed again.
+  // From there the packing is compressed again.
   advance(progress, usual);
   EXPECT_GT(progress.result.path.back().density, second.density);
 }
 
-TEST(JamTest, WhatLosesItsEnergyInFullMinimisationIsConsolidatedFurther) {
+TEST(JamTest, APackingThatLosesItsEnergyIsCompressedFurther) {
   const JamOptions options = lax();
   JamProgress progress = begin_jam(start_of(small, 71, options), options);
-  progress.stage = JamStage::expansion;  // as if this loose packing had reached the target energy
+  progress.stage = JamStage::expansion;  // as if this unjammed packing had reached the target energy
   const double from = progress.packing.density();
   JamProgress other = progress;
   advance(progress, options);
@@ -184,20 +185,20 @@ TEST(JamTest, WhatLosesItsEnergyInFullMinimisationIsConsolidatedFurther) {
   EXPECT_EQ(result.status, JamStatus::jammed) << to_string(result.status);
   const JamStep& top = result.path[static_cast<std::size_t>(result.state_steps.front())];
   EXPECT_GE(top.energy_per_particle, options.compression.target_energy / 2);
-  // With the other interpretation compression ends at almost zero energy.
+  // If the target applies to the unrelaxed energy, compression ends with almost no energy.
   JamOptions gentle = options;
   gentle.compression.target_before_relaxation = true;
   advance(other, gentle);
   EXPECT_TRUE(other.ended());
 }
 
-TEST(JamTest, NoExpansionStepIsMadeTwice) {
+TEST(JamTest, NoDecompressionStepIsMadeTwice) {
   JamOptions options = lax();
   options.minimise.method = Method::newton;
   JamProgress progress = begin_jam(start_of(small, 71, options), options);
   while (progress.result.states.size() < 3 && !progress.ended()) advance(progress, options);
   ASSERT_FALSE(progress.ended()) << to_string(progress.result.status);
-  // From here no step reaches its residual, and the goal limits the first one.
+  // From here no step reaches its residual, and the target limits the first step.
   options.minimise.max_evaluations = 5;
   const JamStep state = progress.result.path.back();
   options.decompression.final_distance =

@@ -1,13 +1,16 @@
-// Properties tested here, for dodecahedra (N = 24) and octahedra (N = 48) with large steps and a coarse goal:
+// Properties tested here for dodecahedra (N = 24) and octahedra (N = 48), with large steps and a large final_distance:
 // - The run ends jammed. Compression reaches the target energy, and decompression proceeds from equilibrium to
 //   equilibrium.
 // - Every state is in equilibrium by forces summed independently, and its step in the path agrees with a new
 //   evaluation.
-// - φ_J is below every state, within final_distance of the last one by either form, and between 0.6 and 0.8.
-// - The same start gives the same bits; another start gives a packing with other contacts.
-// - A stop request ends the run with its present results. So do an unreachable target and too few steps.
-// - With the energy rule, states that it ended count, even if they are not in equilibrium.
-// - If strain is limited by the unrelaxed energy, compression ends nearer to jamming.
+// - φ_J is below the density of every state, and between 0.6 and 0.8. Both forms of φ_J, from the fit and from a single
+//   state, are within final_distance of the last state.
+// - The same initial configuration gives the same bits. Another initial configuration gives a packing with other
+//   contacts.
+// - A stop request, an unreachable target or too few steps end the run. The results so far are returned.
+// - With the paper's stopping rule on the energy, states at which the rule stopped are kept, even if they are not in
+//   equilibrium.
+// - If the target applies to the unrelaxed energy, the compression ends nearer to jamming.
 
 #include "engine/solve/jam.hpp"
 
@@ -81,7 +84,7 @@ void expect_jamming_point(const JamResult& result, const JamOptions& options) {
   EXPECT_LT(result.phi_j->density, nearest);
   EXPECT_LT(result.phi_j->single_state, nearest);
   EXPECT_LE(nearest - result.phi_j->single_state, options.decompression.final_distance * (1 + 1e-12));
-  // Two extrapolations over the same distance agree to a fraction of it.
+  // Two extrapolations over the same distance differ by only a part of this distance.
   EXPECT_NEAR(result.phi_j->density, result.phi_j->single_state, options.decompression.final_distance / 2);
 }
 
@@ -130,7 +133,7 @@ std::vector<std::pair<int, int>> touching(const Packing& packing) {
   return pairs;
 }
 
-TEST(JamTest, StartsDecideTheOutcome) {
+TEST(JamTest, TheInitialConfigurationDeterminesTheResult) {
   JamOptions options = lax();
   options.compression.initial_density = 0.7;
   options.max_steps = 3;
@@ -153,16 +156,17 @@ TEST(JamTest, StartsDecideTheOutcome) {
       if (seeds[k] == seeds[other]) {
         EXPECT_TRUE(same_bits(ends[k], ends[other]));
       } else {
-        // By chance a pair that touches in one packing touches in the other with a probability of about Z/(N − 1).
+        // If the packings were independent, a pair that touches in one of them would touch in the other with a
+        // probability of about Z/(N − 1).
         EXPECT_LT(shared.size(), pairs.size() * 3 / 4) << "the same packing twice";
       }
     }
   }
 }
 
-TEST(JamTest, StopsWhenAskedTo) {
+TEST(JamTest, StopsOnRequest) {
   const JamOptions options = lax();
-  // Interrupted in compression, and in decompression with some states.
+  // Interrupted during the compression, and during the decompression when some states exist.
   for (const std::size_t wanted_states : {0U, 2U}) {
     std::stop_source source;
     std::size_t expansion_steps = 0, steps = 0;
@@ -179,7 +183,7 @@ TEST(JamTest, StopsWhenAskedTo) {
   }
 }
 
-TEST(JamTest, GoesOnFromAnyStepWithTheSameBits) {
+TEST(JamTest, ContinuesFromAnyStepWithTheSameBits) {
   const JamOptions options = lax();
   std::vector<JamProgress> along;
   const JamResult whole =
@@ -242,7 +246,7 @@ TEST(JamTest, NotFinite) {
   EXPECT_TRUE(result.states.empty());
 }
 
-TEST(JamTest, TheRuleOnTheEnergyLetsStatesPass) {
+TEST(JamTest, TheRuleOnTheEnergyAcceptsUnbalancedStates) {
   const System system{SolidKind::dodecahedron, 24};
   auto options = lax();
   options.minimise.method = Method::conjugate_gradient;
@@ -258,7 +262,7 @@ TEST(JamTest, TheRuleOnTheEnergyLetsStatesPass) {
     EXPECT_EQ(summary.reason, StopReason::energy_change) << to_string(summary.reason);
     EXPECT_GT(summary.residual, 100 * options.minimise.residual);
   }
-  // Without the rule the same minimiser must balance the forces or reject the state.
+  // Without the rule, the same minimiser must balance the forces or reject the state.
   const auto balanced = states_of(0);
   EXPECT_GE(balanced.path.size(), by_energy.state_steps.size());
   EXPECT_NE(balanced.status, JamStatus::not_called);
@@ -267,14 +271,15 @@ TEST(JamTest, TheRuleOnTheEnergyLetsStatesPass) {
   EXPECT_LT(balanced.states.size(), by_energy.states.size()) << "1e-9 is more than conjugate gradients reach here";
 }
 
-TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
+TEST(JamTest, ATargetBeforeRelaxationEndsNearerToJamming) {
   JamOptions options = lax();
-  // "Minimisation no longer removes the energy" must not be caused by too few evaluations.
+  // A minimisation must not end with energy only because it has too few evaluations.
   options.compression.evaluations = 6000;
   const auto top_of = [](const JamResult& result) {
     return result.path[static_cast<std::size_t>(result.state_steps.front())];
   };
-  // With the other interpretation rounding decides which starts do not jam and relax below φ_J.
+  // If the target applies to the unrelaxed energy, rounding errors decide which packings do not jam and relax below
+  // φ_J.
   int jammed = 0;
   for (const std::uint64_t seed : {71, 72, 73, 74, 75, 76}) {
     options.compression.target_before_relaxation = false;
@@ -289,7 +294,7 @@ TEST(JamTest, TheOtherReadingEndsNearerToJamming) {
                 top_of(gentle).energy_per_particle, gentle.phi_j->density);
     EXPECT_LT(top_of(gentle).density, top_of(usual).density - options.compression.step);
     EXPECT_LT(top_of(gentle).energy_per_particle, options.compression.target_energy / 100);
-    // One strain step beyond the last state that could relax, which is below φ_J.
+    // The target was reached one strain step beyond the last state that could relax completely, which is below φ_J.
     EXPECT_LT(top_of(gentle).density - gentle.phi_j->density, 1.5 * options.compression.step);
   }
   EXPECT_GE(jammed, 2);

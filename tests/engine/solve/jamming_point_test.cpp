@@ -1,12 +1,13 @@
 // Properties tested here, for synthetic states E/N = c·(φ − φ_J)^x with random c, φ_J and spacing:
-// - For x = 6, φ_J and the single-state form are exact within rounding, the free exponent is 6, and the error of the
-//   fit is rounding.
+// - For x = 6, φ_J from the fit and from a single state are exact within rounding errors. So is the free exponent, 6.
+//   The standard error of the fit is of the order of rounding errors.
 // - For x = 5.5 the free exponent is 5.5.
-// - For scattered densities the 95 % confidence interval contains φ_J with the stated probability, and the standard
-//   error is the standard deviation.
-// - The states used are those within the window of the resulting φ_J, or the two nearest ones if fewer are.
+// - If the densities have random errors, the 95 % confidence interval contains φ_J with this probability, and the
+//   standard error is the standard deviation of φ_J.
+// - The states of the fit are those inside the window above the resulting φ_J. If fewer than two are inside, they are
+//   the two nearest states.
 // - The order of the states is irrelevant. States without energy are ignored.
-// - Fewer than two states give no result; two give their line without an error.
+// - Fewer than two states give no result. Two states give the line through them, without an error.
 
 #include "engine/solve/jamming_point.hpp"
 
@@ -34,7 +35,7 @@ Law random_law(RandomStream& random, double exponent = 6) {
   return {uniform(random, 0.6, 0.8), decade(random, -2, 4), exponent};
 }
 
-/// n states in order of decreasing density, from `far` above φ_J down to far·ratio^(n−1).
+/// n states in order of decreasing density. Their distances from φ_J decrease from `far` to far·ratio^(n−1).
 std::vector<EnergyPoint> approach(const Law& law, int n, double far, double ratio) {
   std::vector<EnergyPoint> states;
   for (int k = 0; k < n; ++k) states.push_back(law.at(law.jamming + far * std::pow(ratio, k)));
@@ -51,8 +52,8 @@ TEST(JammingPointTest, RecoversTheSixthPowerLaw) {
     const auto states = approach(law, n, 0.019, ratio);
     const auto point = fit_jamming_point(states, 0.02);
     ASSERT_TRUE(point);
-    // Densities and roots are rounded once each; extrapolation to zero amplifies this by the ratio of nearest distance
-    // to range.
+    // Each density and each root has a rounding error. The extrapolation to zero amplifies it by the ratio of the
+    // smallest distance to the range.
     const double rounding = 64 * eps * law.jamming / (1 - std::pow(ratio, n - 1));
     EXPECT_NEAR(point->density, law.jamming, rounding) << "n = " << n << ", ratio " << ratio;
     EXPECT_NEAR(point->single_state, law.jamming, 8 * eps) << "n = " << n;
@@ -94,7 +95,7 @@ TEST(JammingPointTest, ErrorCoversScatter) {
     for (int k = 0; k < trials; ++k) {
       const Law law = random_law(random);
       auto states = approach(law, n, 0.018, 0.8);
-      // Far less than the distance of the states, so that neither order nor window changes.
+      // The errors are much smaller than the distances between states, so neither the order nor the window changes.
       for (EnergyPoint& state : states) state.density += 1e-5 * random.normal();
       const auto point = fit_jamming_point(states, 0.02);
       ASSERT_TRUE(point);
@@ -107,7 +108,7 @@ TEST(JammingPointTest, ErrorCoversScatter) {
     const double share = static_cast<double>(covered) / trials;
     std::printf("n = %d: the 95 %% interval covers %.1f %%, variance %.3f of the real one\n", n, 100 * share,
                 variances / squares);
-    // Four standard deviations of a binomial count, and of a ratio of two sums of squares.
+    // Four standard deviations of a binomial number, and of a ratio of two sums of squares.
     EXPECT_NEAR(share, 0.95, 4 * std::sqrt(0.95 * 0.05 / trials)) << "n = " << n;
     EXPECT_NEAR(variances / squares, 1, 4 * std::sqrt(2.0 / trials * (1 + 1.0 / (n - 2)))) << "n = " << n;
   }
@@ -117,7 +118,7 @@ TEST(JammingPointTest, ChoosesItsWindowByItsOwnAnswer) {
   RandomStream random{64};
   std::set<std::size_t> sizes;
   for (int k = 0; k < 400; ++k) {
-    // Far states deviate from the sixth power, so that the window matters.
+    // Far states deviate from the sixth power, so the result depends on the window.
     const Law law = random_law(random);
     std::vector<EnergyPoint> states;
     const double bend = uniform(random, -2, 4);
@@ -173,7 +174,7 @@ TEST(JammingPointTest, NeedsTwoStates) {
   EXPECT_FALSE(fit_jamming_point(one, 0.02));
   const std::vector<EnergyPoint> one_with_energy{law.at(0.69), {0.67, 0, 0}};
   EXPECT_FALSE(fit_jamming_point(one_with_energy, 0.02));
-  // Both are outside the window and are still used.
+  // Both states are outside of the window and are still used.
   const std::vector<EnergyPoint> two{law.at(0.75), law.at(0.72)};
   const auto point = fit_jamming_point(two, 0.02);
   ASSERT_TRUE(point);

@@ -1,11 +1,13 @@
 // Properties tested here, for random smooth functions of one variable (quadratics, quartics, cosine mixtures over a
 // bowl, one-sided powers max(0, x)^2 and ^6 as for overlaps), with starts and first steps over six decades:
 // - The point found satisfies the strong Wolfe conditions for any curvature parameter.
-// - It was evaluated, its value and slope are as returned, and the evaluations are counted.
-// - No step beyond the longest is tried. If the function still decreases there, the longest step is the result.
-// - Trials without a finite value or slope are handled, before and behind the minimum.
-// - A point found is never higher than the start by more than the noise, and is never the start itself.
-// - A function without a lower point gives found = false and the start.
+// - This point was evaluated, and its value and slope are returned. The evaluations are counted correctly.
+// - No step longer than the longest allowed one is tried. If the function still decreases there, this step is the
+//   result.
+// - Trials where the value or the slope is not finite are handled, on both sides of the minimum.
+// - The value at the point found is at most the value at the start plus its rounding error. This point is never the
+//   start itself.
+// - If the function has no lower point, the result is found = false and the start.
 
 #include "engine/solve/minimise/line_search.hpp"
 
@@ -28,7 +30,7 @@ using Function = std::function<LinePoint(double)>;
 constexpr int cases = 4000;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Σ over terms of weight·max(0, side·(t − place))^power; with `both` sides, weight·(t − place)^power.
+/// Σ over terms of weight·max(0, side·(t − place))^power. If `both` is true, weight·(t − place)^power instead.
 Function powers(RandomStream& random, int terms, int power, bool both) {
   struct Term {
     double weight, place, side;
@@ -36,7 +38,7 @@ Function powers(RandomStream& random, int terms, int power, bool both) {
   std::vector<Term> list;
   for (int k = 0; k < terms; ++k)
     list.push_back({decade(random, -2, 2), uniform(random, 0.1, 3), random.uniform() < 0.7 ? -1.0 : 1.0});
-  list.front().side = -1;  // at least one term pushes away from 0
+  list.front().side = -1;  // at least one term has its force away from 0
   return [list, power, both](double t) {
     LinePoint p{t, 0, 0};
     for (const Term& term : list) {
@@ -66,7 +68,7 @@ Function cosines(RandomStream& random) {
   };
 }
 
-/// Scaled so that its lengths and values span decades.
+/// The function with other units of length and value, so that both span decades.
 Function scaled(const Function& f, double length, double height) {
   return [=](double t) {
     const LinePoint p = f(t / length);
@@ -79,7 +81,7 @@ constexpr std::array kinds{"quadratic", "quartic", "cosines", "kinks", "overlaps
 struct Case {
   std::string name;
   Function at;
-  double length = 1;  ///< minima lie within a few of these
+  double length = 1;  ///< minima are within a few of these lengths
   double first_step = 1;
   bool convex = true;
   LineSearchOptions options;
@@ -109,7 +111,7 @@ Case random_case(RandomStream& random, int k) {
   return c;
 }
 
-/// Evaluations of a search.
+/// All evaluations of a search.
 struct Trace {
   LineSearchResult result;
   std::vector<LinePoint> points;
@@ -136,7 +138,7 @@ std::string seen(const Trace& trace) {
   return text.str();
 }
 
-/// Rounding error of the values, as assumed by the search.
+/// Rounding error of the values that the search assumes.
 double rounding(const Trace& trace) { return 4 * std::numeric_limits<double>::epsilon() * std::abs(trace.start.value); }
 
 void expect_honest(const Case& c, const Trace& trace) {
@@ -214,7 +216,7 @@ TEST(LineSearch, RecoversFromTrialsThatAreNotFinite) {
     Case c = random_case(random, k);
     const Trace free = search(c);
     ASSERT_TRUE(free.result.found) << c.name;
-    // Half of the walls are behind the minimum, half of them before it.
+    // Half of the walls, where values are not finite, are behind the minimum; the others are before it.
     const bool behind = random.uniform() < 0.5;
     const double wall = free.result.point.step * (behind ? uniform(random, 1.01, 2) : uniform(random, 0.2, 0.9));
     const int kind = static_cast<int>(3 * random.uniform());
@@ -232,7 +234,7 @@ TEST(LineSearch, RecoversFromTrialsThatAreNotFinite) {
     expect_honest(c, trace);
     if (HasFatalFailure()) return;
     EXPECT_LE(trace.result.point.step, wall) << c.name << "\n" << seen(trace);
-    // A function with several minima may decrease right into the wall, and a search may follow it.
+    // A function with several minima may decrease up to the wall, and the search may follow it there.
     if (behind && c.convex) expect_strong_wolfe(c, trace);
     walls_met +=
         std::any_of(trace.points.begin(), trace.points.end(), [&](const LinePoint& p) { return p.step > wall; });
@@ -240,12 +242,12 @@ TEST(LineSearch, RecoversFromTrialsThatAreNotFinite) {
   EXPECT_GT(walls_met, cases / 4);
 }
 
-TEST(LineSearch, IsNotMisledByNoise) {
+TEST(LineSearch, WorksBelowTheRoundingError) {
   RandomStream random{4};
   int found = 0, accepted_by_slope = 0;
   for (int k = 0; k < cases; ++k) {
     Case c = random_case(random, 5 * k);
-    // A bowl that is shallower than the noise of its values, with exact slopes.
+    // The function is so flat that its changes are below the rounding errors of its values. Its slopes are exact.
     const double depth = -c.at(0).slope * c.length;
     const double noise = depth * decade(random, -2, 3), level = 1e3 * noise;
     const Function inner = c.at;
@@ -271,17 +273,17 @@ TEST(LineSearch, IsNotMisledByNoise) {
   EXPECT_GT(accepted_by_slope, 0);
 }
 
-TEST(LineSearch, SaysWhenNothingIsLower) {
+TEST(LineSearch, ReportsThatNothingIsLower) {
   RandomStream random{5};
   for (int k = 0; k < cases; ++k) {
     Case c = random_case(random, k);
-    // The slope at the start is incorrect: every step leads uphill.
+    // The slope at the start is wrong: in fact every step leads uphill.
     const double slope = c.at(0).slope, level = random.normal();
     c.at = [=](double t) { return LinePoint{t, level * std::abs(slope) - 2 * slope * t, t == 0 ? slope : -2 * slope}; };
     const Trace trace = search(c);
     expect_honest(c, trace);
     if (HasFatalFailure()) return;
-    // An incorrect slope is detected if rounding resolves the increase.
+    // The wrong slope is detected if the increase is larger than the rounding error.
     if (trace.result.found) {
       EXPECT_LE(trace.result.point.value, trace.start.value + rounding(trace)) << c.name << "\n" << seen(trace);
     } else {

@@ -1,6 +1,6 @@
-// Property tested here, for shifted Hessians of random packings and updates of 0 … 12 random columns, sparse like those
-// of pairs, with stiffnesses from a thousandth to a thousand times that of the matrix: the solution is that of the
-// dense factors of the sum, as far as the condition number permits.
+// Property tested here: the solution with a low-rank update is that of the dense factors of the sum, as far as the
+// condition number allows. The matrices are shifted Hessians of random packings. The updates have 0 … 12 random columns
+// that are as sparse as those of pairs, with stiffnesses from a thousandth to a thousand times that of the matrix.
 
 #include "engine/solve/factor/low_rank_update.hpp"
 

@@ -4,7 +4,7 @@
 // - The returned state is in equilibrium by forces and torques summed independently from its contacts.
 // - The summary agrees with a new evaluation of that state, and counts every evaluation.
 // - 1 thread and 2 threads give the same bits.
-// - For octahedra expanded towards jamming Newton's method reaches a residual of 1e-8; conjugate gradients do not with
+// - For octahedra near jamming, Newton's method reaches a residual of 1e-8. Conjugate gradients do not reach it with
 //   ten times as many evaluations.
 
 #include "engine/solve/minimise/minimise.hpp"
@@ -42,15 +42,15 @@ void expect_agreement(const MinimiseSummary& summary, const Packing& packing, co
     EXPECT_NEAR(pose.orientation.norm(), 1, 4 * std::numeric_limits<double>::epsilon());
 }
 
-TEST_P(MinimiseWith, ReachesTheResidualAskedFor) {
+TEST_P(MinimiseWith, ReachesTheRequestedResidual) {
   const auto [method, kind] = GetParam();
   const Packing start = small_packing(kind, over_compressed(kind), 41);
   Packing packing = start;
   PackingEnergy energy;
   MinimiseOptions options;
   options.method = method;
-  // Conjugate gradients converge slowly: an order of magnitude costs hundreds of evaluations. FIRE restarts from rest
-  // whenever a contact opens or closes.
+  // Conjugate gradients converge slowly: each power of ten takes hundreds of evaluations. FIRE sets all velocities to
+  // zero whenever a contact opens or closes.
   if (method == Method::conjugate_gradient) options.residual = 1e-4;
   if (method == Method::fire) options.residual = 0.2;
   const MinimiseSummary summary = minimise(packing, energy, options);
@@ -70,11 +70,11 @@ TEST_P(MinimiseWith, ReachesTheResidualAskedFor) {
 
   EXPECT_GT(summary.iterations, 0);
   EXPECT_LT(summary.iterations, summary.evaluations);
-  // Hessians use the overlaps of an evaluation.
+  // Hessians use the overlaps of the last evaluation.
   EXPECT_EQ(energy.evaluations(), summary.evaluations);
 }
 
-TEST(Minimise, AnswersThreadsWithTheSameBits) {
+TEST(Minimise, AnyNumberOfThreadsGivesTheSameBits) {
   for (const Method method : methods) {
     RandomStream random{42};
     const Packing start = random_packing(platonic(SolidKind::dodecahedron), 100, 0.75, random);
@@ -99,7 +99,7 @@ TEST(Minimise, AnswersThreadsWithTheSameBits) {
   }
 }
 
-/// An equilibrium of octahedra followed from 0.75 down towards jamming, and then strained once more.
+/// An equilibrium of octahedra that was decompressed from φ = 0.75 towards jamming and then strained once more.
 Packing expanded_octahedra() {
   Packing packing = small_packing(SolidKind::octahedron, 0.75, 43, 40);
   PackingEnergy energy;

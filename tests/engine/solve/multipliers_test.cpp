@@ -1,12 +1,12 @@
 // Properties tested here, for strain steps between equilibria of every solid of the paper, Δφ from 0.1 to 0.01:
 // - follow_equilibrium() ends in an equilibrium of the energy, by forces summed independently, at the requested
-//   density. It has the energy that Newton's method finds, unless one of both has left the branch. It takes fewer
-//   factorisations in total, and a handful for a small step.
-// - relax_to_equilibrium() brings a strained state without multipliers to an equilibrium too.
+//   density. The energy is the one that Newton's method finds, unless one of the two methods left the solution branch.
+//   In total it needs fewer factorisations than Newton's method; a small step needs only a few.
+// - relax_to_equilibrium() finds an equilibrium from a strained state for which no multipliers are known.
 // - A packing strained below jamming is reported as unjammed.
-// - A budget and a stop request are respected. 1 thread and 2 threads give the same bits.
+// - The method stops at the largest number of evaluations, and on request. One and two threads give the same bits.
 // - Local relaxation moves only the flagged particles, and lowers the envelope.
-// - Near an equilibrium lifted steps converge quadratically.
+// - Near an equilibrium, lifted steps (Newton steps in positions and multipliers together) converge quadratically.
 
 #include "engine/solve/multipliers/multipliers.hpp"
 
@@ -39,7 +39,7 @@ double distance_of(const Packing& packing) {
 
 double energy_of(const Packing& packing) { return PackingEnergy().evaluate(packing, Precision::double_double).energy; }
 
-/// Equilibria by Newton's method from far above jamming down to Δφ = 0.01.
+/// Equilibria found by Newton's method, from far above jamming to Δφ = 0.01.
 const std::vector<State>& states(SolidKind kind) {
   static std::map<SolidKind, std::vector<State>> all;
   const auto [place, is_new] = all.try_emplace(kind);
@@ -114,7 +114,7 @@ TEST_P(Multipliers, FindTheEquilibriaThatNewtonFinds) {
   EXPECT_LT(by_multipliers, by_newton_alone);
 }
 
-TEST_P(Multipliers, SmallStepsTakeAHandfulOfFactorisations) {
+TEST_P(Multipliers, SmallStepsNeedFewFactorisations) {
   std::vector<long> counts;
   for (const State& from : states(GetParam())) {
     const Followed found = followed(from, 0.03);
@@ -142,15 +142,15 @@ TEST_P(Multipliers, RelaxNeedsNoEquilibriumToStartFrom) {
   }
 }
 
-TEST_P(Multipliers, FindAPackingUnjammedThatIs) {
-  // The distance is overestimated by a factor of three.
+TEST_P(Multipliers, ReportAnUnjammedPacking) {
+  // The assumed distance to jamming is three times too large.
   const State& from = states(GetParam()).back();
   const Followed found = followed({from.packing, 3 * from.distance}, 0.6);
   EXPECT_EQ(found.summary.reason, StopReason::unjammed) << to_string(found.summary.reason);
   EXPECT_LT(found.summary.energy, 1e-4 * energy_of(from.packing));
 }
 
-TEST_P(Multipliers, KeepToBudgetAndStopRequest) {
+TEST_P(Multipliers, StopAtTheLimitAndOnRequest) {
   const State& from = states(GetParam()).front();
   MinimiseOptions options;
   options.max_evaluations = 3;
@@ -162,7 +162,7 @@ TEST_P(Multipliers, KeepToBudgetAndStopRequest) {
   EXPECT_EQ(stopped.summary.reason, StopReason::interrupted) << to_string(stopped.summary.reason);
 }
 
-TEST_P(Multipliers, AnswerThreadsWithTheSameBits) {
+TEST_P(Multipliers, AnyNumberOfThreadsGivesTheSameBits) {
   const State& from = states(GetParam()).back();
   std::vector<Followed> ends;
   for (const std::size_t threads : {1U, 2U}) {
@@ -174,7 +174,7 @@ TEST_P(Multipliers, AnswerThreadsWithTheSameBits) {
   EXPECT_TRUE(ends[0].summary.work == ends[1].summary.work);
 }
 
-/// An equilibrium with its own multipliers, at the stiffness used for following it.
+/// An equilibrium with its own multipliers, and the stiffness with which it is followed.
 struct Prepared {
   MinimiseWork work;
   EnvelopeEvaluator evaluator;
@@ -193,7 +193,7 @@ Eigen::VectorXd disturbance(const State& from, double size) {
   return size * normal_vector(6 * from.packing.size(), random);
 }
 
-TEST_P(Multipliers, LocalRelaxationMovesTheFlaggedAlone) {
+TEST_P(Multipliers, LocalRelaxationMovesOnlyFlaggedParticles) {
   const State& from = states(GetParam()).back();
   Prepared prepared(from);
   const int n = from.packing.size();
@@ -241,7 +241,7 @@ TEST_P(Multipliers, LiftedStepsConvergeQuadratically) {
   EXPECT_LT(wrong[3], 1e-5);
 }
 
-TEST(Rearrangement, TellsWhatMoved) {
+TEST(Rearrangement, CountsMovedParticles) {
   const State& from = states(SolidKind::octahedron).front();
   JamStep before, after;
   before.density = from.packing.density();
@@ -252,7 +252,7 @@ TEST(Rearrangement, TellsWhatMoved) {
   EXPECT_EQ(none.energy_ratio, 1);
   EXPECT_EQ(none.contacts_lost + none.contacts_gained, 0);
   EXPECT_EQ(none.particles_moved, 0);
-  // A single particle moves.
+  // Only one particle moves.
   Packing moved_one = from.packing;
   moved_one.poses[5].position.x() += 0.3;
   const Rearrangement one = rearrangement(from.packing, before, moved_one, after);

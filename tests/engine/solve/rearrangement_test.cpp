@@ -1,9 +1,10 @@
 // Properties tested here, for constructed paths:
-// - A step contains a rearrangement if it leaves less than half of the energy expected on a smooth path, or if it ended
-//   its branch.
-// - Steps count from one equilibrium to the next, or to the end of a branch. Compression, the first state, failed steps
-//   and recompression do not count.
-// - Means are over the steps with a rearrangement that led to another equilibrium, and absent without one.
+// - A step contains a rearrangement if the energy after it is less than half of the value expected without one, or if
+//   the solution branch ended.
+// - A step counts if it leads from one equilibrium to the next, or to the end of a branch. Steps of the compression,
+//   the first state, failed steps and recompressions do not count.
+// - Means are over the steps with a rearrangement that led to another equilibrium. If there are none, the means are
+//   absent.
 
 #include "engine/solve/rearrangement.hpp"
 
@@ -26,7 +27,7 @@ JamStep without_state(JamStage stage, bool lost = false) {
   return step;
 }
 
-TEST(GaveWay, BelowHalfOfTheEnergyExpected) {
+TEST(GaveWay, BelowHalfOfTheExpectedEnergy) {
   EXPECT_TRUE(is_rearranged(followed(0.499)));
   EXPECT_TRUE(is_rearranged(followed(0)));
   EXPECT_TRUE(is_rearranged(followed(-1e-9))) << "an energy lost to rounding";
@@ -38,7 +39,7 @@ TEST(GaveWay, BelowHalfOfTheEnergyExpected) {
   EXPECT_FALSE(is_rearranged(without_state(JamStage::consolidation)));
 }
 
-TEST(Rearrangements, AreCountedOverTheStepsThatWereFollowed) {
+TEST(Rearrangements, AreCountedInStepsBetweenEquilibria) {
   const std::vector<JamStep> path{without_state(JamStage::consolidation),
                                   without_state(JamStage::consolidation),
                                   without_state(JamStage::expansion),  // the first state
@@ -47,7 +48,7 @@ TEST(Rearrangements, AreCountedOverTheStepsThatWereFollowed) {
                                   without_state(JamStage::expansion),  // failed
                                   followed(0.7, 11, 1, 20),
                                   without_state(JamStage::expansion, true),
-                                  without_state(JamStage::expansion),  // compressed again
+                                  without_state(JamStage::expansion),  // recompression
                                   without_state(JamStage::expansion),
                                   followed(0.1, 2, 0, 1.5)};
   const auto found = rearrangements(path);
@@ -58,7 +59,7 @@ TEST(Rearrangements, AreCountedOverTheStepsThatWereFollowed) {
   EXPECT_EQ(found.contacts_gained, 1.5);
 }
 
-TEST(Rearrangements, HaveNoMeansWhereThereAreNone) {
+TEST(Rearrangements, HaveNoMeansIfThereAreNone) {
   for (const auto& path :
        {std::vector<JamStep>{}, {followed(0.9, 5, 1, 3)}, {without_state(JamStage::expansion, true)}}) {
     const auto found = rearrangements(path);

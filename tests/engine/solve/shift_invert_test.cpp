@@ -1,8 +1,8 @@
 // Properties tested here:
-// - For shifts below, between and above the eigenvalues of a Hessian, the operator solves (H − σ·1) y = x, states
-//   whether that matrix is positive definite, and counts the eigenvalues below σ like the dense solver.
-// - A singular shifted matrix and one with NaN are rejected.
-// - Spectra's shift-invert solver with this operator finds the lowest modes of an equilibrium like the dense solver.
+// - For shifts below, between and above the eigenvalues of a Hessian, the operator solves (H − σ·1) y = x. It reports
+//   correctly whether this matrix is positive definite, and how many eigenvalues are below σ.
+// - A singular shifted matrix and a matrix with NaN are rejected.
+// - Spectra's shift-invert solver with this operator finds the same lowest modes of an equilibrium as the dense solver.
 
 #include "engine/solve/factor/shift_invert.hpp"
 
@@ -43,19 +43,19 @@ TEST(ShiftInvert, SolvesAndCountsOnBothSidesOfAnyEigenvalue) {
     for (const Eigen::Index below : {Eigen::Index{0}, Eigen::Index{1}, n / 3, n / 2, n - 1, n}) {
       const double low = below > 0 ? lambda[below - 1] : lambda[0] - norm;
       const double high = below < n ? lambda[below] : lambda[n - 1] + norm;
-      if (high - low < 1e-6 * norm) continue;  // several at once
+      if (high - low < 1e-6 * norm) continue;  // several eigenvalues are almost equal
       const double sigma = (low + high) / 2;
       operation.set_shift(sigma);
       EXPECT_EQ(operation.negative_pivots(), below) << platonic(kind).name() << " σ " << sigma;
       EXPECT_EQ(operation.positive_definite(), below == 0) << platonic(kind).name() << " σ " << sigma;
-      // Without pivoting, pivots may be small and the error grows by their ratio. This limit applies to matrices whose
+      // There is no pivoting, so pivots can be small, and the error grows by their ratio. This limit is valid if all
       // eigenvalues differ from σ by at least 1e-6 of the largest one.
       EXPECT_LE(backward_error(operation, matrix, sigma, norm, random), 1e6 * eps) << platonic(kind).name();
     }
   }
 }
 
-TEST(ShiftInvert, RefusesWhatIsSingular) {
+TEST(ShiftInvert, RejectsSingularMatrices) {
   BlockMatrix zero;
   zero.diagonal.assign(3, Matrix6d::Zero());
   ShiftInvert operation(zero);
@@ -69,7 +69,7 @@ TEST(ShiftInvert, RefusesWhatIsSingular) {
   EXPECT_THROW(operation.set_shift(1), std::domain_error);
 }
 
-/// Largest difference from the dense solver among the `wanted` lowest eigenvalues, relative to the highest one.
+/// Largest difference from the dense solver among the `wanted` lowest eigenvalues, divided by the highest eigenvalue.
 double worst_mode(const BlockMatrix& matrix, int wanted, bool& positive_definite) {
   const Eigen::VectorXd lambda = eigenvalues_of(matrix);
   const double highest = lambda.maxCoeff();
@@ -89,7 +89,7 @@ TEST(ShiftInvert, GivesSpectraTheLowestModesOfAnEquilibrium) {
     bool positive_definite = false;
     const double worst = worst_mode(energy.hessian(packing), 23, positive_definite);
     EXPECT_TRUE(positive_definite) << "translations only cost nothing, and the shift is below them";
-    // The error of each solver may be ε of the highest eigenvalue for each of 6N coordinates.
+    // The error of each solver can be ε times the highest eigenvalue for each of the 6N coordinates.
     EXPECT_LE(worst, 2 * 6 * packing.size() * eps) << platonic(kind).name();
     std::printf("%s: lowest modes as the dense solver's to %.2g of the highest\n", platonic(kind).name().data(), worst);
   }

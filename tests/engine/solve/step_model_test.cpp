@@ -1,14 +1,14 @@
 // Properties tested here:
-// - In a state without closing pairs the step is Newton's: −(H + μ)⁻¹ g with the tilt terms for μ, and its decrease is
-//   that of E + g·s + ½ s·H s.
-// - A face pushed across a gap stops where it meets the other one. The step of three cubes in a row is that of
-//   one-dimensional springs with their faces' area, for any initial estimate. The model without closing pairs does not
+// - If no pair of particles is about to touch, the step is Newton's step −(H + μ)⁻¹ g, where the shift μ includes the
+//   tilt terms. The predicted decrease is that of E + g·s + ½ s·H s.
+// - A face that is pushed across a gap stops where it meets the other face. For three cubes in a row, the step is that
+//   of one-dimensional springs, for any initial estimate. Without the pairs that are about to touch, the face would not
 //   stop.
-// - Pairs that a later round adds to the factors give the same step as pairs in the initial estimate.
-// - The resulting pairs are returned as the next initial estimate.
-// - The predicted decrease of an anticipated contact agrees with the energy. Without anticipation the prediction for
-//   the same state is too large.
-// - A step never exceeds the longest displacement. An indefinite matrix is rejected until the shift makes it positive
+// - A pair that is found in a later round gives the same step as a pair in the initial estimate.
+// - The pairs that touch after the step are returned, as the initial estimate for the next step.
+// - If the model anticipates a contact, the predicted decrease agrees with the energy. Otherwise it is too large for
+//   the same state.
+// - No step is longer than the longest displacement. An indefinite matrix is rejected until the shift makes it positive
 //   definite.
 
 #include "engine/solve/minimise/step_model.hpp"
@@ -52,11 +52,12 @@ Case case_of(const Packing& packing, double probe_distance) {
   return {packing, std::move(value), std::move(second)};
 }
 
-TEST(StepModel, IsNewtonsWithoutPairsToCome) {
+TEST(StepModel, IsNewtonsStepIfNoPairCloses) {
   for (const SolidKind kind : all_solids) {
     const Case state = case_of(small_packing(kind, 0.8, 31), 0);
     StepModel model(state.second, state.value.gradient, unlimited);
-    double shift = 2 * model.largest_diagonal();  // large: all tilt terms are complete, no contact tilts separately
+    double shift =
+        2 * model.largest_diagonal();  // so large that all tilt terms are included, and no contact tilts separately
     StepFactor factor;
     ActivePairs active;
     std::optional<ModelStep> step;
@@ -77,15 +78,15 @@ TEST(StepModel, IsNewtonsWithoutPairsToCome) {
   }
 }
 
-/// Minimum of (V_01² + V_12²)/4 + shift·s²/2 over steps s of the three cubes along the row. Faces have area 1: V_01 =
-/// depth + s_0 − s_1 and V_12 = s_1 − s_2 − gap for any sign, or V_12 = 0 unless they are to `meet`.
+/// Minimum of (V_01² + V_12²)/4 + shift·s²/2 over the steps s of the three cubes along the row. The faces have area 1,
+/// so V_01 = depth + s_0 − s_1 and V_12 = s_1 − s_2 − gap. If `meet` is false, V_12 = 0.
 Vector3d balanced_row(double depth, double gap, double shift, bool meet) {
   const Vector3d first(1, -1, 0), second = meet ? Vector3d(0, 1, -1) : Vector3d::Zero();
   const Eigen::Matrix3d matrix = (first * first.transpose() + second * second.transpose()) / 2;
   return (matrix + shift * Eigen::Matrix3d::Identity()).llt().solve((gap * second - depth * first) / 2);
 }
 
-/// The first cube pushes the middle one across the gap to the third.
+/// The first cube pushes the middle one across the gap to the third one.
 TEST(StepModel, StopsWhereFacesMeet) {
   const double depth = 1e-4, gap = 1e-6;
   const Case state = case_of(row_of_cubes(depth, gap), 1e-5);
@@ -130,8 +131,9 @@ Packing relaxed_and_strained(SolidKind kind, std::uint64_t seed) {
   return strained_to(packing, packing.density() - 0.01);
 }
 
-/// Pairs found in later rounds enter as updates of the factors, those of the initial estimate with the matrix.
-TEST(StepModel, StepsAreTheSameFromEitherGuess) {
+/// Pairs that are found in later rounds are included by updates of the factors. Pairs of the initial estimate are
+/// included in the matrix.
+TEST(StepModel, TheInitialEstimateDoesNotChangeTheStep) {
   int compared = 0, found_later = 0;
   for (const SolidKind kind : all_solids) {
     for (const std::uint64_t seed : {41, 42}) {
@@ -158,8 +160,8 @@ TEST(StepModel, StepsAreTheSameFromEitherGuess) {
   EXPECT_GE(found_later, 3);
 }
 
-/// With a shift that keeps the outer cubes in place, the middle one moves to its balance between them.
-TEST(StepModel, PromisesWhatTheEnergyDelivers) {
+/// The shift keeps the outer cubes in place. The middle one moves to its equilibrium between them.
+TEST(StepModel, PredictedDecreaseAgreesWithTheEnergy) {
   const double depth = 1e-4, gap = 1e-6;
   const Packing packing = row_of_cubes(depth, gap);
   const auto outcome = [&](bool anticipate) {
@@ -193,7 +195,7 @@ TEST(StepModel, KeepsToTheLongestStep) {
   }
 }
 
-TEST(StepModel, RefusesAnIndefiniteMatrix) {
+TEST(StepModel, RejectsAnIndefiniteMatrix) {
   Case state = case_of(small_packing(SolidKind::dodecahedron, 0.8, 34), 0);
   StepModel sound(state.second, state.value.gradient, unlimited);
   for (Matrix6d& block : state.second.hessian.diagonal) block.diagonal().array() -= 2 * sound.largest_diagonal();

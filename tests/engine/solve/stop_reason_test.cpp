@@ -1,11 +1,12 @@
 // Properties tested here, for each method:
 // - A default summary has the reason not_called, and every reason has its own name.
-// - budget: a few evaluations stop the method, with at most one more line search or shift, at the best state found.
-// - unjammed: a dilute packing ends with negligible energy, and is not an equilibrium.
+// - budget: with a limit of a few evaluations, the method stops at the best state found, after at most one more line
+//   search or shift.
+// - unjammed: a dilute packing ends with negligible energy, and does not count as an equilibrium.
 // - not_finite: a packing whose orientation contains NaN is returned unchanged.
-// - interrupted: a stop requested beforehand leaves the packing unchanged.
-// - energy_change: the paper's rule stops conjugate gradients with that reason and not as an equilibrium. Larger
-//   tolerances stop earlier.
+// - interrupted: if a stop was requested before the call, the packing is returned unchanged.
+// - energy_change: the paper's rule stops conjugate gradients with this reason, and the state does not count as an
+//   equilibrium. With a larger tolerance the rule stops earlier.
 
 #include <array>
 #include <limits>
@@ -148,7 +149,7 @@ TEST(StopReasonTest, EnergyChangeIsThePapersRule) {
   }
   EXPECT_LT(summaries[0].evaluations, summaries[1].evaluations);
   EXPECT_GT(summaries[0].energy, summaries[1].energy);
-  // The rule is about relative changes: the remaining decrease is a multiple of the last one.
+  // The rule uses relative changes, so the energy could still decrease by a multiple of the last change.
   MinimiseOptions exact;
   exact.residual = 1e-8;
   Packing packing = start;

@@ -1,15 +1,16 @@
-// Properties tested here, for the counters in records and the work that they count:
-// - Conjugate gradients and L-BFGS compute no Hessian, FIRE one, for its unit of time; none of them factorises.
+// Properties tested here of the counters in records:
+// - Conjugate gradients and L-BFGS compute no Hessian. FIRE computes one, for its unit of time. None of the three
+//   factorises a matrix.
 // - Newton's method computes at most one Hessian per evaluation and factorises at most once per round of its step
-//   model; near jamming less than once, because later rounds update the factor.
-// - A start in equilibrium needs no Hessian, no factorisation and no step. Compression computes no Hessian;
-//   decompression does.
+//   model; near jamming it factorises less often, because later rounds update the factor.
+// - If the initial state is an equilibrium, the minimiser computes no Hessian, no factorisation and no step.
+//   Compression computes no Hessian; decompression does.
 // - Evaluations in double-double are used only if the residual floor of doubles is above the requested residual.
 // - The totals of a run are the sums over its steps.
-// - Listed pairs are those whose circumspheres overlap, counted one by one, and fewer than half as many others. In a
-//   repeated evaluation every listed pair is out of reach, rejected by its axis, or touching: the kernel gets no
-//   separated pair.
-// - As many modes are computed as requested.
+// - The neighbour list contains all pairs whose circumspheres overlap, and fewer than half as many other pairs. In a
+//   repeated evaluation, every listed pair is out of reach, rejected by its separating axis, or touching. overlap() is
+//   therefore not called for separated pairs.
+// - The number of computed modes is the requested one.
 
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ MinimiseSummary minimised(Method method, Packing packing, double residual) {
   return summary;
 }
 
-TEST(Work, HessiansAreMadeWhereTheMethodAsks) {
+TEST(Work, HessiansAreComputedIfTheMethodNeedsThem) {
   const Packing start = small_packing(SolidKind::octahedron, 0.8, 41, 45);
   for (const auto& [method, hessians] :
        {std::pair{Method::conjugate_gradient, 0L}, {Method::lbfgs, 0L}, {Method::fire, 1L}}) {
@@ -67,7 +68,7 @@ TEST(Work, HessiansAreMadeWhereTheMethodAsks) {
   EXPECT_LT(newton.work.hessians, newton.evaluations) << "the last evaluation needs none";
 }
 
-TEST(Work, FactorsAreUpdatedWhereThatIsCheaper) {
+TEST(Work, FactorsAreUpdatedIfThatIsCheaper) {
   const Packing& state = expanded().states.back();
   const MinimiseSummary summary = minimised(Method::newton, strained_to(state, state.density() - 0.002), 1e-9);
   const MinimiseWork& work = summary.work;
@@ -78,7 +79,7 @@ TEST(Work, FactorsAreUpdatedWhereThatIsCheaper) {
   EXPECT_GT(10 * work.factor_updates, work.factorisations) << "hardly anything is ever updated";
 }
 
-TEST(Work, BalanceCostsNothingMore) {
+TEST(Work, AnEquilibriumNeedsNoFurtherWork) {
   for (const Method method : {Method::conjugate_gradient, Method::fire, Method::lbfgs, Method::newton}) {
     const MinimiseSummary summary = minimised(method, expanded().states.front(), 1e-6);
     EXPECT_TRUE(summary.converged());
@@ -89,7 +90,7 @@ TEST(Work, BalanceCostsNothingMore) {
   }
 }
 
-TEST(Work, PrecisionIsWidenedOnlyAtTheFloor) {
+TEST(Work, DoubleDoubleIsUsedOnlyAtTheFloor) {
   const Packing start = small_packing(SolidKind::octahedron, 0.9, 41, 45);
   const MinimiseSummary far = minimised(Method::newton, start, 1e-6);
   EXPECT_TRUE(far.converged());
@@ -101,7 +102,7 @@ TEST(Work, PrecisionIsWidenedOnlyAtTheFloor) {
   EXPECT_LT(beyond.work.double_double_evaluations, beyond.evaluations) << "most of the way is made in doubles";
 }
 
-TEST(Work, ConsolidationMakesNoHessian) {
+TEST(Work, CompressionComputesNoHessian) {
   MinimiseWork sum;
   long hessians = 0;
   for (const JamStep& step : expanded().path) {
@@ -118,7 +119,7 @@ TEST(Work, ConsolidationMakesNoHessian) {
   EXPECT_TRUE(sum == expanded().work);
 }
 
-TEST(Work, TheKernelSeesNoPairThatIsApart) {
+TEST(Work, OverlapIsNotCalledForSeparatedPairs) {
   for (const SolidKind kind : all_solids) {
     const Packing packing = small_packing(kind, 0.6, 5, 60);
     PackingEnergy energy;
@@ -138,7 +139,7 @@ TEST(Work, TheKernelSeesNoPairThatIsApart) {
   }
 }
 
-TEST(Work, AxesSpareTheKernelAlongAWholeRun) {
+TEST(Work, AxesAvoidCallsDuringAWholeRun) {
   const PairCounts& counts = expanded().counts;
   std::printf("%ld listed, %ld out of reach, %ld by axis, %ld to the kernel, %ld touching, %ld clipped\n",
               counts.listed, counts.out_of_reach, counts.by_axis, counts.overlapped, counts.touching, counts.clipped);
@@ -146,7 +147,7 @@ TEST(Work, AxesSpareTheKernelAlongAWholeRun) {
   EXPECT_LT(static_cast<double>(counts.overlapped), 1.05 * static_cast<double>(counts.touching));
 }
 
-TEST(Work, OnlyTheModesAskedFor) {
+TEST(Work, OnlyTheRequestedModesAreComputed) {
   PackingEnergy energy;
   const BlockMatrix matrix = energy.hessian(expanded().states.front(), Precision::double_double);
   ModeOptions options;

@@ -1,10 +1,9 @@
 // Properties tested here:
-// 1. The fit has the smallest error, which equals the integral computed by another method. No change of a coefficient
-//    gives a smaller error, and no other α with its own least-squares solution. α is one of the angles, or a stationary
-//    point of the error.
+// 1. The error of the fit equals the integral computed by another method. No other coefficient and no other α gives a
+//    smaller error. α is one of the angles, or a stationary point of the error.
 // 2. If angles are drawn from a distribution with a jump and a cubic, the fit finds this cubic.
-// 3. If a fraction f of the angles are face-face angles and the others are uniform, the fit finds f within its standard
-//    error. The fraction of angles below the cut-off is a_0, within half an angle.
+// 3. A fraction f of face-face angles among uniform ones is found within the standard error of the fit. The fraction of
+//    angles below the cut-off is a_0, within half an angle.
 // 4. The verdict is `collapsed` without a jump or with a jump of one angle, `bimodal` if two jumps are in the window,
 //    `out_of_range` if the jump is in its upper half, and `too_few` with fewer angles than parameters. a_0 is at most c.
 // 5. The result has the same bits if the order or the unit of the angles changes, or if every angle is counted twice.
@@ -60,8 +59,7 @@ std::vector<std::vector<double>> families(RandomStream& random) {
   return sets;
 }
 
-/// The reference: the error ∫ (c_f − c)² dθ as a quadratic form in the coefficients a, from the antiderivatives of the
-/// powers of θ − α.
+/// The error ∫ (c_f − c)² dθ as a quadratic form in the coefficients a, from integrals of powers of θ − α.
 class Oracle {
  public:
   Oracle(std::vector<double> angles, double alpha) {

@@ -1,8 +1,9 @@
-// Properties tested here, for all pairs of solids, with contact volumes over five decades and pairs that almost touch:
-// - The parts kept by the slab contain every edge and every face of the intersection found by clipping. If the slab is
-//   empty, the solids are separated.
-// - The slab keeps no more than its definition requires: a part is omitted exactly if all its vertices are outside the
-//   slab by more than rounding.
+// Properties tested here of the slab, the region between two planes in which the intersection of two solids must lie.
+// The pairs are of all solids, with contact volumes over five decades, and pairs that almost touch.
+// - The parts of the solids that the slab keeps contain every edge and every face of the intersection, which clipping
+//   finds. If the slab is empty, the solids are separated.
+// - The slab keeps no part unnecessarily: a part is omitted if all its vertices are outside the slab by more than
+//   rounding errors.
 // - The distances of kept vertices from kept planes equal those of the full table, and at least one plane is kept.
 
 #include "engine/geometry/overlap/distances.hpp"
@@ -32,7 +33,7 @@ struct Placed {
         r(pair.displacement()) {}
 };
 
-/// Half of the pairs are contacts with volumes between 1e-6 and 0.1; the others have circumspheres that overlap or
+/// In half of the pairs, the contact has a volume between 1e-6 and 0.1. In the others, the circumspheres overlap or
 /// almost overlap.
 template <class Check>
 void for_many_pairs(int cases, const Check& check) {
@@ -69,7 +70,7 @@ TEST(Slab, KeepsWhatBoundsTheIntersection) {
   EXPECT_GT(left_out, 1000) << "nothing would be saved";
 }
 
-/// Vertices of a solid at `centre` whose coordinate along u is above `bound`, or below it if `sign` is −1.
+/// Vertices of a solid at `centre` whose coordinate along u is above `bound`. If `sign` is −1, those below it.
 std::uint64_t beyond(const PlacedSolid& solid, const Vector3d& centre, const Vector3d& u, double sign, double bound) {
   std::uint64_t found = 0;
   for (int v = 0; v < solid.vertices(); ++v)
@@ -77,7 +78,7 @@ std::uint64_t beyond(const PlacedSolid& solid, const Vector3d& centre, const Vec
   return found;
 }
 
-/// Parts that contain one of the vertices.
+/// The faces and edges that contain one of the vertices.
 Parts parts_with(const ConvexSolid& solid, std::uint64_t vertices) {
   Parts parts;
   const auto has = [&](int v) { return (vertices >> v & 1) != 0; };

@@ -1,17 +1,16 @@
 // Properties of overlap() in double-double tested here, with clipping in quadruple precision as reference. The pairs
 // are face-face contacts of every solid, in any orientation, with depths of 1e-4 … 1e-13 and tilts as large as the
 // depth:
-// - V, S and M have relative errors of at most 1e-14. The loop computes them, not the slow path, and its faces and
-//   edges are correct.
-// - Where a corner lies in a face or edges cross, errors are at most 1e-12. For V < 1e-8 half of the pairs have errors
-//   of at most 1e-15. This holds for V = 1e-4 … 1e-16 and every pair of solids.
-// - Every low part is needed: without those of positions, of orientations or of the solid, errors are 1e-8 or more at a
-//   depth of 1e-10. They are as large in plain double.
-// - Exchange, common translation and common rotation change nothing beyond these errors.
+// - V, S and M have relative errors of at most 1e-14. The contact loop computes them, not the slow path (clipping), and
+//   finds the correct faces and edges.
+// - For a corner in a face and for crossed edges, with V = 1e-4 … 1e-16 and every pair of solids, errors are at most
+//   1e-12. For V < 1e-8, half of these pairs have errors of at most 1e-15.
+// - Every low part is needed: at a depth of 1e-10, errors are 1e-8 or more without the low parts of positions, of
+//   orientations or of the solid. They are as large in plain double.
+// - If the solids are exchanged, translated together or rotated together, the results change at most by these errors.
 // - Cross and own Hessians agree with differences of S and M in quadruple precision to 1e-9 for these contacts too.
 // - Pairs of all depths agree with plain double where that is accurate, depths of 1e-20 are resolved, and pairs that
-//   coincide to their last bits use the slow path.
-// A table of errors against depth is printed to standard output.
+//   coincide to their last bits use the slow path. A table of errors against depth is printed to standard output.
 
 #include <gtest/gtest.h>
 
@@ -61,13 +60,14 @@ Overlap in_double_double(const Pair& pair, const ConvexSolid& a, const ConvexSol
 
 Overlap in_double_double(const Pair& pair) { return in_double_double(pair, pair.solid_a(), pair.solid_b()); }
 
-/// The same state rounded to double.
+/// The same state, rounded to doubles.
 Overlap in_double(const Pair& pair) {
   SeparatingAxis axis;
   return overlap(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), pair.displacement(), axis);
 }
 
-/// Largest relative error of V, S and M (M relative to the larger of |M| and h |S|, h the inradius).
+/// Largest relative error of V, S and M. The error of M is relative to the larger of |M| and h |S|, where h is the
+/// inradius.
 double error(const Overlap& measured, const QuadOverlap& exact, double inradius) {
   const auto part = [](const Vector3d& value, const Quad3& right, Quad scale) {
     return static_cast<double>(norm(Quad3{value.x(), value.y(), value.z()} - right) / scale);
@@ -114,7 +114,7 @@ class DoubleDoubleOverlap : public testing::TestWithParam<SolidKind> {};
 INSTANTIATE_TEST_SUITE_P(Solids, DoubleDoubleOverlap, testing::ValuesIn(all_solids),
                          [](const auto& solid) { return std::string(to_string(solid.param)); });
 
-TEST_P(DoubleDoubleOverlap, IsRightAtEveryDepth) {
+TEST_P(DoubleDoubleOverlap, IsAccurateAtEveryDepth) {
   RandomStream random{64, static_cast<std::uint64_t>(GetParam())};
   for (double depth = 1e-4; depth > .5e-13; depth /= 10) {
     double worst = 0, plain = 0;
@@ -139,7 +139,7 @@ TEST_P(DoubleDoubleOverlap, IsRightAtEveryDepth) {
   }
 }
 
-/// A contact in a random orientation, moved apart until V is between a third and three times `volume`.
+/// A contact in a random orientation, moved until V is between a third and three times `volume`.
 Pair pointed_contact(RandomStream& random, SolidKind a, SolidKind b, double volume) {
   const Pair deep = random_contact(random, a, b, 1e-4, 1e-2);
   double near = 0, far = deep.displacement().norm();
@@ -153,7 +153,7 @@ Pair pointed_contact(RandomStream& random, SolidKind a, SolidKind b, double volu
   }
 }
 
-TEST(DoubleDoubleOverlapTest, IsRightOfPointedContactsOfEverySizeAndPairOfSolids) {
+TEST(DoubleDoubleOverlapTest, PointedContactsOfEverySizeAreAccurate) {
   RandomStream random{66};
   for (double volume = 1e-4; volume > .5e-16; volume /= 10) {
     std::vector<double> errors;
@@ -192,7 +192,7 @@ TEST_P(DoubleDoubleOverlap, NeedsEveryLowPart) {
   }
   EXPECT_GE(position, 1e-8);
   EXPECT_GE(orientation, 1e-8);
-  // Vertices that are multiples of integers recover their low parts when the solid is scaled to unit volume.
+  // Vertices that are multiples of integers get their low parts back when the solid is scaled to unit volume.
   const bool recovered = GetParam() != SolidKind::dodecahedron && GetParam() != SolidKind::icosahedron;
   if (recovered) {
     EXPECT_LE(solid, limit);
@@ -201,7 +201,7 @@ TEST_P(DoubleDoubleOverlap, NeedsEveryLowPart) {
   }
 }
 
-/// The pose after rotating everything about the origin by the orientation of `frame`.
+/// The pose after everything is rotated about the origin by the orientation of `frame`.
 Pose turned(const Pose& pose, const Pose& frame) {
   const auto quaternion = [](const Pose& p) {
     return std::array<Quad, 4>{widened(p.component(0)), widened(p.component(1)), widened(p.component(2)),
@@ -254,7 +254,7 @@ TEST_P(DoubleDoubleOverlap, IsInvariant) {
   }
 }
 
-/// ∂(S_A, M_A) per unit step of one body (x, θ), in quadruple precision.
+/// Derivatives of (S_A, M_A) with respect to (x, θ) of one body, by differences in quadruple precision.
 Matrix6d differences(const Pair& pair, bool of_a, double h) {
   Matrix6d result;
   for (int k = 0; k < 6; ++k) {
@@ -276,8 +276,8 @@ void expect_hessians_are_differences(const Pair& pair, double h) {
   OverlapHessian hessian;
   const DoubleDoubleVector r = displacement_double_double(pair);
   overlap_with_hessian(placed(pair.solid_a(), pair.a), placed(pair.solid_b(), pair.b), r, unused, hessian);
-  // Rotations do not commute: the derivative of M with respect to rotations of its own body has an antisymmetric part,
-  // which is no curvature of V.
+  // Rotations do not commute. Therefore, the derivative of M with respect to rotations of the same body has an
+  // antisymmetric part that is not a second derivative of V.
   const Matrix6d by_b = differences(pair, false, h), by_a = differences(pair, true, h);
   EXPECT_LE((hessian.ab - by_b).norm(), 1e-9 * by_b.norm()) << "step " << h << ": " << describe(pair);
   EXPECT_LE((hessian.aa - (by_a + by_a.transpose()) / 2).norm(), 1e-9 * by_a.norm())
@@ -307,7 +307,7 @@ TEST_P(DoubleDoubleOverlap, AgreesWithDoubleWhereItSuffices) {
   RandomStream random{68, static_cast<std::uint64_t>(GetParam())};
   for (int k = 0; k < 5 * cases; ++k) {
     const Pair pair = random_contact(random, GetParam(), GetParam(), 1e-5, 3e-2);
-    // Sums over a small contact lose digits relative to coordinates of order 1.
+    // Sums over a small contact have rounding errors of coordinates of order 1.
     EXPECT_LE(error(in_double_double(pair), exact(pair), pair), 1e-11) << describe(pair);
     EXPECT_LE(error(in_double(pair), exact(pair), pair), 1e-10) << describe(pair);
   }
@@ -319,8 +319,8 @@ TEST(DoubleDoubleOverlapTest, ResolvesDepthsBelowTheRoundingOfDoubles) {
     pair.b.position = Vector3d(.25, .125, 1);
     pair.b = moved(pair.b, Vector3d(0, 0, -depth), Vector3d::Zero());
     const Overlap touching = in_double_double(pair);
-    // The loop cannot distinguish the ends of such a short edge, so the slow path computes the result. The state itself
-    // is rounded to u² of a length.
+    // The loop cannot distinguish the ends of such a short edge, so the slow path computes the result. The coordinates
+    // of the state have the rounding error ε² of double-double.
     EXPECT_NEAR(touching.volume, .75 * .875 * depth, 4 * epsilon * (depth + epsilon));
     EXPECT_NEAR(touching.area.z(), .75 * .875, 4 * epsilon);
     pair.b = moved(pair.b, Vector3d(0, 0, 2 * depth), Vector3d::Zero());
@@ -328,7 +328,7 @@ TEST(DoubleDoubleOverlapTest, ResolvesDepthsBelowTheRoundingOfDoubles) {
   }
 }
 
-TEST_P(DoubleDoubleOverlap, CoincidenceTakesTheSlowPath) {
+TEST_P(DoubleDoubleOverlap, CoincidentSolidsUseTheSlowPath) {
   RandomStream random{69, static_cast<std::uint64_t>(GetParam())};
   Pair pair{GetParam(), GetParam(), {}, {}};
   pair.a.orientation = random_orientation(random);

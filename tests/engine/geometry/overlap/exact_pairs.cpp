@@ -45,8 +45,8 @@ double radius_of(const ConvexSolid& solid, const Face& face) {
   return least;
 }
 
-/// B with its point `of_b`, seen along `outward` in its own frame, opposite the point `on` of A, whose outward
-/// direction there is `up`.
+/// Places the point `of_b` of B opposite the point `on` of A. `outward` is the outward direction of B at its point, in
+/// B's frame; `up` is that of A at its point.
 Approach facing(const ConvexSolid& a, const ConvexSolid& b, const Vector3d& on, const Vector3d& up,
                 const Vector3d& of_b, const Vector3d& outward, RandomStream& random) {
   Approach result{{a, b, {}, {}}, {}, {}};
@@ -153,7 +153,7 @@ Approach edge_over_edge(const ConvexSolid& a, const ConvexSolid& b, RandomStream
 
 std::optional<PosedPair> at_volume(Approach approach, double volume) {
   PosedPair& pair = approach.pair;
-  // At `from`, or deeper by the size of the smaller solid, V is larger than `volume`.
+  // At the displacement `from`, or deeper by the size of the smaller solid, V is larger than `volume`.
   double far = pair.a.circumradius() + pair.b.circumradius();
   double near = -std::min(approach.from.norm(), std::min(pair.a.inradius(), pair.b.inradius()));
   for (int k = 0; k < 90; ++k) {

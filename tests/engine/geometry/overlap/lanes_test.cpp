@@ -1,8 +1,9 @@
 // Properties tested here, with random numbers of both signs and all magnitudes:
-// - Every operation on four lanes does what its comment states, lane by lane; sums and products within rounding, the
-//   others exactly.
-// - A tag survives taking an extreme and costs at most 64 ulp.
-// - equal_unions() finds the edges whose two ends together are inside all planes.
+// - Every operation on a vector of four numbers (lanes) does in each lane what its comment states: sums and products
+//   within rounding errors, all others exactly.
+// - A tag, an integer in the last bits of a number, is still there after the largest or smallest number was selected.
+//   It changes the number by at most 64 ulp.
+// - equal_unions() finds the edges of which, for every plane, at least one end is inside.
 
 #include "engine/geometry/overlap/lanes.hpp"
 
@@ -43,7 +44,7 @@ void expect_lanes(Lanes found, const Expected& expected, double tolerance = 0) {
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(x[k], expected(k), tolerance) << "lane " << k;
 }
 
-TEST(LanesTest, ArithmeticIsThatOfTheLanes) {
+TEST(LanesTest, ArithmeticActsOnEachLane) {
   RandomStream random{7, 1};
   for (int n = 0; n < cases; ++n) {
     const Four x = random_four(random), y = random_four(random), z = random_four(random);
@@ -63,7 +64,7 @@ TEST(LanesTest, ArithmeticIsThatOfTheLanes) {
   }
 }
 
-TEST(LanesTest, SelectionsTakeTheLanesTheyName) {
+TEST(LanesTest, SelectionsChooseTheCorrectLanes) {
   RandomStream random{7, 2};
   for (int n = 0; n < cases; ++n) {
     const Four x = random_four(random), y = random_four(random);
@@ -85,7 +86,7 @@ TEST(LanesTest, SelectionsTakeTheLanesTheyName) {
   }
 }
 
-TEST(LanesTest, ReductionsReachEveryLane) {
+TEST(LanesTest, ReductionsIncludeEveryLane) {
   RandomStream random{7, 3};
   for (int n = 0; n < cases; ++n) {
     const Four x = random_four(random), y = random_four(random);
@@ -104,7 +105,7 @@ TEST(LanesTest, ReductionsReachEveryLane) {
   }
 }
 
-TEST(LanesTest, TagsTravelWithTheExtreme) {
+TEST(LanesTest, TagsStayWithTheExtreme) {
   RandomStream random{7, 4};
   for (int n = 0; n < cases; ++n) {
     const Four x = random_four(random);
@@ -116,7 +117,7 @@ TEST(LanesTest, TagsTravelWithTheExtreme) {
   }
 }
 
-TEST(LanesTest, EqualUnionsAreThoseOfTheBytes) {
+TEST(LanesTest, EqualUnionsAgreeWithALoopOverBytes) {
   RandomStream random{7, 5};
   int found = 0;
   for (int n = 0; n < cases; ++n) {

@@ -1,10 +1,10 @@
 // Properties of overlap() in double-double tested here, with clipping in quadruple precision as reference. The pairs
 // are all pairs of solids that are not Platonic, and each of these with a cube:
-// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
-//   half of them at most 1e-15; the loop computes them.
+// - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13, and
+//   half of the pairs have errors of at most 1e-15. The contact loop computes them.
 // - For corners in faces and crossed edges with V = 1e-3 … 1e-15, errors are at most 1e-12.
 // - The Hessian agrees with differences of S and M in quadruple precision to 1e-8 of its translational block.
-// - For pairs that coincide, and faces that lie exactly in each other, errors are at most 1e-14, on either path.
+// - For solids that coincide and for coplanar faces, errors are at most 1e-14, with the contact loop or with clipping.
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ namespace {
 using namespace testing_pairs;
 using Eigen::Vector3d;
 
-/// Boxes, prisms, a pyramid with as many vertices as a cube but more edges, the built-in solids, and ten points on a
-/// sphere.
+/// Boxes, prisms, the built-in solids, ten points on a sphere, and a pyramid with as many vertices as a cube but more
+/// edges.
 const std::vector<Solid>& others() {
   static const std::vector<Solid> solids = [] {
     std::vector<Vector3d> brick, pyramid{{0, 0, 1}};
@@ -51,12 +51,12 @@ void for_each_pair(const Visit& visit) {
   }
 }
 
-TEST(OtherSolids, AreRightWhereFacesMeet) {
+TEST(OtherSolids, FaceContactsAreAccurate) {
   RandomStream random{72};
   expect_flat_contacts_right([](const auto& visit) { for_each_pair(visit); }, random);
 }
 
-TEST(OtherSolids, AreRightWhereCornersAndEdgesMeet) {
+TEST(OtherSolids, CornersAndCrossedEdgesAreAccurate) {
   RandomStream random{73};
   double worst = 0;
   int pairs = 0, skipped = 0;
@@ -75,18 +75,18 @@ TEST(OtherSolids, AreRightWhereCornersAndEdgesMeet) {
   EXPECT_GT(pairs, 150);
 }
 
-TEST(OtherSolids, HaveTheHessiansOfDifferences) {
+TEST(OtherSolids, HessiansAgreeWithDifferences) {
   RandomStream random{74};
   expect_hessians_of_differences([](const auto& visit) { for_each_pair(visit); }, random, 40);
 }
 
-TEST(OtherSolids, AreRightWhereTheyCoincide) {
+TEST(OtherSolids, CoincidentSolidsAreAccurate) {
   double worst = 0;
   for (const Solid& solid : others()) {
     PosedPair same{*solid, *solid, {}, {}};
     EXPECT_NEAR(found(same).volume, 1, 1e-14) << to_string(solid);
-    // Faces shifted along an edge remain in the same plane; shifted by twice the distance of a face they touch without
-    // depth.
+    // If a solid is shifted along an edge, faces remain in the same plane. If it is shifted by twice the distance of a
+    // face, the two solids touch without depth.
     const Edge& edge = solid->edges().front();
     same.at_b.position = .3 * (solid->vertices()[edge.head] - solid->vertices()[edge.tail]);
     const double here = error(same);

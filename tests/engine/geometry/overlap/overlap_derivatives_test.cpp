@@ -1,11 +1,11 @@
 // Properties tested here for random contacts of all pairs of solids, with central differences of V and of (S, M) as
 // reference:
 // - (S_A, M_A, −S_A, −M_A + r×S_A) is the gradient of V. The same check rejects wrong signs in M, in S or in the lever
-//   arm of B, and a wrong volume. It uses tetrahedra, whose missing inversion symmetry cannot hide such errors.
+//   arm of B, and a wrong volume. It uses tetrahedra: they have no inversion symmetry, which could hide such errors.
 // - H_AB is the derivative of each body's gradient with respect to position and rotation of the other body. H_AA and
 //   H_BB are the symmetric part of the derivative with respect to those of the same body; the antisymmetric part is ½
 //   θ×M.
-// - Moving both bodies rigidly changes nothing, so that H has the six required null vectors, up to the rotation of the
+// - If both bodies move together, V does not change. H therefore has six null vectors, except for the rotation of the
 //   gradient.
 
 #include <gtest/gtest.h>
@@ -43,14 +43,14 @@ Pair moved_by(const Pair& pair, const Vector12d& step) {
 
 Vector12d unit(int k) { return Vector12d::Unit(k); }
 
-/// Values to be checked of V and its derivatives with respect to (x_A, θ_A, x_B, θ_B), lab frame.
+/// Values of V and of its derivatives with respect to (x_A, θ_A, x_B, θ_B) in the lab frame, which are checked.
 struct Claim {
   double volume = 0;
   Vector12d gradient;
 };
 using Claimant = std::function<Claim(const Pair&)>;
 
-/// Signs are 1, or −1 for an intended error: of S, of M, of the lever arm of B.
+/// The signs are those of S, of M and of the lever arm of B: 1, or −1 for an intended error.
 Claim claim_with(const Pair& pair, double area_sign, double moment_sign, double lever_sign) {
   const Overlap result = overlap(pair);
   const Vector3d s = pair.a.orientation * result.area, m = pair.a.orientation * result.moment;
@@ -67,14 +67,14 @@ Claim claim(const Pair& pair) { return claim_with(pair, 1, 1, 1); }
 
 /// Description of the differences between the gradient and central differences of V; empty if they agree.
 std::string gradient_disagreement(const Pair& pair, const Claimant& claimant) {
-  // Depths are at least about 0.05, so that the step is small compared with every feature of the contact.
+  // The depths are at least about 0.05, so the step is small compared with every feature of the contact.
   const double h = 1e-5;
   const Claim here = claimant(pair);
   Vector12d differences;
   for (int k = 0; k < 12; ++k)
     differences[k] =
         (claimant(moved_by(pair, h * unit(k))).volume - claimant(moved_by(pair, -h * unit(k))).volume) / (2 * h);
-  // Third derivatives of V are of the order of the lever arms: h² and the rounding ε/h both stay far below this.
+  // The third derivatives of V are of the order of the lever arms, so the errors h² and ε/h are far below this limit.
   const double limit = 1e-7 * differences.norm();
   const double error = (differences - here.gradient).cwiseAbs().maxCoeff();
   if (error <= limit) return "";
@@ -99,7 +99,7 @@ TEST(OverlapDerivativesTest, AreaAndMomentAreTheGradientOfVolume) {
   for_each_contact(1, [](const Pair& pair) { EXPECT_EQ(gradient_disagreement(pair, claim), ""); });
 }
 
-TEST(OverlapDerivativesTest, WrongGradientsAreRefused) {
+TEST(OverlapDerivativesTest, WrongGradientsAreDetected) {
   RandomStream random{5, 2};
   const auto slip = [](double area, double turn, double lever) {
     return [=](const Pair& pair) { return claim_with(pair, area, turn, lever); };
@@ -146,14 +146,15 @@ TEST(OverlapDerivativesTest, HessianIsTheDerivativeOfTheGradient) {
   for_each_contact(3, [](const Pair& pair) {
     const Matrix12d analytic = hessian(pair), differences = gradient_differences(pair);
     Matrix12d expected = analytic;
-    // Rotations do not commute: the first of two rotations is rotated by half of the second.
+    // Rotations do not commute. The derivative of the torque with respect to rotations of the same body therefore has
+    // the antisymmetric part −½ [torque]×.
     const Vector12d g = claim(pair).gradient;
     expected.block<3, 3>(3, 3) -= skew(g.segment<3>(3)) / 2;
     expected.block<3, 3>(9, 9) -= skew(g.segment<3>(9)) / 2;
     const double limit = 1e-6 * analytic.norm();
     EXPECT_LE((expected - differences).cwiseAbs().maxCoeff(), limit) << describe(pair) << "\nminus differences\n"
                                                                      << expected - differences;
-    // Without the asymmetric part the comparison must fail, because the contact is not in equilibrium.
+    // Without the antisymmetric part the comparison must fail, because the contact is not in equilibrium.
     EXPECT_GT((analytic - differences).cwiseAbs().maxCoeff(), limit) << describe(pair);
   });
 }
@@ -165,7 +166,7 @@ TEST(OverlapDerivativesTest, HessianIsSymmetric) {
   });
 }
 
-TEST(OverlapDerivativesTest, RigidMotionOfBothBodiesLeavesTheGradientOrTurnsIt) {
+TEST(OverlapDerivativesTest, RigidMotionOfBothBodiesOnlyRotatesTheGradient) {
   for_each_contact(5, [](const Pair& pair) {
     Matrix12d h = hessian(pair);
     const Vector12d g = claim(pair).gradient;

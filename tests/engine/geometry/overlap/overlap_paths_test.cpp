@@ -1,8 +1,8 @@
 // Properties tested here:
-// - On mixed random pairs the contact loop is used, and agrees with clipping: V, S, M and the features.
-// - A check that accepts the loop's volume rejects a volume with a relative error of 1e-9.
-// - The loop is rejected where it is unreliable (coincident solids, equal orientation with common face planes), and the
-//   result is correct there: V = 1, or the common box of two cubes.
+// - For random pairs of all solids, overlap() uses the contact loop. V, S, M and the features agree with clipping.
+// - The check that accepts the volume of the loop rejects a volume with a relative error of 1e-9.
+// - The loop is not used where it is unreliable: for coincident solids, and for solids of equal orientation with common
+//   face planes. The result is correct there: V = 1, or the common box of two cubes.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ constexpr int cases = 30;
 
 /// Description of the differences between `result` and `reference`; empty if there are none.
 std::string disagreement(const Pair& pair, const Overlap& result, const Overlap& reference) {
-  // The error of a coordinate is a few ulp of the reach, compared with a depth of V/|S|.
+  // The error of a coordinate is a few ulp of the reach (the size of the pair). It is compared with the depth V/|S|.
   const double scale = reference.area.norm();
   const double limit = 64 * epsilon * pair.reach() * scale / reference.volume;
   const double volume = std::abs(result.volume - reference.volume) / reference.volume;
@@ -60,7 +60,7 @@ TEST(OverlapPathsTest, LoopAgreesWithClipping) {
   EXPECT_EQ(by_loop, all) << "random pairs are not degenerate";
 }
 
-TEST(OverlapPathsTest, ASlightlyWrongVolumeIsRefused) {
+TEST(OverlapPathsTest, ASlightlyWrongVolumeIsRejected) {
   RandomStream random{4, 2};
   for (int k = 0; k < cases; ++k) {
     const Pair pair = random_contact(random, SolidKind::tetrahedron, SolidKind::icosahedron, 1e-3, .1);
@@ -80,7 +80,7 @@ TEST(OverlapPathsTest, CoincidentSolidsAreClipped) {
       pair.a.orientation = pair.b.orientation = k == 0 ? Eigen::Quaterniond::Identity() : random_orientation(random);
       const Overlap result = overlap(pair);
       EXPECT_EQ(result.path, OverlapPath::clip) << describe(pair);
-      // The pose is orthonormal within a few ulp, and the surface of the unit volume is 5 to 7.
+      // The rotation matrix is orthonormal within a few ulp. The solids have unit volume and a surface of 5 to 7.
       EXPECT_NEAR(result.volume, 1, 64 * epsilon) << describe(pair);
     }
   }
@@ -106,7 +106,7 @@ TEST(OverlapPathsTest, CubesOfEqualOrientationShareABox) {
     Pair pair{SolidKind::cube, SolidKind::cube, {}, {}};
     double box = 1;
     for (int c = 0; c < 3; ++c) {
-      // Some coordinates are zero: common face planes.
+      // If some coordinates are zero, faces of the cubes are coplanar.
       pair.b.position[c] = random.uniform() < .3 ? 0 : 2 * random.uniform() - 1;
       box *= 1 - std::abs(pair.b.position[c]);
     }

@@ -1,10 +1,10 @@
 // Properties tested here:
-// - The overlap is the same seen from B: V, S_B = −S_A and M_B = −M_A + r×S_A. It is also the same if the whole pair is
-//   rotated.
+// - If A and B are exchanged, V is the same, S_B = −S_A and M_B = −M_A + r×S_A. If both are rotated together, the
+//   overlap is the same in the rotated frame.
 // - For constructed contacts of depth δ: V ∝ δ³ (E ∝ δ⁶) for a face on a vertex and an edge on an edge, V ∝ δ² (E ∝ δ⁴)
 //   for an edge on a face, and V ∝ δ (E ∝ δ²) for a face on a face.
 // - S_A of a face contact is normal to the face, and its length is dV/dδ.
-// - The reported features are those of the constructed contact.
+// - overlap() reports the faces and edges of the constructed contact.
 
 #include "engine/geometry/overlap/overlap.hpp"
 #include "engine/geometry/overlap/clipped_overlap.hpp"
@@ -25,8 +25,8 @@ using Eigen::Vector3d;
 
 constexpr int cases = 20;
 
-/// Relative rounding error of V, and of S and M in units of |S| and |S|·reach, for a contact of depth ~ V/|S|. The
-/// error of a coordinate is a few ulp of the reach.
+/// Rounding error of V relative to V, of S relative to |S|, and of M relative to |S|·reach, for a contact of depth ~
+/// V/|S|. The error of a coordinate is a few ulp of the reach, the size of the pair.
 double rounding(const Pair& pair, const Overlap& contact) {
   return 64 * epsilon * pair.reach() * contact.area.norm() / contact.volume;
 }
@@ -57,7 +57,7 @@ TEST(OverlapTest, IsTheSameSeenFromB) {
   });
 }
 
-TEST(OverlapTest, IsTheSameForThePairTurned) {
+TEST(OverlapTest, IsTheSameForTheRotatedPair) {
   for_each_contact(2, [](const Pair& pair, RandomStream& random) {
     Pair turned = pair;
     const Quaterniond turn = random_orientation(random);
@@ -73,7 +73,8 @@ TEST(OverlapTest, IsTheSameForThePairTurned) {
   });
 }
 
-/// B's orientation and the point where its feature meets A's, in A's frame. B then moves into A by δ along −normal.
+/// B's orientation, and the point where its feature meets the feature of A, in A's frame. B then moves into A by δ
+/// along −normal.
 struct Contact {
   SolidKind kind;
   Quaterniond orientation;
@@ -91,8 +92,8 @@ Vector3d middle(const ConvexSolid& solid, const Edge& edge) {
   return (solid.vertices()[edge.tail] + solid.vertices()[edge.head]) / 2;
 }
 
-/// B with `feature` (a point of its surface, seen from its centre along `outward`) on the point `on` of A, facing along
-/// −normal and rotated about it.
+/// Places B on the point `on` of A. `feature` is a point of B's surface, where B's outward direction is `outward`. This
+/// direction points along −normal, and B is rotated about it.
 Contact facing(SolidKind kind, const Vector3d& on, const Vector3d& normal, const Vector3d& feature,
                const Vector3d& outward, double spin) {
   const Quaterniond q = turn_about(normal, spin) * Quaterniond::FromTwoVectors(outward, -normal);
@@ -162,7 +163,7 @@ double exponent(const Contact& contact, double depth) {
 class OverlapOfBuiltContacts : public testing::TestWithParam<SolidKind> {
  protected:
   double size() const { return platonic(GetParam()).inradius(); }
-  /// Rotation angles for which no feature of one solid is aligned with one of the other.
+  /// Rotation angles for which no features of the two solids are aligned.
   static constexpr double spins[] = {.13, .29, 1.07};
 };
 
@@ -172,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Solids, OverlapOfBuiltContacts, testing::ValuesIn(all_s
 TEST_P(OverlapOfBuiltContacts, VertexOnFaceAndEdgeOnEdgeAreCubic) {
   for (const double spin : spins) {
     for (const double depth : {1e-2 * size(), 1e-4 * size()}) {
-      // A pyramid or a tetrahedron, exactly similar at every depth.
+      // The overlap is a pyramid or a tetrahedron whose shape is the same at every depth.
       const double limit = 256 * epsilon * size() / depth;
       EXPECT_NEAR(exponent(vertex_on_face(GetParam(), spin), depth), 3, limit) << "spin " << spin << ", δ " << depth;
       EXPECT_NEAR(exponent(edge_on_edge(GetParam(), spin + .5), depth), 3, limit) << "spin " << spin << ", δ " << depth;
@@ -183,7 +184,7 @@ TEST_P(OverlapOfBuiltContacts, VertexOnFaceAndEdgeOnEdgeAreCubic) {
 TEST_P(OverlapOfBuiltContacts, EdgeOnFaceIsQuadraticAndFaceOnFaceLinear) {
   for (const double spin : spins) {
     for (const double depth : {1e-3 * size(), 1e-5 * size()}) {
-      // Contributions of the ends of the edge and the rim of the face are smaller by one order of depth/size.
+      // Contributions from the ends of the edge and the rim of the face are smaller by a factor of depth/size.
       const double limit = 8 * depth / size();
       EXPECT_NEAR(exponent(edge_on_face(GetParam(), spin), depth), 2, limit) << "spin " << spin << ", δ " << depth;
       EXPECT_NEAR(exponent(face_on_face(GetParam(), spin), depth), 1, limit) << "spin " << spin << ", δ " << depth;
@@ -197,7 +198,7 @@ TEST_P(OverlapOfBuiltContacts, AreaIsNormalToTheFaceAndTheSlopeOfTheVolume) {
     const Contact contact = vertex_on_face(GetParam(), spin);
     const Overlap there = overlap(contact.at(depth));
     const double slope = (contact.volume(depth + h) - contact.volume(depth - h)) / (2 * h);
-    // V = cδ³: the error of the central difference is ch², compared with 3cδ².
+    // For V = cδ³ the error of the central difference is ch², compared with the slope 3cδ².
     EXPECT_NEAR(there.area.dot(contact.normal), slope, (h * h / (depth * depth) + 1e-9) * slope) << "spin " << spin;
     EXPECT_LE(there.area.cross(contact.normal).norm(), 1e-12 * there.area.norm()) << "spin " << spin;
   }
@@ -210,7 +211,7 @@ TEST_P(OverlapOfBuiltContacts, FeaturesAreThoseBuilt) {
          {vertex_on_face(GetParam(), spin), edge_on_edge(GetParam(), spin + .5), edge_on_face(GetParam(), spin)}) {
       const Overlap seen = overlap(contact.at(depth));
       const Overlap clipped = clipped_overlap(platonic(GetParam()), platonic(GetParam()), contact.at(depth).relative());
-      // If the ends of an edge lie in a face, the faces and edges at its ends are included.
+      // If an end of an edge lies in a face, the faces and edges that meet there are also reported.
       const bool ends = contact.edges_a == 0 && std::popcount(contact.edges_b) == 1;
       for (const Overlap& result : {seen, clipped}) {
         EXPECT_EQ(result.faces_a & contact.faces_a, contact.faces_a) << "spin " << spin;

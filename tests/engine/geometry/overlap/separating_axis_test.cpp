@@ -1,9 +1,10 @@
 // Properties tested here, for random pairs of all solids that almost touch:
-// - If the gap along any axis exceeds the tolerance, both methods to compute the overlap find none.
-// - If the gap is negative along every axis, the solids overlap. best_axis decides this, whichever solid is A.
-// - The gap of best_axis is the largest one, and equals the gap of the projected vertices.
+// - If the gap along any axis is larger than the tolerance, both methods for the overlap find none.
+// - If the gap is negative along every axis, the solids overlap. best_axis() gives the same answer whichever solid is
+//   A.
+// - best_axis() finds the largest gap. This gap equals the one between the projections of the vertices.
 // - Pairs separated by a face of A, by a face of B and only by edges all occur.
-// - The axis that overlap() returns separates the solids. Kind::none has gap −infinity.
+// - The axis that overlap() returns separates the solids. An axis of the kind `none` has the gap −infinity.
 
 #include "engine/geometry/overlap/separating_axis.hpp"
 
@@ -24,9 +25,9 @@ using namespace testing_pairs;
 using Eigen::Vector3d;
 using Kind = SeparatingAxis::Kind;
 
-constexpr int cases = 24;  // per pair of solids
+constexpr int cases = 24;  // for each pair of solids
 
-/// A pair with a random distance, from overlap to clear separation.
+/// A pair at a random distance, from overlap to clear separation.
 Pair near_pair(RandomStream& random, SolidKind a, SolidKind b) {
   const double nearest = platonic(a).inradius() + platonic(b).inradius();
   const double farthest = platonic(a).circumradius() + platonic(b).circumradius();
@@ -48,7 +49,7 @@ double best_gap(const Pair& pair) {
   return gap(pair.solid_a(), pair.solid_b(), pose, best_axis(pair.solid_a(), pair.solid_b(), pose));
 }
 
-/// The unit vector of an axis in A's frame, from A towards B.
+/// Unit vector of an axis in A's frame, pointing from A to B.
 Vector3d direction(const Pair& pair, const SeparatingAxis& axis) {
   const RelativePose pose = pair.relative();
   const auto along = [](const ConvexSolid& solid, int edge) -> Vector3d {
@@ -132,7 +133,7 @@ TEST(SeparatingAxisTest, AllKindsSeparate) {
   EXPECT_EQ(seen.count(Kind::none), 0U);
 }
 
-TEST(SeparatingAxisTest, OverlapHandsBackASeparatingFace) {
+TEST(SeparatingAxisTest, OverlapReturnsASeparatingFace) {
   int handed = 0;
   for_each_near_pair(6, [&](const Pair& pair) {
     const RelativePose pose = pair.relative();

@@ -1,14 +1,14 @@
-// Properties tested here for solids of different sizes, with ratios 1 : 1.4, 1 : 3 and 1 : 10, narrow and wide ones.
-// The smaller solid has unit volume, and either of them is A. overlap() in double-double is compared with clipping in
-// quadruple precision:
+// Properties tested here for solids of different sizes, with ratios 1 : 1.4, 1 : 3 and 1 : 10, with up to 32 edges and
+// with more. The smaller solid has unit volume. The larger one is A in half of the pairs. overlap() in double-double is
+// compared with clipping in quadruple precision:
 // - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
-//   half of them at most 1e-15.
+//   half of the pairs at most 1e-15.
 // - For corners over faces and edges over edges with V = 1e-3 … 1e-15, errors are at most 1e-12.
 // - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
-// - If one solid is inside the other, V is its volume to 1e-14. S is 0 to 1e-14 of its area, and M to 1e-14 of that
-//   times the distance.
-// If a whole pair is scaled by a factor s, then V, S, M and the Hessian change by their powers of s. This is exact for
-// powers of two, and accurate to 1e-12 for other factors.
+// - If one solid is inside the other, V is its volume to 1e-14. S is zero within 1e-14 of the surface of the inner
+//   solid, and M is zero within 1e-14 of this surface times the distance. If a whole pair is scaled by a factor s, then
+//   V, S, M and the Hessian change by their powers of s. This is exact for powers of two, and accurate to 1e-12 for
+//   other factors.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ const std::vector<Solid>& unit_solids() {
   return solids;
 }
 
-/// Every pair of kinds at every ratio; A is the larger one in half of them.
+/// Calls `visit` for every pair of kinds at every ratio. A is the larger solid in half of them.
 template <class Visit>
 void for_each_pair(const Visit& visit) {
   bool a_is_large = false;
@@ -57,12 +57,12 @@ void for_each_pair(const Visit& visit) {
   }
 }
 
-TEST(UnlikeSizes, AreRightWhereFacesMeet) {
+TEST(UnlikeSizes, FaceContactsAreAccurate) {
   RandomStream random{91};
   expect_flat_contacts_right([](const auto& visit) { for_each_pair(visit); }, random);
 }
 
-TEST(UnlikeSizes, AreRightWhereCornersAndEdgesMeet) {
+TEST(UnlikeSizes, CornersAndCrossedEdgesAreAccurate) {
   RandomStream random{92};
   double worst = 0;
   int pairs = 0, skipped = 0, clipped = 0;
@@ -84,12 +84,12 @@ TEST(UnlikeSizes, AreRightWhereCornersAndEdgesMeet) {
   EXPECT_LT(clipped, pairs / 50);
 }
 
-TEST(UnlikeSizes, HaveTheHessiansOfDifferences) {
+TEST(UnlikeSizes, HessiansAgreeWithDifferences) {
   RandomStream random{93};
   expect_hessians_of_differences([](const auto& visit) { for_each_pair(visit); }, random, 100);
 }
 
-TEST(UnlikeSizes, AreRightWhereOneHoldsTheOther) {
+TEST(UnlikeSizes, OneInsideTheOtherIsAccurate) {
   RandomStream random{94};
   double worst = 0;
   int inside = 0;
@@ -111,8 +111,8 @@ TEST(UnlikeSizes, AreRightWhereOneHoldsTheOther) {
   EXPECT_GT(inside, 200);
 }
 
-/// Largest difference between the results for `larger` and those for `pair` times powers of s, over |V|, |S|, |M| and
-/// |H|.
+/// Largest difference between the results for `larger` and the results for `pair` multiplied by powers of s, relative
+/// to |V|, |S|, |M| and |H|.
 double difference(const PosedPair& pair, const PosedPair& larger, double s) {
   OverlapHessian h, scaled_h;
   const Overlap one = found(pair, h), other = found(larger, scaled_h);
@@ -126,7 +126,7 @@ double difference(const PosedPair& pair, const PosedPair& larger, double s) {
                    off(rows(h.ab), scaled_h.ab), off(rows(h.bb), scaled_h.bb)});
 }
 
-TEST(ScaledPairs, HaveThePowersOfTheScale) {
+TEST(ScaledPairs, ScaleWithThePowersOfTheSize) {
   RandomStream random{95};
   double worst = 0;
   int pairs = 0;

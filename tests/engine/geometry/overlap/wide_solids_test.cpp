@@ -1,12 +1,13 @@
-// Properties tested here for solids with 33 to 64 edges: each with itself, with each other, and with an octahedron and
-// a cube on either side. overlap() in double-double is compared with clipping in quadruple precision:
+// Properties tested here for wide solids, which have 33 to 64 edges. The pairs are each with itself, with each other,
+// and with an octahedron and a cube as A or B. overlap() in double-double is compared with clipping in quadruple
+// precision:
 // - For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13,
-//   half of them at most 1e-15; the loop computes them.
-// - For corners over faces, edges over edges and random orientations with V = 1e-3 … 1e-15, errors are at most 1e-12.
+//   half of the pairs at most 1e-15. The contact loop computes them.
+// - For corners in faces, crossed edges and random orientations with V = 1e-3 … 1e-15, errors are at most 1e-12.
 // - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
-// - For pairs that coincide, and faces that lie exactly in each other, errors are at most 1e-14, on either path.
-// - The reported features are those that clipping finds. Some of them have numbers above 31.
-// For pairs of narrow solids, Platonic and others, the loop for 64 edges gives exactly the same as the loop for 32.
+// - For solids that coincide and for coplanar faces, errors are at most 1e-14, with the loop or with clipping.
+// - The reported features are those that clipping finds. Some of them have numbers above 31. For solids with at most 32
+//   edges, the contact loop for 64 edges gives exactly the same results as the one for 32 edges.
 
 #include <gtest/gtest.h>
 
@@ -28,8 +29,8 @@ namespace {
 
 using namespace testing_pairs;
 
-/// The dual solid: its vertices are the planes of the other, and the reverse. A solid with many faces gives one with
-/// many vertices.
+/// The dual solid: its vertices are the planes of the other solid. The dual of a solid with many faces has many
+/// vertices.
 ConvexSolid dual(const std::string& name, const ConvexSolid& solid) {
   std::vector<Quad3> points;
   for (int f = 0; f < solid.arrays().faces; ++f)
@@ -37,7 +38,7 @@ ConvexSolid dual(const std::string& name, const ConvexSolid& solid) {
   return ConvexSolid(name, points);
 }
 
-/// The wide built-in solids, and those with the most faces, vertices and edges that the limit of 64 edges allows.
+/// The built-in wide solids, and the solids with the most faces, vertices and edges that are allowed (64 each).
 const std::vector<const ConvexSolid*>& wide_solids() {
   static const ConvexSolid stone("stone of 22", points_on_sphere(22, 81));
   static const ConvexSolid most_faces("stone of 23", points_on_sphere(23, 82));
@@ -75,12 +76,12 @@ TEST(WideSolids, AreWide) {
   EXPECT_EQ(most_edges, 64);
 }
 
-TEST(WideSolids, AreRightWhereFacesMeet) {
+TEST(WideSolids, FaceContactsAreAccurate) {
   RandomStream random{83};
   expect_flat_contacts_right([](const auto& visit) { for_each_pair(visit); }, random);
 }
 
-TEST(WideSolids, AreRightWhereCornersAndEdgesMeet) {
+TEST(WideSolids, CornersAndCrossedEdgesAreAccurate) {
   RandomStream random{84};
   double worst = 0;
   int pairs = 0, skipped = 0, clipped = 0, beyond = 0;
@@ -112,17 +113,17 @@ TEST(WideSolids, AreRightWhereCornersAndEdgesMeet) {
   EXPECT_LT(clipped, pairs / 50);
 }
 
-TEST(WideSolids, HaveTheHessiansOfDifferences) {
+TEST(WideSolids, HessiansAgreeWithDifferences) {
   RandomStream random{85};
   expect_hessians_of_differences([](const auto& visit) { for_each_pair(visit); }, random, 30);
 }
 
-TEST(WideSolids, AreRightWhereTheyCoincide) {
+TEST(WideSolids, CoincidentSolidsAreAccurate) {
   double worst = 0;
   for (const ConvexSolid* solid : wide_solids()) {
     PosedPair same{*solid, *solid, {}, {}};
     EXPECT_NEAR(found(same).volume, 1, 1e-14) << solid->name();
-    // Faces shifted along an edge remain in the same plane.
+    // If a solid is shifted along an edge, faces remain in the same plane.
     const Edge& edge = solid->edges().front();
     same.at_b.position = .3 * (solid->vertices()[edge.head] - solid->vertices()[edge.tail]);
     const double here = error(same);
@@ -132,7 +133,7 @@ TEST(WideSolids, AreRightWhereTheyCoincide) {
   std::printf("faces in each other: %.1e at worst\n", worst);
 }
 
-/// Members of a loop that must not depend on the room for edges, except for the numbers of the edges themselves.
+/// Members of a loop that must not depend on the size of its arrays, except for the numbers of the edges.
 void expect_same(const ContactLoop& narrow, const ContactLoop& wide, const std::string& what) {
   ASSERT_EQ(narrow.verdict, wide.verdict) << what;
   if (narrow.verdict != LoopVerdict::closed) return;
@@ -160,7 +161,7 @@ void expect_same(const ContactLoop& narrow, const ContactLoop& wide, const std::
   }
 }
 
-TEST(WideLoop, OfNarrowSolidsIsTheNarrowOne) {
+TEST(WideLoop, GivesTheSameForNarrowSolids) {
   RandomStream random{86};
   int closed = 0;
   for (const std::string_view name_a : named_solids()) {

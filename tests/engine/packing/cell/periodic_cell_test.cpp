@@ -1,16 +1,16 @@
 // Properties tested here, for cubes:
 // - The nearest image is in [−L/2, L/2) along each axis, an integer number of sides away, and the shortest of all
 //   images. It does not depend on the image from which it is computed.
-// - The side of a cell must be finite and positive.
-// For cells of any shape:
+// - The side of a cell must be finite and positive. For cells of any shape:
 // - Translations, fractional coordinates, heights and volume are those of the lattice vectors, also in double-double.
-// - Reduction preserves the lattice in double-double and its handedness, and does not change a reduced cell. None of a
-//   thousand other vectors is shorter. It terminates for the most skew cell.
+// - Reduction keeps the lattice (in double-double) and its handedness, and does not change a reduced cell. No
+//   translation out of a thousand is shorter than the reduced vectors. Reduction also terminates for extremely skew
+//   cells.
 // - The shortest translation and the nearest image agree with an exhaustive search.
-// - Collapsed and left-handed cells are rejected. Cells of any shape are legal if the shortest translation exceeds the
-//   limit.
-// - side_at gives the density, least_side is two diameters, and least_particles is the smallest number whose cell is
-//   larger.
+// - Cells with zero volume and left-handed cells are rejected. Other cells are legal if the shortest translation is
+//   longer than the limit.
+// - side_at() gives the side for a density, least_side() is two diameters of the solid, and least_particles() is the
+//   smallest N whose cell has a longer side.
 
 #include "engine/packing/cell/periodic_cell.hpp"
 
@@ -56,13 +56,13 @@ TEST(PeriodicCellTest, NearestImageIsTheShortest) {
   }
 }
 
-TEST(PeriodicCellTest, HalfASideBelongsToTheLowerEnd) {
+TEST(PeriodicCellTest, HalfASideCountsAsNegative) {
   const PeriodicCell cell(2);
   EXPECT_EQ(cell.nearest_shift(Vector3d(1, -1, 3)), Vector3i(-1, 0, -2));
   EXPECT_EQ(cell.nearest_image(Vector3d(1, -1, 3)), Vector3d(-1, -1, -1));
 }
 
-TEST(PeriodicCellTest, RefusesWhatIsNoSide) {
+TEST(PeriodicCellTest, RejectsInvalidSides) {
   for (const double side :
        {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(PeriodicCell{side}, std::invalid_argument) << side;
@@ -79,7 +79,7 @@ DoubleDoubleMatrix random_vectors(RandomStream& random, double skewness) {
   return vectors;
 }
 
-/// The same lattice with vectors that are farther from the shortest ones.
+/// The same lattice with longer and more skew vectors.
 DoubleDoubleMatrix more_skew(DoubleDoubleMatrix vectors, RandomStream& random) {
   for (int k = 0; k < 6; ++k) {
     const int to = k % 3, from = (to + 1 + k / 3) % 3;
@@ -89,7 +89,7 @@ DoubleDoubleMatrix more_skew(DoubleDoubleMatrix vectors, RandomStream& random) {
   return vectors;
 }
 
-/// Length of the shortest of many translations.
+/// Length of the shortest among many translations.
 double shortest_of_many(const PeriodicCell& cell) {
   double shortest = std::numeric_limits<double>::infinity();
   for (int image = 0; image < 11 * 11 * 11; ++image) {
@@ -99,7 +99,7 @@ double shortest_of_many(const PeriodicCell& cell) {
   return shortest;
 }
 
-TEST(PeriodicCellTest, OfAnyShapeIsItsLatticeVectors) {
+TEST(PeriodicCellTest, OfAnyShapeFollowsFromItsLatticeVectors) {
   RandomStream random{6, 3};
   for (int k = 0; k < 200; ++k) {
     const PeriodicCell cell(random_vectors(random, 1.5));
@@ -127,7 +127,7 @@ TEST(PeriodicCellTest, ReductionKeepsTheLatticeAndFindsItsShortestVectors) {
   RandomStream random{6, 4};
   for (int k = 0; k < 200; ++k) {
     const PeriodicCell skew(more_skew(random_vectors(random, 1.2), random)), reduced = skew.reduced();
-    // An integer matrix of determinant 1 transforms one into the other, in all digits.
+    // Two bases belong to the same lattice if an integer matrix with determinant 1 transforms one into the other.
     const Eigen::Matrix3d integers = skew.vectors().high.inverse() * reduced.vectors().high;
     const Eigen::Matrix3d rounded = integers.array().round();
     EXPECT_LE((integers - rounded).norm(), 1e-9) << k;
@@ -147,7 +147,7 @@ TEST(PeriodicCellTest, ReductionKeepsTheLatticeAndFindsItsShortestVectors) {
     EXPECT_NEAR(lengths[0], shortest, 1e-12) << k;
     EXPECT_NEAR(skew.shortest_translation(), shortest, 1e-9) << k;
     EXPECT_TRUE(reduced.reduced() == reduced) << k;
-    // Minkowski reduction: no combination that contains a vector with coefficient ±1 is shorter than this vector.
+    // Minkowski reduction: a vector becomes no shorter if other vectors are added to it or subtracted from it.
     for (int image = 0; image < 27; ++image) {
       const Vector3i at(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1);
       for (int c = 0; c < 3; ++c) {
@@ -172,7 +172,7 @@ TEST(PeriodicCellTest, NearestImageOfAnyCellIsTheShortest) {
   }
 }
 
-TEST(PeriodicCellTest, MoreAndMoreSkewEndsReduced) {
+TEST(PeriodicCellTest, ReductionEndsForVerySkewCells) {
   DoubleDoubleMatrix vectors;
   vectors.high << 5, 5e9 + 1, 3e9, 0, 5, -7e9, 0, 0, 5;
   const PeriodicCell cell(vectors);
@@ -181,7 +181,7 @@ TEST(PeriodicCellTest, MoreAndMoreSkewEndsReduced) {
   EXPECT_LE(cell.shortest_translation(), 5 * std::pow(2, 1.0 / 6) + 1e-9);  // Hermite's bound
 }
 
-TEST(PeriodicCellTest, RefusesWhatSpansNoCell) {
+TEST(PeriodicCellTest, RejectsInvalidVectors) {
   DoubleDoubleMatrix left, flat, lost;
   left.high.col(2) *= -1;
   flat.high.col(2).setZero();
@@ -191,11 +191,11 @@ TEST(PeriodicCellTest, RefusesWhatSpansNoCell) {
   EXPECT_THROW(PeriodicCell{lost}, std::invalid_argument);
 }
 
-TEST(PeriodicCellTest, IsLegalAboveTheLeastTranslationInAnyShape) {
+TEST(PeriodicCellTest, IsLegalIfTheShortestTranslationIsLongEnough) {
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);
     const double least = least_side(solid);
-    // A wide cell, except for one skew lattice vector.
+    // A wide cell in which one lattice vector is very skew.
     for (const double factor : {.999, 1.001}) {
       DoubleDoubleMatrix vectors;
       const double length = factor * least;
@@ -217,7 +217,7 @@ TEST(PeriodicCellTest, SideGivesTheDensity) {
   }
 }
 
-TEST(PeriodicCellTest, LeastParticlesIsTheLeast) {
+TEST(PeriodicCellTest, LeastParticlesIsTheSmallestLegalNumber) {
   for (const SolidKind kind : all_solids) {
     const ConvexSolid& solid = platonic(kind);
     double diameter = 0;
