@@ -56,8 +56,7 @@ TEST(StepModel, IsNewtonsStepIfNoPairCloses) {
   for (const SolidKind kind : all_solids) {
     const Case state = case_of(small_packing(kind, 0.8, 31), 0);
     StepModel model(state.second, state.value.gradient, unlimited);
-    double shift =
-        2 * model.largest_diagonal();  // so large that all tilt terms are included, and no contact tilts separately
+    double shift = 2 * model.largest_diagonal();  // large: all tilt terms are included, no contact tilts alone
     StepFactor factor;
     ActivePairs active;
     std::optional<ModelStep> step;

@@ -1,10 +1,11 @@
 // Properties tested here:
-// - A jammed packing without near-rattlers is its own backbone, with the same bulk modulus.
+// - The backbone is the packing without its near-rattlers. If a jammed packing has none, the backbone is the whole
+//   packing, with the same bulk modulus.
 // - Small solids that float in its voids, alone or in pairs, are removed, and the rest is unchanged to the bit.
-// - In random packings of every solid, from loose to dense, the remaining particles are those of an independent method:
-//   it counts contacts, and uses all eigenvectors of a dense matrix summed pair by pair, round after round. Some
+// - In random packings of every solid, from dilute to dense, the remaining particles agree with an independent method.
+//   In each round, it counts contacts and uses all eigenvectors of a dense matrix that is summed pair by pair. Some
 //   packings need several rounds.
-// - No near-rattler is reported in the rest. Kept and removed particles together are all particles.
+// - There is no near-rattler among the remaining particles. Remaining and removed particles together are all particles.
 // - Contacts within a part are the contacts of that part. An empty packing has an empty backbone.
 
 #include "engine/vibration/backbone.hpp"
@@ -40,7 +41,7 @@ double bulk_modulus(const Packing& packing) {
   return tensor ? tensor->bulk_modulus() : 0;
 }
 
-TEST(BackboneTest, OfJammedStatesIsTheWhole) {
+TEST(BackboneTest, OfJammedStatesIsTheWholePacking) {
   int whole = 0;
   for (const JamResult* result : {&jammed(SolidKind::octahedron, 48, .01), &jammed(SolidKind::tetrahedron, 64, .02),
                                   &jammed(SolidKind::icosahedron, 32, .01)}) {
@@ -64,8 +65,8 @@ TEST(BackboneTest, OfJammedStatesIsTheWhole) {
 
 constexpr double small = 0.03;
 
-/// The packing with pairs of small solids in its voids. They overlap each other in every second pair, touch nothing
-/// else, and are numbered between the other particles.
+/// The packing, with pairs of small solids in its voids. In every second pair the two overlap. They touch nothing else.
+/// Their numbers are between those of the other particles.
 struct Floating {
   Packing packing;
   std::vector<int> old;  ///< indices of the original particles
@@ -95,7 +96,7 @@ Floating with_floating(const Packing& state, int pairs, RandomStream& random) {
       ++made;
     }
   }
-  // The last ones come first, so that indices in the whole differ from those in the rest.
+  // The last particles come first, so that indices in the packing and in the backbone differ.
   Floating result{{state.solids, state.cell, {}}, {}};
   std::vector<Particle> in_order;
   const int old = state.size(), all = static_cast<int>(poses.size());
@@ -113,7 +114,7 @@ Floating with_floating(const Packing& state, int pairs, RandomStream& random) {
   return result;
 }
 
-TEST(BackboneTest, LeavesWhatFloatsInVoids) {
+TEST(BackboneTest, RemovesParticlesThatFloatInVoids) {
   RandomStream random{101};
   for (const auto& [kind, n, distance] :
        {std::tuple{SolidKind::octahedron, 48, .01}, {SolidKind::icosahedron, 32, .01}}) {
@@ -136,7 +137,8 @@ TEST(BackboneTest, LeavesWhatFloatsInVoids) {
   }
 }
 
-/// The rest by its definition, with dense matrices: the Hessian is summed over packings of two particles.
+/// The remaining particles according to the definition, with dense matrices. The Hessian is summed over packings of two
+/// particles.
 std::vector<int> by_definition(const Packing& packing, int& rounds) {
   constexpr auto precision = Precision::double_double;
   std::vector<int> kept = first_numbers(packing.size());
@@ -186,7 +188,8 @@ std::vector<int> by_definition(const Packing& packing, int& rounds) {
   return kept;
 }
 
-/// Jammed packings from which some particles were removed: neighbours of these have fewer contacts, and so on.
+/// Jammed packings from which some particles were removed. The neighbours of these particles have fewer contacts, and
+/// can become near-rattlers.
 std::vector<Packing> thinned_out() {
   RandomStream random{102};
   std::vector<Packing> list;
@@ -205,7 +208,7 @@ std::vector<Packing> thinned_out() {
   return list;
 }
 
-TEST(BackboneTest, IsThatOfTheDefinition) {
+TEST(BackboneTest, AgreesWithTheDefinition) {
   int some_left = 0, several_rounds = 0, none_left = 0;
   for (const Packing& packing : thinned_out()) {
     int rounds = 0;
@@ -229,7 +232,7 @@ TEST(BackboneTest, IsThatOfTheDefinition) {
   EXPECT_GT(several_rounds, 0);
 }
 
-TEST(BackboneTest, ContactsWithinAPartAreItsOwn) {
+TEST(BackboneTest, ContactsWithinAPartAreThoseOfThePart) {
   RandomStream random{103};
   for (const SolidKind kind : all_solids) {
     const Packing packing = small_packing(kind, 0.7, 104);
@@ -251,7 +254,7 @@ TEST(BackboneTest, ContactsWithinAPartAreItsOwn) {
   }
 }
 
-TEST(BackboneTest, OfNothingHeldIsNothing) {
+TEST(BackboneTest, OfAnEmptyPackingIsEmpty) {
   const Packing apart = small_packing(SolidKind::icosahedron, 0.05, 105);
   const Backbone backbone = backbone_of(apart);
   EXPECT_TRUE(backbone.kept.empty());

@@ -1,10 +1,10 @@
 // Properties tested here:
 // - For steps below the depth of contacts the eigenvalues by differences agree with those of the analytic D: for
-//   packings of every solid, for jammed octahedra, and for cubes of two sizes, whose masses matter.
-// - Three eigenvalues are 0 within rounding, even for small steps, where rounding perturbs translations more.
-// - For steps far beyond the depth of flat contacts some modes are incorrectly negative, and more of them for larger
-//   steps.
-// - An invalid step is rejected.
+//   packings of every solid, for jammed octahedra, and for cubes of two sizes, which have different masses.
+// - Three eigenvalues are 0 within rounding errors, even for small steps, which have larger rounding errors.
+// - If the step is much larger than the depth of flat contacts, some eigenvalues are negative although no mode is.
+//   Larger steps give more of them.
+// - A step that is not positive is rejected.
 
 #include "engine/vibration/difference_modes.hpp"
 
@@ -40,7 +40,7 @@ Packing cubes_of_two_sizes() {
   return random_packing(particles, 0.7, random);
 }
 
-TEST(DifferenceModes, AreThoseOfTheAnalyticMatrix) {
+TEST(DifferenceModes, AgreeWithTheAnalyticMatrix) {
   std::vector<Packing> cases{jammed(SolidKind::octahedron, 48, .01).states.front(), cubes_of_two_sizes()};
   for (const SolidKind kind : all_solids) cases.push_back(small_packing(kind, 0.7, 107));
   for (const Packing& packing : cases) {
@@ -66,7 +66,7 @@ TEST(DifferenceModes, TranslationsAreProjectedOut) {
   EXPECT_LT(zeros(symmetric_eigenvalues(difference_hessian(state, h, Precision::working))), 3);
 }
 
-TEST(DifferenceModes, LargeStepsShowNegativeModesThatAreNone) {
+TEST(DifferenceModes, LargeStepsGiveSpuriousNegativeModes) {
   const JamResult& result = jammed(SolidKind::octahedron, 48, .01);
   const Packing& state = nearest_state(result);
   const VectorXd exact = exact_modes(state);
@@ -83,7 +83,7 @@ TEST(DifferenceModes, LargeStepsShowNegativeModesThatAreNone) {
   EXPECT_GE(middling, small);
 }
 
-TEST(DifferenceModes, RefuseNoStep) {
+TEST(DifferenceModes, RejectInvalidSteps) {
   const Packing packing = small_packing(SolidKind::cube, 0.7, 108);
   EXPECT_THROW(difference_modes(packing, 0, Precision::working), std::invalid_argument);
 }

@@ -1,10 +1,13 @@
 // Properties tested here:
 // - Sparse and dense forms multiply like the blocks. norm_bound is an upper bound of every eigenvalue.
-// - Translations are orthonormal null vectors within rounding, in equilibrium or not; rounding_bound covers the error.
-// - Central differences of the gradient agree with the analytic matrix, including rotations of a particle, in jammed
-//   octahedra if h is below the depth of the flat contacts. The agreement improves as h decreases.
-// - If h is above that depth, they show negative modes that the packing does not have.
-// - The modes of boxes solve the eigenproblem with the mass from textbooks; those of spherical tops are the Hessian's.
+// - Translations are orthonormal null vectors within rounding errors, in equilibrium or not. The error is at most
+//   rounding_bound.
+// - Central differences of the gradient agree with the analytic matrix, including the rotations of a particle. In
+//   jammed octahedra this requires a step h below the depth of the flat contacts. The agreement improves as h
+//   decreases.
+// - If h is larger than this depth, the differences give negative modes that the packing does not have.
+// - The modes of boxes solve the eigenvalue problem with the moments of inertia from textbooks. For spherical tops, D
+//   is the Hessian.
 // - u·Du for a random u is the curvature of the energy along u.
 
 #include "engine/vibration/dynamical_matrix.hpp"
@@ -30,7 +33,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 const Packing& octahedra() { return nearest_state(jammed(SolidKind::octahedron, 48, .01)); }
 
-/// Depth V/|S| of the shallowest contact: face to face.
+/// Depth V/|S| of the shallowest contact, which is a face-face contact.
 double shallowest_depth(const Packing& packing) {
   double least = packing.solids.only().inradius();
   for (const Contact& contact : PackingEnergy().contacts(packing))
@@ -84,7 +87,7 @@ TEST(DynamicalMatrix, DifferencesBelowTheDepthOfFlatContacts) {
                 lambda[3], lowest);
     EXPECT_LE(error, 0.1 * h / depth) << "V'' of a contact changes by a part h/depth of itself at most";
     EXPECT_LT(error, before / 3);
-    // Even at a tenth of the depth a soft mode may be lost.
+    // Even if h is a tenth of the depth, a soft mode can be wrong.
     if (h < depth / 50) {
       EXPECT_NEAR(lambda[3], lowest, lowest / 10);
     }
@@ -92,7 +95,7 @@ TEST(DynamicalMatrix, DifferencesBelowTheDepthOfFlatContacts) {
   }
 }
 
-TEST(DynamicalMatrix, DifferencesAboveTheDepthShowModesThatAreNotThere) {
+TEST(DynamicalMatrix, DifferencesAboveTheDepthGiveSpuriousModes) {
   const Packing& packing = octahedra();
   const BlockMatrix blocks = PackingEnergy().hessian(packing, Precision::double_double);
   const double depth = shallowest_depth(packing);
@@ -129,7 +132,7 @@ TEST(DynamicalMatrix, OfSphericalTopsIsTheHessian) {
   EXPECT_EQ(greatest_inverse_mass(packing), 1);
 }
 
-/// Solves H m = λ M m, M the masses and moments of inertia of cubes of two sizes: a³ and a⁵/6.
+/// Solves H m = λ M m, where M contains the masses a³ and moments of inertia a⁵/6 of cubes of two sizes a.
 TEST(DynamicalMatrix, OfMixturesHasTheirMasses) {
   RandomStream random{56};
   std::vector<Particle> particles;
@@ -158,7 +161,8 @@ TEST(DynamicalMatrix, OfMixturesHasTheirMasses) {
   const MatrixXd still = translations(matrix);
   EXPECT_LE((still.transpose() * still - MatrixXd::Identity(3, 3)).norm(), 64 * eps);
   for (int c = 0; c < 3; ++c) EXPECT_LE((matrix * still.col(c)).norm(), rounding_bound(matrix, scale));
-  // The Lanczos method removes translations with the same masses: its ends agree with the dense solver.
+  // The Lanczos method removes translations with the same masses. Its lowest and highest modes agree with the dense
+  // solver.
   const SpectrumEnds ends = spectrum_ends(matrix);
   const ModeSet dense = dense_modes(matrix);
   EXPECT_NEAR(ends.lambda_max, modes.values.maxCoeff(), 1e-10 * scale);
@@ -167,7 +171,8 @@ TEST(DynamicalMatrix, OfMixturesHasTheirMasses) {
   EXPECT_LE((still.transpose() * ends.lowest.vectors).cwiseAbs().maxCoeff(), 1e5 * eps);
 }
 
-/// Solves H m = λ M m, M the mass of (x, R·θ) from the moments of inertia of a box in its principal axes.
+/// Solves H m = λ M m, where M is the mass matrix for (x, R·θ) from the moments of inertia of a box in its principal
+/// axes.
 TEST(DynamicalMatrix, OfBoxesHasTheirInertia) {
   RandomStream random{55};
   std::vector<Eigen::Vector3d> vertices;
@@ -193,7 +198,7 @@ TEST(DynamicalMatrix, OfBoxesHasTheirInertia) {
   EXPECT_NEAR(greatest_inverse_mass(packing), mean / moments.minCoeff(), 1e-14);
 }
 
-TEST(DynamicalMatrix, RefusesNoStep) {
+TEST(DynamicalMatrix, RejectsInvalidSteps) {
   EXPECT_THROW(difference_hessian(octahedra(), 0), std::invalid_argument);
   EXPECT_THROW(difference_hessian(octahedra(), -1e-6), std::invalid_argument);
 }

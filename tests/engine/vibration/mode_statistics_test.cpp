@@ -1,10 +1,12 @@
 // Properties tested here:
-// - The participation ratio is 1/N for a mode of one particle, 1 if all move equally, and m/N for m particles, for any
-//   scale.
+// - The participation ratio is 1/N if one particle moves, 1 if all move equally, and m/N if m particles move equally.
+//   It does not depend on the scale of the mode.
 // - Mean frequencies are means of √λ, and undefined if some λ is zero or negative.
-// - Amplitude shares of a mask and its complement sum to 1. For complete sets of modes they do not depend on the mask.
-// - A density of states integrates to the fraction of modes that have a frequency. Its cumulative increases to 1 and
-//   counts the modes below an edge. It is undefined without two different frequencies.
+// - The amplitude shares of a set of particles and of all others sum to 1. For all modes together, the share of a set
+//   is its share of the particles.
+// - A density of states integrates to the fraction of modes that have a frequency. Its integral up to the edge of a bin
+//   counts the modes below this edge, and increases to 1. It is undefined if there are fewer than two different
+//   frequencies.
 
 #include "engine/vibration/mode_statistics.hpp"
 
@@ -61,7 +63,7 @@ TEST(ModeStatistics, SharesOfAmplitude) {
     ASSERT_TRUE(here && there);
     EXPECT_NEAR(here->amplitude + there->amplitude, 1, 1e3 * eps);
     EXPECT_EQ(here->particles + there->particles, 1);
-    // All modes and the translations form a basis, to which each particle contributes six dimensions.
+    // All modes and the translations form a basis, in which each particle has six dimensions.
     EXPECT_NEAR(here->amplitude, here->particles, 3.0 / static_cast<double>(all.size()));
   }
   EXPECT_FALSE(amplitude_share(ModeSet{}, std::vector<char>(n)));
@@ -97,7 +99,7 @@ TEST(ModeStatistics, DensityOfStatesIntegratesToOne) {
   }
 }
 
-TEST(ModeStatistics, NoDensityWithoutFrequencies) {
+TEST(ModeStatistics, DensityOfStatesNeedsTwoFrequencies) {
   EXPECT_FALSE(density_of_states(VectorXd(), 0));
   EXPECT_FALSE(density_of_states(VectorXd::Ones(5), 0));
   EXPECT_FALSE(density_of_states(VectorXd::LinSpaced(5, 1, 2), 3));

@@ -1,11 +1,11 @@
 // Properties tested here, for jammed octahedra (N = 48) and tetrahedra (N = 64):
-// - K from the Hessian is φ dp/dφ of neighbouring minimised states, in every state. It is below the affine one.
+// - In every state, K from the Hessian is φ dp/dφ from neighbouring minimised states. It is smaller than the affine K.
 // - The affine tensor is the second difference of the energy of the contacts at explicitly strained displacements.
-// - The relaxed tensor is the rest after a dense solver relaxes the forces caused by strain, which also come from
-//   differences.
-// - Isotropic tensors give their moduli, also under pressure. Shear moduli do not depend on the axes.
-// - The response is undefined if a particle is unconstrained against others or if nothing touches. It is defined if a
-//   particle has no contacts.
+// - The relaxed tensor is the affine tensor minus the part that the particles relax. A dense solver computes this part
+//   from the forces that strain causes, which also come from differences.
+// - The moduli of isotropic tensors are correct, also under pressure. Shear moduli do not depend on the axes.
+// - The response is undefined if particles with contacts are not constrained, or if there are no contacts at all. It is
+//   defined if only some particles have no contacts.
 
 #include "engine/vibration/moduli.hpp"
 
@@ -80,7 +80,7 @@ TEST_P(Moduli, BulkModulusIsThePressuresSlope) {
   }
 }
 
-/// Energy, and gradient with respect to the 6N coordinates, of given contacts whose displacements are deformed by F.
+/// Energy of given contacts whose displacements are deformed by F, and its gradient with respect to the 6N coordinates.
 struct Strained {
   double energy = 0;
   VectorXd gradient;
@@ -104,7 +104,7 @@ Strained strained(const Measured& measured, const Matrix3d& deformation) {
   return sum;
 }
 
-/// Unit tensors in the order of the header.
+/// Unit tensors in the order of the components.
 Matrix3d basis_tensor(int i) {
   static constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
   Matrix3d tensor = Matrix3d::Zero();
@@ -119,7 +119,7 @@ Matrix3d exponential(const Matrix3d& strain) {
 
 struct Differences {
   Matrix6d affine;
-  MatrixXd forces;  ///< 6N × 6
+  MatrixXd forces;  ///< 6N rows and 6 columns
 };
 
 Differences by_differences(const Measured& measured, double h) {
@@ -150,7 +150,7 @@ TEST_P(Moduli, TensorIsThatOfExplicitStrains) {
     const Matrix6d affine = differences.affine / volume;
     const double scale = tensor->affine.norm();
     EXPECT_LE((tensor->affine - affine).norm(), 3e-4 * scale) << tensor->affine - affine;
-    // Pseudo-inverse, which ignores translations.
+    // This pseudo-inverse ignores translations.
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> dense(dense_matrix(measured.hessian));
     ASSERT_EQ(dense.rank(), 6 * measured.state.size() - 3);
     const Matrix6d relaxed =
@@ -161,7 +161,7 @@ TEST_P(Moduli, TensorIsThatOfExplicitStrains) {
 }
 
 TEST_P(Moduli, ShearModuliDoNotDependOnTheAxes) {
-  // Cyclic exchange of the axes is a rotation that a cubic cell permits.
+  // A cyclic exchange of the axes is a rotation that maps a cubic cell to itself.
   Packing turned = result.states.front();
   const Eigen::Quaterniond turn(0.5, 0.5, 0.5, 0.5);
   for (Pose& pose : turned.poses) {
@@ -195,7 +195,7 @@ TEST(ElasticTensor, IsotropicTensorsGiveTheirModuli) {
   EXPECT_NEAR(tensor.shear_moduli()[1], shear, 1e-14);
 }
 
-TEST_P(Moduli, NotDefinedWhereNothingHolds) {
+TEST_P(Moduli, UndefinedIfParticlesAreUnconstrained) {
   const Measured measured(result.states.front());
   Measured free = measured;
   for (Matrix6d& block : free.hessian.diagonal) block.setZero();

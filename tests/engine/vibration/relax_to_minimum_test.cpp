@@ -1,9 +1,10 @@
 // Properties tested here:
 // - Octahedra on a cubic lattice with equal orientations are in equilibrium by symmetry, at a saddle with many negative
-//   modes. The descent finds a minimum of lower energy without negative modes, and the same start gives the same bits.
-// - A minimum is unchanged, bit for bit.
-// - With max_descents = 0 the saddle is reported as one. A packing that unjams, or a run that is interrupted, ends with
-//   lost_balance.
+//   modes. Relaxation along a negative mode finds a minimum with a lower energy. The same initial state gives the same
+//   bits.
+// - The bits of a minimum do not change.
+// - With max_descents = 0, the state is reported as a saddle. If the packing unjams or the run is interrupted, the
+//   result is lost_balance.
 
 #include "engine/vibration/relax_to_minimum.hpp"
 
@@ -45,7 +46,7 @@ TEST(RelaxToMinimum, LeavesASaddle) {
   EXPECT_TRUE(same_bits(found.packing, relax_to_minimum(saddle.packing, options).packing));
 }
 
-TEST(RelaxToMinimum, LeavesAMinimumAlone) {
+TEST(RelaxToMinimum, DoesNotChangeAMinimum) {
   const Packing& minimum = nearest_state(jammed(SolidKind::octahedron, 48, .01));
   const MinimumSearchResult result = relax_to_minimum(minimum);
   EXPECT_EQ(result.ended, MinimumSearchEnd::was_minimum) << to_string(result.ended);
@@ -54,7 +55,7 @@ TEST(RelaxToMinimum, LeavesAMinimumAlone) {
   EXPECT_TRUE(same_bits(result.packing, minimum));
 }
 
-TEST(RelaxToMinimum, SaysThatBalanceWasLost) {
+TEST(RelaxToMinimum, ReportsThatBalanceWasLost) {
   const MinimumSearchResult apart = relax_to_minimum(small_packing(SolidKind::octahedron, 0.2, 111));
   EXPECT_EQ(apart.ended, MinimumSearchEnd::lost_balance) << to_string(apart.ended);
   EXPECT_EQ(apart.summary.reason, StopReason::unjammed);

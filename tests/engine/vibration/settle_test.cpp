@@ -1,7 +1,7 @@
-// Properties tested here, for the states of an expansion with one saddle:
-// - The saddle becomes a minimum of lower energy at the same density. Its step has the number of saddles and the energy
-//   and pressure of the new state, and φ_J is fitted again.
-// - Minima keep their bits and their steps.
+// Properties tested here for the states of a decompression, of which one is a saddle:
+// - The saddle is replaced by a minimum with lower energy at the same density. Its step gets the energy and pressure of
+//   the new state and the number of saddles that were relaxed. φ_J is fitted again.
+// - Minima and their steps keep their bits.
 
 #include "engine/vibration/settle.hpp"
 
@@ -14,7 +14,7 @@
 namespace isojam {
 namespace {
 
-TEST(Settle, TakesSaddlesDownAndLeavesMinima) {
+TEST(Settle, RelaxesSaddlesAndKeepsMinima) {
   JamOptions options;
   options.minimise.residual = 1e-8;
   JamResult result = jammed(SolidKind::octahedron, 48, .01);
@@ -25,7 +25,7 @@ TEST(Settle, TakesSaddlesDownAndLeavesMinima) {
   none.max_descents = 0;
   const MinimumSearchResult saddle = relax_to_minimum(lattice(SolidKind::octahedron, 4, 0.95, 0), none);
   ASSERT_EQ(saddle.ended, MinimumSearchEnd::still_unstable);
-  // The state nearest to jamming is replaced by the saddle, at a density outside the fit.
+  // The nearest state is replaced by the saddle, at a density that is outside of the fit.
   JamStep& step = result.path[static_cast<std::size_t>(result.state_steps.back())];
   step.density = saddle.packing.density();
   step.energy_per_particle = saddle.summary.energy / saddle.packing.size();
@@ -51,7 +51,7 @@ TEST(Settle, TakesSaddlesDownAndLeavesMinima) {
   EXPECT_NE(result.phi_j->density, before.phi_j->density);
 }
 
-TEST(Settle, ChangesNothingWhereAllAreMinima) {
+TEST(Settle, ChangesNothingIfAllAreMinima) {
   JamResult result = jammed(SolidKind::octahedron, 48, .01);
   const double density = result.phi_j->density;
   settle(result, {});

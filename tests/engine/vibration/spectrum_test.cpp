@@ -1,11 +1,11 @@
 // Properties tested here, for jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32), and for cubes:
-// - Both ends found by the Lanczos method agree with the dense solver, to 1e-8 of each eigenvalue, and to 1e-6 for the
-//   softest tetrahedra. The errors are at most relative_error.
+// - The lowest and highest eigenvalues from the Lanczos method agree with the dense solver to 1e-8 (to 1e-6 for the
+//   softest modes of tetrahedra). The errors are at most relative_error.
 // - Vectors are orthonormal, orthogonal to translations, and satisfy D u = λ u. The same matrix gives the same bits.
 // - The lowest modes of a matrix with many negative modes are found.
-// - The dense solver is used for more modes than the Lanczos method can compute, without contacts, and with too few
-//   restarts. Too many particles for it, and NaN, are reported as failures.
-// - The dense solver's modes are those of all of D: they reproduce it. u·Du = λ, and λ is the curvature of the energy
+// - The dense solver is used if more modes are requested than the Lanczos method can compute, if there are no contacts,
+//   and if there are too few restarts. Too many particles for the dense solver, and NaN, are reported as failures.
+// - The modes of the dense solver are complete: together they give D again. λ = u·Du is the curvature of the energy
 //   along u.
 
 #include "engine/vibration/spectrum.hpp"
@@ -81,7 +81,7 @@ TEST_P(Modes, AgreeWithTheDenseSolver) {
     std::printf("λ %.1e … %.1e: lowest to %.1e, said to be %.1e; highest to %.1e, said %.1e; residual %.1e\n", low[0],
                 high[49], at_low, ends.lowest.relative_error, at_high, ends.highest.relative_error,
                 ends.lowest.residual);
-    // In double an eigenvalue is known to an accuracy relative to the largest one.
+    // The rounding error of an eigenvalue in double is relative to the largest eigenvalue.
     EXPECT_LE(at_low, std::max(allowed, 8 * eps * all.eigenvalues.tail(1)[0] / low[0]));
     EXPECT_LE(at_high, 1e-8);
     EXPECT_LE(at_low, ends.lowest.relative_error + all.relative_error);
@@ -92,7 +92,7 @@ TEST_P(Modes, AgreeWithTheDenseSolver) {
   }
 }
 
-TEST_P(Modes, AreTheSameBitsAgain) {
+TEST_P(Modes, HaveTheSameBitsAgain) {
   const BlockMatrix matrix = hessian_of(nearest_state(result));
   const SpectrumEnds once = spectrum_ends(matrix), again = spectrum_ends(matrix);
   EXPECT_EQ(once.lowest.eigenvalues, again.lowest.eigenvalues);
@@ -116,7 +116,7 @@ TEST_P(Modes, EnergyCurvesByTheEigenvalue) {
 
 TEST(ModesTest, FindsTheLowestOfAnUnstableMatrix) {
   for (const SolidKind kind : all_solids) {
-    const BlockMatrix matrix = hessian_of(small_packing(kind, 0.7, 61, 48));  // random, far from any minimum
+    const BlockMatrix matrix = hessian_of(small_packing(kind, 0.7, 61, 48));  // random, not a minimum
     const ModeSet all = dense_modes(matrix);
     ModeOptions options;
     options.lowest = options.highest = 20;
@@ -132,7 +132,7 @@ TEST(ModesTest, FindsTheLowestOfAnUnstableMatrix) {
   }
 }
 
-TEST(ModesTest, DenseModesRebuildTheMatrix) {
+TEST(ModesTest, DenseModesGiveTheMatrixAgain) {
   const BlockMatrix matrix = hessian_of(small_packing(SolidKind::tetrahedron, 0.6, 62));
   const ModeSet all = dense_modes(matrix);
   const MatrixXd rebuilt = all.vectors * all.eigenvalues.asDiagonal() * all.vectors.transpose();
@@ -172,7 +172,7 @@ TEST(ModesTest, FallsBackToTheDenseSolver) {
   EXPECT_EQ(free.lambda_max, 0);
 }
 
-TEST(ModesTest, FailsOnWhatIsNotANumber) {
+TEST(ModesTest, FailsForNaN) {
   BlockMatrix matrix = hessian_of(small_packing(SolidKind::octahedron, 0.6, 63));
   matrix.diagonal[3](1, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(spectrum_ends(matrix).lowest.ended, ModeEnd::failed);

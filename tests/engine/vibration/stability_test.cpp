@@ -2,12 +2,13 @@
 // - Every state of jammed octahedra (N = 48), tetrahedra (N = 64) and icosahedra (N = 32) has exactly 3 zero modes, no
 //   negative ones and 6N − 3 positive ones.
 // - These counts, and those of random packings with many negative modes, agree with all 6N eigenvalues of a dense
-//   solver, with or without given modes.
-// - A particle without contacts adds six zero modes and is reported. So is one with fewer than four contacts.
-// - A negative mode of one particle reports that particle. A negative mode of two reports the one with more of the
-//   amplitude.
-// - The tolerance increases with the unbalanced torque. It is below the softest mode of a jammed state.
-// - NaN gives `undetermined`.
+//   solver, whether modes are passed to assess() or not.
+// - A particle without contacts adds six zero modes and is reported as a near-rattler. A particle with fewer than four
+//   contacts is reported too.
+// - If a negative mode moves one particle, this particle is reported. If it moves two, the one with the larger
+//   amplitude is reported.
+// - The tolerance increases with the unbalanced torque. It is below the softest nonzero eigenvalue of a jammed state.
+// - For NaN the verdict is `undetermined`.
 
 #include "engine/vibration/stability.hpp"
 
@@ -30,7 +31,7 @@ struct Counts {
   long negative = 0, zero = 0, positive = 0;
 };
 
-/// Counts from all 6N eigenvalues, including translations: none is assumed to be zero.
+/// Counts from all 6N eigenvalues, including those of translations, none of which is assumed to be zero.
 Counts dense_counts(const BlockMatrix& matrix, double tolerance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(matrix), Eigen::EigenvaluesOnly);
   const auto lambda = solver.eigenvalues().array();
@@ -90,7 +91,7 @@ BlockMatrix jammed_matrix() {
   return PackingEnergy().hessian(nearest_state(jammed(SolidKind::octahedron, 48, .01)), Precision::double_double);
 }
 
-TEST(StabilityTest, NamesWhatHasNoContacts) {
+TEST(StabilityTest, NamesParticlesWithoutContacts) {
   BlockMatrix matrix = jammed_matrix();
   matrix.diagonal.push_back(Matrix6d::Zero());
   const Stability stability = assess(matrix, spectrum_ends(matrix));
@@ -104,8 +105,9 @@ TEST(StabilityTest, NamesWhatHasNoContacts) {
   EXPECT_EQ(stability.near_rattlers[0].least_eigenvalue, 0);
 }
 
-TEST(StabilityTest, NamesWhatItsContactsDoNotHold) {
-  // A particle of a jammed packing with one repulsive coordinate: first its neighbours stabilise it, then they do not.
+TEST(StabilityTest, NamesParticlesWithNegativeStiffness) {
+  // One coordinate of a particle in a jammed packing gets a negative stiffness. If it is small, the neighbours
+  // stabilise the particle; if it is large, they do not.
   const BlockMatrix matrix = jammed_matrix();
   for (const int particle : {0, 13, 47}) {
     BlockMatrix pushed = matrix;
@@ -127,9 +129,9 @@ TEST(StabilityTest, NamesWhatItsContactsDoNotHold) {
   }
 }
 
-TEST(StabilityTest, NamesWhatCarriesAModeThoughOthersWouldHoldIt) {
-  // Particle 0 is stable while particle 1 is at rest. Together they are unstable, with most of the amplitude on
-  // particle 0.
+TEST(StabilityTest, NamesParticlesThatAreUnstableTogether) {
+  // Particle 0 is stable while particle 1 is at rest. Together they are unstable, and particle 0 has most of the
+  // amplitude.
   BlockMatrix matrix;
   matrix.diagonal.assign(8, 100 * Matrix6d::Identity());
   matrix.diagonal[0] = Matrix6d::Identity();
@@ -168,7 +170,7 @@ TEST(StabilityTest, ToleranceIsRoundingAndTorque) {
   EXPECT_EQ(zero_tolerance(matrix, 2, 0.25), rounding_bound(matrix, 2) + 0.25);
   Evaluation evaluation;
   evaluation.gradient = VectorXd::Zero(12);
-  evaluation.gradient.segment<3>(9) << 0, 3, -4;  // T/R of the second particle
+  evaluation.gradient.segment<3>(9) << 0, 3, -4;  // torque/R of the second particle
   evaluation.gradient.segment<3>(6) << 100, 0, 0;
   const ConvexSolid& cube = platonic(SolidKind::cube);
   EXPECT_EQ(unbalanced_torque(evaluation, cube), 5 / cube.gyration_radius());
@@ -180,7 +182,7 @@ TEST(StabilityTest, ToleranceIsRoundingAndTorque) {
   EXPECT_EQ(blurred.verdict, Verdict::marginal);
 }
 
-TEST(StabilityTest, WhatIsNotANumberIsUndetermined) {
+TEST(StabilityTest, NaNIsUndetermined) {
   BlockMatrix matrix = jammed_matrix();
   matrix.off_diagonal[5].value(2, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(assess(matrix, {}).verdict, Verdict::undetermined);

@@ -1,11 +1,13 @@
 // Properties tested here, for jammed octahedra and dodecahedra in a cube and in a variable cell:
-// - The counted modes of the bordered Hessian, and those of its pinned factor, agree with a dense solver.
-// - The softest strain is stationary in the particles, and its stiffness is the smallest eigenvalue of the Schur
+// - The bordered Hessian, which contains particles and strains, has as many zero and negative modes as a dense solver
+//   finds. So has its factor with fixed translations.
+// - In the softest strain, the particles have relaxed, and its stiffness is the smallest eigenvalue of the Schur
 //   complement.
 // - The Schur complement of the six strains is the relaxed elastic tensor, apart from the pressure.
-// - States of a variable cell are hydrostatic and strictly jammed: three zero modes and no negative one in particles
-//   and strains together.
-// - Relaxing the cell of a packing leads to such a state nearby, and relaxing it again changes nothing.
+// - The states of a variable cell have hydrostatic stress and are strictly jammed: particles and strains together have
+//   three zero modes and no negative mode.
+// - If the cell of a packing in a cube is relaxed, the result is such a state nearby. If it is relaxed again, nothing
+//   changes.
 // - A packing that is stable only in its fixed cell is distinguished from one that is strictly jammed.
 
 #include "engine/vibration/strict.hpp"
@@ -101,7 +103,7 @@ TEST_P(Strict, TheComplementOfTheStrainsIsTheElasticTensor) {
   EXPECT_NEAR(softest->step.dot(force), softest->stiffness, 1e-6 * per_strain * expected.norm());
 }
 
-TEST_P(Strict, FreeStatesAreHydrostaticAndStrictlyJammed) {
+TEST_P(Strict, StatesOfAVariableCellAreStrictlyJammed) {
   const JamResult& result = free_states(GetParam(), count);
   ASSERT_EQ(result.status, JamStatus::jammed);
   for (const Packing& packing : result.states) {
@@ -113,7 +115,7 @@ TEST_P(Strict, FreeStatesAreHydrostaticAndStrictlyJammed) {
   }
 }
 
-TEST_P(Strict, AFreedCellIsStrictlyJammedAndFreesNoFurther) {
+TEST_P(Strict, ARelaxedCellIsStrictlyJammedAndRelaxesNoFurther) {
   const JamResult& result = jammed(GetParam(), count, .02);
   const JamStep& step = result.path[static_cast<std::size_t>(result.state_steps.back())];
   const FreedCell freed = free_cell(result.states.back(), distance_to_jamming(step));
@@ -129,8 +131,8 @@ TEST_P(Strict, AFreedCellIsStrictlyJammedAndFreesNoFurther) {
   EXPECT_LE(again.strain, 1e-6);
 }
 
-TEST(StrictTest, APackingThatItsBoxHoldsIsToldFromOneThatIsStrictlyJammed) {
-  // A simple cubic lattice of cubes, each overlapping six others: rows slide along rows.
+TEST(StrictTest, APackingStableOnlyInAFixedCellIsDistinguished) {
+  // A simple cubic lattice of cubes, each overlapping six others. Rows of cubes can slide along each other.
   Packing lattice{platonic(SolidKind::cube), PeriodicCell(4 * .98), {}};
   for (int k = 0; k < 64; ++k) {
     Pose pose;

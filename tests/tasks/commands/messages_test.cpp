@@ -1,10 +1,10 @@
-// These tests prove, through the executable:
-// - with --messages json every line on stderr is a JSON object with "kind" and "text";
-// - the errors of a manifest have file, pointer, problem, allowed and suggestion, and the text that people read, which
-//   lists the allowed keys only without a suggestion;
-// - progress counts from 0 to the number of replicates, and what goes to stdout and to files is as without the option;
-// - --quiet leaves errors alone;
-// - the manifest "-" is standard input, and its paths start from the current directory.
+// Properties tested here through the executable:
+// - With --messages json every line on stderr is a JSON object with "kind" and "text".
+// - Errors of a manifest have the members file, pointer, problem, allowed and suggestion, and the text that people
+//   read. This text lists the allowed keys only if there is no suggestion.
+// - Progress counts from 0 to the number of replicates. Standard output and files are the same as without the option.
+// - --quiet does not suppress errors.
+// - The manifest "-" is standard input, and its paths start from the current directory.
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ TEST(Messages, EveryErrorOfAManifestHasItsPartsInJson) {
   EXPECT_EQ(errors[1].at("text"), "m.json: /protocol/target_energi: unknown key; did you mean \"target_energy\"?");
 }
 
-TEST(Messages, ProgressCountsFromNoneToAllReplicates) {
+TEST(Messages, ProgressCountsFromZeroToAllReplicates) {
   const test::TemporaryDirectory here;
   test::write_text(here / "m.json", small_manifest().dump());
   const auto text = shell("$ISOJAM run m.json -o text", here.path());
@@ -84,7 +84,7 @@ TEST(Messages, ProgressCountsFromNoneToAllReplicates) {
   EXPECT_EQ(progress.back().at("text"), "2 of 2 replicates");
 }
 
-TEST(Messages, WarningsAreObjectsAndQuietLeavesErrorsAlone) {
+TEST(Messages, WarningsAreObjectsAndQuietKeepsErrors) {
   const test::TemporaryDirectory here;
   auto manifest = small_manifest();
   manifest["protocol"] = {{"max_density", 0.5}};

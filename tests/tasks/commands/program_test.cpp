@@ -1,13 +1,13 @@
-// These tests prove, through the executable:
-// - every manifest of the bad corpus ends `run` and `validate` with exit 65 and one line that names the file, and
-//   nothing is written;
-// - several errors are as many lines, each with the file; warnings come beside an OK;
-// - usage errors and paths that cannot be read or written end with exit 2 and one error, and nothing is written;
-// - a command or an option that is none is told with the nearest that is one;
-// - a missing or empty directory has the same error in every command;
-// - a dry run counts one of a thing as one, and no time as about 0 s;
-// - help and version go to stdout with exit 0;
-// - colour appears where it is asked for and not elsewhere.
+// Properties tested here through the executable:
+// - For every invalid manifest of bad_manifests(), `run` and `validate` exit with 65 and print one line that names the
+//   file. Nothing is written.
+// - If there are several errors, each has a line with the file. Warnings are printed in addition to OK.
+// - Usage errors, and paths that cannot be read or written, end with exit 2 and one error. Nothing is written.
+// - For an unknown command or option, the message suggests the most similar one.
+// - A missing or empty directory gives the same error in every command.
+// - A dry run uses the singular for one, and prints a time of zero as about 0 s.
+// - Help and version are printed on standard output with exit 0.
+// - Colour is used only if it is requested.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ using test::TemporaryDirectory;
 
 long lines_of(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
-TEST(Program, RefusesTheBadCorpusAndWritesNothing) {
+TEST(Program, RejectsInvalidManifestsAndWritesNothing) {
   const TemporaryDirectory directory;
   const auto manifest = directory / "m.json";
   for (const auto& bad : test::bad_manifests()) {
@@ -63,7 +63,7 @@ TEST(Program, ValidatesAGoodManifest) {
   EXPECT_EQ(files_below(directory.path()).size(), 1U);
 }
 
-TEST(Program, TellsAllErrorsOfAManifestALineEach) {
+TEST(Program, ReportsEachErrorOfAManifestInALine) {
   const TemporaryDirectory directory;
   auto manifest = test::good_manifest();
   manifest["seed"] = -1;
@@ -76,7 +76,7 @@ TEST(Program, TellsAllErrorsOfAManifestALineEach) {
   for (std::string line; std::getline(lines, line);) EXPECT_EQ(line.rfind("isojam: error: m.json: /", 0), 0U) << line;
 }
 
-TEST(Program, WarnsOfSettingsThatGiveNoGoodResult) {
+TEST(Program, WarnsOfUnsuitableSettings) {
   const TemporaryDirectory directory;
   auto manifest = test::good_manifest();
   manifest["protocol"] = {{"final_distance", 0.05}, {"max_density", 0.5}};
@@ -89,7 +89,7 @@ TEST(Program, WarnsOfSettingsThatGiveNoGoodResult) {
     EXPECT_NE(validate.err.find("isojam: warning: m.json: /protocol/" + key + ": "), std::string::npos) << validate.err;
 }
 
-TEST(Program, UnknownWordsAreToldWithTheNearest) {
+TEST(Program, UnknownWordsGiveASuggestion) {
   const TemporaryDirectory directory;
   struct Case {
     std::vector<std::string> arguments;
@@ -132,7 +132,7 @@ TEST(Program, AMissingOrEmptyDirectoryHasTheSameErrorInEveryCommand) {
   }
 }
 
-TEST(Program, ADryRunTellsNumbersAsPeopleDo) {
+TEST(Program, ADryRunPrintsReadableNumbers) {
   const TemporaryDirectory directory;
   auto manifest = test::good_manifest();
   for (const int number : {1, 3}) {
@@ -188,7 +188,7 @@ TEST(Program, UsageErrorsEndWithTwo) {
 TEST(Program, AnUnwritableDirectoryEndsWithTwo) {
   const TemporaryDirectory directory;
   test::write_text(directory / "m.json", test::good_manifest().dump());
-  // Permissions do not bind root; a file for a parent and the proc file system bind everyone.
+  // Root ignores permissions, but nobody can write below a file or into the proc file system.
   for (const std::string output : {"m.json", "m.json/results", "/proc/isojam"}) {
     const auto run = isojam({"run", "m.json", "-o", output}, directory.path());
     EXPECT_EQ(run.exit_code, 2) << output << ": " << run.err;
@@ -213,7 +213,7 @@ TEST(Program, HelpAndVersionGoToStdout) {
   }
 }
 
-TEST(Program, ColourAppearsWhereAsked) {
+TEST(Program, ColourIsUsedOnRequest) {
   const TemporaryDirectory directory;
   for (const auto& [when, coloured] : {std::pair{"always", true}, {"never", false}, {"auto", false}}) {
     const auto run = isojam({"--color", when, "validate", "absent.json"}, directory.path());

@@ -1,7 +1,7 @@
-// These tests prove, of every command:
-// - what cannot be written to standard output, because it is full or closed, is said and ends with exit 1;
-// - with standard error closed, nothing meant for people gets into a result;
-// - a word for a number that is none is refused.
+// Properties tested here for every command:
+// - If standard output is full or closed, an error is reported and the exit code is 1.
+// - If standard error is closed, no message gets into a result file.
+// - If the value of an option must be a number and is not one, it is rejected.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ class Streams : public testing::Test {
   test::TemporaryDirectory here_;
 };
 
-TEST_F(Streams, WhatIsLostIsSaid) {
+TEST_F(Streams, LostOutputIsReported) {
   ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
   for (const std::string command :
        {"run m.json -o r", "run m.json -o r --dry-run", "validate m.json", "status r", "aggregate r",
@@ -46,14 +46,14 @@ TEST_F(Streams, MessagesStayOutOfResults) {
   ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
   for (const std::string closed : {"2>&-", "<&- 2>&-", "<&- >&- 2>&-"}) {
     fs::remove_all(here_ / "closed");
-    // With -v there is more to say.
+    // With -v there are more messages.
     const auto ended = shell("$ISOJAM run -v m.json -o closed " + closed, here_.path());
     EXPECT_EQ(ended.exit_code, closed.find(" >") == std::string::npos ? 0 : 1) << closed;
     EXPECT_EQ(test::results_below(here_ / "closed"), test::results_below(here_ / "r")) << closed;
   }
 }
 
-TEST_F(Streams, ANumberThatIsNoneIsRefused) {
+TEST_F(Streams, InvalidNumbersAreRejected) {
   for (const std::string word : {"nan", "inf", "-1", "0", "1e400", "x"}) {
     const auto ended = shell("$ISOJAM run m.json -o r --memory=" + word, here_.path());
     EXPECT_EQ(ended.exit_code, 2) << word << ": " << ended.err;
@@ -61,9 +61,10 @@ TEST_F(Streams, ANumberThatIsNoneIsRefused) {
   }
 }
 
-TEST_F(Streams, AnOutputIsWrittenWhereItPoints) {
+TEST_F(Streams, OutputsFollowLinksAndStreams) {
   ASSERT_EQ(shell("$ISOJAM run m.json -o r", here_.path()).exit_code, 0);
-  // A stream takes one file: the solid of an XYZ file is omitted, and a collection is refused.
+  // A stream receives only one file: the shape of the solid of an XYZ file is omitted, and a collection of files is
+  // rejected.
   const auto name = "dodecahedron-N24-r0000";
   for (const std::string stream : {"fifo", "descriptor"}) {
     fs::remove_all(here_ / "beside");
@@ -79,7 +80,7 @@ TEST_F(Streams, AnOutputIsWrittenWhereItPoints) {
     EXPECT_EQ(std::distance(fs::directory_iterator(here_ / "beside"), {}), 1) << stream;
     EXPECT_FALSE(fs::exists("/dev/fd/7.obj") || fs::exists(here_ / "beside/pipe.obj")) << stream;
   }
-  // A descriptor opened by a shell is a stream, whatever file is behind it.
+  // A descriptor that a shell opened counts as a stream, even if it belongs to a file.
   const auto opened = shell(
       "$ISOJAM aggregate r -o /dev/stdout | head -c 2000 >piped && "
       "$ISOJAM aggregate r --format csv -o /dev/stdout >both && $ISOJAM aggregate r --format csv >csv && "

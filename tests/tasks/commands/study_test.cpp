@@ -1,10 +1,11 @@
-// A new user's study from beginning to end, as a person at a terminal goes about it:
-// - replicates until φ_J is known well enough, on a terminal, whose bar never counts beyond its round;
-// - the same with twice as many at most: what is recorded stays as it is, byte by byte;
-// - a parameter changed: refused, by run and by its dry run, with the key that differs, and nothing is touched;
-// - a run interrupted half way: it says so, status says that nobody works on it, and the same command comes to the
-//   bytes of a run that nobody interrupted;
-// - table, report and export of it all.
+// A complete study of a new user at a terminal. Properties tested here:
+// - With a stopping rule, replicates run until the confidence interval of φ_J is narrow enough. The progress bar of
+//   each round never counts beyond its end.
+// - With twice as many replicates, existing records do not change, byte for byte.
+// - If a parameter is changed, `run` and its dry run report the key that differs, and change nothing.
+// - An interrupted run reports this, and `status` shows that no process works on it. The same command then gives the
+//   same bytes as an uninterrupted run.
+// - Table, report and export work with the result.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -30,12 +31,12 @@ Json study(int most) {
   manifest["seed"] = 8;
   manifest["sweep"]["particles"] = {24};
   manifest["measure"] = {"contacts"};
-  // Narrower than so few replicates can make it: every round is needed.
+  // A width that so few replicates cannot reach, so that every round is needed.
   manifest["replicates"] = {{"min", 4}, {"max", most}, {"quantity", "phi_j"}, {"half_width", 1e-4}};
   return manifest;
 }
 
-/// Output and exit code of a command typed into a terminal in `directory`.
+/// Output and exit code of a command that is typed into a terminal in `directory`.
 std::pair<std::string, int> typed(const std::vector<std::string>& arguments, const fs::path& directory) {
   return test::on_a_terminal([&] {
     std::vector<std::string> words{ISOJAM_EXECUTABLE};
@@ -48,7 +49,7 @@ std::pair<std::string, int> typed(const std::vector<std::string>& arguments, con
   });
 }
 
-/// Every "k of n replicates" of a bar of constant length, and k never above n.
+/// Checks that every "k of n replicates" has a bar of the same length and k ≤ n.
 void expect_bars(const std::string& text, int least) {
   const std::regex bar(R"(\[([#.]*)\] (\d+) of (\d+) replicates?)");
   int bars = 0;

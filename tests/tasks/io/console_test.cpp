@@ -1,8 +1,8 @@
-// These tests prove, on a pseudo-terminal, as a person sees it:
-// - a bar of constant length counts the replicates of each round from none to its own total, however many rounds came
-//   before;
-// - nothing is wider than the terminal, for what is could not be cleared again;
-// - time left is told while some work is done and some is not, and the bar is gone when the round ends.
+// Properties tested here on a pseudo-terminal:
+// - A bar of constant length counts the replicates of each round from 0 to the number in this round, whatever rounds
+//   came before.
+// - No line is wider than the terminal, because it could not be erased again.
+// - The time left is shown if some work is done and some is left. When the round ends, the bar disappears.
 
 #include "tasks/io/console.hpp"
 
@@ -18,7 +18,7 @@
 namespace isojam {
 namespace {
 
-/// Rounds of 6, 2 and 3 replicates, each shown.
+/// Rounds of 6, 2 and 3 replicates.
 void rounds() {
   Console console({});
   for (const int total : {6, 2, 3}) {
@@ -32,7 +32,7 @@ void rounds() {
   }
 }
 
-TEST(Console, CountsEveryRoundFromNoneOnATerminal) {
+TEST(Console, CountsEveryRoundFromZeroOnATerminal) {
   const auto [text, status] = test::on_a_terminal(rounds);
   ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status << " after: " << text;
   std::vector<std::string> counts;

@@ -1,10 +1,11 @@
-// These tests prove:
-// - a file is replaced whole or not at all, and a failed write leaves nothing behind; of several writers of a new file
-//   exactly one is told that it is the one;
-// - what a person names is written where it points: through a link, into a pipe, with the mode that the file had;
-// - a result is a regular file: a pipe or an endless device is told from one at once, a person's own input is not;
-// - a process is known alive until it ends, and one that has its number later is not taken for it;
-// - what is shown commands no terminal.
+// Properties tested here:
+// - A file is replaced completely or not at all, and a failed write leaves nothing behind. If several writers create a
+//   new file, exactly one of them succeeds.
+// - Output to a path that a user names follows links and pipes, and keeps the mode of an existing file.
+// - A result must be a regular file: a pipe or an endless device is detected at once. A user's input file may be a
+//   pipe.
+// - A process counts as running until it ends. A later process with the same number is not confused with it.
+// - Printed texts cannot control the terminal.
 
 #include "tasks/io/file.hpp"
 
@@ -47,7 +48,7 @@ TEST(AtomicFile, AFailedWriteLeavesNothing) {
   EXPECT_TRUE(files_below(directory.path()).empty());
 }
 
-TEST(AtomicFile, OfSeveralWritersOneIsFirst) {
+TEST(AtomicFile, OnlyOneOfSeveralWritersSucceeds) {
   constexpr int rounds = 50, writers = 4;
   for (int round = 0; round < rounds; ++round) {
     const TemporaryDirectory directory;
@@ -81,7 +82,7 @@ TEST(Output, FollowsLinksAndKeepsModes) {
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_EQ(read_text(target), "after");
   EXPECT_EQ(fs::status(target).permissions(), fs::perms(0600));
-  // A link that leads nowhere yet makes what it leads to.
+  // If the target of the link does not exist, it is created.
   fs::remove(target);
   write_output(link, "anew");
   EXPECT_TRUE(fs::is_symlink(link));
@@ -125,7 +126,7 @@ TEST(ReadFile, AResultIsARegularFile) {
   EXPECT_EQ(reason_of([&] { read_text("/dev/zero"); }), FileError::Reason::resource_failure) << "endless";
   EXPECT_EQ(read_text("/dev/null"), "");
 #if !defined(__SANITIZE_ADDRESS__)
-  // Larger than any memory, and nothing on the disk.
+  // This file is larger than any memory, but uses no disk space.
   test::write_text(directory / "huge", "{");
   fs::resize_file(directory / "huge", std::uintmax_t{1} << 42);
   try {
@@ -151,7 +152,7 @@ TEST(Process, IsAliveUntilItEnds) {
   EXPECT_EQ(is_alive({this_process().machine, child, 1}), false);
 }
 
-TEST(StandardStreams, WhatIsShownCommandsNoTerminal) {
+TEST(StandardStreams, PrintedTextCannotControlTheTerminal) {
   EXPECT_EQ(printable("a\x1b[2J\tb\r\nφ\x7f\xc2\x9b\xc2\xa0"), "a\\x1b[2J\tb\\x0d\nφ\\x7f\\x9b\xc2\xa0");
   const auto [seen, status] = test::on_a_terminal([] { print("d\x1b[31m\n"); });
   EXPECT_EQ(seen, "d\\x1b[31m\r\n");

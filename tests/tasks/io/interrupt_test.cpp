@@ -1,6 +1,6 @@
-// These tests prove, in processes made for the purpose: a process that listens to the stop request ends as it likes;
-// one that does not listen is ended with exit code 75 when the patience is over, and by a second signal before;
-// without a signal, or with one that was ignored before, nothing happens.
+// Properties tested here in child processes. A process that reacts to the stop request ends in its own way. A process
+// that does not react is ended with exit code 75 after a waiting time, or immediately by a second signal. Without a
+// signal, or with a signal that was ignored before, nothing happens.
 
 #include "tasks/io/interrupt.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// No test waits for the first, and none depends on how long the second takes.
+// No test waits for `forever`, and no result depends on how long `short_while` takes.
 constexpr std::chrono::milliseconds forever = 1h, short_while = 200ms;
 
 /// A pipe from the child to its parent.
@@ -41,8 +41,8 @@ struct Pipe {
   int ends[2];
 };
 
-/// Exit code of a child that does `work` under a watcher, and that gets `signals` SIGTERMs: the first when it watches,
-/// the second when it was asked to stop.
+/// Exit code of a child that does `work` under a watcher and gets `signals` SIGTERMs: the first when the watcher is
+/// ready, the second after the stop request.
 int exit_code_of(const std::function<int(const std::stop_token&)>& work, int signals,
                  std::chrono::milliseconds patience = forever) {
   const Pipe ready, asked;
@@ -68,7 +68,7 @@ int deaf(const std::stop_token&) {
   return 3;
 }
 
-TEST(Interrupt, WhoListensEndsByItself) {
+TEST(Interrupt, AProcessThatReactsEndsByItself) {
   const auto listening = [](const std::stop_token& stop) {
     while (!stop.stop_requested()) std::this_thread::sleep_for(1ms);
     return 5;
@@ -76,9 +76,9 @@ TEST(Interrupt, WhoListensEndsByItself) {
   EXPECT_EQ(exit_code_of(listening, 1), 5);
 }
 
-TEST(Interrupt, WhoDoesNotListenIsEnded) { EXPECT_EQ(exit_code_of(deaf, 1, short_while), 75); }
+TEST(Interrupt, AProcessThatDoesNotReactIsEnded) { EXPECT_EQ(exit_code_of(deaf, 1, short_while), 75); }
 
-/// Waits for good in a message that nobody reads, and holds stderr meanwhile.
+/// Waits forever to write a message that nobody reads, and holds stderr in the meantime.
 int choked(const std::stop_token&) {
   int unread[2];
   if (pipe(unread) != 0 || dup2(unread[1], STDERR_FILENO) < 0) return 9;
@@ -87,11 +87,11 @@ int choked(const std::stop_token&) {
   return 3;
 }
 
-TEST(Interrupt, WhoWaitsForAReaderIsEnded) { EXPECT_EQ(exit_code_of(choked, 1, short_while), 75); }
+TEST(Interrupt, AProcessThatWaitsForAReaderIsEnded) { EXPECT_EQ(exit_code_of(choked, 1, short_while), 75); }
 
-TEST(Interrupt, ASecondSignalEndsItBefore) { EXPECT_EQ(exit_code_of(deaf, 2), 75); }
+TEST(Interrupt, ASecondSignalEndsItAtOnce) { EXPECT_EQ(exit_code_of(deaf, 2), 75); }
 
-TEST(Interrupt, ASignalThatIsIgnoredStaysSo) {
+TEST(Interrupt, AnIgnoredSignalStaysIgnored) {
   const auto ignored = std::signal(SIGTERM, SIG_IGN);
   const auto ended = exit_code_of(
       [](const std::stop_token& stop) {

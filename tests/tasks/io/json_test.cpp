@@ -1,9 +1,9 @@
-// These tests prove:
-// - every double that is written reads back as the same bits, and pretty text parses to the same value;
-// - a number that JSON cannot hold is written as null with its reason;
-// - a global locale with another decimal point changes neither reading nor writing;
-// - positions of syntax errors are right, wherever the text is cut or spoilt;
-// - names are suggested by nearness, and only if near.
+// Properties tested here:
+// - Every double is read with the same bits as it was written. Indented text gives the same value as compact text.
+// - A number that JSON cannot represent is written as null with its reason.
+// - A global locale with another decimal point changes neither reading nor writing.
+// - Positions of syntax errors are correct, wherever the text is cut or changed.
+// - A name is suggested only if it is similar to the unknown one; the most similar one is chosen.
 
 #include "tasks/io/json.hpp"
 #include "tasks/io/parse.hpp"
@@ -30,7 +30,7 @@ double any_finite_double(RandomStream& random) {
   }
 }
 
-TEST(JsonText, DoublesRoundTrip) {
+TEST(JsonText, DoublesAreReadAsWritten) {
   RandomStream random{1, 2};
   for (int i = 0; i < 20000; ++i) {
     const double x = i % 2 ? any_finite_double(random) : random.normal();
@@ -74,7 +74,7 @@ TEST(JsonText, LocaleChangesNothing) {
   EXPECT_EQ(read, 1.5);
 }
 
-TEST(JsonText, EveryCutIsRefusedAndEveryWholeTextAccepted) {
+TEST(JsonText, OnlyCompleteTextsAreAccepted) {
   const std::string text = R"({"name": "a", "list": [1, -2.5e3, {"x": null}], "y": true})";
   EXPECT_NO_THROW(parse_json(text, "t"));
   for (std::size_t n = 0; n < text.size(); ++n) EXPECT_THROW(parse_json(text.substr(0, n), "t"), InputError) << n;
@@ -83,7 +83,7 @@ TEST(JsonText, EveryCutIsRefusedAndEveryWholeTextAccepted) {
 TEST(JsonText, SyntaxErrorsNameLineAndColumn) {
   for (int line = 1; line <= 5; ++line) {
     for (int column = 2; column <= 8; ++column) {
-      // A list of spaces with one foreign character.
+      // A list of blanks with one wrong character.
       std::string text = "[";
       text.append(line - 1, '\n').append(line == 1 ? column - 2 : column - 1, ' ').append("?]");
       try {

@@ -1,6 +1,8 @@
-// A sealed text vouches for its bytes: it gives back the document, and no text with one byte changed, removed or added
-// anywhere passes, nor one cut short. A packing survives its JSON bit for bit, and what is no packing is refused where
-// it is wrong.
+// Properties tested here:
+// - A sealed text, which contains its checksum, gives back the document. A text with one byte changed, removed or
+//   added, or a truncated text, is rejected.
+// - A packing is read from JSON with the same bits as it was written. An invalid packing is rejected with the place of
+//   the error.
 
 #include "tasks/io/sealed.hpp"
 
@@ -39,7 +41,7 @@ TEST(SealedJson, GivesTheDocumentBack) {
   EXPECT_EQ(sealed(read), sealed(document()));
 }
 
-TEST(SealedJson, RefusesEveryChangeOfAByteAndEveryCut) {
+TEST(SealedJson, RejectsEveryChangedByteAndEveryCut) {
   const auto whole = sealed(document());
   ASSERT_TRUE(passes(whole));
   for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -68,7 +70,7 @@ Packing made_up_packing() {
   return packing;
 }
 
-/// Packings in a cell whose shape has relaxed, and in a cube whose side has a low part.
+/// A packing in a cell whose shape has relaxed, and a packing in a cube whose side has a low part.
 std::vector<Packing> in_other_cells() {
   DoubleDoubleMatrix skew, stretch;
   skew.high << 1.02, .07, -.03, .01, .98, .05, 0, -.02, 1.01;
@@ -90,12 +92,12 @@ void expect_survival(const Packing& packing) {
     EXPECT_TRUE(again.poses[static_cast<std::size_t>(i)] == packing.poses[static_cast<std::size_t>(i)]) << i;
 }
 
-TEST(PackingJson, SurvivesBitForBit) {
+TEST(PackingJson, IsReadWithTheSameBits) {
   expect_survival(made_up_packing());
   for (const auto& packing : in_other_cells()) expect_survival(packing);
 }
 
-/// Where it is wrong: at the value, or at the whole cell, which is judged together.
+/// Checks the place of each error. It is the wrong value, or the whole cell, which is checked as one.
 void expect_refusals(const Json& good, const std::vector<std::pair<std::string, Json>>& wrong) {
   for (const auto& [pointer, value] : wrong) {
     auto bad = good;
@@ -110,7 +112,7 @@ void expect_refusals(const Json& good, const std::vector<std::pair<std::string, 
   }
 }
 
-TEST(PackingJson, RefusesCellsThatAreNone) {
+TEST(PackingJson, RejectsInvalidCells) {
   const auto good = to_json(in_other_cells().front());
   const std::vector<std::pair<std::string, Json>> wrong{
       {"/cell", "cube"},      {"/cell", {{1, 0, 0}, {0, 1, 0}}}, {"/cell/1", {0, 0, 0}}, {"/cell/0", {.5, 0, 0}},
@@ -118,7 +120,7 @@ TEST(PackingJson, RefusesCellsThatAreNone) {
   expect_refusals(good, wrong);
 }
 
-TEST(PackingJson, RefusesWhatIsNoPacking) {
+TEST(PackingJson, RejectsInvalidPackings) {
   const auto good = to_json(made_up_packing());
   const std::vector<std::pair<std::string, Json>> wrong{{"/solid", "sphere"},         {"/side", 0.5},
                                                         {"/side", nullptr},           {"/positions", Json::array()},

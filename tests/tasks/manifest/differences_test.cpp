@@ -1,6 +1,6 @@
-// These tests prove:
-// - manifests of different digest differ in keys that are named with both values, a handful of them;
-// - those of the same digest differ in none.
+// Properties tested here:
+// - For two manifests with different digests, the keys that differ are named with both values, up to a maximum number.
+// - For manifests with the same digest there is no difference.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ TEST(Differences, AreNamedWithBothValues) {
             "/sweep/particles: [100,101,102,103,104,105,106,107,108,... in the directory, [64] in this manifest");
 }
 
-TEST(Differences, AreAHandfulAndThoseOfTheDigest) {
+TEST(Differences, AreLimitedAndThoseOfTheDigest) {
   auto other = good_manifest();
   other["name"] = "other";
   other["seed"] = 8;

@@ -1,11 +1,11 @@
-// These tests prove:
-// - every manifest of the bad corpus is refused with the file, the JSON pointer and the text that it deserves;
-// - what is left out takes the defaults of the engine's structs;
-// - every parameter can be set and swept at the ends of its range, and not beyond them;
-// - the canonical form is a fixed point of parsing, and the order of lists and keys does not matter to it;
-// - the digest moves with every parameter and does not move with `replicates`, `exclude` and `base`;
-// - the flags excluded are those given, in one order, or the usual ones;
-// - the base is that which is given, in one order and of canonical values, or none.
+// Properties tested here:
+// - Every invalid manifest of bad_manifests() is rejected with the file, the JSON pointer and the expected text.
+// - Missing keys have the default values of the engine's structs.
+// - Every parameter can be set and swept at both ends of its range, and not beyond them.
+// - The canonical form is read as the same manifest, and does not depend on the order of lists and keys.
+// - The digest changes with every parameter. It does not change with `replicates`, `exclude` and `base`.
+// - The excluded flags are the given ones in a fixed order, or the default flags.
+// - The base is the given one with sorted keys and canonical values, or none.
 
 #include "tasks/manifest/manifest.hpp"
 
@@ -64,7 +64,7 @@ Json another_value(const Field& field) {
   return is_integer(field) ? Json(usual.get<long>() + 1) : Json(usual.get<double>() / 2 + 1e-9);
 }
 
-TEST(Manifest, RefusesTheBadCorpus) {
+TEST(Manifest, RejectsInvalidManifests) {
   for (const auto& bad : test::bad_manifests()) {
     try {
       parse_manifest(bad.text, "m.json");
@@ -95,7 +95,7 @@ TEST(Manifest, FieldsAreUniqueAndDefaultsLieInRange) {
   }
 }
 
-TEST(Manifest, RangesAreKeptAtTheirEnds) {
+TEST(Manifest, RangesIncludeTheirEnds) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const auto& field : all_fields()) {
     if (!is_integer(field) && !is_real(field)) continue;
@@ -139,7 +139,7 @@ TEST(Manifest, EveryFieldCanBeSetAndSwept) {
   }
 }
 
-TEST(Manifest, CanonicalFormIsAFixedPoint) {
+TEST(Manifest, CanonicalFormIsReadAsTheSameManifest) {
   auto manifest = good_manifest();
   manifest["sweep"]["target_energy"] = {1e-5, 1e-7, 3.2e-5};
   manifest["sweep"]["method"] = {"lbfgs", "conjugate_gradient"};
@@ -156,7 +156,7 @@ TEST(Manifest, OrderOfListsAndKeysDoesNotMatter) {
   EXPECT_EQ(to_json(parse(a)).dump(), to_json(parse(b)).dump());
 }
 
-TEST(Manifest, DigestMovesWithEveryParameterButReplicates) {
+TEST(Manifest, DigestChangesWithEveryParameterButReplicates) {
   const auto base = digest(parse(good_manifest()));
   auto more = good_manifest();
   more["replicates"] = 1000;
@@ -184,7 +184,7 @@ TEST(Manifest, DigestMovesWithEveryParameterButReplicates) {
   }
 }
 
-TEST(Manifest, ExcludesWhatItSaysOrTheUsual) {
+TEST(Manifest, ExcludesTheGivenOrTheDefaultFlags) {
   EXPECT_EQ(parse(good_manifest()).exclude, (std::vector{Flag::crystalline, Flag::not_balanced}));
   auto manifest = good_manifest();
   manifest["exclude"] = Json::array();
@@ -194,7 +194,7 @@ TEST(Manifest, ExcludesWhatItSaysOrTheUsual) {
   EXPECT_EQ(parse(to_json(parse(manifest))).exclude, parse(manifest).exclude);
 }
 
-TEST(Manifest, HasTheBaseThatItNames) {
+TEST(Manifest, HasTheGivenBase) {
   EXPECT_EQ(parse(good_manifest()).base, Json::object());
   EXPECT_FALSE(to_json(parse(good_manifest())).contains("base"));
   auto manifest = good_manifest();
@@ -209,7 +209,7 @@ TEST(Manifest, HasTheBaseThatItNames) {
   EXPECT_EQ(parse(manifest).base.dump(), R"({"method":"newton"})");
 }
 
-TEST(Manifest, TooFewParticlesNamesTheLeastNumberThatWouldDo) {
+TEST(Manifest, TooFewParticlesNamesTheSmallestValidNumber) {
   for (const auto kind : all_solids) {
     for (const double density : {0.7, 0.9, 1.3}) {
       auto manifest = good_manifest();

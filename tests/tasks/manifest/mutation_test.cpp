@@ -1,7 +1,7 @@
-// These tests prove, over ten thousand manifests made from valid ones by changes of a few places or bytes, fixed seeds:
-// each is refused by errors that name the file, no two of one place, or is a manifest that means what it says: its
-// canonical form reads back as itself, and its plan holds as many replicates of distinct names as the product of its
-// lists. The same holds of records, which make a table or are refused.
+// Property tested here with ten thousand manifests, made from valid ones by changes of a few places or bytes with fixed
+// seeds. A manifest is either rejected or accepted. If it is rejected, the errors name the file, and no two errors have
+// the same place. If it is accepted, its canonical form is read as the same manifest, and its plan has as many
+// replicates, with different names, as the product of its lists. Changed records either give a table or are rejected.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 using Random = std::mt19937_64;
 
-/// Places of a document, inner ones too.
+/// All places of a document, including inner ones.
 std::vector<Json::json_pointer> places_of(const Json& document) {
   std::vector<Json::json_pointer> places;
   const auto flat = document.flatten();
@@ -57,7 +57,8 @@ Json odd_value(Random& random) {
   return values[random() % values.size()];
 }
 
-/// One to three changes: a value replaced by an odd one or by one from elsewhere, a key removed or added.
+/// Makes one to three changes: replaces a value by an unusual one or by a value from another place, or removes or adds
+/// a key.
 Json changed(Json document, Random& random) {
   for (auto changes = 1 + random() % 3; changes > 0 && document.is_structured() && !document.empty(); --changes) {
     const auto places = places_of(document);
@@ -90,7 +91,7 @@ std::string changed_text(std::string text, Random& random) {
   return text;
 }
 
-/// True if it was accepted.
+/// Checks a manifest. Returns true if it was accepted.
 bool refused_or_sound(const std::string& text) {
   try {
     const auto manifest = parse_manifest(text, "m.json");
@@ -123,7 +124,7 @@ Json rich_manifest() {
   return manifest;
 }
 
-TEST(Mutation, ManifestsAreRefusedOrSound) {
+TEST(Mutation, ManifestsAreRejectedOrValid) {
   Random random(17);
   int accepted = 0;
   for (int trial = 0; trial < 5000; ++trial) {
@@ -136,7 +137,7 @@ TEST(Mutation, ManifestsAreRefusedOrSound) {
   EXPECT_LT(accepted, 9000);
 }
 
-TEST(Mutation, RecordsAreRefusedOrTabulated) {
+TEST(Mutation, RecordsAreRejectedOrTabulated) {
   Random random(19);
   const auto spec = test::make_plan(parse_manifest(test::good_manifest().dump(), "m")).front();
   const auto record = test::record_on_disk(test::made_up_outcome(spec));

@@ -1,11 +1,11 @@
-// These tests prove:
-// - the plan is the product of the swept lists, in canonical order, each replicate once and under a name of its own,
-//   which says what varies, can be that of a file, and leads back to the replicate;
-// - a replicate's random numbers do not depend on what else is swept over, nor on its place in the sweep;
-// - replicates of one number have the same initial configuration at every swept value of protocol and minimiser: the
-//   same poses, in a cell of the initial density;
-// - random numbers differ between numbers of replicates, solids, particles, seeds and purposes, and are those of the
-//   solid and particles alone.
+// Properties tested here:
+// - The plan is the product of the swept lists in a fixed order, with each replicate once. The name of a replicate is
+//   unique, states what varies, is a valid file name, and leads back to the replicate.
+// - The random numbers of a replicate do not depend on the other values of the sweep, or on its place in the sweep.
+// - Replicates with the same number have the same initial configuration at every swept value of the protocol and the
+//   minimiser: the same poses, in a cell of the initial density.
+// - Random numbers differ if the number of the replicate, the solid, N, the seed or the purpose differs, and depend on
+//   nothing else.
 
 #include "tasks/manifest/plan.hpp"
 
@@ -59,7 +59,7 @@ TEST(Plan, IsTheProductOfTheListsInOrder) {
   EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
 }
 
-TEST(Plan, NamesSayWhatTheyAre) {
+TEST(Plan, NamesStateWhatVaries) {
   const auto plan = plan_of(test::good_manifest());
   EXPECT_EQ(replicate_name(plan.at(1)), "dodecahedron-N64-r0001");
   EXPECT_EQ(replicate_name(plan_of(large_sweep()).front()),
@@ -69,7 +69,7 @@ TEST(Plan, NamesSayWhatTheyAre) {
   EXPECT_EQ(replicate_name(plan_of(manifest).at(1)), "dodecahedron-N64-final_distance0.01-r0001");
 }
 
-TEST(Plan, NamesAreSafeAndLeadBack) {
+TEST(Plan, NamesAreFileNamesAndLeadBack) {
   auto manifest = large_sweep();
   manifest["sweep"]["residual"] = {1e-6, 1.2345678901234567e-9, 1};
   manifest["sweep"]["target_before_relaxation"] = {false, true};
@@ -89,7 +89,7 @@ TEST(Plan, NamesAreSafeAndLeadBack) {
       EXPECT_EQ(place->point * 3 + static_cast<std::size_t>(place->replicate), k) << name;
     }
     EXPECT_EQ(names.size(), plan.size());
-    // A name that would be too long has a hash in place of its parameters.
+    // A name that would be too long contains a hash instead of its parameters.
     EXPECT_GT(hashed, 0U);
     EXPECT_EQ(hashed == plan.size(), longer);
   }
@@ -114,11 +114,11 @@ TEST(Plan, AReplicateDrawsTheSameBitsInEverySweep) {
   }
 }
 
-/// The parts of a specification on which the random numbers depend.
+/// The parts of a specification that determine the random numbers.
 using Origin = std::tuple<std::uint64_t, Mixture, int, int>;
 Origin origin_of(const ReplicateSpec& spec) { return {spec.seed, spec.solid, spec.particles, spec.replicate}; }
 
-TEST(Plan, StreamsDifferByOriginAndPurposeAlone) {
+TEST(Plan, StreamsDifferOnlyByOriginAndPurpose) {
   std::map<std::pair<Origin, Purpose>, std::set<std::vector<std::uint64_t>>> drawn;
   std::set<std::vector<std::uint64_t>> seen;
   for (const int seed : {7, 8}) {
@@ -151,9 +151,9 @@ Json another_value(const Field& field) {
   return usual.get<double>() / 2 + 1e-9;
 }
 
-TEST(Plan, ReplicatesOfOneNumberBeginAlikeAtEveryValueOfAnyParameter) {
+TEST(Plan, ReplicatesOfOneNumberHaveTheSameInitialConfiguration) {
   const auto alone = plan_of(test::good_manifest());
-  // Two values of each parameter, one after another: the product of all would be half a million.
+  // Two values of each parameter, one parameter at a time. The product of all would have half a million replicates.
   for (const auto& field : all_fields()) {
     const std::string name(field.name);
     const bool strained = name == "initial_density";
@@ -175,7 +175,7 @@ TEST(Plan, ReplicatesOfOneNumberBeginAlikeAtEveryValueOfAnyParameter) {
   }
 }
 
-TEST(Plan, StartsOfOtherOriginsDiffer) {
+TEST(Plan, InitialConfigurationsOfOtherOriginsDiffer) {
   auto manifest = test::good_manifest();
   manifest["sweep"]["solid"] = {"dodecahedron", "octahedron"};
   manifest["sweep"]["particles"] = {64, 65};
@@ -192,8 +192,8 @@ TEST(Plan, StartsOfOtherOriginsDiffer) {
   EXPECT_EQ(seen.size(), 2U * 2 * 2 * 2);
 }
 
-/// The first random bits of a replicate in a sweep over solids and particles only. They are the same in every version.
-TEST(Plan, TheBitsOfPlainSweepsAreWhatTheyWere) {
+/// The first random bits of replicates in a sweep over solids and N only. They must not change between versions.
+TEST(Plan, TheBitsOfPlainSweepsDoNotChange) {
   const auto spec = plan_of(test::good_manifest()).at(1);
   RandomStream stream{7, hash_of(R"({"solid":"dodecahedron","particles":64})"), 1,
                       static_cast<std::uint64_t>(Purpose::placement)};

@@ -1,10 +1,10 @@
-// These tests prove:
-// - what is wrong with a manifest is told at once, a line for each error, in the order of the document, and nothing
-//   that follows from another error;
-// - two errors in different places give the two lines that each gives alone;
-// - what holds between values is looked at where each is right;
-// - comments are called so, at their line and column, and are none within a string;
-// - the max_density that too few particles would allow is accepted, and the next greater is not.
+// Properties tested here:
+// - All errors of a manifest are reported at once, one per line, in the order of the document. Errors that are only
+//   consequences of other errors are not reported.
+// - Two errors in different places give the same two lines as each error alone.
+// - Conditions between several values are checked only if each value is valid.
+// - Comments are reported as such, with line and column. Inside a string they are not comments.
+// - The max_density that the message recommends for too few particles is accepted, and the next larger one is not.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 using Lines = std::vector<std::string>;
 using test::good_manifest;
 
-/// Error lines for a text; empty if it is accepted.
+/// Error lines for a text. Empty if the text is accepted.
 Lines refusals(const std::string& text) {
   try {
     parse_manifest(text, "m.json");
@@ -36,7 +36,7 @@ Lines refusals(const std::string& text) {
   }
 }
 
-/// The same, but only the pointer of each line.
+/// Only the pointers of these lines.
 Lines pointers(const std::string& text) {
   auto lines = refusals(text);
   for (auto& line : lines) {
@@ -46,7 +46,7 @@ Lines pointers(const std::string& text) {
   return lines;
 }
 
-TEST(Refusals, AllAtOnceInTheOrderOfTheDocument) {
+TEST(Refusals, AreReportedAtOnceInTheOrderOfTheDocument) {
   const std::string text = R"({
     "sweep": {"particles": [64, 0, "x", 64], "solid": ["octahedra", "cube"], "final_distance": [2]},
     "seed": -1,
@@ -74,7 +74,7 @@ TEST(Refusals, AllAtOnceInTheOrderOfTheDocument) {
       "in /solids");
 }
 
-TEST(Refusals, NothingThatFollowsFromAnotherError) {
+TEST(Refusals, ConsequencesOfOtherErrorsAreNotReported) {
   const auto changed = [](const std::string& from, const std::string& to) {
     auto text = good_manifest().dump();
     return text.replace(text.find(from), from.size(), to);
@@ -107,14 +107,14 @@ TEST(Refusals, TwoErrorsGiveTheLinesOfEach) {
       if (top_key(a) >= top_key(b)) continue;
       auto expected = refusals(a.text);
       const auto others = refusals(b.text);
-      // A required key is not missing where another stands in its place.
+      // If a misspelt key is suggested to be the required key, the required key is not reported as missing.
       if (expected.front().find("did you mean \"" + b.pointer.substr(1) + '"') != std::string::npos) continue;
       expected.insert(expected.end(), others.begin(), others.end());
       const auto good = good_manifest();
       auto both = good.patch(Json::diff(good, Json::parse(a.text)));
       both = both.patch(Json::diff(good, Json::parse(b.text)));
       auto said = refusals(both.dump());
-      // Swept by one and set by the other: an error of its own.
+      // One error makes a key swept, the other one sets it too: this is an additional error.
       const bool third = std::any_of(said.begin(), said.end(), [](const std::string& line) {
         return line.find("is also swept") != std::string::npos;
       });
@@ -129,7 +129,7 @@ TEST(Refusals, TwoErrorsGiveTheLinesOfEach) {
   EXPECT_GT(pairs, 500);
 }
 
-TEST(Refusals, WhatHoldsBetweenValuesComesWhenEachIsRight) {
+TEST(Refusals, ConditionsBetweenValuesNeedValidValues) {
   auto manifest = good_manifest();
   manifest["sweep"]["particles"] = {64, 5, 3};
   manifest["protocol"] = {{"initial_density", 0.95}, {"max_steps", 0}};
@@ -147,7 +147,7 @@ TEST(Refusals, ManyErrorsAreCutShort) {
   EXPECT_EQ(lines.back(), "m.json: 150 more errors");
 }
 
-TEST(Refusals, CommentsAreCalledSo) {
+TEST(Refusals, CommentsAreReportedAsComments) {
   const auto good = good_manifest().dump();
   for (const std::string comment : {"// sweep\n", "/* sweep */", "# sweep\n"}) {
     EXPECT_EQ(refusals("{\n  " + comment + good.substr(1)),
@@ -162,7 +162,7 @@ TEST(Refusals, CommentsAreCalledSo) {
   EXPECT_EQ(refusals(manifest.dump()), Lines{});
 }
 
-TEST(Refusals, TooFewParticlesNameTheDensityThatWouldDo) {
+TEST(Refusals, TooFewParticlesNameAValidDensity) {
   int tried = 0;
   for (const auto kind : all_solids) {
     auto manifest = good_manifest();

@@ -1,5 +1,8 @@
-// These tests prove: "I/N" is read and nothing else is; shards of any plan are disjoint and together the whole; a Slurm
-// array task finds its shard by its place in the array, whatever the indices, and contradictions are refused.
+// Properties tested here:
+// - Only texts of the form "I/N" are read as a shard.
+// - The shards of a plan are disjoint, and together they are the whole plan.
+// - A task of a Slurm array finds its shard from its position in the array, whatever the indices are. Contradictory
+//   variables are rejected.
 
 #include "tasks/manifest/shard.hpp"
 
@@ -24,7 +27,7 @@ TEST(Shard, ReadsIOfN) {
     EXPECT_FALSE(parse_shard(wrong)) << wrong;
 }
 
-TEST(Shard, ShardsPartAPlan) {
+TEST(Shard, ShardsDivideAPlan) {
   for (const int count : {1, 2, 3, 7, 40}) {
     for (std::size_t item = 0; item < 100; ++item) {
       int takers = 0;
@@ -49,7 +52,7 @@ class Environment {
   std::map<std::string, std::string> values_;
 };
 
-TEST(Shard, ASlurmTaskFindsItsOwn) {
+TEST(Shard, ASlurmTaskFindsItsShard) {
   EXPECT_TRUE(shard_of_environment().whole());
   // array=5-20:5
   for (const auto& [task, index] : std::map<int, int>{{5, 0}, {10, 1}, {20, 3}}) {
@@ -66,7 +69,7 @@ TEST(Shard, ASlurmTaskFindsItsOwn) {
   EXPECT_EQ(shard_of_environment().index, 0);
 }
 
-TEST(Shard, ContradictionsAreRefused) {
+TEST(Shard, ContradictionsAreRejected) {
   const std::vector<std::map<std::string, std::string>> wrong{
       {{"SLURM_ARRAY_TASK_ID", "1"}},
       {{"SLURM_ARRAY_TASK_COUNT", "4"}},

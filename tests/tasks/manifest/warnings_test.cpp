@@ -1,6 +1,6 @@
-// These tests prove:
-// - settings of which it is known that they give no good result are warned of, by the key to change;
-// - the defaults, and every example, are not.
+// Properties tested here:
+// - A setting that is known to give no good results causes a warning that names the key to change.
+// - The defaults and the examples cause no warning.
 
 #include "tasks/manifest/warnings.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// The pointers of the warnings about a manifest of all solids with these changes.
+/// Pointers of the warnings about a manifest with all solids and these changes.
 Lines warned(const Json& changes) {
   auto manifest = test::good_manifest();
   manifest["sweep"]["solid"] = {"tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"};
@@ -40,7 +40,7 @@ TEST(Warnings, DefaultsAndExamplesHaveNone) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(ISOJAM_SOURCE_DIR "/examples")) {
     if (entry.path().extension() != ".json" || entry.path().parent_path().filename() == "data") continue;
     ++seen;
-    // It asks what too few evaluations do.
+    // This example uses too few evaluations on purpose.
     const auto name = entry.path().filename();
     const std::size_t expected = name == "search-protocol.json" || name == "search-400.json" ? 1 : 0;
     EXPECT_EQ(warnings_of(read_manifest(entry.path().string())).size(), expected) << entry.path();
@@ -51,7 +51,7 @@ TEST(Warnings, DefaultsAndExamplesHaveNone) {
 TEST(Warnings, TheFitWindowMustHoldTwoStates) {
   EXPECT_EQ(of_protocol({{"final_distance", 0.05}}), Lines{"/protocol/final_distance"});
   EXPECT_EQ(of_protocol({{"final_distance", 0.02}}), Lines{"/protocol/final_distance"});
-  // The state before the last is up to .015 / (1 - .35) = .023 above jamming.
+  // The state before the last one is up to .015 / (1 - .35) = .023 above jamming.
   EXPECT_EQ(of_protocol({{"final_distance", 0.015}}), Lines{"/protocol/fit_window"});
   EXPECT_EQ(of_protocol({{"final_distance", 0.012}}), Lines{});
   EXPECT_EQ(of_protocol({{"final_distance", 0.015}, {"longest_step", 0.004}}), Lines{});
@@ -72,7 +72,7 @@ TEST(Warnings, DensitiesMustReachBeyondJamming) {
   EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}, {"max_density", {0.5, 0.6, 0.93}}}}}), Lines{"/sweep/max_density"});
 }
 
-TEST(Warnings, EnergiesMustLeaveRoomForAnExpansion) {
+TEST(Warnings, EnergiesMustAllowADecompression) {
   const Lines each(5, "/protocol/target_energy");
   EXPECT_EQ(of_protocol({{"target_energy", 1e-16}, {"consolidation_energy", 0}}), each);
   EXPECT_EQ(of_protocol({{"target_energy", 1e-9}}), Lines{});
@@ -81,16 +81,16 @@ TEST(Warnings, EnergiesMustLeaveRoomForAnExpansion) {
   EXPECT_EQ(of_minimiser({{"unjammed_energy", 1e-12}}), Lines{});
 }
 
-TEST(Warnings, MinimisersMustGetThere) {
+TEST(Warnings, MinimisersMustReachTheResidual) {
   EXPECT_EQ(of_minimiser({{"method", "fire"}}), Lines{"/minimiser/method"});
-  // The paper's rule: its states are not balanced, which is what is left out of means unless one says otherwise.
+  // With the paper's rule, states are not balanced. By default, such replicates are excluded from the means.
   const Json papers{{"method", "fire"}, {"energy_change", 1e-12}};
   EXPECT_EQ(of_minimiser(papers), Lines{"/minimiser/energy_change"});
   EXPECT_EQ(warned({{"minimiser", papers}, {"exclude", {"crystalline"}}}), Lines{});
   EXPECT_EQ(of_minimiser({{"method", "fire"}, {"residual", 1e-3}}), Lines{});
   EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}}), Lines{"/protocol/consolidation_evaluations"});
   EXPECT_EQ(warned({{"sweep", {{"solid", {"cube"}}}}, {"protocol", {{"consolidation_evaluations", 100}}}}), Lines{});
-  // A user who chooses "hasty" does so deliberately.
+  // If a user chooses "hasty", this is on purpose.
   EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}, {"consolidation", "hasty"}}), Lines{});
 }
 

@@ -1,9 +1,10 @@
-// These tests prove, of what the backbone's measure puts into records:
-// - of a jammed packing that has no near-rattlers it is what contacts, modes, moduli and rigidity say of the whole;
-// - where those that go bore force the rest is said not to balance, and has no bulk modulus; its rank is that of all
-//   singular values of its rows, though its forces are no state of self-stress;
-// - small solids that float in its voids are counted and named, and change nothing else, where modes and moduli of the
-//   whole have no number; contacts of a mixture keep the classes that they have there.
+// Properties tested here for the measure `backbone`:
+// - For a jammed packing without near-rattlers, its values are those of contacts, modes, moduli and rigidity for the
+//   whole packing.
+// - If the removed particles carried force, the rest is reported as unbalanced and has no bulk modulus. Its rank is
+//   that of all singular values of its rows, although its forces are not a state of self-stress.
+// - Small solids that float in the voids are counted and named, and change nothing else, while modes and moduli of the
+//   whole packing then have no value. In a mixture, contacts keep the classes that they have in the whole packing.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ const JamResult& jammed() {
   return result;
 }
 
-TEST(BackboneMeasure, OfTheWholeIsWhatTheOthersSay) {
+TEST(BackboneMeasure, OfTheWholeAgreesWithOtherMeasures) {
   ASSERT_EQ(jammed().status, JamStatus::jammed);
   const auto backbone = measure(Measure::backbone, jammed()), contacts = measure(Measure::contacts, jammed()),
              modes = measure(Measure::modes, jammed()), moduli = measure(Measure::moduli, jammed()),
@@ -57,8 +58,7 @@ TEST(BackboneMeasure, OfTheWholeIsWhatTheOthersSay) {
   EXPECT_GT(decided, static_cast<int>(jammed().states.size())) << "no state has classes";
 }
 
-/// The state nearest jamming with small solids of the same shape, one behind another along the cell wherever they touch
-/// nothing.
+/// The nearest state with small solids of the same shape, placed along the cell wherever they touch nothing.
 JamResult with_floating(int wanted) {
   JamResult result = jammed();
   const std::size_t nearest = *nearest_state(result);
@@ -105,7 +105,7 @@ TEST(BackboneMeasure, FloatingSolidsChangeNothingElse) {
   EXPECT_TRUE(modes.at("omega_l").is_null()) << "there would be no need of a backbone";
 }
 
-TEST(BackboneMeasure, ARestThatDoesNotBalanceHasNoBulkModulus) {
+TEST(BackboneMeasure, AnUnbalancedRestHasNoBulkModulus) {
   const std::size_t nearest = *nearest_state(jammed());
   const Packing& state = jammed().states[nearest];
   RandomStream random{21};

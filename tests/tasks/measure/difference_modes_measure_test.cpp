@@ -1,9 +1,9 @@
-// These tests prove, of what the measure of modes by differences puts into records:
-// - the exact count is that of all 6N eigenvalues of the analytic matrix, at a saddle too, which is left as it is;
-//   the counts by differences are those of difference_hessian in doubles, by a dense solver, at every step; shares are
-//   of 6N;
-// - no saddle has to be relaxed to a minimum for it, unlike for modes;
-// - more particles than a dense matrix serves have no number, and the reason instead.
+// Properties tested here for the measure `difference_modes`:
+// - The exact count is that of all 6N eigenvalues of the analytic matrix, also at a saddle, which is not relaxed. The
+//   counts by differences are those of difference_hessian() in doubles with a dense solver, for every step. Shares are
+//   relative to 6N.
+// - This measure does not need minima, unlike `modes`.
+// - If there are too many particles for a dense matrix, there is no value but a reason.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ JamResult result_of(const Packing& packing) {
   return result;
 }
 
-/// Octahedra in one orientation on a cubic lattice: in balance by symmetry, and unstable.
+/// Octahedra with equal orientations on a cubic lattice: in equilibrium by symmetry, and unstable.
 Packing lattice(int side, double density) {
   const int n = side * side * side;
   Packing packing{platonic(SolidKind::octahedron), PeriodicCell(std::cbrt(n / density)), {}};
@@ -70,13 +70,13 @@ TEST(DifferenceModesMeasure, CountsAsADenseSolverDoes) {
   EXPECT_GT(unstable, 0);
 }
 
-TEST(DifferenceModesMeasure, AsksAboutStatesAsTheyAre) {
+TEST(DifferenceModesMeasure, UsesStatesWithoutRelaxation) {
   EXPECT_FALSE(definition_of(Measure::difference_modes).needs_minima);
   EXPECT_TRUE(definition_of(Measure::modes).needs_minima);
   EXPECT_TRUE(definition_of(Measure::backbone).needs_minima);
 }
 
-TEST(DifferenceModesMeasure, OfTooManyThereIsNoNumber) {
+TEST(DifferenceModesMeasure, TooManyParticlesHaveNoValue) {
   const auto found = measure(Measure::difference_modes, result_of(lattice(8, 0.3))).states[0].at("difference_modes");
   for (const auto* key : {"exact", "h4", "h6", "h8"}) {
     EXPECT_TRUE(found.at(key).at("share").is_null()) << key;

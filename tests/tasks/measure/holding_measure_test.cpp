@@ -1,11 +1,12 @@
-// These tests prove, of what the measures of prestress and of gaps put into records, in states of jammed octahedra:
-// - numbers of constraints fall as their threshold rises, and the one called C_s is that of 10; missing ranks are those
-//   of the rigidity of the same rows; shares of modes add up, and lie in [0, 1] but for prestress that is negative;
-//   more modes are left to prestress by a higher threshold, and fewer to the second term by a lower share of normals;
-//   contacts and stiff tilts by class are all contacts, and all constraints that C_s counts beside them;
-// - wider cut-offs give more constraints, and no less rank;
-// - bins hold every contact and every gap; nearer to jamming fewer pairs are nearer than Δφ;
-// - states of packings without φ_J have the reason in place of a number.
+// Properties tested here for the measures `prestress`, `gaps` and `rigidity`, in states of jammed octahedra:
+// - The number of constraints decreases with the threshold, and C_s is the one for the threshold 10. The missing ranks
+//   are those of the same rows.
+// - The shares of a mode sum to 1 and are in [0, 1], except for a negative share of prestress. With a higher threshold,
+//   prestress stiffens more modes; with a smaller share of normals, fewer modes are counted.
+// - The contact classes together have all contacts. Their stiff tilts and the normals are all constraints of C_s.
+// - Larger cut-offs give more constraints, and no smaller rank.
+// - The bins contain every contact and every gap. Nearer to jamming, fewer pairs are closer than Δφ.
+// - For packings without φ_J, the reason takes the place of the value.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ const JamResult& octahedra() {
   return result;
 }
 
-/// The part of every state that a measure wrote, under its key.
+/// The part of every state that a measure wrote under its key.
 std::vector<Json> states_of(Measure what, const std::string& key) {
   std::vector<Json> list;
   for (const Json& state : measure(what, octahedra()).states) list.push_back(state.at(key));
@@ -44,7 +45,7 @@ std::vector<Json> states_of(Measure what, const std::string& key) {
   return list;
 }
 
-/// Checks how thresholds and shares affect the prestress of a state.
+/// Checks how the numbers of a state depend on thresholds and shares.
 void expect_choices(const Json& state, const Packing& packing) {
   const Json& modes = state.at("modes");
   const Json &by_share = modes.at("second_by_share"), &by_threshold = modes.at("prestress_by_threshold");
@@ -88,7 +89,8 @@ TEST(HoldingMeasure, PrestressCountsConstraintsAndModes) {
     const Json& modes = state.at("modes");
     EXPECT_EQ(modes.at("looked_at").get<int>(), 6 * packing.size() - 3);
     EXPECT_LE(modes.at("worst_sum").get<double>(), 1e-6);
-    // Every motion that no normal opposes needs a mode of its own that normals hold by less than half, or nearly so.
+    // For every motion that no normal opposes, there is one mode of which normals have less than half of the stiffness,
+    // or almost one.
     EXPECT_GE(modes.at("held_by_second").get<int>(), (normals.floppy - 3) / 2);
     EXPECT_LE(modes.at("held_by_prestress").get<int>(), modes.at("held_by_second").get<int>());
     expect_choices(state, packing);
@@ -102,7 +104,7 @@ TEST(HoldingMeasure, PrestressCountsConstraintsAndModes) {
   EXPECT_EQ(states.back().at("s_normal").size(), PackingEnergy().contacts(octahedra().states.back()).size());
 }
 
-TEST(HoldingMeasure, PrestressCountsModesByWhatContactsHold) {
+TEST(HoldingMeasure, PrestressCountsModesByTheirStiffness) {
   const Packing& packing = octahedra().states[1];
   PackingEnergy energy;
   const auto contacts = energy.contacts(packing);
@@ -139,7 +141,7 @@ TEST(HoldingMeasure, PrestressCountsModesByWhatContactsHold) {
   EXPECT_NE(by_threshold.begin()->second, by_threshold.rbegin()->second);
 }
 
-TEST(HoldingMeasure, RigidityTriesOtherCutoffs) {
+TEST(HoldingMeasure, RigidityUsesOtherCutoffsToo) {
   const auto states = states_of(Measure::rigidity, "rigidity");
   int told = 0;
   for (const Json& state : states) {
@@ -158,7 +160,7 @@ TEST(HoldingMeasure, RigidityTriesOtherCutoffs) {
   EXPECT_GT(told, 0);
 }
 
-TEST(HoldingMeasure, GapsCountsAll) {
+TEST(HoldingMeasure, GapsCountsEveryPair) {
   const auto states = states_of(Measure::gaps, "gaps");
   const auto sum = [](const Json& bins) {
     const auto counts = bins.at("counts").get<std::vector<long>>();
@@ -176,7 +178,7 @@ TEST(HoldingMeasure, GapsCountsAll) {
   EXPECT_LT(states.back().at("within_distance").get<double>(), 1);
 }
 
-TEST(HoldingMeasure, GapsSaysWhyThereIsNothing) {
+TEST(HoldingMeasure, GapsStatesWhyThereIsNoValue) {
   RandomStream random{7};
   JamResult without_phi_j;
   without_phi_j.states = {random_packing(platonic(SolidKind::dodecahedron), 50, .75, random)};

@@ -1,13 +1,13 @@
-// These tests prove, of what measurements put into records:
-// - of a jammed packing every measurement has an entry per state, the record conforms to its schema, every quantity
-//   of the tables finds its number or the reason why there is none;
-// - its zero, negative and positive modes are counted right: as many as a dense solver finds among all 6N eigenvalues;
-// - its constraints are Z·N/2 and C·N/2, as many as contacts counted by their angles have, and rank, states of
-//   self-stress and floppy motions those of all singular values of the rows;
-// - the same bits come twice;
-// - states without contacts, with one, with three particles or one, and a crystal of cubes whose contacts are all alike
-//   give records that conform, with a reason beside every null, and never a number that is none;
-// - what each measure wrote into a record is told from what the others wrote, reasons included.
+// Properties tested here for all measures:
+// - For a jammed packing, every measure has an entry for each state, the record conforms to its schema, and every
+//   quantity of the tables has a value or a reason.
+// - The numbers of zero, negative and positive modes are those that a dense solver finds among all 6N eigenvalues.
+// - The constraints are Z·N/2 and C·N/2, as counted from the contact classes. Rank, states of self-stress and floppy
+//   motions are those of all singular values of the rows.
+// - A second evaluation gives the same bits.
+// - States without contacts, with one contact, with one or three particles, and a crystal of cubes give records that
+//   conform to the schema. They have a reason for every null, and no NaN.
+// - The parts that different measures wrote to a record, with their reasons, can be separated.
 
 #include "tasks/measure/measure.hpp"
 #include "tasks/records/summary.hpp"
@@ -30,7 +30,7 @@ namespace {
 
 using test::violations;
 
-/// An outcome of `jam` with everything measured.
+/// An outcome of `jam` with all measures.
 Outcome measured_outcome(const JamResult& jam) {
   Outcome outcome;
   auto manifest = test::tiny_manifest();
@@ -52,7 +52,7 @@ const JamResult& jammed() {
   return result;
 }
 
-/// Paths in the document of nulls without a reason beside them.
+/// Paths of null values that have no reason.
 std::string unexplained(const Json& json, const std::string& path = "") {
   std::string list;
   if (json.is_array()) {
@@ -67,7 +67,7 @@ std::string unexplained(const Json& json, const std::string& path = "") {
   return list;
 }
 
-/// Checks that the part of each measure is found again in a record with all measures.
+/// Checks that the part of each measure is found in a record with all measures.
 void expect_recorded(const Json& record, const Outcome& outcome) {
   for (const auto& [what, measured] : outcome.measured) {
     const auto found = recorded_measurement(what, record);
@@ -89,7 +89,7 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
   ASSERT_EQ(summary.states.size(), jammed().states.size());
   for (std::size_t i = 0; i < all_quantities().size(); ++i) {
     const auto& quantity = all_quantities()[i];
-    if (quantity.group == "kinds of a mixture") continue;  // which this packing is none of
+    if (quantity.group == "kinds of a mixture") continue;  // this packing is not a mixture
     const auto& place = quantity.of == Quantity::Of::state ? record.at("nearest") : record;
     const Json::json_pointer pointer{std::string(quantity.pointer)};
     ASSERT_TRUE(place.contains(pointer)) << quantity.name;
@@ -114,7 +114,7 @@ TEST(Measure, CountsModesAsADenseSolverDoes) {
   }
 }
 
-/// Checks the record's counts for the rows of `matrix`, for contacts with this many `constraints`.
+/// Checks the numbers in the record for the rows of `matrix`, from contacts with so many constraints.
 void expect_counted(const Json& counted, const RigidityMatrix& matrix, int constraints, double per_particle) {
   const auto coordinates = static_cast<int>(matrix.rows.cols());
   const Eigen::VectorXd sigma = singular_values_of(Eigen::MatrixXd(matrix.rows));
@@ -162,7 +162,7 @@ TEST(Measure, GivesTheSameBitsTwice) {
   }
 }
 
-/// A result whose one state is `packing`, as it is.
+/// A result with one state, the packing as it is.
 JamResult result_of(const Packing& packing) {
   const Evaluation here = PackingEnergy().evaluate(packing);
   JamResult result;
@@ -187,7 +187,8 @@ Packing row(SolidKind kind, int n, double spacing, double side) {
   return packing;
 }
 
-/// Cubes of unit volume on a cubic lattice of spacing .999: each overlaps 6 others at faces, 12 at edges, 8 at corners.
+/// Cubes of unit volume on a cubic lattice with spacing .999. Each overlaps 6 others at faces, 12 at edges and 8 at
+/// corners.
 Packing crystal_of_cubes() {
   constexpr int cells = 4;
   constexpr double spacing = 0.999;
@@ -200,7 +201,7 @@ Packing crystal_of_cubes() {
   return packing;
 }
 
-TEST(Measure, AnswersDegenerateStates) {
+TEST(Measure, DegenerateStatesHaveValuesOrReasons) {
   const std::vector<std::pair<std::string, Packing>> cases{
       {"one particle", row(SolidKind::octahedron, 1, 0, 8)},
       {"two apart", row(SolidKind::octahedron, 2, 4, 8)},

@@ -1,8 +1,8 @@
-// These tests prove, of the table of quantities:
-// - names and places are distinct, pointers are pointers, and every text is there;
-// - φ_J comes first; it and those of rearrangements are of no measure, every other quantity is of the measure whose
-//   source tells it; a group stands in one piece, the main one first;
-// - a quantity that is written is found where it says, with integers as integers, and null beside its reason.
+// Properties tested here for the list of quantities:
+// - Names and places are unique, places are JSON pointers, and no text is empty.
+// - φ_J comes first. φ_J and the quantities of rearrangements belong to no measure; every other quantity belongs to the
+//   measure that defines it. The quantities of a group are next to each other, and the main group is the first.
+// - A quantity is written to the place that it states. Integers are written as integers, and null has a reason.
 
 #include "tasks/measure/quantity.hpp"
 
@@ -17,7 +17,7 @@
 namespace isojam {
 namespace {
 
-TEST(Quantities, AreToldOnce) {
+TEST(Quantities, AreListedOnce) {
   std::set<std::string_view> names;
   std::set<std::pair<Quantity::Of, std::string_view>> places;
   for (const auto& quantity : all_quantities()) {
@@ -45,7 +45,7 @@ TEST(Quantities, BelongToTheirMeasures) {
   EXPECT_FALSE(quantity_index("phi_K"));
 }
 
-TEST(Quantities, GroupsAreInOnePiece) {
+TEST(Quantities, GroupsAreContiguous) {
   std::vector<std::string_view> groups;
   for (const auto& quantity : all_quantities()) {
     if (groups.empty() || groups.back() != quantity.group) groups.push_back(quantity.group);
@@ -54,7 +54,7 @@ TEST(Quantities, GroupsAreInOnePiece) {
   EXPECT_EQ(std::set(groups.begin(), groups.end()).size(), groups.size()) << ::testing::PrintToString(groups);
 }
 
-TEST(Quantities, AreWrittenWhereTheySay) {
+TEST(Quantities, AreWrittenToTheirPlace) {
   for (const auto& quantity : all_quantities()) {
     const Json::json_pointer pointer{std::string(quantity.pointer)};
     Json record;

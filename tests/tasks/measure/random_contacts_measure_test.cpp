@@ -1,8 +1,8 @@
-// These tests prove, of what the record says about angles near 0 and random contacts where edges touch too:
-// - the range near 0 ends where a tenth of random contacts are, summed contact by contact over the solids that touch,
-//   for one solid, for one shape in two sizes and for two shapes;
-// - angles there are counted, and a tenth of all is what is expected; with edges the range is another one than with
-//   vertices alone.
+// Properties tested here for the comparison of small angles with random contacts that include contacts of two edges:
+// - The range of small angles ends where a tenth of the random contacts are. This is computed from the solids of every
+//   contact, for one solid, for one shape in two sizes, and for two shapes.
+// - Angles in this range are counted; the expected number is a tenth of all. With edge contacts, the range differs from
+//   the range for vertices only.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ JamResult result_of(const Packing& packing) {
   return result;
 }
 
-/// Two solids that touch, of all whose contacts are as isotropic ones: the slow sum.
+/// Random contacts of two solids, if all their contacts were isotropic; computed with a slow sum.
 struct Slow {
   double face_face = 0, edge_face = 0;
 };
@@ -75,7 +75,7 @@ TEST(RandomContactsMeasure, RangeNearZeroIsThatOfTheSolids) {
     const auto angles = measure(Measure::contacts, result_of(packing)).states[0].at("contacts").at("angles");
     const auto &face_face = angles.at("face_face_random_contact"), &edge_face = angles.at("edge_face_random_contact");
     const auto share = random_share(packing, face_face.at("angle"), edge_face.at("angle"));
-    // The fixed points of A's and B's edges are not those of B's and A's.
+    // The points of the numerical integration differ if A and B are exchanged.
     EXPECT_NEAR(share.face_face, 0.1, 2e-4);
     EXPECT_NEAR(share.edge_face, 0.1, 2e-4);
     for (const auto* kind : {"face_face", "edge_face"}) {

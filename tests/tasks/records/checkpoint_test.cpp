@@ -1,9 +1,9 @@
-// These tests prove:
-// - a run that goes on from the text of any of its checkpoints ends with the record of the run that never stopped, but
-//   for timing, also where steps failed and were tried again, and in a variable cell; so does one that had ended
-//   and was not recorded yet;
-// - a checkpoint of another replicate, manifest or build, or with states that are not its own, is refused where it is
-//   wrong; a run that is no longer finite leaves none.
+// Properties tested here:
+// - A run that resumes from any of its checkpoints ends with the record of the run that never stopped, except for
+//   timing. This is also true if steps failed and were repeated, in a variable cell, and if a run had ended but had no
+//   record yet.
+// - A checkpoint of another replicate, manifest or build, or with states of another packing, is rejected with the place
+//   of the error. A run with values that are not finite writes no checkpoint.
 
 #include "tasks/records/checkpoint.hpp"
 
@@ -37,7 +37,7 @@ Json record_of(const ReplicateSpec& spec, const Checkpoint& from, const OnProgre
   return make_record(outcome);
 }
 
-/// How many expansion steps failed.
+/// Resumes a run from all its checkpoints and checks the bits. Returns the number of failed decompression steps.
 int expect_the_same_bits(const ReplicateSpec& spec) {
   std::vector<std::string> texts;
   int halvings = 0;
@@ -58,7 +58,7 @@ int expect_the_same_bits(const ReplicateSpec& spec) {
   return halvings;
 }
 
-TEST(Checkpoint, TheRestOfARunInACellThatGivesWayHasTheSameBits) {
+TEST(Checkpoint, TheRestOfARunInAVariableCellHasTheSameBits) {
   auto manifest = test::tiny_manifest();
   manifest["measure"] = {"contacts"};
   manifest["protocol"]["control"] = "pressure";
@@ -80,7 +80,7 @@ Checkpoint with_a_state(const ReplicateSpec& spec) {
   return checkpoint;
 }
 
-TEST(Checkpoint, GoesOnWhateverIsMeasuredThen) {
+TEST(Checkpoint, ResumesWithOtherMeasures) {
   const auto manifest = parse_manifest(test::tiny_manifest().dump(), "tiny");
   auto fewer = manifest, seeded = manifest;
   fewer.measures = {Measure::contacts};
@@ -91,7 +91,7 @@ TEST(Checkpoint, GoesOnWhateverIsMeasuredThen) {
   EXPECT_THROW(read_checkpoint({checkpoint, "c"}, test::make_plan(seeded)[0]), InputError);
 }
 
-TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
+TEST(Checkpoint, ForeignCheckpointsAreRejected) {
   const auto spec = tiny_spec();
   const auto good = *make_checkpoint(spec, with_a_state(spec));
   EXPECT_NO_THROW(read_checkpoint({good, "c"}, spec));
@@ -125,7 +125,7 @@ TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
       FAIL() << pointer << ": " << value;
     } catch (const InputError& error) {
       const auto& said = error.details().pointer;
-      // The whole of a packing or a provenance is judged, or the entry itself.
+      // The place is the wrong entry, or the packing or provenance that contains it.
       EXPECT_TRUE(pointer.starts_with(said) || said.starts_with(pointer)) << pointer << ": " << error.what();
     }
   }
@@ -136,7 +136,7 @@ TEST(Checkpoint, WhatIsNotItsOwnIsRefused) {
   }
 }
 
-TEST(Checkpoint, KnowsTheBranchThatWasLostAndHowStatesDiffer) {
+TEST(Checkpoint, ContainsTheLostBranchAndTheRearrangements) {
   const auto spec = tiny_spec();
   auto checkpoint = with_a_state(spec);
   checkpoint.progress.lost = 1;
@@ -154,7 +154,7 @@ TEST(Checkpoint, KnowsTheBranchThatWasLostAndHowStatesDiffer) {
   EXPECT_EQ(read.particles_moved, 12.5);
 }
 
-TEST(Checkpoint, ResidualsMayBeInfiniteAndNothingElse) {
+TEST(Checkpoint, OnlyResidualsMayBeInfinite) {
   const auto spec = tiny_spec();
   auto checkpoint = with_a_state(spec);
   auto& summary = checkpoint.progress.result.path.front().summary;

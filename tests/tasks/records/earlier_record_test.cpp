@@ -1,7 +1,7 @@
-// These tests prove, of records of version 3:
-// - with their keys moved they are records of version 4 without a difference, also if the replicate failed;
-// - they are read from a directory as those of version 4 are, with the digest that their packings name;
-// - no measure is added to them, and the message says what to do.
+// Properties tested here for records of version 3:
+// - With their keys moved, they are the same as records of version 4, also for failed replicates.
+// - They are read from a directory like those of version 4, with the digest that their packings state.
+// - No measure can be added to them, and the message states what to do.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Json earlier_state(const Json& state) {
   return earlier;
 }
 
-/// Version 3 of a record of version 4.
+/// A record of version 4 in the format of version 3.
 Json earlier_of(const Json& record) {
   Json earlier = Json::object();
   for (const auto& item : record.items()) {

@@ -1,8 +1,8 @@
-// These tests prove:
-// - values are used in the order of their indices, each once, whichever were made first, and on the calling thread;
-// - few wait in memory: no more than four for each thread are made ahead of the one in use;
-// - of several failures the first index is thrown, after all before it were used; what `use` throws ends it too, and in
-//   either case nothing is made or used afterwards.
+// Properties tested here:
+// - Values are used in the order of their indices, each once and on the calling thread, whichever are made first.
+// - Few values wait in memory: at most four per thread are made before they are used.
+// - If several values fail, the exception of the lowest index is thrown after all earlier values were used. An
+//   exception of `use` also ends the call. Afterwards, nothing is made or used.
 
 #include "tasks/records/in_order.hpp"
 
@@ -16,7 +16,7 @@
 namespace isojam {
 namespace {
 
-/// Later indices are ready sooner, within windows.
+/// Within a small range, later indices are ready sooner.
 std::size_t slow(std::size_t index) {
   std::this_thread::sleep_for(std::chrono::microseconds(100 * (7 - index % 8)));
   return index;

@@ -1,11 +1,12 @@
-// These tests prove, of files that are whole but not what they are taken for:
-// - a packing or path of another replicate, manifest or run is not taken for a record's own, whoever reads it;
-// - a record must have the result digest that it states, and be of the replicate its name says;
-// - records of another manifest than the directory's are told and left out of the table, and builds are distinguished;
-// - a pipe, a link to an endless device and a million nested lists are damage, at once;
-// - a record of a resource failure is redone;
-// - of manifests that begin at once in a fresh directory one gets it, and the others are refused by the keys that
-//   differ.
+// Properties tested here for files that are complete but do not belong where they are:
+// - A packing or path of another replicate, manifest or run is not accepted for a record by any reader.
+// - A record must have the result digest that it states, and must be of the replicate in its file name.
+// - Records of another manifest than that of the directory are reported and left out of the table. Different builds are
+//   reported.
+// - A pipe, a link to an endless device, and a million nested lists are detected as damage at once.
+// - A record of a resource failure is recomputed.
+// - If several runs with different manifests start at the same time in a fresh directory, one gets it. The others are
+//   rejected with the keys that differ.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -37,7 +38,7 @@ Manifest manifest_with(int seed) {
   return parse_manifest(json.dump(), "m.json");
 }
 
-/// A directory of made-up outcomes.
+/// A directory with made-up outcomes.
 class Own : public testing::Test {
  protected:
   void SetUp() override {
@@ -46,14 +47,14 @@ class Own : public testing::Test {
   fs::path path(const std::string& folder, std::size_t k) const {
     return here_ / folder / (replicate_name(plan_[k]) + ".json");
   }
-  /// Seals a document anew after a change to it.
+  /// Changes a document and gives it a new checksum.
   static void change(const fs::path& file, const std::function<void(Json&)>& work) {
     auto json = read_sealed(file.string());
     json.erase("checksum");
     work(json);
     test::write_text(file, sealed(json));
   }
-  /// Nobody takes the files of replicate 0 for good, and the one complaint names this file.
+  /// Checks that no reader accepts the files of replicate 0, and that the only message names this file.
   void expect_not_held(const fs::path& file) {
     warnings_.said.clear();
     EXPECT_FALSE(store_.recorded(plan_[0]));
@@ -88,7 +89,7 @@ TEST_F(Own, PackingsAndPathsBelongToTheirRecord) {
   }
 }
 
-TEST_F(Own, AReportIsNotMadeOfAnothersPacking) {
+TEST_F(Own, AReportDoesNotUseAForeignPacking) {
   const auto held = read_record(here_.path(), replicate_name(plan_[0]));
   ASSERT_TRUE(read_nearest_packing(here_.path(), held));
   fs::copy_file(path("packings", 1), path("packings", 0), fs::copy_options::overwrite_existing);
@@ -104,7 +105,7 @@ TEST_F(Own, ARecordHasTheDigestThatItStates) {
   EXPECT_THROW(read_results(here_.path(), unheard), InputError);
 }
 
-TEST_F(Own, ARecordIsOfTheReplicateItsNameSays) {
+TEST_F(Own, ARecordIsOfTheReplicateInItsName) {
   fs::copy_file(path("records", 1), path("records", 0), fs::copy_options::overwrite_existing);
   expect_not_held(path("records", 0));
   EXPECT_THROW(table_of({here_.path().string()}, unheard), InputError);
@@ -121,7 +122,7 @@ TEST_F(Own, RecordsOfAnotherManifestAreLeftOut) {
   EXPECT_NE(warnings_.said[0].find("another manifest"), std::string::npos) << warnings_.said[0];
 }
 
-TEST_F(Own, BuildsAreToldApart) {
+TEST_F(Own, DifferentBuildsAreReported) {
   EXPECT_EQ(table_of({here_.path().string()}, warnings_.warn()).builds.size(), 1U);
   EXPECT_TRUE(warnings_.said.empty());
   change(path("records", 0), [](Json& json) { json["provenance"]["git"] = "another"; });
@@ -130,7 +131,7 @@ TEST_F(Own, BuildsAreToldApart) {
   EXPECT_NE(warnings_.said[0].find("2 builds"), std::string::npos) << warnings_.said[0];
 }
 
-TEST_F(Own, WhatIsNoFileIsDamage) {
+TEST_F(Own, PipesAndDevicesAreDamage) {
   for (const std::string folder : {"records", "packings", "paths"}) {
     const auto own = read_text(path(folder, 0));
     fs::remove(path(folder, 0));
@@ -160,7 +161,7 @@ TEST_F(Own, NestingWithoutEndIsDamage) {
   EXPECT_NE(warnings_.said[0].find("nested"), std::string::npos) << warnings_.said[0];
 }
 
-TEST_F(Own, WhatTheMachineLackedIsRedone) {
+TEST_F(Own, ResourceFailuresAreRecomputed) {
   for (const std::string why : {"std::bad_alloc", "Resource temporarily unavailable",
                                 "pthread_create has failed: Resource temporarily unavailable"}) {
     auto outcome = test::made_up_outcome(plan_[0]);

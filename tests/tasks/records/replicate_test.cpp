@@ -1,7 +1,7 @@
-// These tests prove, on real packings of 24 dodecahedra:
-// - a run that stops at max_density or max_steps says which key of the manifest sets the limit;
-// - φ_J of states outside the fit window is flagged, and of states within it is not;
-// - the settings of both, and no others, are warned of beforehand.
+// Properties tested here with real packings of 24 dodecahedra:
+// - If a run stops at max_density or max_steps, the message names the key of the manifest that sets the limit.
+// - If φ_J was fitted to states outside the fit window, the replicate is flagged; otherwise it is not.
+// - Exactly these settings cause a warning before the run.
 
 #include "tasks/records/replicate.hpp"
 
@@ -40,7 +40,7 @@ void expect_failure(const Tried& tried, const std::string& status, const std::st
   EXPECT_EQ(tried.warnings.front().rfind(key + ": ", 0), 0U) << tried.warnings.front();
 }
 
-TEST(Replicate, OneThatStopsAtALimitNamesItsKey) {
+TEST(Replicate, ALimitThatStopsARunIsNamed) {
   expect_failure(try_with({{"max_density", 0.66}}), "density_limit", "/protocol/max_density");
   expect_failure(try_with({{"max_steps", 5}}), "step_limit", "/protocol/max_steps");
 }

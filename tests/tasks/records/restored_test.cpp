@@ -1,8 +1,8 @@
-// These tests prove:
-// - of a record and the packings of its path comes a result that gives the same record again, also where a branch was
-//   lost, a packing rearranged, a residual was infinite or saddles were relaxed to minima;
-// - what a measure has not, in a state or of all states, comes back from the record with its reason;
-// - nothing is added to a record that its result does not give again: it is refused and left as it was.
+// Properties tested here:
+// - From a record and the packings of its path, the result is restored, and gives the same record again. This is also
+//   true if a branch was lost, a packing rearranged, a residual was infinite, or saddles were relaxed.
+// - If a measure has no value, in one state or in all, the restored result has the reason from the record.
+// - If the restored result does not give the same record, no measure is added and the record does not change.
 
 #include "tasks/records/restored.hpp"
 
@@ -27,7 +27,7 @@ Manifest manifest_measuring(const Json& measures) {
   return parse_manifest(json.dump(), "m.json");
 }
 
-/// With one of each that a step may have beside its numbers.
+/// An outcome that has one of each optional part of a step.
 Outcome outcome_of(const ReplicateSpec& spec) {
   auto outcome = test::made_up_outcome(spec);
   std::erase_if(outcome.measured, [](const auto& each) { return each.first != Measure::contacts; });
@@ -53,7 +53,7 @@ TEST(Restored, GivesTheSameRecordAgain) {
   EXPECT_EQ(make_record(again).at("result_digest"), record.at("result_digest"));
 }
 
-/// First members of the places of a measure's quantities, in their order.
+/// First keys of the places of a measure's quantities, in their order.
 std::vector<std::string> members(Measure what, Quantity::Of of) {
   std::vector<std::string> names;
   for (const auto& quantity : definition_of(what).quantities) {
@@ -63,7 +63,7 @@ std::vector<std::string> members(Measure what, Quantity::Of of) {
   return names;
 }
 
-TEST(Restored, WhatIsNotThereComesBackWithItsReason) {
+TEST(Restored, MissingValuesHaveTheirReasons) {
   auto outcome = outcome_of(test::make_plan(manifest_measuring({"contacts"})).front());
   int absent = 0;
   for (const auto what : all_measures) {
@@ -86,7 +86,7 @@ TEST(Restored, WhatIsNotThereComesBackWithItsReason) {
   }
 }
 
-TEST(Restored, NothingIsAddedToWhatDoesNotComeOutAgain) {
+TEST(Restored, NothingIsAddedIfTheRecordDiffers) {
   const test::TemporaryDirectory here;
   const auto few = manifest_measuring({"contacts"});
   const Store store(here.path(), few, test::unheard);

@@ -1,6 +1,6 @@
-// These tests prove, on a hundred thousand synthetic records (a minute and a gigabyte of disk, so only with
-// --gtest_also_run_disabled_tests): `aggregate` stays below a gibibyte, prints how long it takes, and gives the same
-// table whichever half of the records it finds first.
+// Properties tested here with a hundred thousand synthetic records: `aggregate` needs less than a gibibyte of memory,
+// and gives the same table whichever half of the records it finds first. The time is printed. The test takes a minute
+// and a gigabyte of disk, so it runs only with --gtest_also_run_disabled_tests.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

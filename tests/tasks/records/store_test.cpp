@@ -1,10 +1,11 @@
-// These tests prove:
-// - what is written is held; a record that is cut anywhere, or is of another replicate, is reported and not held;
-// - a record without its packing is not held; a packing keeps every bit of its state, low parts included, and conforms
-//   to its schema, alike or a mixture, in a cube or not;
-// - a directory of another manifest is refused and left as it was, in whichever file the other manifest shows;
-// - more replicates may be asked for later, and fewer do not shrink the plan on disk;
-// - temporaries of a writer that was killed are not taken for results.
+// Properties tested here:
+// - A written record is found again. A record that is truncated anywhere, or belongs to another replicate, is reported
+//   and not used.
+// - A record without its packing is not used. A packing keeps every bit of its state, including the low parts, and
+//   conforms to its schema: with one solid or a mixture, in a cube or in another cell.
+// - A directory of another manifest is rejected and not changed, whichever file shows that it belongs to another one.
+// - Later, more replicates can be requested. Fewer replicates do not make the stored plan smaller.
+// - Temporary files of a killed writer are not used as results.
 
 #include "tasks/records/store.hpp"
 #include "tasks/io/file.hpp"
@@ -63,7 +64,7 @@ TEST(Store, PackingsKeepEveryBit) {
       EXPECT_EQ(packing.at("positions_low")[i][c].get<double>(), pose.position_low[c]);
     }
     for (int c = 0; c < 4; ++c) {
-      const int place = (c + 1) % 4;  // w first
+      const int place = (c + 1) % 4;  // w comes first
       EXPECT_EQ(packing.at("orientations")[i][place].get<double>(), pose.orientation.coeffs()[c]);
       EXPECT_EQ(packing.at("orientations_low")[i][place].get<double>(), pose.orientation_low[c]);
     }
@@ -95,7 +96,7 @@ TEST(Store, PackingsConformToTheirSchema) {
   }
 }
 
-TEST(Store, HoldsWhatWasWritten) {
+TEST(Store, FindsWhatWasWritten) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const auto plan = test::make_plan(manifest);
@@ -113,7 +114,7 @@ TEST(Store, HoldsWhatWasWritten) {
   EXPECT_EQ(count_records(directory / "results"), 2);
 }
 
-TEST(Store, ADamagedRecordIsReportedAndNotHeld) {
+TEST(Store, ADamagedRecordIsReportedAndNotUsed) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const auto plan = test::make_plan(manifest);
@@ -134,7 +135,7 @@ TEST(Store, ADamagedRecordIsReportedAndNotHeld) {
   EXPECT_TRUE(store.recorded(plan[0]));
 }
 
-TEST(Store, ARecordUnderAnotherNameIsNotHeld) {
+TEST(Store, ARecordUnderAnotherNameIsNotUsed) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const auto plan = test::make_plan(manifest);
@@ -147,7 +148,7 @@ TEST(Store, ARecordUnderAnotherNameIsNotHeld) {
   EXPECT_EQ(warnings.said.size(), 1U);
 }
 
-TEST(Store, ARecordWithoutItsPackingIsNotHeld) {
+TEST(Store, ARecordWithoutItsPackingIsNotUsed) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_with();
   const auto spec = test::make_plan(manifest)[0];
@@ -159,7 +160,7 @@ TEST(Store, ARecordWithoutItsPackingIsNotHeld) {
   EXPECT_EQ(warnings.said.size(), 1U);
 }
 
-TEST(Store, RefusesADirectoryOfAnotherManifest) {
+TEST(Store, RejectsADirectoryOfAnotherManifest) {
   const TemporaryDirectory directory;
   const Store store(directory.path(), manifest_with(7), unheard);
   store.write(test::made_up_outcome(test::make_plan(manifest_with(7))[0]));
@@ -181,7 +182,7 @@ TEST(Store, RefusesADirectoryOfAnotherManifest) {
   }
 }
 
-TEST(Store, ADamagedRecordBeyondThePlanIsToldAndNoObstacle) {
+TEST(Store, ADamagedRecordBeyondThePlanIsOnlyReported) {
   const TemporaryDirectory directory;
   { const Store store(directory.path(), manifest_with(), unheard); }
   const auto path = directory / "records/cube-N64-r0000.json";
@@ -205,7 +206,7 @@ TEST(Store, ThePlanOnlyGrows) {
   }
 }
 
-TEST(Store, FewerReplicatesDoNotTakeAGoalBack) {
+TEST(Store, FewerReplicatesDoNotCancelAGoal) {
   const TemporaryDirectory directory;
   const auto with = [](const Json& replicates) {
     auto json = test::good_manifest();

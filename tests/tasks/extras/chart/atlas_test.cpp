@@ -1,9 +1,11 @@
-// These tests prove:
-//   every cell of the stability atlas is as the tables of atlas_expected.cpp say, a letter for each setting (h holds,
-//   r refuses, f fails, ? holds or refuses as the last bits of a compiler's arithmetic have it): isojam's own methods,
-//   and those that are there to be compared with; no cell is missing from a table, and none is there twice; isojam's
-//   own methods hold in every cell, or refuse; every cell says what was measured and why it was judged so; the same
-//   bits come out every time; after a stop request no row does.
+// Properties tested here:
+// - Every cell of the stability atlas has the verdict in the tables of atlas_expected.cpp. Each letter is for one
+//   setting: h holds, r refuses, f fails, and ? holds or refuses, depending on rounding.
+// - Every cell is in these tables once.
+// - isojam's own methods hold or refuse in every cell.
+// - Every cell states what was measured and the reason for its verdict.
+// - The bits are the same every time.
+// - After a stop request no further rows are made.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +41,7 @@ void expect_as_told(const std::vector<AtlasRow>& rows, std::span<const ExpectedC
   EXPECT_EQ(found, expected);
 }
 
-/// Checks isojam's own methods, and the texts of every row.
+/// Checks the verdicts of isojam's own methods, and the texts of every row.
 void expect_sound(const std::vector<AtlasRow>& rows) {
   std::set<std::string> seen;
   for (const AtlasRow& row : rows) {
@@ -77,7 +79,7 @@ const AtlasStates& states() {
   return made;
 }
 
-TEST(AtlasOfJammedStates, NoRowIsOfWhatWasStopped) {
+TEST(AtlasOfJammedStates, StoppedCellsGiveNoRow) {
   std::stop_source stopped;
   stopped.request_stop();
   EXPECT_TRUE(AtlasStates(stopped.get_token()).empty());

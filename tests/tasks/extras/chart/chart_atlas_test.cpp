@@ -1,8 +1,10 @@
-// These tests prove, on cells made up for the purpose:
-// - cells of a regime and method that are judged alike are one run: what holds first, then a run for each reason, with
-//   the figure of its first cell; neighbours are given as a range, and methods that take turns are distinguished;
-// - every cell is in exactly one run;
-// - the table names each run with its verdict, failures and refusals with reason and figure; data hold every cell.
+// Properties tested here with made-up cells:
+// - Cells of one regime and method with the same verdict form a group (a run). The group that holds comes first, then
+//   one group for each reason, with the result of its first cell. Neighbouring settings are written as a range. Methods
+//   that alternate are separated.
+// - Every cell is in exactly one group.
+// - The table names each group with its verdict, and states reason and result for failures and refusals. The data
+//   contain every cell.
 
 #include "tasks/extras/chart/atlas/atlas_runs.hpp"
 
@@ -43,7 +45,7 @@ std::string text_of(const AtlasRun& run) {
          run.settings + "|" + run.reason + "|" + run.figure;
 }
 
-TEST(ChartAtlas, RunsAreOfCellsJudgedAlike) {
+TEST(ChartAtlas, CellsWithTheSameVerdictFormAGroup) {
   std::vector<std::string> found;
   for (const AtlasRun& run : atlas_runs(made_up_rows())) found.push_back(text_of(run));
   EXPECT_EQ(found, (std::vector<std::string>{
@@ -54,7 +56,7 @@ TEST(ChartAtlas, RunsAreOfCellsJudgedAlike) {
   EXPECT_TRUE(atlas_runs({}).empty());
 }
 
-TEST(ChartAtlas, TheTableSaysWhatDoesNotHold) {
+TEST(ChartAtlas, TheTableStatesWhatDoesNotHold) {
   ChartResult result;
   result.atlas = ChartAtlas{FamilyEnd::complete, made_up_rows()};
   const std::string text = text_table(result);
@@ -65,7 +67,7 @@ TEST(ChartAtlas, TheTableSaysWhatDoesNotHold) {
   EXPECT_EQ(text.find("error at 2"), std::string::npos) << text;
 }
 
-TEST(ChartAtlas, DataHoldEveryCell) {
+TEST(ChartAtlas, DataContainEveryCell) {
   ChartResult result;
   EXPECT_TRUE(chart_data(ChartConfig(), result).at("atlas").is_null());
   result.atlas = ChartAtlas{FamilyEnd::cut, made_up_rows()};

@@ -1,13 +1,15 @@
-// These tests prove, of every point of a tiny but real chart:
-// - a point says why it stopped, with a spread in order and the number of runs behind it;
-// - what reached a residual is within it, and what did not is marked as failed; likewise wrong overlaps, negative modes
-//   that are none, and eigensolvers that did not converge; all but the overlaps do fail somewhere; so says the table;
-// - on the front is what no other point of its case beats, and all of that;
-// - settings of the protocol: each has its own name; a fit window differs from the first setting by the
-//   difference of the means, and an interval of paired differences stands where packings had the same initial
-//   configuration and nowhere else;
-// - every method has a fit over the numbers of particles, and it is the power law of its points;
-// - at a vanishing tolerance the bias of the default method vanishes, and a loose minimiser's does not.
+// Properties tested here for every point of a small real chart:
+// - A point states why the method stopped, a spread with least ≤ median ≤ greatest, and the number of runs.
+// - A point that reached a residual has an error of at most this residual; otherwise it is marked as failed. Wrong
+//   overlaps, spurious negative modes and eigensolvers without convergence are marked as failed too. Except for
+//   overlaps, some points of each kind do fail. The table marks the same points.
+// - The front of a case consists of the points for which no other point is both faster and more accurate.
+// - Settings of the protocol have different names. The difference of a fit window from the first setting is the
+//   difference of the means. The interval of paired differences is given only if the packings have the same initial
+//   configuration.
+// - For every method, the fitted power of N is the power law of its points.
+// - The bias of the default method vanishes for a very small residual; the bias of a minimiser with a large residual
+//   does not.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +46,7 @@ std::string text_of(const ChartPoint& point) {
   return point.task + " | " + point.method + " | " + point.setting + " | " + point.stopped;
 }
 
-TEST(ChartPoints, CarrySpreadsCountsAndReasons) {
+TEST(ChartPoints, HaveSpreadsCountsAndReasons) {
   for (const ChartFamily& family : real_chart().families) {
     ASSERT_FALSE(family.points.empty()) << family.name;
     for (const ChartPoint& point : family.points) {
@@ -55,7 +57,7 @@ TEST(ChartPoints, CarrySpreadsCountsAndReasons) {
         EXPECT_LE(spread->least, spread->median) << text_of(point);
         EXPECT_LE(spread->median, spread->greatest) << text_of(point);
       }
-      // Both packings; what is fast, twice each, but for families that take the median first.
+      // Both packings. Fast methods are timed twice for each packing, but some families first take the median.
       if (family.name == "equilibrium") {
         EXPECT_GE(point.seconds->n, 2) << text_of(point);
         EXPECT_LE(point.seconds->n, 4) << text_of(point);
@@ -67,7 +69,7 @@ TEST(ChartPoints, CarrySpreadsCountsAndReasons) {
         EXPECT_EQ(point.error->n, 8) << text_of(point);
         const Json& area = point.further.at("S_error_greatest");
         EXPECT_EQ(area.is_null(), point.method == "clip in doubles") << text_of(point);
-        // The reference has V and S from one polyhedron: who is right about one is right about the other.
+        // The reference computes V and S from one polyhedron, so if V is correct, S is too.
         if (!area.is_null()) {
           EXPECT_LT(area.get<double>(), 1e-9) << text_of(point);
         }
@@ -76,7 +78,7 @@ TEST(ChartPoints, CarrySpreadsCountsAndReasons) {
   }
 }
 
-/// Checks every point's mark against what it is to be; gives how many failed.
+/// Compares the mark of every point with the expected one. Returns how many failed.
 template <class ShouldFail>
 int count_failed(const std::string& family, const ShouldFail& should_fail) {
   int failed = 0, fine = 0;
@@ -89,16 +91,16 @@ int count_failed(const std::string& family, const ShouldFail& should_fail) {
   return failed;
 }
 
-/// The value that a setting of this kind requests; nullopt for another kind.
+/// Value that is requested by a setting of this kind; nullopt for other kinds.
 std::optional<double> asked(const ChartPoint& point, const std::string& kind) {
   if (!point.setting.starts_with(kind)) return std::nullopt;
   return std::stod(point.setting.substr(kind.size()));
 }
 
-TEST(ChartPoints, FailedMeansWhatTheFamilySays) {
+TEST(ChartPoints, FailedPointsAreMarked) {
   const int unbalanced = count_failed("equilibrium", [](const ChartPoint& point) {
     const auto residual = asked(point, "residual ");
-    // The energy rule requests no residual: a point fails only if the rule did not stop it.
+    // The paper's rule requests no residual, so a point fails only if the rule did not stop the minimiser.
     return residual ? !(point.error->greatest <= *residual) : point.stopped != "energy_change";
   });
   const int unstable =
@@ -127,7 +129,7 @@ bool beats(const ChartPoint& a, const ChartPoint& b) {
   return usable(a) && a.task == b.task && ta <= tb && ea <= eb && (ta < tb || ea < eb);
 }
 
-TEST(ChartPoints, TheFrontIsWhatNothingBeats) {
+TEST(ChartPoints, TheFrontHasTheBestPoints) {
   const Json data = chart_data(ChartConfig(), real_chart());
   int on_front = 0, all = 0;
   for (std::size_t f = 0; f < real_chart().families.size(); ++f) {
@@ -155,7 +157,7 @@ TEST(ChartPoints, TheFrontIsWhatNothingBeats) {
   EXPECT_LT(on_front, all);
 }
 
-TEST(ChartPoints, SettingsOfTheProtocolAreToldApart) {
+TEST(ChartPoints, SettingsOfTheProtocolHaveDifferentNames) {
   const auto points = points_of(real_chart().families, "phi_j");
   std::vector<std::string> settings;
   for (const ChartPoint& point : points) settings.push_back(point.setting);
@@ -172,7 +174,7 @@ TEST(ChartPoints, SettingsOfTheProtocolAreToldApart) {
     std::printf("%s: %.1e ± %.1e replicate by replicate, of means ± %.1e\n", point.setting.c_str(),
                 difference.get<double>(), width.get<double>(), point.further.at("half_width").get<double>());
   }
-  // The states are the same, so the window shifts every replicate by about the same amount.
+  // The states are the same, so another window shifts all replicates by about the same amount.
   const Json& window = points[2].further;
   EXPECT_LT(window.at("difference_half_width").get<double>(), window.at("half_width").get<double>());
 }
@@ -204,7 +206,7 @@ TEST(ChartPoints, FitsOfCostsArePowerLawsOfThePoints) {
   EXPECT_NE(text_table(real_chart()).find("replicate: seconds grow as N^x with x = "), std::string::npos);
 }
 
-TEST(ChartPoints, BiasIsOfStatesThatAreOff) {
+TEST(ChartPoints, UnbalancedStatesHaveABias) {
   double ours = -1, loose = 0;
   for (const ChartPoint& point : points_of(real_chart().families, "bias")) {
     if (point.method == "newton" && point.setting == "residual 1e-06") ours = point.error->greatest;

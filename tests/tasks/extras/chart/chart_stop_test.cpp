@@ -1,11 +1,11 @@
-// These tests prove:
-// - a signal in any part of a chart ends the command with exit code 75, its three files written: parts that ended
-// before
-//   are complete, the one under way and those after it say that they were interrupted;
-// - after each part there is a chart in which what is still to come stands as interrupted and empty;
-// - Hessians and modes look at the same equilibria, made once, as packings are;
-// - a family that is stopped in the middle keeps what was measured until then;
-// - an atlas that is stopped has the first rows of the whole atlas, none of them of what was stopped, and they conform.
+// Properties tested here:
+// - A signal in any part of a chart ends the command with exit code 75, after its three files were written. Parts that
+//   had ended are complete; the current part and later ones are marked as interrupted.
+// - After each part there is a chart in which the later parts are empty and marked as interrupted.
+// - Packings are made once. Hessians and modes use the same equilibria, which are also made once.
+// - A family that is stopped in the middle keeps the measurements made so far.
+// - A stopped atlas has the first rows of the whole atlas and conforms to the schema. It has no row of the cell that
+//   was stopped.
 
 #include <gtest/gtest.h>
 
@@ -37,8 +37,8 @@ struct Interrupted {
   std::map<std::string, std::string> files;
 };
 
-/// A chart of these comparisons by the built-in configuration, which takes minutes. It is interrupted a second after it
-/// wrote a first part, or two seconds after its start if `at_once`.
+/// Makes a chart with these comparisons and the built-in configuration, which takes minutes. Interrupts it one second
+/// after it wrote its first part. If `at_once` is true, interrupts it two seconds after the start.
 Interrupted interrupted_chart(const std::string& compared, bool at_once) {
   const test::TemporaryDirectory directory;
   test::write_text(directory / "config.json", "{\"compare\": " + compared + "}");
@@ -53,10 +53,10 @@ Interrupted interrupted_chart(const std::string& compared, bool at_once) {
   return result;
 }
 
-TEST(ChartStop, ASignalLeavesWhatWasMeasured) {
+TEST(ChartStop, ASignalKeepsTheMeasurements) {
   struct Case {
     std::string compared;
-    std::map<std::string, std::string> ends;  ///< of families and atlas
+    std::map<std::string, std::string> ends;  ///< how each family and the atlas ended
     bool at_once = false;
   };
   const std::vector<Case> all{
@@ -114,8 +114,8 @@ TEST(ChartStop, EachPartIsPublished) {
   EXPECT_EQ(parts, (std::vector<std::string>{"packings", "equilibria", "hessian", "modes", "overlap"}));
 }
 
-/// The measurements of a family's points that is stopped when its second packing begins: of both packings by the first
-/// method, of one packing by the others.
+/// Measurements of a family that is stopped when its second packing begins: the first method has points for both
+/// packings, all other methods for one.
 template <class Compare>
 void expect_kept_when_stopped(const ChartConfig& config, const Compare& compare) {
   const Measuring unstopped{config, {}, [](const std::string&) {}};
@@ -148,7 +148,7 @@ TEST(ChartStop, HessiansAndModesKeepWhatWasMeasured) {
 
 TEST(ChartStop, AStoppedAtlasHasItsFirstRows) {
   const auto first = stability_atlas({.jammed_states = false});
-  // The request comes amid the minimisers, wherever these are by then.
+  // The request arrives while the minimisers run.
   std::stop_source source;
   std::jthread later;
   const auto rows = stability_atlas({.stop = source.get_token(), .progress = [&](const std::string& next) {

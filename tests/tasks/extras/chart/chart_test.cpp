@@ -1,15 +1,16 @@
-// These tests prove:
-// - a configuration without keys is the built-in one; what is written is read back equal, both built-in ones among
-//   them;
-// - a configuration that is not understood, out of range or impossible is refused with pointer and what is allowed, and
-//   the schema refuses what it can express; its defaults are the program's;
-// - a Pareto front holds what no other point beats, in order of time, and neither failures nor points without error;
-// - conclusions rank by cases reached, then by time; say what is compared and within which residual; what they say was
-//   missed is what they do not count as reached; say so where nothing was measured or reached;
-// - medians are of finite values;
-// - a tiny chart of everything conforms to its schema, and is the same twice but for times;
-// - a chart whose time is over says so in every family;
-// - the command writes its three files and nothing else, and nothing for a bad configuration.
+// Properties tested here:
+// - A configuration without keys is the built-in one. Configurations are read as they were written, also the two
+//   built-in ones.
+// - An invalid configuration is rejected with the pointer and the allowed values. The schema rejects what it can
+//   express, and its defaults are those of the program.
+// - The Pareto front contains the points for which no other point is both faster and more accurate, in order of time.
+//   It contains neither failures nor points without an error.
+// - Conclusions rank methods by the number of cases reached, then by time. They state the criterion, and that nothing
+//   was measured or reached. The cases missed are all cases that do not count as reached.
+// - Medians are taken over finite values.
+// - A small chart with all comparisons conforms to its schema. Two runs differ only in times.
+// - If the time of a chart is over, every family states this.
+// - The command writes three files and no others. For an invalid configuration it writes nothing.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +65,7 @@ struct BadConfig {
   bool schema_can_tell = true;
 };
 
-TEST(ChartConfig, RefusesWhatItDoesNotUnderstand) {
+TEST(ChartConfig, RejectsInvalidConfigurations) {
   const std::vector<BadConfig> all{
       {R"({"tolerance": [1e-6]})", "/tolerance", "\"tolerances\"", "tolerances"},
       {R"({"phi_j": {"replicate": 3}})", "/phi_j/replicate", "\"replicates\"", "replicates"},
@@ -94,7 +95,7 @@ TEST(ChartConfig, RefusesWhatItDoesNotUnderstand) {
   }
 }
 
-TEST(ChartConfig, TellsAllErrorsAtOnce) {
+TEST(ChartConfig, ReportsAllErrorsAtOnce) {
   try {
     parse_chart_config(R"({"distances": [0.04, 0, 1], "tolerance": 1, "phi_j": {"replicates": 1, "solid": 1}})",
                        "bad.json");
@@ -122,7 +123,7 @@ ChartPoint made_up(const std::string& task, const std::string& method, double se
   return point;
 }
 
-TEST(ChartFront, HoldsWhatNothingBeats) {
+TEST(ChartFront, ContainsTheBestPoints) {
   const std::vector<ChartPoint> points{
       made_up("t", "slow and exact", 9, 1e-9), made_up("t", "beaten", 5, 1e-3),
       made_up("t", "fast", 1, 1e-2),           made_up("t", "good", 4, 1e-6),
@@ -145,7 +146,7 @@ TEST(ChartSpread, IsOfFiniteValues) {
   EXPECT_FALSE(spread({}));
 }
 
-/// Points with a requested residual of 1e-6, and slower ones with 1e-9.
+/// Points with a requested residual of 1e-6, and slower points with 1e-9.
 std::vector<ChartPoint> made_up_equilibrium() {
   std::vector<ChartPoint> points{made_up("a", "newton", 2, 1e-10),     made_up("a", "newton", 1, 1e-7),
                                  made_up("b", "newton", 3, 1e-7),      made_up("a", "lbfgs", 0.1, 1e-7),
@@ -161,7 +162,8 @@ std::vector<ChartPoint> made_up_equilibrium() {
 TEST(ChartConclusion, RanksByCasesThenByTime) {
   const auto ranking = standings(made_up_equilibrium(), 1e-6);
   ASSERT_EQ(ranking.size(), 4);
-  // Newton and FIRE reach both cases, Newton in 1 + 3 s by its faster setting; L-BFGS is faster where it does.
+  // Newton and FIRE reach both cases; Newton needs 1 + 3 s with its faster setting. L-BFGS is faster in the case that
+  // it reaches.
   EXPECT_EQ(ranking[0].method, "newton");
   EXPECT_EQ(ranking[0].reached, 2);
   EXPECT_DOUBLE_EQ(ranking[0].seconds, 4);
@@ -171,7 +173,7 @@ TEST(ChartConclusion, RanksByCasesThenByTime) {
   EXPECT_EQ(ranking[3].reached, 0);
 }
 
-TEST(ChartConclusion, SaysWhatFailed) {
+TEST(ChartConclusion, StatesWhatFailed) {
   ChartPoint bias = made_up("a", "by energy", 1, 0.004);
   bias.setting = "energy change 1e-12";
   const auto lines = conclusion(made_up_equilibrium(), std::vector{bias});
@@ -192,7 +194,7 @@ TEST(ChartConclusion, SaysWhatFailed) {
   EXPECT_NE(hopeless[1].find("no method"), std::string::npos) << hopeless[1];
 }
 
-/// "lbfgs in 1 of 2 cases" as {lbfgs, {1, 2}}, of one residual of the third line.
+/// The methods that missed a residual according to the third line: "lbfgs in 1 of 2 cases" is {lbfgs, {1, 2}}.
 std::map<std::string, std::pair<int, int>> missed_in(const std::string& line, double residual) {
   std::map<std::string, std::pair<int, int>> all;
   const auto name = fmt::format(" {:g}, missed by ", residual);
@@ -208,7 +210,7 @@ std::map<std::string, std::pair<int, int>> missed_in(const std::string& line, do
   return all;
 }
 
-TEST(ChartConclusion, WhatWasMissedIsWhatWasNotReached) {
+TEST(ChartConclusion, MissedCasesAreThoseNotReached) {
   const auto points = made_up_equilibrium();
   const auto lines = conclusion(points, {});
   int told = 0;
@@ -243,7 +245,7 @@ Json tiny_data() {
   return chart_data(tiny_config(), run_chart(tiny_config(), {}, console));
 }
 
-/// Without what a clock gave: times, and what is fastest.
+/// The data without times and without the statements about the fastest method.
 Json without_times(Json data) {
   data.erase("conclusion");
   data.erase("cpu_seconds");
@@ -275,7 +277,7 @@ TEST(Chart, OfEverythingConformsAndIsReproducible) {
   EXPECT_NE(violations("chart_data", damaged), "");
 }
 
-TEST(Chart, SaysThatItsTimeWasOver) {
+TEST(Chart, StatesThatItsTimeWasOver) {
   ChartConfig config = tiny_config();
   config.compare = ChartConfig().compare;
   config.total_seconds = 1e-3;

@@ -1,13 +1,14 @@
-// These tests prove:
-// - contacts that were constructed mark the faces that they were constructed on, by their class, and no others; both
-//   particles count them; face-face contacts, and no others, make clusters, which the least particle names;
-// - of several pairs of parallel faces that bound a contact, those are marked that lie in each other;
-// - the strongest of two contacts on a face shows;
-// - where contacts are too few to tell their classes, neither faces nor clusters claim to know them;
-// - Z counts each touching pair twice;
-// - wrapping moves a position by whole sides into the half-open cell, at its very ends too, and single precision does
-//   not take it out again;
-// - frames of different packings are not taken for an expansion.
+// Properties tested here:
+// - For constructed contacts, exactly the touching faces are marked, with the class of the contact. Both particles
+//   count the contact. Only face-face contacts make clusters; the number of a cluster is the lowest index of its
+//   particles.
+// - If several pairs of faces of a contact are parallel, the faces that lie in each other are marked.
+// - If a face has two contacts, it is marked with the stronger class.
+// - If there are too few contacts for a classification, faces and clusters are undecided.
+// - The sum of Z counts each touching pair twice.
+// - Wrapping moves a position by whole sides into the half-open cell, also at the ends. Conversion to single precision
+//   does not move it outside again.
+// - States of different packings are not accepted as one decompression.
 
 #include <gtest/gtest.h>
 
@@ -26,13 +27,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Pairs of particles 2k, 2k + 1 that touch in a known way, k modulo 3: 0 face-face, 1 edge-face, 2 vertex-face, each
-/// with its own face of one of them; every other face-face pair in the same orientation, so that faces beside
-/// the contact are as parallel as those in it; the pairs out of reach of each other. Dodecahedra: their edges are short
-/// enough to lie in a face, where those of the others reach over into neighbouring faces.
+/// Pairs of particles 2k and 2k + 1 that touch in a known way: face-face for k mod 3 = 0, edge-face for 1, vertex-face
+/// for 2. Each pair uses its own face of one of the particles. Every other face-face pair has equal orientations, so
+/// that other faces are as parallel as the touching ones. The pairs do not reach each other. The solids are
+/// dodecahedra, because their edges are short enough to lie in a face; edges of other solids would reach over
+/// neighbouring faces.
 struct ConstructedPairs {
   Packing packing;
-  std::vector<std::uint64_t> faces;  ///< per particle, as bits
+  std::vector<std::uint64_t> faces;  ///< a bit for each face, for every particle
 };
 
 constexpr int pairs_a_side = 4, pairs = pairs_a_side * pairs_a_side * pairs_a_side;
@@ -81,7 +83,7 @@ ConstructedPairs constructed_pairs(std::uint64_t seed) {
     a.orientation = constructed::random_orientation(random);
     b.position = a.position + a.orientation * contact.pose.displacement;
     b.orientation = a.orientation * Eigen::Quaterniond(contact.pose.rotation);
-    const bool b_first = k % 2 == 1;  // of the contact, A is the particle of lesser number
+    const bool b_first = k % 2 == 1;  // A is the particle with the lower index
     made.packing.poses.insert(made.packing.poses.end(), {b_first ? b : a, b_first ? a : b});
     made.faces.insert(made.faces.end(), {b_first ? on_b.faces : on_a.faces, b_first ? on_a.faces : on_b.faces});
   }
@@ -109,10 +111,11 @@ TEST(ExportFrame, ConstructedContactsMarkTheirFaces) {
   }
 }
 
-TEST(ExportFrame, TheStrongestContactOfAFaceShows) {
+TEST(ExportFrame, AFaceIsMarkedWithItsStrongestContact) {
   auto made = constructed_pairs(1);
   const auto& solid = made.packing.solids.only();
-  // Particle 0 has another flush on its face 0. A third, a vertex in the same face, comes on top of that or before.
+  // Another particle touches face 0 of particle 0 face to face. A third particle touches the same face with a vertex,
+  // after the other one or before.
   const auto& host = made.packing.poses[0];
   const auto weak = constructed::contact(constructed::face_site(solid, 0), constructed::vertex_site(solid, 0), 0.3,
                                          Vector3d::Zero(), 1e-2);
@@ -174,7 +177,7 @@ TEST(ExportFrame, WrappingMovesByWholeSides) {
   }
 }
 
-TEST(ExportFrame, FramesOfDifferentPackingsAreRefused) {
+TEST(ExportFrame, FramesOfDifferentPackingsAreRejected) {
   RandomStream random({5});
   const auto make = [&](SolidKind kind, int n) {
     return make_frame(random_packing(platonic(kind), n, 0.2, random), std::nullopt);

@@ -1,12 +1,15 @@
-// These tests prove:
-// - the same frames give the same bytes in every format, also after packings went through JSON; no text holds a NaN;
-// - the GSD layer keeps its index in the order of frames and names whatever the order of a frame's chunks, every entry
-//   lies within the file and points at its data; what is not a chunk is refused;
-// - nearest states and expansions go to the files that are listed on stdout, and to no others; all replicates at once
-//   likewise, failed ones left out with a warning;
-// - a name that no record has is refused with the nearest one, paths among names too, and nothing is read or written;
-// - a failed replicate, an expansion that was not kept, an output that cannot be written, one in the place of another
-//   and an unknown format end with exit 2; damaged packings and expansions of several solids with 65.
+// Properties tested here:
+// - The same states give the same bytes in every format, also after the packings were written to JSON and read. No text
+//   contains NaN.
+// - In a GSD file the index is in the order of frames and names, whatever the order of the chunks of a frame. Every
+//   entry of the index lies in the file and points at its data. An invalid chunk is rejected.
+// - The nearest states and the decompressions are written to the files that are listed on standard output, and to no
+//   others. The same is true for all replicates at once, except that failed ones are omitted with a warning.
+// - If no record has the given name, also if the name is a path, the most similar name is suggested. Nothing is read or
+//   written.
+// - The exit code is 2 for a failed replicate, a decompression that was not kept, an output that cannot be written, an
+//   output in place of another one, and an unknown format. It is 65 for damaged packings and for decompressions of
+//   several solids.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -119,7 +122,7 @@ TEST(GsdLayer, TheIndexIsInOrderAndPointsAtTheData) {
   EXPECT_EQ(at<std::uint32_t>(bytes, index + 32 + 24), 3U) << "columns";
 }
 
-TEST(GsdLayer, WhatIsNoChunkIsRefused) {
+TEST(GsdLayer, InvalidChunksAreRejected) {
   const std::vector<double> four{1, 2, 3, 4};
   const auto good = gsd_chunk("a", std::span(four), 2);
   const auto refused = [](const GsdIdentity& identity, const std::vector<GsdChunk>& chunks) {
@@ -132,7 +135,7 @@ TEST(GsdLayer, WhatIsNoChunkIsRefused) {
   refused({std::string(64, 'x'), "s"}, {good});
 }
 
-/// A results directory of made-up replicates, their expansions kept; the last one failed.
+/// A results directory with made-up replicates whose decompressions were kept. The last replicate failed.
 class ExportCommandTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -231,12 +234,12 @@ TEST_F(ExportCommandTest, AllReplicatesGoToADirectory) {
   }
 }
 
-TEST_F(ExportCommandTest, NamesThatNoRecordHasAreRefused) {
+TEST_F(ExportCommandTest, UnknownNamesAreRejected) {
   auto misspelt = names_[0];
   std::swap(misspelt[1], misspelt[2]);
   expect_refused(run(misspelt, "gsd", "a.gsd"), 2, "did you mean \"" + names_[0] + "\"?");
   expect_refused(run("nothing like it", "gsd", "a.gsd"), 2, "expected a name such as \"" + names_[0] + "\"");
-  // A path that would lead to a packing is no name.
+  // A path that leads to a packing is not a name.
   for (const auto& path : {"../packings/" + names_[0], "./" + names_[0], names_[0] + "/", names_[0] + ".json"}) {
     expect_refused(run(path, "gsd", "a.gsd"), 2, "unknown replicate \"" + path + "\"");
   }
@@ -244,7 +247,7 @@ TEST_F(ExportCommandTest, NamesThatNoRecordHasAreRefused) {
                  "elsewhere: no such directory");
 }
 
-TEST_F(ExportCommandTest, WhatCannotBeExportedIsRefused) {
+TEST_F(ExportCommandTest, ImpossibleExportsAreRejected) {
   expect_refused(run(names_.back(), "gsd", "a.gsd"), 2, "failed in jam: no reason; it has no packing");
   expect_refused(run(names_[0], "gsf", "a.gsd"), 2, "--format");
   expect_refused(run(names_[0], "gsd", "r"), 2, "r: cannot be written");
@@ -256,7 +259,7 @@ TEST_F(ExportCommandTest, WhatCannotBeExportedIsRefused) {
   expect_refused(run(names_[0], "gsd", "a.gsd", true), 2, "\"keep_path\": true");
 }
 
-TEST_F(ExportCommandTest, DamageIsRefused) {
+TEST_F(ExportCommandTest, DamagedFilesAreRejected) {
   auto path = read_json(path_file(names_[0]).string());
   path.erase("checksum");
   RandomStream random({3});

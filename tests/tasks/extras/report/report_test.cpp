@@ -1,14 +1,14 @@
-// These tests prove:
-// - the data stands in the page as JSON that reads back equal, whatever texts it holds, and no text of it is markup;
-// - the same results give the same bytes; the command writes the file asked for, nothing else, nothing from damage;
-// - the extrapolation runs from φ_J through the states that gave it;
-// - the paper's φ_J stands beside its solid and N and beside no other;
-// - thinned CDFs are exact wherever they have a point, and end at 1;
-// - views: an unflagged replicate of every sweep point, further ones as there is room, never a failed one;
-// - a view's contacts, forces, cell and modes are those of the packing; clusters hang together through the boundary;
-// - sweeps in which replicates failed, or all did, have a report;
-// - its means leave out what the manifest excludes, as far as that can be understood;
-// - it says what could be measured later, where expansions were kept.
+// Properties tested here:
+// - The data in the page are JSON that is read as it was written. Texts in the data cannot act as markup.
+// - The same results give the same bytes. The command writes only the requested file, and nothing from damaged results.
+// - The extrapolation goes from φ_J through the states that were fitted. The paper's φ_J is shown only for its solid
+//   and N.
+// - Thinned distributions are exact at their points and end at 1.
+// - Views show an unflagged replicate of every sweep point, and more replicates if there is room, but never a failed
+//   one.
+// - Contacts, forces, cell and modes of a view are those of the packing. Clusters stay connected across the boundary.
+// - A sweep in which some or all replicates failed has a report. Means omit what the manifest excludes.
+// - If decompressions were kept, the report states which measures can be added.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ RecordedReplicate recorded(const Outcome& outcome) {
   return {replicate_name(outcome.spec), std::move(record), std::move(summary)};
 }
 
-/// Made-up results; `change` sees every outcome before it is recorded.
+/// Made-up results. `change` can change every outcome before it is recorded.
 Results results_of(const std::vector<ReplicateSpec>& specs, const std::function<void(Outcome&)>& change = {}) {
   Results results;
   results.manifest = {{"name", "made up"}, {"seed", 7}};
@@ -72,7 +72,7 @@ std::string embedded_text(const std::string& page) {
   return page.substr(from, page.find("</script>", from) - from);
 }
 
-TEST(ReportPage, DataReadsBackWhateverItHolds) {
+TEST(ReportPage, DataAreReadAsWritten) {
   const std::string hostile = "</script><script>alert(1)</script><!-- <b>\" \\ @data@ @scripts@ & \u2028";
   auto results = results_of(plan(2));
   results.manifest["name"] = hostile;
@@ -114,13 +114,13 @@ TEST(ReportData, ExtrapolatesFromPhiJThroughItsStates) {
     const auto to = replicate["line"]["to"].get<std::vector<double>>();
     EXPECT_EQ(from[0], replicate["phi_j"].get<double>());
     EXPECT_EQ(from[1], 0);
-    // Made-up energies are Δφ⁶ exactly, so root = φ − φ_J.
+    // The made-up energies are exactly Δφ⁶, so the root is φ − φ_J.
     EXPECT_NEAR(to[1], 0.04, 0.04 * 1e-12) << replicate["name"];
     EXPECT_NEAR(to[0] - from[0], to[1], to[1] * 1e-10) << replicate["name"];
   }
 }
 
-TEST(ReportData, PutsThePaperBesideItsOwnSystems) {
+TEST(ReportData, ShowsThePaperOnlyForItsSystems) {
   const auto data = report_data(results_of(plan(1)), {});
   ASSERT_EQ(data["rows"].size(), 4U);
   for (const auto& row : data["rows"]) {
@@ -146,7 +146,7 @@ TEST(ReportData, FailedReplicatesAreCountedAndHaveTheirReasons) {
   EXPECT_EQ(Json::parse(embedded_text(report_page(data))), data);
 }
 
-TEST(ReportData, SaysWhichResidualWasSwept) {
+TEST(ReportData, StatesWhichResidualWasSwept) {
   auto manifest = test::good_manifest();
   manifest["sweep"]["residual"] = {1e-5, 1e-6};
   manifest["sweep"]["final_distance"] = {0.01};
@@ -156,7 +156,7 @@ TEST(ReportData, SaysWhichResidualWasSwept) {
             (Json{{"final_distance", "final_distance"}, {"residual", "minimiser.residual"}}));
 }
 
-TEST(ReportData, SaysWhatCouldBeAdded) {
+TEST(ReportData, StatesWhichMeasuresCanBeAdded) {
   auto results = results_of(plan(1));
   EXPECT_TRUE(report_data(results, {})["addable"].is_null()) << "no manifest";
   results.manifest = Json{{"keep_path", false}};
@@ -171,7 +171,7 @@ TEST(ReportData, SaysWhatCouldBeAdded) {
   EXPECT_GT(data["measures"].size() * data["addable"].size(), 0U);
 }
 
-TEST(ReportData, WhatTheManifestExcludesIsInNoMeanAndNoPool) {
+TEST(ReportData, MeansAndPoolsOmitExcludedReplicates) {
   auto results = results_of(plan(3), [](Outcome& o) {
     if (o.spec.replicate == 1) o.measured.at(Measure::contacts).flags = {"crystalline"};
     if (o.spec.replicate == 2) flag(o);
@@ -205,7 +205,7 @@ TEST(ReportCurves, ThinnedCdfsAreExactWhereTheyHaveAPoint) {
   double before = 0;
   for (const auto& point : thinned) {
     const double theta = point[0].get<double>() * std::numbers::pi / 180, c = point[1].get<double>();
-    // Six digits are kept, of the angle as of c.
+    // Six digits of the angle and of c are kept.
     const double slack = 1e-5;
     EXPECT_LE(exact(theta * (1 - slack)) * (1 - slack), c) << point;
     EXPECT_GE(exact(theta * (1 + slack)) * (1 + slack), c) << point;
@@ -226,7 +226,7 @@ TEST(ReportCurves, RandomCurvesEndAtOneForEverySolid) {
   }
 }
 
-TEST(ReportViews, OneOfEveryPointThenMoreWithinTheBudget) {
+TEST(ReportViews, OneOfEveryPointThenMoreIfThereIsRoom) {
   const auto results = results_of(plan(4), [](Outcome& o) {
     if (o.spec.replicate == 0) flag(o);
     if (o.spec.replicate == 1) fail(o);
@@ -325,8 +325,8 @@ TEST(ReportViews, ModesAreThoseOfTheHessian) {
   }
 }
 
-TEST(ReportViews, ClustersHangTogetherInSpace) {
-  // Cubes in a row through the boundary, and one apart from them.
+TEST(ReportViews, ClustersStayConnectedInSpace) {
+  // A row of cubes through the boundary, and one separate cube.
   Packing packing{platonic(SolidKind::cube), PeriodicCell(6), {}};
   for (const double x : {4.6, 5.58, 0.56, 1.54}) packing.poses.push_back({.position = {x, 3, 3}});
   packing.poses.push_back({.position = {3, 0.5, 0.5}});
@@ -350,7 +350,7 @@ TEST(ReportViews, ClustersHangTogetherInSpace) {
 
 class ReportCommandTest : public ::testing::Test {
  protected:
-  /// Made-up results on disk, as a run would leave them.
+  /// Writes made-up results as a run would leave them.
   void write_results() {
     auto json = test::good_manifest();
     json["replicates"] = 2;
@@ -363,7 +363,7 @@ class ReportCommandTest : public ::testing::Test {
   test::TemporaryDirectory directory_;
 };
 
-TEST_F(ReportCommandTest, WritesTheSameBytesToTheFileAskedForAndNothingElse) {
+TEST_F(ReportCommandTest, WritesOnlyTheRequestedFile) {
   write_results();
   const auto before = test::files_below(directory_.path());
   for (const std::string name : {"a.html", "b.html"}) {
@@ -381,7 +381,7 @@ TEST_F(ReportCommandTest, WritesTheSameBytesToTheFileAskedForAndNothingElse) {
   EXPECT_EQ(test::isojam({"report", "results"}, directory_.path()).out, "results/report.html\n");
 }
 
-TEST_F(ReportCommandTest, RefusesWhatIsNotThereOrDamaged) {
+TEST_F(ReportCommandTest, RejectsMissingOrDamagedResults) {
   EXPECT_EQ(test::isojam({"report", "."}, directory_.path()).exit_code, 2);
   write_results();
   for (const auto* folder : {"packings", "records"}) {
