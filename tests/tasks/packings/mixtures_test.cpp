@@ -1,10 +1,11 @@
-// These tests prove:
-// - a mixture is an entry of a sweep; its canonical form is a fixed point of parsing, and holds the vertices of solids
-//   that the manifest defines;
-// - what is no mixture is refused at its place: fractions that do not sum to 1, sizes that are none, kinds without
-//   particles, sizes whose cell would be illegal, names that are taken;
-// - packings of mixtures come back bit for bit, and no other mixture's checkpoint is taken for one's own;
-// - a run of mixtures is recorded, averaged by kind, drawn and exported as what it is, whatever the number of threads.
+// Properties tested here:
+// - A mixture is an entry of a sweep. Its canonical form is read as the same manifest, and contains the vertices of
+//   user-defined solids.
+// - An invalid mixture is rejected at its place: fractions that do not sum to 1, invalid sizes, kinds without
+//   particles, sizes for which the cell would be too small, names that are already used.
+// - Packings of mixtures are read with the same bits. The checkpoint of another mixture is not accepted.
+// - Runs of mixtures are recorded, averaged for each kind, drawn and exported with their solids, for any number of
+//   threads.
 
 #include <gtest/gtest.h>
 
@@ -75,7 +76,7 @@ TEST(Mixtures, AreEntriesOfASweep) {
   EXPECT_EQ(test::violations("manifest", canonical), "");
 }
 
-TEST(Mixtures, AreRefusedAtTheirPlace) {
+TEST(Mixtures, InvalidMixturesAreRejectedAtTheirPlace) {
   const auto said = [](const Json& entry, int particles = 300) { return refused(swept({entry}, particles)); };
   const auto expect = [&](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << "wanted: " << part << "\nsaid: " << text;
@@ -91,7 +92,8 @@ TEST(Mixtures, AreRefusedAtTheirPlace) {
   expect(said(mixture({})), "1 to 32 kinds");
   expect(said(mixture({kind("cube", .999), kind("octahedron", .001)})), "its rarest kind would have no particle");
   expect(said(mixture({kind("cube", .999), kind("octahedron", .001)})), "use at least 1000 particles");
-  // One in a hundred is ten times as long: N must be so large that its cell holds two of its diameters.
+  // One particle in a hundred is ten times as long: N must be so large that the cell is longer than two of its
+  // diameters.
   const auto huge = said(mixture({kind("cube", .99), kind("cube", .01, 10)}));
   expect(huge, "is too small for");
   const auto least =
@@ -107,7 +109,7 @@ TEST(Mixtures, AreRefusedAtTheirPlace) {
   expect(refused(swept({one, other})), "two entries have the name twice");
 }
 
-TEST(Mixtures, PackingsComeBackBitForBit) {
+TEST(Mixtures, PackingsAreReadWithTheSameBits) {
   for (const auto& entry : {two_sizes, two_shapes, by_law}) {
     const auto manifest = parse(swept({entry}));
     RandomStream random{82};
@@ -126,7 +128,7 @@ TEST(Mixtures, PackingsComeBackBitForBit) {
   }
 }
 
-TEST(Mixtures, RunAsWhatTheyAre) {
+TEST(Mixtures, AreRecordedDrawnAndExported) {
   const test::TemporaryDirectory directory;
   auto manifest = swept({two_sizes, two_shapes}, 96);
   manifest["replicates"] = 2;

@@ -1,10 +1,10 @@
-// These tests prove:
-// - a solid is defined by a box, by vertices or by a file, and swept by its name beside the program's own;
-// - OFF and STL, text and binary, give the same solid; their paths are relative to the manifest;
-// - what is no convex solid is refused at its place, all of it at once, and nothing that follows from it;
-// - the canonical form holds the vertices of what is swept, needs no file, and is a fixed point of parsing; the digest
-//   moves with them;
-// - packings and records of such solids come back bit for bit, and name what they are made of.
+// Properties tested here:
+// - A solid is defined as a box, by vertices or by a file, and is swept by its name, like the named solids of isojam.
+// - OFF and STL files, text and binary, give the same solid. Their paths are relative to the manifest.
+// - Invalid solids are rejected at their places, all at once, without consequences of these errors.
+// - The canonical form contains the vertices of swept solids, needs no file, and is read as the same manifest. The
+//   digest changes with the vertices.
+// - Packings and records of such solids are read with the same bits, and name their solids.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ Manifest parse(const Json& manifest, const std::string& file = "m.json") {
   return parse_manifest(manifest.dump(), file);
 }
 
-/// Pointers of what is refused; the whole text of it goes to `all`.
+/// Pointers of the errors. Their whole text is added to `all`.
 std::vector<std::string> refused(const Json& manifest, std::string* all = nullptr) {
   try {
     parse(manifest);
@@ -64,7 +64,7 @@ TEST(SolidDefinitions, AreSweptByTheirNames) {
   EXPECT_NEAR(brick.circumradius(), std::sqrt(1 + 2.25 + 4) / 2 / scale, 1e-15);
 }
 
-TEST(SolidDefinitions, RefuseWhatIsNoSolidAllAtOnce) {
+TEST(SolidDefinitions, InvalidSolidsAreRejectedAtOnce) {
   auto with_inner = tetrahedron;
   with_inner.insert(with_inner.begin() + 1, Json{.1, .1, .1});
   const Json solids{{"2nd", {{"box", {1, 1, 1}}}},
@@ -93,7 +93,7 @@ TEST(SolidDefinitions, RefuseWhatIsNoSolidAllAtOnce) {
   EXPECT_NE(all.find("prism3 to prism21"), std::string::npos) << all;
 }
 
-TEST(SolidDefinitions, AreHeldToTheFeaturesThatThereIsRoomFor) {
+TEST(SolidDefinitions, TooManyFeaturesAreRejected) {
   Json sphere = Json::array();
   for (int k = 0; k < 24; ++k) {
     const double z = (2.0 * k + 1) / 24 - 1, turn = 2.4 * k, r = std::sqrt(1 - z * z);
@@ -113,7 +113,7 @@ TEST(SolidDefinitions, NeedParticlesForTheirOwnSize) {
   EXPECT_NE(all.find("stick"), std::string::npos) << all;
 }
 
-TEST(SolidDefinitions, StandInTheCanonicalFormByTheirVertices) {
+TEST(SolidDefinitions, CanonicalFormContainsTheVertices) {
   const Json solids{{"brick", {{"box", {1, 1.5, 2}}}}, {"unused", {{"box", {1, 1, 3}}}}};
   const auto manifest = parse(swept(solids, {"brick", "cube"}));
   const auto canonical = to_json(manifest);
@@ -126,7 +126,7 @@ TEST(SolidDefinitions, StandInTheCanonicalFormByTheirVertices) {
   EXPECT_FALSE(to_json(parse(swept(nullptr, {"cube"}))).contains("solids")) << "manifests of old keep their digests";
 }
 
-/// A box of 1 × 2 × 3 in 12 triangles.
+/// A box of 1 × 2 × 3 made of 12 triangles.
 std::vector<std::array<Vector3d, 3>> box_triangles() {
   const auto corner = [](int k) { return Vector3d(k & 1 ? 1 : 0, k & 2 ? 2 : 0, k & 4 ? 3 : 0); };
   const int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
@@ -185,7 +185,7 @@ constexpr const char* off = R"(OFF # a box
 4 0 4 7 3
 )";
 
-TEST(SolidFiles, GiveTheSolidOfTheirManifestsDirectory) {
+TEST(SolidFiles, AreRelativeToTheManifest) {
   const test::TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "shapes");
   test::write_text(directory / "shapes" / "a.off", off);
@@ -204,7 +204,7 @@ TEST(SolidFiles, GiveTheSolidOfTheirManifestsDirectory) {
   EXPECT_EQ(parse(to_json(manifest)).solids, manifest.solids) << "without the files";
 }
 
-TEST(SolidFiles, ThatHoldNoConvexSolidAreRefused) {
+TEST(SolidFiles, WithoutAConvexSolidAreRejected) {
   const test::TemporaryDirectory directory;
   const auto said = [&](const std::string& text) -> std::string {
     test::write_text(directory / "x", text);
@@ -226,13 +226,13 @@ TEST(SolidFiles, ThatHoldNoConvexSolidAreRefused) {
   EXPECT_NE(said("solid x\n vertex 1 2 3\n vertex 1 2 4\n"), "");
   EXPECT_NE(said("solid x\n vertex nan 2 3\n vertex 1 2 4\n vertex 0 0 0\n"), "");
   EXPECT_NE(said("solid x\n"), "");
-  // A notch: every corner is extreme, two faces are not.
+  // A notch: all points are corners of the hull, but two faces are not faces of the hull.
   const std::string dented =
       "OFF 5 6 0 0 0 0 2 0 0 0 2 0 0 0 2 .4 .4 .4\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 4\n3 2 3 4\n3 3 1 4\n";
   EXPECT_NE(said(dented).find("not convex"), std::string::npos) << said(dented);
 }
 
-TEST(SolidPackings, ComeBackBitForBit) {
+TEST(SolidPackings, AreReadWithTheSameBits) {
   const auto manifest = parse(swept({{"brick", {{"box", {1, 1.5, 2}}}}}, {"brick", "rhombic_dodecahedron"}));
   for (const auto& solid : manifest.solids) {
     RandomStream random{81};
@@ -246,7 +246,7 @@ TEST(SolidPackings, ComeBackBitForBit) {
   }
 }
 
-TEST(SolidRuns, NameWhatTheyAreMadeOf) {
+TEST(SolidRuns, NameTheirSolids) {
   const test::TemporaryDirectory directory;
   auto manifest = swept({{"brick", {{"box", {1, 1.2, 1.4}}}}}, {"brick", "truncated_tetrahedron"});
   manifest["sweep"]["particles"] = {60};

@@ -1,11 +1,12 @@
-// These tests prove:
-// - a GSD of another program's making, its solid in its own units, turned, shifted and in another order of vertices, in
-//   a mixture of shapes and sizes too, gives the packing that was meant, to single precision; so does an extended XYZ,
-//   to the last digits; so does one that Python's gsd wrote;
-// - files that are cut, hold other particles or none, are refused, and no byte of them is trusted;
-// - replicates begin from packings instead of at random: the program's own bit for bit, so that an expansion goes on
-//   from the state that was stored, nearer to jamming; the record says from what;
-// - what cannot be begun from is refused before anything runs, at its place.
+// Properties tested here:
+// - A GSD file of another program gives the intended packing in single precision, also if it uses other units, a
+//   rotated or shifted solid, another order of vertices, or a mixture. A file in extended XYZ format gives it to the
+//   last digits. A file written by Python's gsd is read too.
+// - Files that are truncated, or contain other particles or none, are rejected, and none of their data is used
+//   unchecked.
+// - Replicates can start from packings instead of a random configuration. isojam's own packings are used bit for bit,
+//   so a decompression continues from the stored state towards jamming. The record states the file.
+// - If a file cannot be used, the manifest is rejected at the place of the file before anything runs.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,7 +45,7 @@ Packing sample(const Mixture& mixture, int n = 120) {
   return random_packing(mixture.particles(n), .4, random);
 }
 
-/// How another program has a solid: y = unit·(shift + turn·x), vertices the other way round.
+/// The description of a solid in another program: y = unit·(shift + turn·x), with the vertices in reverse order.
 struct Frame {
   double unit = 3.7;
   Quaterniond turn = Quaterniond(.3, -.5, .7, .2).normalized();
@@ -56,7 +57,7 @@ GsdChunk chunk(const std::string& name, const std::vector<double>& values, std::
   return gsd_chunk(name, std::span<const float>(narrow), columns);
 }
 
-/// The packing as a user of that program would have it.
+/// The packing in a GSD file as a user of that program would have it.
 std::string foreign_gsd(const Packing& packing, const Frame& frame) {
   std::vector<std::string> names, shapes;
   std::vector<const ConvexSolid*> types;
@@ -77,7 +78,7 @@ std::string foreign_gsd(const Packing& packing, const Frame& frame) {
       found = types.insert(types.end(), solid);
     }
     of.push_back(static_cast<std::uint32_t>(found - types.begin()));
-    // x + q x₀ = x' + q' y₀, y₀ = unit (shift + turn x₀)
+    // x + q x₀ = x' + q' y₀, where y₀ = unit·(shift + turn·x₀)
     const Quaterniond q = packing.poses[i].orientation * frame.turn.conjugate();
     const Vector3d x = frame.unit * (packing.poses[i].position - q * frame.shift);
     positions.insert(positions.end(), x.begin(), x.end());
@@ -95,7 +96,7 @@ std::string foreign_gsd(const Packing& packing, const Frame& frame) {
   return gsd_bytes({"elsewhere", "hoomd", 1, 4}, frames);
 }
 
-/// Worst distance between corners of the same particles, images apart.
+/// Largest distance between corners of the same particles, apart from periodic images.
 double farthest_corner(const Packing& a, const Packing& b) {
   double worst = 0;
   for (std::size_t i = 0; i < a.poses.size(); ++i) {
@@ -111,7 +112,7 @@ double farthest_corner(const Packing& a, const Packing& b) {
   return worst;
 }
 
-TEST(ForeignPackings, OfGsdAreWhatWasMeant) {
+TEST(ForeignPackings, OfGsdAreTheIntendedOnes) {
   for (const Mixture& mixture : {Mixture(SolidKind::tetrahedron), Mixture(SolidKind::cube), shapes_and_sizes()}) {
     const Packing packing = sample(mixture);
     const Packing again = packing_of(read_gsd_packing(foreign_gsd(packing, {}), -1), mixture);
@@ -127,7 +128,7 @@ TEST(ForeignPackings, OfGsdAreWhatWasMeant) {
   }
 }
 
-TEST(ForeignPackings, OfXyzAreWhatWasMeant) {
+TEST(ForeignPackings, OfXyzAreTheIntendedOnes) {
   for (const Mixture& mixture : {Mixture(SolidKind::octahedron), shapes_and_sizes()}) {
     const Packing packing = sample(mixture);
     const std::vector<ExportFrame> frames{make_frame(packing, std::nullopt), make_frame(packing, std::nullopt)};
@@ -137,12 +138,12 @@ TEST(ForeignPackings, OfXyzAreWhatWasMeant) {
       EXPECT_LT(farthest_corner(packing, again), 1e-12) << mixture.name();
     }
     EXPECT_THROW(read_xyz_packing(text, 2), NoPackingFile);
-    // Our own GSD, in single precision.
+    // isojam's own GSD file, in single precision.
     EXPECT_LT(farthest_corner(packing, packing_of(read_gsd_packing(gsd_file(frames), 1), mixture)), 1e-5);
   }
 }
 
-TEST(ForeignPackings, OfGsdHaveTheCellThatWasMeant) {
+TEST(ForeignPackings, OfGsdHaveTheIntendedCell) {
   DoubleDoubleMatrix f;
   f.high(0, 0) = 1.2, f.high(1, 1) = .9;
   f.high(0, 1) = .2, f.high(0, 2) = -.15, f.high(1, 2) = .1;
@@ -154,7 +155,7 @@ TEST(ForeignPackings, OfGsdHaveTheCellThatWasMeant) {
   EXPECT_LT(farthest_corner(packing, again), 1e-5);
 }
 
-TEST(ForeignPackings, AreNotTrusted) {
+TEST(ForeignPackings, InvalidFilesAreRejected) {
   const Packing packing = sample(SolidKind::cube);
   const auto whole = foreign_gsd(packing, {});
   RandomStream random{92};
@@ -173,7 +174,7 @@ TEST(ForeignPackings, AreNotTrusted) {
   }
   EXPECT_GT(refused, 150) << "those that were cut, at least";
   EXPECT_THROW(packing_of(read_gsd_packing(whole, -1), SolidKind::octahedron), NoPackingFile);
-  // An overflow is reported and not carried on.
+  // An overflow is reported and the value is not used.
   auto far = read_gsd_packing(whole, -1), huge = far;
   far.bodies[3].position[1] = 3e38;
   EXPECT_THROW(packing_of(far, SolidKind::cube), NoPackingFile);
@@ -183,7 +184,7 @@ TEST(ForeignPackings, AreNotTrusted) {
   EXPECT_THROW(read_xyz_packing("", -1), NoPackingFile);
   EXPECT_THROW(read_xyz_packing("2\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=species:S:1:pos:R:3\ncube 0 0 0\n", -1),
                NoPackingFile);
-  // A mirrored solid is another.
+  // A mirrored solid is another solid.
   const std::vector<Vector3d> chiral{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {.9, 1.1, 1.6}};
   std::vector<Vector3d> mirrored;
   for (const Vector3d& v : chiral) mirrored.emplace_back(-v[0], v[1], v[2]);
@@ -201,7 +202,7 @@ Json started(const Json& start, int particles) {
   return manifest;
 }
 
-TEST(Starts, GoOnFromWhatWasStored) {
+TEST(Starts, ContinueFromStoredStates) {
   const test::TemporaryDirectory directory;
   auto first = started(nullptr, 48);
   first.erase("start");
@@ -226,7 +227,7 @@ TEST(Starts, GoOnFromWhatWasStored) {
   EXPECT_NEAR(after.at("phi_j").at("phi_j").get<double>(), before.at("phi_j").at("phi_j").get<double>(), .005);
   EXPECT_TRUE(after.at("provenance").at("start").get<std::string>().ends_with(stored));
   EXPECT_FALSE(before.at("provenance").contains("start"));
-  // The directory's own copy is enough to redo it; a file that has changed is told.
+  // The copy in the results directory is sufficient to repeat it. A file that has changed is reported.
   EXPECT_EQ(test::isojam({"rerun", "s", "octahedron-N48-r0000"}, directory.path()).exit_code, 0);
   EXPECT_EQ(test::isojam({"aggregate", "s"}, directory.path()).exit_code, 0);
   auto packing = Json::parse(read_file(directory / stored));
@@ -235,7 +236,7 @@ TEST(Starts, GoOnFromWhatWasStored) {
   EXPECT_EQ(test::isojam({"rerun", "s", "octahedron-N48-r0000"}, directory.path()).exit_code, 65);
 }
 
-TEST(Starts, AreRefusedAtTheirPlace) {
+TEST(Starts, InvalidStartsAreRejectedAtTheirPlace) {
   const test::TemporaryDirectory directory;
   Packing packing = strained_to(sample(SolidKind::octahedron, 64), .2);
   for (int i = 0; i < 64; ++i) {
@@ -281,7 +282,7 @@ TEST(Starts, AreRefusedAtTheirPlace) {
          "do not match cube");
 }
 
-TEST(Starts, AreRefusedWhereNoRecordCouldNameThem) {
+TEST(Starts, PathsThatNoRecordCouldNameAreRejected) {
   const test::TemporaryDirectory directory;
   const auto odd = directory / "\xFF\xFE";
   std::filesystem::create_directory(odd);
@@ -294,7 +295,8 @@ TEST(Starts, AreRefusedWhereNoRecordCouldNameThem) {
   EXPECT_NE(run.err.find("not valid UTF-8"), std::string::npos) << run.err;
 }
 
-/// As a user of HOOMD-blue writes it: lengths in edges, the solid's vertices not about its centroid.
+/// As a user of HOOMD-blue writes it: lengths are in units of the edge, and the vertices of the solid are not relative
+/// to its centroid.
 TEST(Starts, FromAFileThatPythonWrote) {
   const test::TemporaryDirectory directory;
   test::write_text(directory / "write.py", R"(import itertools, math, random

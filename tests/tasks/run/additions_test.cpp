@@ -1,19 +1,20 @@
-// Facts proved here, through the executable and with real packings:
-// - measures added later give the records of a run that measured all from the start, in result digest and in all but
-//   timing and provenance, at once or one after the other, with one thread or two, and also where states had to be
-//   followed to minima first; packings and paths that did not move keep their bytes;
-// - the record says what was added, by which build, and what it was before; packings and paths are still its own;
-//   the directory conforms to the schemas, nothing in it is damaged, and neither the extended manifest nor the original
-//   one runs anything again;
-// - a kill leaves whole records of either kind, status counts those that lack something, and the same command goes on;
-//   what it cannot add to, for a path that is gone or was written by a process killed before the record, a run makes
-//   again, and it keeps what is measured beyond its manifest;
-// - it takes the directory for itself: beside another one, or a run, it refuses, and a run beside it;
-// - a record is opened once before anything is written, twice to add to it, and once for the table, whatever is added;
-//   one that another process changes in between stays as that process wrote it;
-// - one replicate alone can be measured; one that failed on its way says what else it has not;
-// - refused before anything is written: a measure that is none, a replicate that is not there, expansions that were not
-//   kept, with the key that keeps them, and a damaged or foreign record.
+// Properties tested here through the executable with real packings:
+// - Measures that are added later give the records of a run with all measures from the start: the same result digest,
+//   and everything except timing and provenance. This is true if they are added together or one after another, with one
+//   thread or two, and if saddles had to be relaxed first. Packings and paths that did not change keep their bytes.
+// - The record states the added measures, the build, and the earlier digests. Its packings and paths are still
+//   accepted. The directory conforms to the schemas and has no damage. Neither the extended nor the original manifest
+//   runs anything again.
+// - After a kill, every record is complete, either old or new. `status` counts the records that lack a measure, and the
+//   same command continues. If the path of a replicate is missing, or was written by a process that was killed before
+//   it wrote the record, `run` recomputes the replicate, and also computes measures that its manifest does not request.
+// - The command needs the directory for itself: it ends with an error beside another one or beside a run, and so does a
+//   run beside it.
+// - A record is opened once before anything is written, twice to add to it, and once for the table. If another process
+//   changes a record in the meantime, it stays as that process wrote it.
+// - A single replicate can be measured. A failed replicate gets null with a reason for the added measures.
+// - These errors are reported before anything is written: an unknown measure, an unknown replicate, decompressions that
+//   were not kept (with the key that keeps them), and a damaged or foreign record.
 
 #include "tasks/run/additions.hpp"
 
@@ -50,7 +51,7 @@ Json without_history(Json record) {
   return test::without_checksum(std::move(record));
 }
 
-/// A run that measured contacts and kept its paths, and one that measured all, shared by the tests.
+/// A run that measured contacts and kept its paths, and a run that measured everything. All tests share them.
 class Adding : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -79,7 +80,7 @@ class Adding : public testing::Test {
     return read_sealed((here_ / directory / "records" / (name + ".json")).string());
   }
   std::vector<std::string> names() const { return names_in(here_ / "few" / "records"); }
-  /// Everything but tables, and of records, timing and provenance.
+  /// Checks everything except tables, and except timing and provenance of records.
   void expect_as_if_from_the_start() const {
     for (const auto& name : names()) {
       const auto added = record("few", name), expected = record("all", name);
@@ -100,7 +101,7 @@ bool has_moved(const Json& record) {
   return std::any_of(states.begin(), states.end(), [](const Json& state) { return state.at("descents") > 0; });
 }
 
-TEST_F(Adding, GivesWhatARunWithAllWouldHave) {
+TEST_F(Adding, GivesTheRecordsOfARunWithAllMeasures) {
   const auto before = files_below(here_ / "few");
   const auto done = measure({"--add", rest, "-j", "2"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -122,7 +123,7 @@ TEST_F(Adding, GivesWhatARunWithAllWouldHave) {
   }
 }
 
-TEST_F(Adding, FollowsStatesToMinimaAsARunDoes) {
+TEST_F(Adding, RelaxesSaddlesAsARunDoes) {
   auto manifest = parse_json(R"({"name": "saddle", "seed": 7, "sweep": {"solid": ["icosahedron"], "particles": [40]},
                                  "replicates": 1, "protocol": {"final_distance": 0.015}, "keep_path": true,
                                  "measure": ["contacts", "clusters", "modes"]})",
@@ -143,7 +144,7 @@ TEST_F(Adding, FollowsStatesToMinimaAsARunDoes) {
   for (const std::string folder : {"packings", "paths"}) {
     auto moved = read_sealed((here_ / "few" / folder / (name + ".json")).string());
     EXPECT_EQ(moved, read_sealed((here_ / "all" / folder / (name + ".json")).string())) << folder;
-    // As a process leaves it that was killed before it came to the record.
+    // As a process leaves it that was killed before it wrote the record.
     fs::copy_file(here_ / "few" / folder / (name + ".json"), here_ / "killed" / folder / (name + ".json"),
                   fs::copy_options::overwrite_existing);
   }
@@ -154,7 +155,7 @@ TEST_F(Adding, FollowsStatesToMinimaAsARunDoes) {
   EXPECT_EQ(record("killed", name).at("result_digest"), record("all", name).at("result_digest"));
 }
 
-TEST_F(Adding, OneAfterTheOtherComesToTheSame) {
+TEST_F(Adding, OneAfterAnotherGivesTheSame) {
   for (const auto* each : {"rigidity", "modes", "order,moduli", "clusters"})
     ASSERT_EQ(measure({"--add", each, "-j", "1"}).exit_code, 0) << each;
   expect_as_if_from_the_start();
@@ -165,7 +166,7 @@ TEST_F(Adding, OneAfterTheOtherComesToTheSame) {
   EXPECT_EQ(files_below(here_ / "few"), again) << "nothing was left to add";
 }
 
-TEST_F(Adding, LeavesADirectoryLikeAnyOther) {
+TEST_F(Adding, LeavesAValidDirectory) {
   ASSERT_EQ(measure({"--add", rest}).exit_code, 0);
   const auto files = files_below(here_ / "few");
   const auto status = isojam({"status", "few"}, here_.path());
@@ -187,10 +188,10 @@ TEST_F(Adding, LeavesADirectoryLikeAnyOther) {
   EXPECT_NE(rerun.err.find("the result has the same bits as the record"), std::string::npos) << rerun.err;
 }
 
-TEST_F(Adding, GoesOnAfterAKill) {
+TEST_F(Adding, ContinuesAfterAKill) {
   const auto original = record("few", names().front()).at("result_digest");
   measure({"--add", "rigidity,modes", "-j", "1"}, [&](int process) {
-    // As soon as the first record was replaced.
+    // Kill it as soon as the first record has been replaced.
     for (int k = 0; k < 200000 && record("few", names().front()).at("result_digest") == original; ++k)
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     ::kill(process, SIGKILL);
@@ -227,7 +228,7 @@ TEST_F(Adding, OfOneReplicateAlone) {
   expect_as_if_from_the_start();
 }
 
-TEST_F(Adding, ARunMakesAgainWhatLacksSomething) {
+TEST_F(Adding, ARunRecomputesRecordsThatLackAMeasure) {
   const auto all = names();
   ASSERT_EQ(measure({"--add", rest, "--only", all[1]}).exit_code, 0);
   const auto plan = isojam({"run", "few.json", "-o", "few", "--dry-run"}, here_.path());
@@ -244,7 +245,7 @@ TEST_F(Adding, ARunMakesAgainWhatLacksSomething) {
   EXPECT_EQ(run.out, all_.out);
   expect_as_if_from_the_start();
   EXPECT_TRUE(fs::exists(path));
-  // Without the manifest its records still say that they are of this sweep, and keep what else was measured.
+  // Without the manifest, the records still show that they belong to this sweep, and keep their other measures.
   fs::remove(here_ / "few" / "manifest.json");
   const auto before = files_below(here_ / "few" / "records");
   EXPECT_EQ(isojam({"run", "few.json", "-o", "few"}, here_.path()).exit_code, 0);
@@ -309,7 +310,7 @@ TEST_F(Adding, HasTheDirectoryForItself) {
   EXPECT_EQ(measure({"--add", "rigidity"}).exit_code, 0) << "the lock went with its holder";
 }
 
-TEST_F(Adding, AFailedReplicateSaysWhatElseItHasNot) {
+TEST_F(Adding, AFailedReplicateHasReasonsForAddedMeasures) {
   for (const std::string name : {"few", "all"}) {
     auto manifest = parse_json(read_file(here_ / (name + ".json")), name);
     manifest["protocol"]["max_steps"] = 2;
@@ -322,7 +323,7 @@ TEST_F(Adding, AFailedReplicateSaysWhatElseItHasNot) {
   expect_as_if_from_the_start();
 }
 
-TEST_F(Adding, RefusesBeforeAnythingIsWritten) {
+TEST_F(Adding, ReportsErrorsBeforeAnythingIsWritten) {
   const auto untouched = [&](const std::vector<std::string>& arguments, int code, const std::string& said) {
     const auto before = files_below(here_ / "few");
     const auto result = measure(arguments);

@@ -1,12 +1,14 @@
-// Facts proved here, through the executable and with real packings:
-// - -j 1 and -j 2 give byte-identical tables, packings, and records up to timing; all of them conform to the schemas;
-// - a second run repeats nothing and changes no byte; one that lost or damaged a record redoes just that one;
-// - a run stopped by SIGTERM or SIGINT ends with 75 before it is complete, and the same command completes it to the
-//   same bytes;
-// - a replicate gives the same bits in another sweep; more replicates leave those there untouched;
-// - a failed replicate is recorded with where and why, counted in the table, and turns the exit code to 1;
-// - a directory of another manifest ends the run with 65 and is left as it was;
-// - `aggregate` makes the tables that `run` made.
+// Properties tested here through the executable with real packings:
+// - -j 1 and -j 2 give byte-identical tables and packings, and records that differ only in timing. All files conform to
+//   the schemas.
+// - A second run repeats nothing and changes no byte. If a record was lost or damaged, only this replicate is
+//   recomputed.
+// - A run that was stopped by SIGTERM or SIGINT exits with 75 before it is complete. The same command completes it with
+//   the same bytes.
+// - A replicate has the same bits in another sweep. If more replicates are requested, the existing ones do not change.
+// - A failed replicate is recorded with place and reason, is counted in the table, and gives the exit code 1.
+// - In a directory of another manifest, a run ends with 65 and changes nothing.
+// - `aggregate` makes the same tables as `run`.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +33,7 @@ using test::TemporaryDirectory;
 
 using Files = std::map<std::string, std::string>;
 
-/// One complete run with one thread, shared by the tests; each works on a copy of its own.
+/// A complete run with one thread. All tests share it, and each works on its own copy.
 class Batch : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -94,7 +96,7 @@ TEST_F(Batch, EverythingConformsToTheSchemas) {
   EXPECT_EQ(checked, 10);
 }
 
-TEST_F(Batch, RecordsHoldPhysics) {
+TEST_F(Batch, RecordsContainPlausibleValues) {
   for (const auto& [name, content] : only(results(), "records/")) {
     const auto record = parse_json(content, name);
     ASSERT_EQ(record.at("status"), "done") << content;
@@ -130,7 +132,7 @@ TEST_F(Batch, ASecondRunRepeatsNothing) {
   EXPECT_EQ(files_below(here_ / "results"), before) << "not even timing changes";
 }
 
-TEST_F(Batch, LostAndDamagedRecordsAreRedone) {
+TEST_F(Batch, LostAndDamagedRecordsAreRecomputed) {
   const auto before = files_below(here_ / "results");
   const std::string lost = "records/dodecahedron-N24-r0001.json", cut = "records/dodecahedron-N28-r0000.json";
   fs::remove(here_ / "results" / lost);
@@ -146,7 +148,7 @@ TEST_F(Batch, LostAndDamagedRecordsAreRedone) {
   }
 }
 
-/// Number of records in a directory, 0 while there is none.
+/// Number of records in a directory; 0 if the directory does not exist.
 std::size_t count_records(const fs::path& results) {
   std::size_t count = 0;
   std::error_code error;
@@ -158,7 +160,7 @@ std::size_t count_records(const fs::path& results) {
 
 TEST_F(Batch, AnInterruptedRunContinues) {
   fs::remove_all(here_ / "results");
-  // First before any record, then after one.
+  // First before there is any record, then after the first record.
   for (const auto& [signal, records] : {std::pair{SIGTERM, std::size_t{0}}, {SIGINT, std::size_t{1}}}) {
     const auto stopped = run("m.json", [&, wanted = records, which = signal](int process) {
       for (int i = 0; i < 60000; ++i) {
@@ -192,7 +194,7 @@ TEST_F(Batch, AReplicateIsTheSameInAnotherSweep) {
   for (auto* files : {&ours, &theirs}) {
     for (const std::string folder : {"records/", "packings/"}) {
       auto json = test::without_checksum(parse_json(files->at(folder + name), name));
-      // The manifest differs, and nothing else.
+      // Only the digest of the manifest differs.
       (folder == "records/" ? json.at("provenance") : json).erase("manifest_digest");
       files->at(folder + name) = pretty(json);
     }
@@ -243,7 +245,7 @@ TEST_F(Batch, FailedReplicatesAreRecordedAndCounted) {
   EXPECT_EQ(files_below(here_ / "results"), before);
 }
 
-TEST_F(Batch, ADirectoryOfAnotherManifestIsLeftAlone) {
+TEST_F(Batch, ADirectoryOfAnotherManifestIsNotChanged) {
   edit_manifest([](Json& manifest) { manifest["seed"] = 8; });
   const auto before = files_below(here_ / "results");
   const auto refused = run();
@@ -269,7 +271,7 @@ TEST_F(Batch, AggregateMakesTheSameTables) {
   EXPECT_EQ(files_below(here_ / "results"), before);
 }
 
-TEST_F(Batch, QuietSaysNothingAndVerboseNamesEveryReplicate) {
+TEST_F(Batch, QuietPrintsNothingAndVerboseNamesEveryReplicate) {
   for (const auto& [option, lines] : {std::pair{"--quiet", 0}, {"-v", 4}}) {
     fs::remove_all(here_ / "results");
     const auto told = isojam({option, "run", "m.json", "-o", "results"}, here_.path());

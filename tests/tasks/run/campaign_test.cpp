@@ -1,9 +1,11 @@
-// Facts proved here, with made-up outcomes:
-// - without a goal a campaign gives every replicate that has no valid record, once, in one round, and what it costs;
-// - with a goal it gives batches, and ends each point where the rule ends it on all its values; which outcome of a
-//   round is recorded first, an interruption, and sharding change nothing; the table says how many were needed;
-// - replicates that the manifest excludes are no value towards a goal, to the campaign as to the table;
-// - shards never give the same replicate and together give all.
+// Properties tested here with made-up outcomes:
+// - Without a goal, a campaign returns every replicate that has no valid record, once and in one round, with an
+//   estimate of its cost.
+// - With a goal, it returns batches. Each sweep point ends where the stopping rule, applied to all its values, ends it.
+//   The order in which the outcomes of a round are recorded, interruptions and shards do not change this. The table
+//   states how many replicates were needed.
+// - Excluded replicates do not contribute to a goal, neither in the campaign nor in the table.
+// - Two shards never return the same replicate. Together they return all.
 
 #include "tasks/run/campaign.hpp"
 #include "tasks/records/summary.hpp"
@@ -34,7 +36,8 @@ Manifest manifest_of(const Json& replicates) {
 
 Manifest with_goal() { return manifest_of({{"min", 4}, {"max", 30}, {"quantity", "phi_j"}, {"half_width", 0.006}}); }
 
-/// Runs a campaign to its end, recording the outcomes of each round in reverse if asked; the names it gave.
+/// Runs a campaign to its end and returns the names of its replicates. If `reversed`, records the outcomes of each
+/// round in reverse order.
 std::vector<std::string> finish(Campaign& campaign, const Store& store, bool reversed, int at_most = 1 << 30) {
   std::vector<std::string> given;
   while (campaign.open_round()) {
@@ -58,7 +61,7 @@ std::vector<std::string> run_all(const std::filesystem::path& directory, const M
   return finish(campaign, store, reversed, at_most);
 }
 
-TEST(Campaign, GivesWhatIsMissingOnce) {
+TEST(Campaign, ReturnsEachMissingReplicateOnce) {
   const TemporaryDirectory directory;
   const auto manifest = manifest_of(5);
   const Plan plan(manifest);
@@ -86,7 +89,7 @@ TEST(Campaign, GivesWhatIsMissingOnce) {
   EXPECT_TRUE(run_all(directory.path(), manifest).empty()) << "all is there";
 }
 
-/// Where the rule ends every point, from the values of all its replicates.
+/// Names of the replicates up to the one where the rule ends each point, from the values of all replicates.
 std::set<std::string> expected_names(const Manifest& manifest) {
   const Plan plan(manifest);
   std::set<std::string> names;
@@ -101,7 +104,7 @@ std::set<std::string> expected_names(const Manifest& manifest) {
   return names;
 }
 
-TEST(Campaign, EndsWhereTheGoalIsMet) {
+TEST(Campaign, EndsWhenTheGoalIsMet) {
   const auto manifest = with_goal();
   const auto expected = expected_names(manifest);
   EXPECT_GT(expected.size(), 12U);
@@ -112,7 +115,7 @@ TEST(Campaign, EndsWhereTheGoalIsMet) {
     EXPECT_EQ(std::set(given.begin(), given.end()), expected);
     EXPECT_EQ(given.size(), expected.size());
   }
-  // Interrupted again and again.
+  // Interrupted many times.
   const TemporaryDirectory directory;
   std::set<std::string> given;
   for (int process = 0; process < 100; ++process) {
@@ -123,7 +126,7 @@ TEST(Campaign, EndsWhereTheGoalIsMet) {
   EXPECT_EQ(given, expected);
 }
 
-TEST(Campaign, TheTableSaysHowManyWereNeeded) {
+TEST(Campaign, TheTableStatesHowManyWereNeeded) {
   const TemporaryDirectory directory;
   const auto manifest = with_goal();
   run_all(directory.path(), manifest);
@@ -147,7 +150,7 @@ TEST(Campaign, TheTableSaysHowManyWereNeeded) {
   }
 }
 
-/// Every third replicate is a crystal, of another density.
+/// Every third replicate is a crystal with another density.
 Outcome partly_crystalline(const ReplicateSpec& spec) {
   auto outcome = test::made_up_outcome(spec);
   if (spec.replicate % 3 == 1) {
@@ -157,7 +160,7 @@ Outcome partly_crystalline(const ReplicateSpec& spec) {
   return outcome;
 }
 
-TEST(Campaign, TheGoalLooksAtReplicatesThatAreNotExcluded) {
+TEST(Campaign, TheGoalIgnoresExcludedReplicates) {
   auto manifest = with_goal();
   manifest.replicates.max = 60;
   for (const bool excluding : {true, false}) {
@@ -179,7 +182,7 @@ TEST(Campaign, TheGoalLooksAtReplicatesThatAreNotExcluded) {
   }
 }
 
-TEST(Campaign, ShardsGiveAllAndNothingTwice) {
+TEST(Campaign, ShardsReturnEachReplicateOnce) {
   for (const auto& manifest : {manifest_of(5), with_goal()}) {
     const TemporaryDirectory whole, parts;
     const auto all = run_all(whole.path(), manifest);

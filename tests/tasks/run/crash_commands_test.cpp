@@ -1,8 +1,9 @@
-// Facts proved here, of directories that a run has left or is still working on:
-// - status says what is there, what is under way and whether anybody works on it, and calls nothing damaged meanwhile;
-// - a record that goes while others are made is missed, and no table is made of what is left;
-// - rerun redoes one and finds the same bits, or says that there was nothing to compare with;
-// - a dry run writes nothing.
+// Properties tested here for directories that a run left or is still using:
+// - `status` reports the records, the unfinished replicates, and whether a process works on them. Meanwhile it reports
+//   no damage.
+// - If a record disappears while others are made, this is noticed, and no table is made.
+// - `rerun` recomputes a replicate and finds the same bits, or reports that there was nothing to compare with.
+// - A dry run writes nothing.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ using test::crash_manifest;
 using test::isojam;
 using test::stop_at_checkpoints;
 
-TEST_F(Crash, StatusSaysWhatIsUnderWay) {
+TEST_F(Crash, StatusReportsUnfinishedReplicates) {
   run([&](int process) { stop_at_checkpoints(here_ / "results", 2, process, SIGKILL); });
   const auto under_way = isojam({"status", "results"}, here_.path());
   EXPECT_EQ(under_way.exit_code, 0) << under_way.err;
@@ -32,7 +33,7 @@ TEST_F(Crash, StatusSaysWhatIsUnderWay) {
       EXPECT_NE(under_way.out.find(name + ": "), std::string::npos) << under_way.out;
     }
   }
-  // Its process was killed, so no process is working on it, however fresh its last step is.
+  // The process was killed, so no process works on this replicate, although its last step was recent.
   EXPECT_NE(under_way.out.find(", 0 running, "), std::string::npos) << under_way.out;
   EXPECT_NE(under_way.out.find(" interrupted\n"), std::string::npos) << under_way.out;
   EXPECT_NE(under_way.out.find("no process is working on it; about "), std::string::npos) << under_way.out;
@@ -52,7 +53,7 @@ TEST_F(Crash, StatusSaysWhatIsUnderWay) {
   EXPECT_EQ(isojam({"status", "absent"}, here_.path()).exit_code, 2);
 }
 
-TEST_F(Crash, WhatGoesMeanwhileIsMissed) {
+TEST_F(Crash, RecordsThatDisappearAreNoticed) {
   for (const std::string folder : {"records", "packings", "paths"}) {
     fs::remove_all(here_ / "results");
     const auto incomplete = run([&](int) {
@@ -69,7 +70,7 @@ TEST_F(Crash, WhatGoesMeanwhileIsMissed) {
   }
 }
 
-TEST_F(Crash, TheTableIsOfTheManifestThatWasRun) {
+TEST_F(Crash, TheTableBelongsToTheManifestThatWasRun) {
   const auto manifest = [&](int seed) {
     auto json = crash_manifest();
     json["seed"] = seed;
@@ -77,7 +78,7 @@ TEST_F(Crash, TheTableIsOfTheManifestThatWasRun) {
   };
   test::write_text(here_ / "other.json", manifest(8));
   ASSERT_EQ(isojam({"run", "other.json", "-o", "other"}, here_.path()).exit_code, 0);
-  // Another's manifest and a record of its come in while records are made.
+  // The manifest and a record of another study appear while records are made.
   const auto foreign = run([&](int) {
     for (int i = 0; i < 200000 && names_in(here_ / "results" / "records").empty(); ++i)
       std::this_thread::sleep_for(500us);
@@ -90,7 +91,7 @@ TEST_F(Crash, TheTableIsOfTheManifestThatWasRun) {
   EXPECT_NE(foreign.err.find("were removed or changed during the run"), std::string::npos) << foreign.err;
 }
 
-TEST_F(Crash, WhatIsAnothersIsSaidByAll) {
+TEST_F(Crash, AllCommandsReportForeignRecords) {
   copy_reference();
   auto json = crash_manifest();
   json["seed"] = 8;
@@ -115,7 +116,7 @@ TEST_F(Crash, WhatIsAnothersIsSaidByAll) {
   }
 }
 
-TEST_F(Crash, RerunOfARecordThatCannotBeReadSaysSo) {
+TEST_F(Crash, RerunReportsARecordThatCannotBeRead) {
   copy_reference();
   const std::string name = "dodecahedron-N28-r0001";
   const auto record = here_ / "results" / "records" / (name + ".json");
@@ -125,7 +126,7 @@ TEST_F(Crash, RerunOfARecordThatCannotBeReadSaysSo) {
   EXPECT_NE(ended.err.find("there was no valid record"), std::string::npos) << ended.err;
   EXPECT_EQ(ended.err.find("differs"), std::string::npos) << ended.err;
   EXPECT_EQ(results(), reference());
-  // Nothing can be put where a folder stands, and nothing read.
+  // A file cannot replace a folder, and a folder cannot be read as a file.
   fs::remove(record);
   fs::create_directories(record / "inside");
   EXPECT_EQ(isojam({"rerun", "results", name}, here_.path()).exit_code, 1);

@@ -1,16 +1,18 @@
-// Facts proved here, through the executable and with real packings, against one undisturbed run, byte by byte but for
-// timing:
-// - killed by SIGKILL twenty times, after random numbers of writes, a sweep comes to the same bytes, and the records
-//   at any of these moments are whole;
-// - a run goes on from its checkpoints; one that outlived its record goes with the next run;
-// - a record, packing or checkpoint with one byte changed is noticed and redone, and nothing else is touched;
-// - a full disk, and files that may not grow, end a run with exit 1 and a message, and it comes to the same bytes when
-//   there is room;
-// - a directory that cannot be written to is refused at once; where no file system may be mounted, this test and that
-//   of the full disk are skipped and say so;
-// - three shards at once in one directory make the records of the whole, and `aggregate` its tables;
-// - SIGINT ends a run with exit 75 in the middle of a strain step, and leaves checkpoints;
-// - a folder that is a symbolic link is refused, and nothing is written where it points.
+// Properties tested here through the executable with real packings. The results are compared with one undisturbed run,
+// byte by byte except for timing:
+// - If a sweep is killed by SIGKILL twenty times, after random numbers of writes, it ends with the same bytes. At each
+//   of these times, all records are complete.
+// - A run resumes from its checkpoints. A checkpoint of a replicate that has a record is removed by the next run.
+// - A changed byte in a record, packing or checkpoint is detected. This replicate is recomputed, and nothing else
+//   changes.
+// - If the disk is full or files may not grow, a run ends with exit 1 and a message. With enough space, it gives the
+//   same bytes.
+// - A read-only directory is rejected at once. If no file system can be mounted, this test and the one of the full disk
+//   are skipped with a message.
+// - Three shards that run at the same time in one directory make the records of the whole study, and `aggregate` makes
+//   its tables.
+// - SIGINT ends a run with exit 75 in the middle of a strain step, and checkpoints are kept.
+// - A folder that is a symbolic link is rejected, and nothing is written to its target.
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -44,7 +46,8 @@ using test::Crash;
 using test::crash_manifest;
 using test::stop_at_checkpoints;
 
-/// From here on this process may mount what only it and its children see, if users may have namespaces of their own.
+/// Enters a namespace in which this process and its children can mount file systems that no other process sees. Returns
+/// false if this is not allowed.
 bool enter_namespace() {
   const auto user = std::to_string(geteuid()), group = std::to_string(getegid());
   if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
@@ -59,8 +62,8 @@ bool enter_namespace() {
   return true;
 }
 
-/// A small file system of its own for results. A suite apart, for that takes the right to mount one: where that is
-/// missing these tests are skipped, and the others of this file are not taken for skipped with them.
+/// A small file system for results. This is a separate suite because it needs the permission to mount; without it, only
+/// these tests are skipped.
 class CrashOnAMount : public Crash {
  protected:
   void SetUp() override {
@@ -79,7 +82,7 @@ class CrashOnAMount : public Crash {
       EXPECT_EQ(umount(disk_.c_str()), 0);
     }
   }
-  /// Changes the size, or whether it can be written to.
+  /// Changes the size of the file system, or whether it is writable.
   void remount(unsigned long flags, const char* size) const {
     ASSERT_EQ(mount("tmpfs", disk_.c_str(), "tmpfs", MS_REMOUNT | flags, size), 0);
   }
@@ -88,7 +91,7 @@ class CrashOnAMount : public Crash {
   bool mounted_ = false;
 };
 
-/// Every file below that readers may take for a result is whole.
+/// Checks that every file that could be used as a result is complete.
 void expect_whole(const fs::path& results) {
   for (const std::string folder : {"records", "packings", "paths", "checkpoints"}) {
     for (const auto& name : names_in(results / folder))
@@ -96,7 +99,7 @@ void expect_whole(const fs::path& results) {
   }
 }
 
-/// When each checkpoint and record was last written.
+/// Time of the last change of each checkpoint and record.
 std::map<std::string, fs::file_time_type> write_times(const fs::path& results) {
   std::map<std::string, fs::file_time_type> times;
   for (const std::string folder : {"checkpoints", "records"}) {
@@ -114,7 +117,7 @@ bool is_running(int child) {
   return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
 }
 
-TEST_F(Crash, KilledTwentyTimesItComesToTheSameBytes) {
+TEST_F(Crash, KilledTwentyTimesItGivesTheSameBytes) {
   std::mt19937_64 random(11);
   int kills = 0, rounds = 0, continued = 0;
   while (kills < 20) {
@@ -148,7 +151,7 @@ TEST_F(Crash, KilledTwentyTimesItComesToTheSameBytes) {
   EXPECT_GT(continued, 5);
 }
 
-TEST_F(Crash, AChangedByteIsNoticedAndRedone) {
+TEST_F(Crash, AChangedByteIsDetectedAndRecomputed) {
   copy_reference();
   const auto before = test::files_below(here_ / "results");
   const std::vector<std::string> damaged{"records/dodecahedron-N24-r0001.json", "packings/dodecahedron-N28-r0000.json",
@@ -173,11 +176,11 @@ TEST_F(Crash, AChangedByteIsNoticedAndRedone) {
   }
 }
 
-TEST_F(Crash, ARunGoesOnFromItsCheckpoints) {
+TEST_F(Crash, ARunResumesFromItsCheckpoints) {
   run([&](int process) { stop_at_checkpoints(here_ / "results", 1, process, SIGKILL); });
   const auto names = names_in(here_ / "results" / "checkpoints");
   ASSERT_FALSE(names.empty());
-  // The bytes would be the same without it; that an hour was spent before, only the checkpoint knows.
+  // Without the checkpoint, the bytes would be the same. Only the checkpoint contains the hour of earlier CPU time.
   const auto path = here_ / "results" / "checkpoints" / (names[0] + ".json");
   auto checkpoint = read_sealed(path.string());
   checkpoint.erase("checksum");
@@ -202,9 +205,9 @@ TEST_F(Crash, ADamagedCheckpointStartsItsReplicateAnew) {
   EXPECT_EQ(results(), reference());
 }
 
-TEST_F(Crash, ACheckpointThatOutlivedItsRecordGoes) {
+TEST_F(Crash, ACheckpointWithARecordIsRemoved) {
   copy_reference();
-  // One is left as by a kill between the two, the other belongs to nothing recorded here.
+  // One checkpoint is left as by a kill after the record was written. The other one has no record.
   const auto checkpoints = here_ / "results" / "checkpoints";
   test::write_text(checkpoints / "dodecahedron-N28-r0001.json", "{}");
   test::write_text(checkpoints / "another.json", "{}");
@@ -214,8 +217,8 @@ TEST_F(Crash, ACheckpointThatOutlivedItsRecordGoes) {
   EXPECT_EQ(results(), reference());
 }
 
-TEST_F(Crash, FilesThatMayNotGrowEndARun) {
-  const auto ended = shell("ulimit -f 12; $ISOJAM run m.json -o results", here_.path());  // blocks of 512 bytes
+TEST_F(Crash, AFileSizeLimitEndsARun) {
+  const auto ended = shell("ulimit -f 12; $ISOJAM run m.json -o results", here_.path());  // in blocks of 512 bytes
   EXPECT_EQ(ended.exit_code, 1) << ended.err;
   EXPECT_NE(ended.err.find("cannot be written"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("repeat the command to resume"), std::string::npos) << ended.err;
@@ -235,7 +238,7 @@ TEST_F(CrashOnAMount, AFullDiskEndsARun) {
   EXPECT_EQ(results(), reference());
 }
 
-TEST_F(CrashOnAMount, AReadOnlyDirectoryIsLeftAsItWas) {
+TEST_F(CrashOnAMount, AReadOnlyDirectoryIsRejected) {
   remount(0, "size=20m");
   run([&](int process) { stop_at_checkpoints(disk_, 1, process, SIGKILL); });
   remount(MS_RDONLY, "");
@@ -249,7 +252,7 @@ TEST_F(CrashOnAMount, AReadOnlyDirectoryIsLeftAsItWas) {
   EXPECT_EQ(results(), reference());
 }
 
-TEST_F(Crash, ShardsAtOnceMakeTheWhole) {
+TEST_F(Crash, SimultaneousShardsMakeTheWholeStudy) {
   std::vector<std::thread> shards;
   std::vector<test::Finished> finished(3);
   for (int k = 0; k < 3; ++k) {
@@ -269,7 +272,7 @@ TEST_F(Crash, ShardsAtOnceMakeTheWhole) {
   EXPECT_EQ(results(), reference());
 }
 
-TEST_F(Crash, SigintEndsARunAmidALargeStep) {
+TEST_F(Crash, SigintEndsARunInALargeStep) {
   auto manifest = crash_manifest();
   manifest["sweep"]["particles"] = {600};
   manifest["protocol"] = {{"initial_density", 0.3}};
@@ -288,7 +291,7 @@ TEST_F(Crash, SigintEndsARunAmidALargeStep) {
   EXPECT_LE(steps(), before + 1) << "it went on to the end of a step";
 }
 
-TEST_F(Crash, ASymbolicLinkForAFolderIsRefused) {
+TEST_F(Crash, ASymbolicLinkForAFolderIsRejected) {
   const TemporaryDirectory elsewhere;
   for (const std::string folder : {"records", "packings", "paths", "checkpoints"}) {
     fs::remove_all(here_ / "results");
@@ -299,7 +302,7 @@ TEST_F(Crash, ASymbolicLinkForAFolderIsRefused) {
     EXPECT_NE(refused.err.find("symbolic link"), std::string::npos) << refused.err;
     EXPECT_TRUE(fs::is_empty(elsewhere.path())) << folder;
   }
-  // A link in place of a result is replaced, not followed.
+  // A link in place of a result is replaced; its target does not change.
   const auto target = elsewhere / "target.json";
   fs::remove_all(here_ / "results");
   copy_reference();

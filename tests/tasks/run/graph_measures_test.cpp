@@ -1,7 +1,8 @@
-// Facts proved here, with stages made up for the purpose:
-// - the measures that are asked for are made, and no others;
-// - the measures of a replicate read one result and run side by side, and a thread without one helps inside another;
-// - a stop request leaves out the measures that have not begun, and the outcome is interrupted.
+// Properties tested here with made-up stages:
+// - Exactly the requested measures are computed.
+// - The measures of a replicate use the same result and run at the same time. A thread without a measure helps inside
+//   another one.
+// - After a stop request, measures that have not begun are left out, and the outcome is interrupted.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ using test::one_by_one;
 using test::plan_of;
 using test::quiet_stages;
 
-TEST(GraphMeasures, NoMeasurementWhereNoneIsAsked) {
+TEST(GraphMeasures, NoMeasureIfNoneIsRequested) {
   auto plan = plan_of(3);
   for (auto& spec : plan) spec.measures.clear();
   auto stages = quiet_stages();
@@ -40,7 +41,7 @@ TEST(GraphMeasures, NoMeasurementWhereNoneIsAsked) {
   EXPECT_EQ(outcomes, 3);
 }
 
-TEST(GraphMeasures, NoMeasurementBesideThoseNamed) {
+TEST(GraphMeasures, OnlyTheRequestedMeasures) {
   for (const Measure named : all_measures) {
     auto plan = plan_of(3);
     for (auto& spec : plan) spec.measures = {named};
@@ -68,7 +69,7 @@ std::vector<ReplicateSpec> one_measured_by(std::vector<Measure> measures) {
   return plan;
 }
 
-/// A place where two threads must arrive.
+/// A point where two threads wait for each other.
 class Rendezvous {
  public:
   bool met() {
@@ -81,7 +82,7 @@ class Rendezvous {
   std::atomic<int> arrived_{0};
 };
 
-TEST(GraphMeasures, MeasuresOfAReplicateReadOneResultSideBySide) {
+TEST(GraphMeasures, MeasuresOfAReplicateRunAtTheSameTime) {
   std::array<std::atomic<const JamResult*>, 2> read{};
   Rendezvous rendezvous;
   auto stages = quiet_stages();

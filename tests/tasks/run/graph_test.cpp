@@ -1,13 +1,14 @@
-// Facts proved here, with stages made up for the purpose:
-// - every planned replicate yields exactly one outcome, with any number of threads, whatever its stages throw;
-// - a failure says in which stage and why;
-// - outcomes are handed over one at a time, and no more replicates are in flight than threads;
-// - outcomes do not depend on the number of threads;
-// - after a stop request nothing new starts, and what was under way is handed over as interrupted;
-// - a resource failure in a stage stops the run and comes out of it, and is no failure of the replicate;
-// - an exception of the caller's functions stops the run and comes out of it;
-// - fewer replicates are in flight where memory asks for it, and a plan is asked for no faster than it is run;
-// - time spent before a checkpoint is counted.
+// Properties tested here with made-up stages:
+// - Every planned replicate gives exactly one outcome, for any number of threads and whatever its stages throw.
+// - A failure states its stage and its reason.
+// - Outcomes are passed on one at a time. At most as many replicates as threads run at the same time.
+// - Outcomes do not depend on the number of threads.
+// - After a stop request nothing new starts, and unfinished replicates are passed on as interrupted.
+// - A resource failure in a stage stops the run and is thrown to the caller. It is not a failure of the replicate.
+// - An exception of the caller's functions stops the run and is thrown to the caller.
+// - If memory requires it, fewer replicates run at the same time. Replicates are requested from the plan only when they
+//   can start.
+// - Time that was spent before a checkpoint is counted.
 
 #include "tasks/run/graph.hpp"
 
@@ -33,7 +34,7 @@ using test::one_by_one;
 using test::plan_of;
 using test::quiet_stages;
 
-/// Behaviour of the artificial stages for a replicate.
+/// Behaviour of the made-up stages for a replicate.
 enum class Fate { good, begin_throws, jam_throws, jam_ends_early, contacts_throw, contacts_throw_int };
 
 Fate fate_of(const ReplicateSpec& spec) { return static_cast<Fate>(hash_of(replicate_name(spec)) % 6); }
@@ -105,11 +106,10 @@ TEST(Graph, ThreadsChangeNoOutcome) {
   EXPECT_EQ(records.at(1), records.at(3));
 }
 
-/// Counts replicates in flight.
+/// Counts the replicates that run at the same time.
 class InFlight {
  public:
-  /// Made-up stages that wait until `company` replicates were in flight together. After many seconds in vain they wait
-  /// no more.
+  /// Stages that wait until `company` replicates run at the same time, but at most for several seconds.
   Stages stages(int company) {
     auto stages = quiet_stages();
     stages.begin = [this, begin = stages.begin](const ReplicateSpec& spec) {
@@ -132,7 +132,7 @@ class InFlight {
   std::atomic<int> now_{0}, most_{0}, patience_{30000};
 };
 
-TEST(Graph, AsManyInFlightAsThreadsAndOneConsumer) {
+TEST(Graph, AsManyReplicatesAsThreadsAndOneConsumer) {
   for (const int threads : {1, 3}) {
     InFlight in_flight;
     std::atomic<int> consuming{0};
@@ -180,7 +180,7 @@ TEST(Graph, NothingStartsAfterAStop) {
   EXPECT_EQ(outcomes, 0);
 }
 
-TEST(Graph, AResourceFailureIsNoneOfTheReplicate) {
+TEST(Graph, AResourceFailureIsNotAFailureOfTheReplicate) {
   for (const auto* where : {"begin", "jam", "measure"}) {
     auto stages = quiet_stages();
     const auto lacking = [&](const char* stage) {
@@ -207,7 +207,7 @@ TEST(Graph, AResourceFailureIsNoneOfTheReplicate) {
   }
 }
 
-TEST(Graph, FewerInFlightThanThreadsWhereMemoryAsks) {
+TEST(Graph, FewerReplicatesThanThreadsIfMemoryRequiresIt) {
   InFlight in_flight;
   run_graph(one_by_one(plan_of(30)), in_flight.stages(2), {4, 2, {}, {}}, [&](const Outcome&) {
     std::this_thread::sleep_for(2ms);
@@ -216,7 +216,7 @@ TEST(Graph, FewerInFlightThanThreadsWhereMemoryAsks) {
   EXPECT_EQ(in_flight.most(), 2);
 }
 
-TEST(Graph, APlanIsAskedForNoFasterThanItIsRun) {
+TEST(Graph, ReplicatesAreRequestedOnlyWhenTheyCanStart) {
   int asked = 0, done = 0, ahead = 0;
   const auto specs = plan_of(200);
   const NextReplicate next = [&]() -> std::optional<ReplicateSpec> {
@@ -228,7 +228,7 @@ TEST(Graph, APlanIsAskedForNoFasterThanItIsRun) {
   EXPECT_LE(ahead, 4) << "specifications pile up";
 }
 
-TEST(Graph, WhatTheCallersFunctionsThrowComesOut) {
+TEST(Graph, ExceptionsOfCallbacksReachTheCaller) {
   const auto fault = [] { return std::runtime_error("disk full"); };
   const NextReplicate next = [&]() -> std::optional<ReplicateSpec> { throw fault(); };
   EXPECT_THROW(run_graph(next, quiet_stages(), {2, 0, {}, {}}, [](const Outcome&) {}), std::runtime_error);
@@ -266,7 +266,7 @@ TEST(Graph, TimeSpentBeforeIsCounted) {
   });
 }
 
-TEST(Graph, AnExceptionOfTheConsumerComesOut) {
+TEST(Graph, AnExceptionOfTheConsumerReachesTheCaller) {
   int outcomes = 0;
   const auto run = [&] {
     run_graph(one_by_one(plan_of(1000)), quiet_stages(), {2, 0, {}, {}}, [&](const Outcome&) {

@@ -1,8 +1,8 @@
-// Facts proved here, through the executable, a library preloaded that lets system calls fail:
-// - whatever the machine refuses, whichever time it is asked (memory, threads, descriptors, reading, writing), a run
-//   ends with exit 1 and a message and no outcome is recorded of it; a complete directory is left as it was, byte by
-//   byte, and what was begun comes to the same bytes when the machine gives again;
-// - the same with little memory from the start.
+// Properties tested here through the executable, with a preloaded library that lets system calls fail:
+// - Whichever call fails (memory, threads, descriptors, reading, writing), the run ends with exit 1 and a message, and
+//   no outcome is recorded. A complete directory does not change, byte by byte. When the calls work again, an
+//   unfinished study gives the same bytes.
+// - The same is true with little memory from the start.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ class ResourceFailure : public testing::Test {
     const Failing count(call + " count");
     return test::calls_counted(run().err, call);
   }
-  /// About so many of the calls, the first and the last among them.
+  /// Calls `work` for about so many of the calls, including the first and the last.
   template <class Work>
   static int some_of(long first, long last, long trials, const Work& work) {
     int tried = 0;
@@ -78,7 +78,7 @@ const std::vector<Refusal>& refusals() {
   return all;
 }
 
-TEST_F(ResourceFailure, ACompleteDirectoryIsLeftAsItWas) {
+TEST_F(ResourceFailure, ACompleteDirectoryDoesNotChange) {
   begin_with_reference();
   const auto before = test::files_below(here_ / "results");
   for (const auto& [call, error] : refusals()) {
@@ -96,12 +96,12 @@ TEST_F(ResourceFailure, ACompleteDirectoryIsLeftAsItWas) {
   }
 }
 
-TEST_F(ResourceFailure, NoOutcomeIsRecordedOfIt) {
+TEST_F(ResourceFailure, NoOutcomeIsRecorded) {
   const auto reference = test::results_below(*shared_ / "results");
   for (const auto& [call, error] : refusals()) {
     fs::remove_all(here_ / "results");
     const auto calls = count_of(call);
-    // The first few hundred are made before the program is there to say a word.
+    // The first few hundred allocations are made before the program can print a message.
     some_of(call == "malloc" ? 1000 : 1, calls, call == "malloc" ? 4 : 1, [&, &call = call, &error = error](long k) {
       fs::remove_all(here_ / "results");
       const auto order = call + ' ' + std::to_string(k) + "+ " + std::to_string(error);
@@ -119,7 +119,7 @@ TEST_F(ResourceFailure, NoOutcomeIsRecordedOfIt) {
   }
 }
 
-TEST_F(ResourceFailure, ARerunThatCannotBeWrittenLeavesTheRecord) {
+TEST_F(ResourceFailure, ARerunThatCannotBeWrittenKeepsTheRecord) {
   begin_with_reference();
   const auto before = test::files_below(here_ / "results");
   const auto name = names_in(here_ / "results" / "records").front();
@@ -132,7 +132,7 @@ TEST_F(ResourceFailure, ARerunThatCannotBeWrittenLeavesTheRecord) {
   }
 }
 
-TEST_F(ResourceFailure, AManifestThatCannotBeReadIsNotABadOne) {
+TEST_F(ResourceFailure, AnUnreadableManifestIsNotReportedAsInvalid) {
   for (const std::string command : {"run", "validate"}) {
     const Failing failing("read 1+ 5");
     const auto ended = isojam({command, "m.json"}, here_.path());
@@ -141,7 +141,7 @@ TEST_F(ResourceFailure, AManifestThatCannotBeReadIsNotABadOne) {
   }
 }
 
-TEST_F(ResourceFailure, AThreadThatCannotBeMadeIsSaid) {
+TEST_F(ResourceFailure, AThreadThatCannotBeCreatedIsReported) {
   const Failing failing("thread 1+ 11");
   const auto ended = run();
   EXPECT_EQ(ended.exit_code, 1);
@@ -155,7 +155,7 @@ TEST_F(ResourceFailure, WithLittleMemoryFromTheStart) {
   for (const long megabytes : {20, 22, 24, 26, 28, 30, 34, 40}) {
     const auto limit = std::to_string(megabytes << 10);
     const auto ended = test::shell("ulimit -v " + limit + "; $ISOJAM run m.json -o results", here_.path());
-    // Below what the libraries take the loader ends it.
+    // With less memory than the libraries need, the loader ends the program.
     EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1 || ended.exit_code == 127)
         << megabytes << " MiB: " << ended.exit_code << ' ' << ended.err;
     short_of += ended.exit_code == 1;

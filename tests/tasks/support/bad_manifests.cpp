@@ -17,19 +17,19 @@ std::string without(const std::string& key) {
   return manifest.dump();
 }
 
-/// The good manifest's text with `from` replaced.
+/// Text of the valid manifest in which `from` is replaced by `to`.
 std::string replaced(const std::string& from, const std::string& to) {
   auto text = good_manifest().dump();
   return text.replace(text.find(from), from.size(), to);
 }
 
-/// A value at a place where it is not allowed; a schema can detect it.
+/// A manifest with a value that is not allowed at its place. A schema can detect this.
 BadManifest set(const std::string& name, const std::string& at, const Json& value, const std::string& says,
                 const std::string& pointer = "") {
   return {name, with(at, value), pointer.empty() ? at : pointer, says, true};
 }
 
-/// Keys and values outside the sweep that a schema refuses.
+/// Invalid keys and values outside of the sweep; a schema rejects them.
 std::vector<BadManifest> malformed() {
   return {
       set("unknown key", "/replicate", 4, "did you mean \"replicates\"?"),
@@ -90,7 +90,7 @@ std::vector<BadManifest> malformed() {
   };
 }
 
-/// Bases with which rows cannot be compared.
+/// Bases with which no row can be compared.
 std::vector<BadManifest> malformed_base() {
   return {
       set("misspelt parameter of the base", "/base/step_fracton", 0.35, "did you mean \"step_fraction\"?"),
@@ -104,7 +104,7 @@ std::vector<BadManifest> malformed_base() {
   };
 }
 
-/// Shears that a schema refuses.
+/// Shears that a schema rejects.
 std::vector<BadManifest> malformed_shear() {
   return {
       set("shear that is no object", "/shear", "pure", "an object"),
@@ -115,7 +115,7 @@ std::vector<BadManifest> malformed_shear() {
   };
 }
 
-/// Values in the sweep that a schema refuses.
+/// Values in the sweep that a schema rejects.
 std::vector<BadManifest> malformed_sweep() {
   return {
       set("misspelt sweep key", "/sweep/particle", Json{64}, "did you mean \"particles\"?"),
@@ -142,7 +142,7 @@ std::vector<BadManifest> malformed_sweep() {
   };
 }
 
-/// Rules between values.
+/// Manifests that violate conditions between several values.
 std::vector<BadManifest> inconsistent() {
   auto crowded = good_manifest();
   crowded["sweep"]["max_density"] = {0.8, 2.0};
@@ -186,7 +186,7 @@ std::vector<BadManifest> inconsistent() {
   };
 }
 
-/// Texts that are not JSON, or that JSON leaves open.
+/// Texts that are not JSON, or whose meaning JSON leaves open.
 std::vector<BadManifest> unreadable() {
   const auto good = good_manifest().dump();
   return {

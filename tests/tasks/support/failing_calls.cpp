@@ -1,7 +1,7 @@
-// Preloaded into a process, fails the system calls that ISOJAM_FAIL names: "read 7 5" gives errno 5 (EIO) from the
-// seventh read, "read 7+ 5" from the seventh and every later one. "count" instead of a number fails nothing and says at
-// the end how many there were. "open count 0 records/a.json" counts the opened paths that end like this. Calls: malloc,
-// open, read, write, fsync, rename, link, thread.
+// This library is preloaded into a process. It lets the system calls fail that ISOJAM_FAIL names. "read 7 5" sets errno
+// to 5 (EIO) in the seventh read; "read 7+ 5" does so in the seventh and all later ones. With "count" instead of a
+// number, no call fails, and the number of calls is printed at the end. "open count 0 records/a.json" counts the opened
+// paths that end in this way. Calls: malloc, open, read, write, fsync, rename, link, thread.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -22,7 +22,7 @@ struct Order {
   long first = 0;
   bool ever_after = false, count = false;
   int error = 0;
-  char path[256] = "";  ///< how an opened path ends; empty for any
+  char path[256] = "";  ///< end of the paths that count; empty for all paths
 };
 
 Order read_order() {
@@ -44,7 +44,7 @@ const Order& order() {
 
 std::atomic<long> calls{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
-/// True, with errno set, if this call is to fail.
+/// True, with errno set, if this call must fail.
 bool fails(const char* call) {
   const Order& what = order();
   if (std::strcmp(call, what.call) != 0) return false;

@@ -161,7 +161,7 @@ void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis) {
 }
 
 Outcome made_up_outcome(const ReplicateSpec& spec) {
-  // Unlike real replicates, made-up ones differ at every swept parameter, so that rows differ.
+  // Unlike real replicates, made-up ones have other values at every value of a swept parameter, so that rows differ.
   RandomStream random{spec.seed, hash_of(point_text(spec)), static_cast<std::uint64_t>(spec.replicate),
                       static_cast<std::uint64_t>(Purpose::placement)};
   const auto start = random_packing(spec.solid.particles(spec.particles), 0.5, random);

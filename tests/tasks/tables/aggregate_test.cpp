@@ -1,11 +1,11 @@
-// These tests prove:
-// - the table does not depend on the order of the records, nor on a record being given twice;
-// - failed replicates are counted and in no mean; flagged ones are counted, and in the means they have a value for
-//   unless their flag is excluded: these are in the means of all;
-// - against Δφ, quantities are interpolated in ln Δφ between the states of a replicate and not beyond them;
-// - the residual of a row is the worst of its replicates;
-// - records of other settings, and two results of one replicate, are refused;
-// - a record that lacks something the table needs is refused with its pointer.
+// Properties tested here:
+// - The table does not depend on the order of the records, or on whether a record is given twice.
+// - Failed replicates are counted but are in no mean. Flagged replicates are counted, and are in the means unless their
+//   flag is excluded. Excluded replicates are only in the means over all.
+// - Quantities against Δφ are interpolated in ln Δφ between the states of a replicate, and not extrapolated.
+// - The residual of a row is the largest one of its replicates.
+// - Records with other settings, and two results of one replicate, are rejected.
+// - A record that lacks something the table needs is rejected with its pointer.
 
 #include "tasks/tables/aggregate.hpp"
 #include "tasks/records/record.hpp"
@@ -116,7 +116,7 @@ TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
   RecordSummary record;
   record.particles = 100;
   std::vector<RecordSummary> records;
-  // Z = a + b ln Δφ is interpolated exactly wherever the states lie.
+  // Z = a + b ln Δφ is interpolated exactly, wherever the states are.
   const auto law = [](int replicate, double distance) { return 9 + 0.1 * replicate + 0.3 * std::log(distance); };
   const std::vector<std::vector<double>> distances{{.003, .011, .07}, {.0049, .0051, .2}, {.021, .039}, {.01}};
   for (int k = 0; k < 4; ++k) {
@@ -130,7 +130,8 @@ TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
     records.push_back(record);
   }
   const auto series = aggregate(records).rows.at(0).series;
-  // Replicate 1 lacks the value between its outer states; replicate 2 encloses no point, replicate 3 has one state.
+  // Replicate 1 lacks the value between its outer states. The states of replicate 2 enclose no point. Replicate 3 has
+  // one state.
   std::vector<std::pair<double, std::vector<int>>> expected{{.04, {0}}, {.02, {0}}, {.01, {0}}, {.005, {0}}};
   ASSERT_EQ(series.size(), expected.size());
   for (std::size_t p = 0; p < expected.size(); ++p) {
@@ -152,7 +153,7 @@ TEST(Aggregate, ARowOfFailuresHasNoMean) {
   EXPECT_FALSE(row.residual);
 }
 
-TEST(Aggregate, PoolsReplicatesOfOtherSeeds) {
+TEST(Aggregate, CombinesReplicatesOfOtherSeeds) {
   auto records = summaries();
   for (const auto& spec : plan([](Json& manifest) { manifest["seed"] = 8; })) {
     records.push_back(summary_of(test::made_up_outcome(spec)));
@@ -160,7 +161,7 @@ TEST(Aggregate, PoolsReplicatesOfOtherSeeds) {
   for (const auto& row : aggregate(records).rows) EXPECT_EQ(row.replicates, 10);
 }
 
-TEST(Aggregate, RefusesOtherSettings) {
+TEST(Aggregate, RejectsOtherSettings) {
   auto records = summaries();
   const auto other = plan([](Json& manifest) { manifest["protocol"]["step_fraction"] = 0.125; });
   records.push_back(summary_of(test::made_up_outcome(other[3])));
@@ -168,7 +169,7 @@ TEST(Aggregate, RefusesOtherSettings) {
   EXPECT_NE(said.find("/protocol/step_fraction: differs"), std::string::npos) << said;
 }
 
-TEST(Aggregate, RefusesTwoResultsOfOneReplicate) {
+TEST(Aggregate, RejectsTwoResultsOfOneReplicate) {
   auto records = summaries();
   auto outcome = test::made_up_outcome(plan()[2]);
   outcome.timing.wall_seconds += 1;

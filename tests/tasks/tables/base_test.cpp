@@ -1,14 +1,16 @@
-// These tests prove, with made-up records, and through the executable:
-// - the differences of a row from its base are those of replicates of one number, mean, standard deviation and
-//   Student's interval as computed by hand; a replicate that failed, is excluded or lacks the value on either side is
-//   left out;
-// - where replicates vary together the paired interval is narrower than one made of the two rows' own;
-// - rows are compared with the one of their solid and size that has the base's values and their own of the others; the
-//   base itself is not; records of several manifests pair within each;
-// - neither the order of records nor their repetition matters, to the last bit;
-// - the manifest names the base, which may be changed later in the same directory, and `--base` overrides it; every
-//   format has the differences, and the numbers of CSV are those of the JSON;
-// - directories that disagree are refused by name; what is no base is refused with what is allowed.
+// Properties tested here with made-up records and through the executable:
+// - The differences of a row from its base are those between replicates with the same number. Their mean, standard
+//   deviation and Student's interval agree with a calculation by hand. A pair is left out if one of the two failed, is
+//   excluded or lacks the value.
+// - If paired replicates vary together, the paired interval is narrower than the one from the intervals of the two
+//   rows.
+// - Each row is compared with the row of the same solid and N that has the values of the base, and the same values of
+//   all other parameters. The base itself is not compared. Records of several manifests are paired within each
+//   manifest.
+// - The order and repetition of records change no bit.
+// - The manifest names the base, which may be changed later in the same directory; `--base` overrides it. Every format
+//   has the differences, and CSV has the same numbers as JSON.
+// - Directories with different bases are rejected by name. An invalid base is rejected with the allowed values.
 
 #include <gtest/gtest.h>
 
@@ -56,7 +58,8 @@ Estimate difference_of(const std::vector<RecordSummary>& records, const Json& ro
   return differences ? differences->estimates[index_of("phi_j")] : Estimate{};
 }
 
-/// Six replicates at fractions .2 and .35; of numbers 0 to 2 the first is .010, .014 and .012 above the other.
+/// Six replicates at the fractions .2 and .35. For the numbers 0, 1 and 2, the first is .010, .014 and .012 larger than
+/// the other.
 std::vector<RecordSummary> six() {
   const std::vector<double> base{0.70, 0.66, 0.68, 0.61, 0.72, 0.65}, others{0.710, 0.674, 0.692, 0.9, 0.1, 0.3};
   std::vector<RecordSummary> records;
@@ -67,9 +70,9 @@ std::vector<RecordSummary> six() {
   return records;
 }
 
-TEST(Base, DifferencesAreThoseComputedByHand) {
+TEST(Base, DifferencesAgreeWithACalculationByHand) {
   auto records = six();
-  // Number 3 failed in the base, 4 is excluded in the other row, 5 of the base was never run.
+  // Number 3 failed in the base, 4 is excluded in the other row, and 5 was never run in the base.
   for (auto& record : records) {
     const bool base = record.parameters == fraction(0.35);
     if (record.replicate == 3 && base) {
@@ -91,21 +94,21 @@ TEST(Base, DifferencesAreThoseComputedByHand) {
   EXPECT_EQ(phi_j.n, 3);
   EXPECT_NEAR(phi_j.mean.value(), 0.012, 1e-15);
   EXPECT_NEAR(phi_j.sd.value(), 0.002, 1e-15);
-  // t of two degrees of freedom is 4.302653.
+  // Student's t for two degrees of freedom is 4.302653.
   EXPECT_NEAR(phi_j.half_width.value(), 4.302652729911275 * 0.002 / std::sqrt(3), 1e-12);
   EXPECT_EQ(differences->estimates[index_of("Z")].n, 0);
-  // Excluded in the base and failed in the other row: the same.
+  // The result is the same if they are excluded in the base and failed in the other row.
   for (auto& record : records) {
     if (record.replicate == 3) record.failed = !record.failed;
     if (record.replicate == 4)
       record.flags = record.flags.empty() ? std::vector{Flag::crystalline} : std::vector<Flag>{};
   }
   EXPECT_EQ(row_with(aggregate(records, {}, usually_excluded(), fraction(0.35)), fraction(0.2)).differences->pairs, 3);
-  // With nothing excluded it counts.
+  // If nothing is excluded, number 4 counts.
   EXPECT_EQ(row_with(aggregate(records, {}, {}, fraction(0.35)), fraction(0.2)).differences->pairs, 4);
 }
 
-TEST(Base, TheOtherWayRoundTheSignIsTheOther) {
+TEST(Base, ExchangingRowAndBaseChangesTheSign) {
   const auto one = difference_of(six(), fraction(0.2), fraction(0.35));
   const auto other = difference_of(six(), fraction(0.35), fraction(0.2));
   EXPECT_EQ(one.n, 6);
@@ -113,7 +116,7 @@ TEST(Base, TheOtherWayRoundTheSignIsTheOther) {
   EXPECT_NEAR(*one.sd, *other.sd, 1e-15);
 }
 
-TEST(Base, AQuantityThatOneOfAPairLacksIsOfNoPair) {
+TEST(Base, APairNeedsTheQuantityOnBothSides) {
   auto records = six();
   for (auto& record : records) {
     if (record.replicate < 4) record.values[index_of("Z")] = 9 + 0.1 * record.replicate;
@@ -126,7 +129,7 @@ TEST(Base, AQuantityThatOneOfAPairLacksIsOfNoPair) {
   EXPECT_NEAR(*differences->estimates[index_of("Z")].mean, 0, 1e-15);
 }
 
-TEST(Base, PairsHaveNarrowerIntervalsWhereReplicatesVaryTogether) {
+TEST(Base, PairedIntervalsAreNarrowerIfReplicatesVaryTogether) {
   std::mt19937_64 random(5);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
   std::vector<RecordSummary> records;
@@ -148,7 +151,7 @@ TEST(Base, PairsHaveNarrowerIntervalsWhereReplicatesVaryTogether) {
   EXPECT_LT(*other.estimates[i].mean - *base.estimates[i].mean, unpaired);
 }
 
-/// Every combination of two parameters and two sizes, each with its own values.
+/// Every combination of two parameters and two sizes, each with different values.
 std::vector<RecordSummary> grid() {
   std::vector<RecordSummary> records;
   for (const int particles : {100, 200}) {
@@ -190,7 +193,7 @@ TEST(Base, EveryRowIsComparedWithTheOneOfItsSolidAndSize) {
   for (const auto& row : aggregate(grid()).rows) EXPECT_FALSE(row.differences) << "no base";
 }
 
-TEST(Base, RowsWithoutItHaveNoPairsAndThoseOfOtherSweepsNoDifferences) {
+TEST(Base, RowsWithoutABaseHaveNoPairs) {
   auto records = grid();
   std::erase_if(records, [](const auto& r) { return r.particles == 200 && r.parameters.at("step_fraction") == 0.35; });
   auto plain = record_of(Json::object(), 0, 0.7);
@@ -232,7 +235,7 @@ TEST(Base, OrderAndRepetitionDoNotMatter) {
 
 class BaseTest : public ::testing::Test {
  protected:
-  /// Made-up outcomes at fractions .2, .35 and .5; at .2 number 1 is a crystal.
+  /// Writes made-up outcomes at the fractions .2, .35 and .5. At .2, number 1 is a crystal.
   void write(const std::string& name, const std::function<void(Json&)>& change = {}) {
     auto json = test::good_manifest();
     json["replicates"] = 4;
@@ -283,7 +286,7 @@ TEST_F(BaseTest, TheManifestNamesItAndTheCommandOverrides) {
   EXPECT_EQ(table({"r", "--exclude", "none"}).at("rows").at(0).at("differences").at("pairs"), 4);
 }
 
-TEST_F(BaseTest, TheDirectoryTakesOverAnotherChoice) {
+TEST_F(BaseTest, AnotherBaseIsStoredInTheDirectory) {
   write("r");
   EXPECT_FALSE(table({"r"}).contains("base"));
   const auto records = test::files_below(directory_ / "r" / "records");
@@ -309,7 +312,8 @@ TEST_F(BaseTest, EveryFormatHasTheDifferences) {
   const auto mean = json.at("rows").at(0).at("differences").at("phi_j").at("mean").dump();
   EXPECT_NE(csv.find(",difference," + mean + ","), std::string::npos) << csv;
   EXPECT_EQ(aggregated({"r", "--format", "csv", "--series"}).find("difference"), std::string::npos);
-  // Head, kept and all of the row with a crystal and kept of two more, differences of two.
+  // The heading, two lines (kept and all) of the row with a crystal, one line each of the two other rows, and two lines
+  // of differences.
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7) << csv;
   const auto& z = json.at("rows").at(2).at("differences").at("Z");
   const auto line = ",difference,Z," + z.at("mean").dump() + "," + z.at("ci95").at(0).dump() + "," +
@@ -318,7 +322,7 @@ TEST_F(BaseTest, EveryFormatHasTheDifferences) {
   EXPECT_NE(long_csv.find(line), std::string::npos) << line << "\n" << long_csv;
 }
 
-TEST_F(BaseTest, DirectoriesThatDisagreeAreRefusedByName) {
+TEST_F(BaseTest, DirectoriesThatDisagreeAreRejectedByName) {
   write("one", [](Json& manifest) { manifest["base"] = fraction(0.35); });
   write("same", [](Json& manifest) {
     manifest["seed"] = 8;
@@ -333,7 +337,7 @@ TEST_F(BaseTest, DirectoriesThatDisagreeAreRefusedByName) {
   EXPECT_EQ(table({"one", "none", "--base", "step_fraction=0.5"}).at("rows").at(1).at("differences").at("pairs"), 8);
 }
 
-TEST_F(BaseTest, WhatIsNoBaseIsRefusedWithWhatIsAllowed) {
+TEST_F(BaseTest, AnInvalidBaseIsRejectedWithTheAllowedValues) {
   write("r");
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"step_fracton=0.35", "did you mean \"step_fraction\"?"},

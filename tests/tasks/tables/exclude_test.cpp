@@ -1,11 +1,11 @@
-// These tests prove, through the executable, with made-up outcomes:
-// - replicates with a flag that the manifest excludes count in no mean of the first line; those of all stand beneath it
-//   in every format; what is excluded is told in each but CSV, whose rows are marked;
-// - which flags are excluded is no part of a replicate: it may be changed later in the same directory, which then takes
-//   it over, and `aggregate --exclude` overrides it;
-// - directories that disagree are refused by name;
-// - CSV has no column without a value; the long one has a row for each quantity, point and set of replicates;
-// - the goal of a table looks at the replicates that count.
+// Properties tested here through the executable with made-up outcomes:
+// - Replicates with an excluded flag are in no mean of the first line. The means over all replicates follow in every
+//   format. Every format except CSV states what is excluded; in CSV, the rows are marked.
+// - The excluded flags are not a part of a replicate. They may be changed later in the same directory, which then
+//   stores the new ones. `aggregate --exclude` overrides them.
+// - Directories with different excluded flags are rejected by name.
+// - CSV has no column without a value. Long CSV has a row for each quantity, point and set of replicates.
+// - The goal in a table uses only replicates that are not excluded.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ namespace {
 
 class ExcludeTest : public ::testing::Test {
  protected:
-  /// Replicate 1 is a crystal, 2 ended short of its goal, 3 failed.
+  /// Replicate 1 is a crystal, replicate 2 did not reach final_distance, and replicate 3 failed.
   static Outcome outcome_of(const ReplicateSpec& spec) {
     auto outcome = test::made_up_outcome(spec);
     if (spec.replicate == 1) {
@@ -73,7 +73,7 @@ class ExcludeTest : public ::testing::Test {
   std::vector<double> phi_j_;
 };
 
-TEST_F(ExcludeTest, MeansAreWithoutTheExcludedAndThoseOfAllStandBeside) {
+TEST_F(ExcludeTest, BothMeansArePrinted) {
   write("r");
   const auto json = table({"r"});
   EXPECT_EQ(test::violations("tables", json), "") << json.dump(1);
@@ -107,7 +107,7 @@ TEST_F(ExcludeTest, TheManifestChoosesAndTheCommandOverrides) {
   EXPECT_NE(wrong.err.find("did you mean \"crystalline\"?"), std::string::npos) << wrong.err;
 }
 
-TEST_F(ExcludeTest, TheDirectoryTakesOverAnotherChoice) {
+TEST_F(ExcludeTest, AnotherChoiceIsStoredInTheDirectory) {
   write("r");
   const auto records = test::files_below(directory_ / "r" / "records");
   write("r", [](Json& manifest) { manifest["exclude"] = Json::array(); });
@@ -115,7 +115,7 @@ TEST_F(ExcludeTest, TheDirectoryTakesOverAnotherChoice) {
   EXPECT_EQ(table({"r"}).at("rows").at(0).at("phi_j").at("n"), 5);
 }
 
-TEST_F(ExcludeTest, DirectoriesThatDisagreeAreRefusedByName) {
+TEST_F(ExcludeTest, DirectoriesThatDisagreeAreRejectedByName) {
   write("default");
   write("same", [](Json& manifest) { manifest["seed"] = 8; });
   write("other", [](Json& manifest) {
@@ -128,13 +128,13 @@ TEST_F(ExcludeTest, DirectoriesThatDisagreeAreRefusedByName) {
   for (const auto* part : {"other/manifest.json: /exclude", "default", "not_stable", "--exclude"})
     EXPECT_NE(refused.err.find(part), std::string::npos) << part << ": " << refused.err;
   EXPECT_EQ(table({"default", "other", "--exclude", "none"}).at("rows").at(0).at("phi_j").at("n"), 10);
-  // Without a manifest it is the default.
+  // Without a manifest, the default flags are used.
   std::filesystem::remove(directory_ / "same" / "manifest.json");
   EXPECT_EQ(table({"default", "same"}).at("rows").at(0).at("excluded"), 2);
   EXPECT_EQ(test::isojam({"aggregate", "same", "other"}, directory_.path()).exit_code, 65);
 }
 
-TEST_F(ExcludeTest, EveryFormatHasBothAndSaysWhatIsExcluded) {
+TEST_F(ExcludeTest, EveryFormatHasBothAndStatesWhatIsExcluded) {
   write("r");
   const std::string told = "excluded from means: crystalline (1), not_balanced (0)";
   const auto text = aggregate({"r"});
@@ -157,7 +157,7 @@ TEST_F(ExcludeTest, EveryFormatHasBothAndSaysWhatIsExcluded) {
             0U);
 }
 
-/// Lines of a CSV whose fields hold no commas.
+/// Cells of a CSV file whose fields contain no commas.
 std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
   std::vector<std::vector<std::string>> lines(1, {""});
   for (const char c : csv) {
@@ -223,8 +223,8 @@ TEST_F(ExcludeTest, TheWideCsvHasNoEmptyColumnsAndTheLongOneARowForEachQuantity)
   }
 }
 
-TEST_F(ExcludeTest, TheGoalOfATableLooksAtWhatCounts) {
-  // The crystal is .05 above the others: the interval of all is wider.
+TEST_F(ExcludeTest, TheGoalOfATableIgnoresExcludedReplicates) {
+  // The crystal is .05 above the others, so the interval over all replicates is wider.
   write("r", [](Json& manifest) {
     manifest["replicates"] = {{"min", 6}, {"max", 6}, {"quantity", "phi_j"}, {"half_width", 0.03}};
   });

@@ -1,11 +1,12 @@
-// These tests prove:
-// - defaults, ranges, choices and places of the manifest's schema are those of the program;
-// - manifests that the program accepts conform to the schema, its canonical ones and every example among them;
-// - of the bad corpus the schema refuses all that it can express;
-// - the schema of tables knows every quantity, and those that name flags know every flag;
-// - records and tables conform, failed and flagged ones too; a damaged one does not;
-// - a record tells in how many steps the packing rearranged, and tables take it from there;
-// - failed records have the keys of others, null with a reason; earlier ones without them conform and are read.
+// Properties tested here:
+// - Defaults, ranges, choices and places in the schema of manifests are those of the program.
+// - Manifests that the program accepts conform to the schema, including the canonical ones and every example.
+// - The schema rejects those invalid manifests that it can express.
+// - The schema of tables contains every quantity. The schemas that name flags contain every flag.
+// - Records and tables conform, also failed and flagged ones. A damaged record does not conform.
+// - A record states in how many steps the packing rearranged, and tables take the number from there.
+// - Failed records have the keys of other records, with null and a reason. Earlier records without these keys conform
+//   and are read.
 
 #include <gtest/gtest.h>
 
@@ -55,7 +56,7 @@ Json expected_definition(const Field& field) {
   return json;
 }
 
-TEST(ManifestSchema, SaysWhatTheProgramSays) {
+TEST(ManifestSchema, AgreesWithTheProgram) {
   const auto schema = test::schema("manifest");
   const auto& properties = schema.at("properties");
   std::size_t described = 0;
@@ -65,7 +66,7 @@ TEST(ManifestSchema, SaysWhatTheProgramSays) {
     auto definition = schema.at("definitions").at(name);
     EXPECT_FALSE(definition.at("description").get<std::string>().empty()) << name;
     definition.erase("description");
-    // As unordered objects: the order of a schema's keys means nothing.
+    // Compared as unordered objects, because the order of keys in a schema has no meaning.
     EXPECT_EQ(nlohmann::json(definition), nlohmann::json(expected_definition(field))) << name;
     const Json reference{{"$ref", "#/definitions/" + name}};
     EXPECT_EQ(properties.at(std::string(to_string(field.group))).at("properties").at(name), reference) << name;
@@ -119,7 +120,7 @@ TEST(ManifestSchema, AcceptsEveryExample) {
   if (!std::filesystem::exists(examples)) GTEST_SKIP() << "no examples in this tree";
   int seen = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(examples)) {
-    // Results that an example shows are no manifests.
+    // Results that belong to an example are not manifests.
     if (entry.path().extension() != ".json" || entry.path().parent_path().filename() == "data") continue;
     ++seen;
     const auto text = read_text(entry.path().string());
@@ -129,7 +130,7 @@ TEST(ManifestSchema, AcceptsEveryExample) {
   EXPECT_GT(seen, 0);
 }
 
-TEST(ManifestSchema, RefusesWhatItCanExpress) {
+TEST(ManifestSchema, RejectsWhatItCanExpress) {
   int refused = 0;
   for (const auto& bad : test::bad_manifests()) {
     if (!bad.schema_can_tell) continue;
@@ -161,7 +162,7 @@ std::vector<Json> made_up_records() {
   return records;
 }
 
-TEST(RecordSchema, StatesThatTheEnergyLetPassAreFlagged) {
+TEST(RecordSchema, UnbalancedStatesAreFlagged) {
   auto outcome = test::made_up_outcome(Plan(parse_manifest(test::good_manifest().dump(), "manifest")).at(0, 0));
   EXPECT_TRUE(flags_of(outcome).empty());
   outcome.jam.path[static_cast<std::size_t>(outcome.jam.state_steps[1])].summary.reason = StopReason::energy_change;
@@ -187,7 +188,7 @@ TEST(RecordSchema, AcceptsRecords) {
   for (const auto& record : records) EXPECT_EQ(violations("replicate", record), "") << record.dump(1);
 }
 
-TEST(RecordSchema, RefusesDamagedRecords) {
+TEST(RecordSchema, RejectsDamagedRecords) {
   const auto record = made_up_records().front();
   for (const auto& item : record.items()) {
     auto damaged = record;
@@ -249,12 +250,12 @@ TEST(RecordSchema, FailedRecordsHaveTheKeysOfOthers) {
   }
 }
 
-TEST(RecordSchema, TellsHowOftenThePackingGaveWay) {
+TEST(RecordSchema, StatesHowOftenThePackingRearranged) {
   auto outcome = test::made_up_outcome(Plan(parse_manifest(test::good_manifest().dump(), "good")).at(0, 0));
   auto& path = outcome.jam.path;
   path.at(1).rearrangement = Rearrangement{0.25, 7, 3, 4.5};
   path.at(2).rearrangement = Rearrangement{0.875, 40, 2, 30};
-  path.push_back(path.back());  // no state, as the end of a branch is none
+  path.push_back(path.back());  // without a state, like the end of a branch
   path.back().lost = true;
   const auto record = test::record_on_disk(outcome);
   EXPECT_EQ(violations("replicate", record), "");

@@ -1,10 +1,10 @@
-// These tests prove:
-// - mean, standard deviation and half width are those of the definition, t from the textbooks' table;
-// - the order of the values changes no bit;
-// - intervals are absent without spread: one value, or none;
-// - the t interval covers the true mean as often as it says; the bootstrap less often for few values, as it must,
-//   and as often for many;
-// - the bootstrap is a function of its key and the values.
+// Properties tested here:
+// - Mean, standard deviation and half width follow from their definitions; Student's t agrees with tables in textbooks.
+// - The order of the values changes no bit.
+// - With one value or none, there is no interval.
+// - The t interval contains the true mean with the stated probability. The bootstrap interval does so for many values,
+//   and less often for few values, as expected.
+// - The bootstrap interval depends only on its key and the values.
 
 #include "tasks/tables/statistics.hpp"
 
@@ -70,7 +70,7 @@ TEST(Estimate, WithoutSpreadThereIsNoInterval) {
   EXPECT_FALSE(one.sd || one.half_width || one.ci95 || one.bootstrap95);
 }
 
-TEST(Estimate, CoverageIsWhatItSays) {
+TEST(Estimate, CoverageIsAsStated) {
   struct Expected {
     int n;
     double bootstrap_low, bootstrap_high;
@@ -91,7 +91,7 @@ TEST(Estimate, CoverageIsWhatItSays) {
   }
 }
 
-TEST(Estimate, BootstrapIsAFunctionOfItsKey) {
+TEST(Estimate, BootstrapDependsOnlyOnKeyAndValues) {
   RandomStream random{8};
   const auto values = normal_sample(random, 10);
   EXPECT_EQ(estimate(values, 1).bootstrap95->low, estimate(values, 1).bootstrap95->low);

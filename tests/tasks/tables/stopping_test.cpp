@@ -1,9 +1,10 @@
-// These tests prove:
-// - batches grow by a quarter and at least two, and never pass max;
-// - the rule stops at the first batch whose interval is narrow enough, by an interval computed anew; a failed replicate
-//   takes part without a value; without a goal all are wanted;
-// - more values than the rule asks for change nothing, so it does not matter what else is recorded;
-// - on samples of a normal distribution, the interval at which it stops covers the mean almost as often as it says.
+// Properties tested here:
+// - Batches grow by a quarter, but by at least two, and never exceed max.
+// - The rule stops at the first batch whose interval is narrow enough, according to an independent calculation. A
+//   failed replicate counts without a value. Without a goal, all replicates are requested.
+// - Values beyond those that the rule requests change nothing, so further records do not matter.
+// - For samples of a normal distribution, the interval at which the rule stops contains the mean almost as often as
+//   stated.
 
 #include "tasks/tables/stopping.hpp"
 
@@ -80,7 +81,7 @@ TEST(Stopping, StopsAtTheFirstNarrowBatch) {
   EXPECT_GT(went_on_to_the_end, 5);
 }
 
-TEST(Stopping, WithoutAGoalAllAreWanted) {
+TEST(Stopping, WithoutAGoalAllAreRequested) {
   const Replicates all{7, 7, {}};
   EXPECT_EQ(advance_of(all, {}).wanted, 7);
   EXPECT_FALSE(advance_of(all, {}).finished);
@@ -100,7 +101,7 @@ TEST(Stopping, FailuresAloneMeetNoGoal) {
   EXPECT_EQ(advance_of(rule(2, 6, 1), late).wanted, 6) << "one that has a value is hope";
 }
 
-TEST(Stopping, TheIntervalCoversAboutAsOftenAsItSays) {
+TEST(Stopping, TheIntervalCoversTheMeanAboutAsOftenAsStated) {
   int covers = 0;
   constexpr int trials = 2000;
   for (std::uint64_t seed = 0; seed < trials; ++seed) {

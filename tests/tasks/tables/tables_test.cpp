@@ -1,12 +1,11 @@
-// These tests prove:
-// - the text table is aligned, carries two significant digits of each half width, and says where fewer replicates
-//   have a value; without an interval it shows none;
-// - what is whole and without spread is printed as a whole number;
-// - groups of columns beyond the first have tables of their own where they were measured, small numbers with a common
-//   power of ten;
-// - CSV and LaTeX have as many cells in every row as in their head, and CSV's numbers are those of tables.json;
-// - no two columns have one name, whatever was swept;
-// - what is special in CSV, LaTeX or on a terminal is written so that it is not, whatever the texts of a record are.
+// Properties tested here:
+// - The text table is aligned, shows two significant digits of each half width, and shows the number of replicates if
+//   fewer have a value. Without a half width, it shows none.
+// - Integers without spread are printed as integers.
+// - Other groups of columns have their own tables if they were measured. Small numbers have a common power of ten.
+// - In CSV and LaTeX, every row has as many cells as the heading. CSV has the numbers of tables.json.
+// - No two columns have the same name, whatever was swept.
+// - Characters with a special meaning in CSV, in LaTeX or on a terminal are escaped, whatever texts a record contains.
 
 #include "tasks/tables/tables.hpp"
 
@@ -65,7 +64,7 @@ TEST(Tables, TextIsAlignedAndRounded) {
   ASSERT_EQ(lines.size(), 5U);
   for (int i = 1; i < 4; ++i) EXPECT_EQ(characters(lines[i]), characters(lines[0])) << lines[i];
   EXPECT_EQ(lines[0].rfind("solid", 0), 0U);
-  // Mean .6812, sd .002332, t 3.182, n 4: half width .00371.
+  // Mean .6812, sd .002332, t 3.182 and n 4 give the half width .00371.
   EXPECT_NE(lines[1].find(" 0.6812 ± 0.0037 "), std::string::npos) << lines[1];
   EXPECT_NE(lines[1].find(" 9.8 ± 9.5 (2) "), std::string::npos) << lines[1];
   EXPECT_NE(lines[1].find(" 1.2e-07"), std::string::npos) << lines[1];
@@ -111,7 +110,7 @@ TEST(Tables, LatexRowsHaveTheSameNumberOfCells) {
   EXPECT_NE(text.find("{l" + std::string(cells - 1, 'r') + "}"), std::string::npos) << text;
 }
 
-/// A swept parameter as only a record that was made by hand can name it.
+/// A table with a swept parameter whose name can only come from a record made by hand.
 Table hostile_table() {
   auto hostile = table();
   for (auto& row : hostile.rows)
@@ -119,7 +118,7 @@ Table hostile_table() {
   return hostile;
 }
 
-TEST(Tables, CsvFieldsAreQuotedWhereTheyMustBe) {
+TEST(Tables, CsvFieldsAreQuotedIfNecessary) {
   for (const auto& text : {to_csv(hostile_table()), to_long_csv(hostile_table())}) {
     EXPECT_NE(text.find(",\"a \"\"b\"\", c\","), std::string::npos) << text.substr(0, 300);
     EXPECT_NE(text.find(",\"one, \"\"two\"\"\nthree\","), std::string::npos) << text.substr(0, 1000);
@@ -137,7 +136,7 @@ TEST(Tables, LatexEscapesEverySpecialCharacter) {
   EXPECT_NE(text.find("& one, \"two\"?three &"), std::string::npos) << text;
 }
 
-TEST(Tables, TextHoldsNoControlCharacters) {
+TEST(Tables, TextContainsNoControlCharacters) {
   const auto text = to_text(hostile_table());
   EXPECT_NE(text.find(" one, \"two\"?three "), std::string::npos) << text;
   EXPECT_EQ(text.find('\x1B'), std::string::npos) << text;
@@ -159,14 +158,14 @@ TEST(Tables, NoTwoColumnsHaveOneName) {
   EXPECT_NE(to_latex(swept).find("& minimiser.residual & target\\_energy &"), std::string::npos) << to_latex(swept);
 }
 
-TEST(Tables, OtherGroupsFollowWhereTheyWereMeasured) {
+TEST(Tables, OtherGroupsFollowIfTheyWereMeasured) {
   auto measured = table();
   const auto q6 = quantity_index("Q6").value();
   EXPECT_EQ(to_text(measured).find("Q6"), std::string::npos);
   measured.rows[1].estimates[q6] = estimate({2.5e-7, 3.5e-7}, 1);
   const auto text = to_text(measured);
   EXPECT_NE(text.find("\norder\n"), std::string::npos) << text;
-  // Mean 3e-7, sd 7.07e-8, t 12.71, n 2: half width 6.35e-7.
+  // Mean 3e-7, sd 7.07e-8, t 12.71 and n 2 give the half width 6.35e-7.
   EXPECT_NE(text.find("(3.00 ± 6.35)e-07"), std::string::npos) << text;
   EXPECT_EQ(text.find("clusters"), std::string::npos) << text;
   EXPECT_TRUE(to_json(measured).at("rows").at(1).contains("Q6"));
@@ -179,7 +178,7 @@ TEST(Tables, ExactCountsAreWholeNumbersAndOneSmallNumberHasNoBrackets) {
     measured.rows = {row(SolidKind::cube, 8, {})};
     measured.rows[0].replicates = static_cast<int>(values.size());
     measured.rows[0].estimates[0] = estimate(values, 1);
-    // The only cell with a value ends where its head does.
+    // The only cell with a value ends at the end of its heading.
     const auto lines = split(to_text(measured), "\n");
     const auto wide = lines[1].size() - characters(lines[1]);
     return split(lines[1].substr(0, lines[0].find("phi_j") + 5 + wide), "   ").back();
@@ -194,7 +193,7 @@ TEST(Tables, ExactCountsAreWholeNumbersAndOneSmallNumberHasNoBrackets) {
   }
 }
 
-TEST(Tables, JsonSaysWhyThereIsNoInterval) {
+TEST(Tables, JsonStatesWhyThereIsNoInterval) {
   const auto rows = to_json(table()).at("rows");
   EXPECT_FALSE(rows.at(0).at("phi_j").contains("reason"));
   EXPECT_TRUE(rows.at(1).at("phi_j").at("ci95").is_null());
