@@ -205,7 +205,7 @@ TEST(ExactOverlap, DisjointAndTouchingPairsHaveNoVolume) {
   EXPECT_GT(exact_overlap(SolidKind::cube, SolidKind::cube, shifted(1 - Real(1e-30), 0, 0)).volume, 0);
 }
 
-TEST(ExactOverlap, ZeroQuaternionIsRefused) {
+TEST(ExactOverlap, ZeroQuaternionIsRejected) {
   EXPECT_THROW(exact_overlap(SolidKind::cube, SolidKind::cube, pose_of(RealQuaternion(0, 0, 0, 0), 0, 0, 0)),
                std::invalid_argument);
 }

@@ -149,7 +149,7 @@ TEST(DistancesTest, UnlistedEdgesAreOutside) {
   EXPECT_GT(unlisted, 100);
 }
 
-TEST(DistancesTest, AChangedTableIsClassifiedAnew) {
+TEST(DistancesTest, AChangedTableIsClassifiedAgain) {
   RandomStream random{8, 4};
   for_each_near_pair(4, [&](const Pair& pair) {
     const Placed placed(pair);

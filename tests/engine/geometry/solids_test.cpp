@@ -143,7 +143,7 @@ std::string refusal(const Points& points) {
   }
 }
 
-TEST(Hull, IsRefusedWithMoreThanSixtyFourFeatures) {
+TEST(Hull, IsRejectedWithMoreThanSixtyFourFeatures) {
   RandomStream random{62};
   Points points;
   while (points.size() < 22) {

@@ -213,7 +213,7 @@ TEST_F(Adding, ContinuesAfterAKill) {
   expect_as_if_from_the_start();
 }
 
-TEST_F(Adding, OfOneReplicateAlone) {
+TEST_F(Adding, OfOnlyOneReplicate) {
   const auto all = names();
   ASSERT_EQ(measure({"--add", rest, "--only", all[1]}).exit_code, 0);
   for (const auto& name : all) {

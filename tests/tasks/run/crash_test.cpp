@@ -192,7 +192,7 @@ TEST_F(Crash, ARunResumesFromItsCheckpoints) {
   EXPECT_EQ(results(), reference());
 }
 
-TEST_F(Crash, ADamagedCheckpointStartsItsReplicateAnew) {
+TEST_F(Crash, ADamagedCheckpointRestartsItsReplicate) {
   run([&](int process) { stop_at_checkpoints(here_ / "results", 1, process, SIGKILL); });
   const auto names = names_in(here_ / "results" / "checkpoints");
   ASSERT_FALSE(names.empty());
