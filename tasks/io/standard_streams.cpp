@@ -14,7 +14,7 @@
 namespace isojam {
 namespace {
 
-/// Reports the failed write and ends the program.
+/// Throws a FileError for the failed write, and discards the buffered output so that it is not written again.
 [[noreturn]] void fail() {
   const int error = errno;
   __fpurge(stdout);

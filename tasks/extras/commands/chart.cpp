@@ -43,8 +43,7 @@ ExitCode chart(const ChartArguments& arguments, Console& console) {
   make_directory(directory);
   const InterruptWatcher watcher;
   warn_about_kernels(console);
-  // run_chart() checks the token only between two parts. If a part takes too long after a request to stop, the watcher
-  // ends the process.
+  // The files are written after each part, because the watcher ends a process that does not stop in time.
   const auto result = run_chart(config, watcher.token(), console,
                                 [&](const ChartResult& so_far) { written(config, so_far, directory); });
   console.end();
