@@ -11,7 +11,8 @@
 // - The masks of faces and edges of random contacts are exact.
 // - Pairs of different solids meet the same limits.
 // - The checks reject a volume with an error of 1e-9, a force or torque with the opposite sign, a torque about another
-//   centre, and NaN. A table of errors and of the path used is printed to standard output.
+//   centre, and NaN.
+// A table of errors and of the path used is printed to standard output.
 
 #include <gtest/gtest.h>
 

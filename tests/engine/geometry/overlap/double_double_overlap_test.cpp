@@ -10,7 +10,8 @@
 // - If the solids are exchanged, translated together or rotated together, the results change at most by these errors.
 // - Cross and own Hessians agree with differences of S and M in quadruple precision to 1e-9 for these contacts too.
 // - Pairs of all depths agree with plain double where that is accurate, depths of 1e-20 are resolved, and pairs that
-//   coincide to their last bits use the slow path. A table of errors against depth is printed to standard output.
+//   coincide to their last bits use the slow path.
+// A table of errors against depth is printed to standard output.
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 // - For corners over faces and edges over edges with V = 1e-3 … 1e-15, errors are at most 1e-12.
 // - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
 // - If one solid is inside the other, V is its volume to 1e-14. S is zero within 1e-14 of the surface of the inner
-//   solid, and M is zero within 1e-14 of this surface times the distance. If a whole pair is scaled by a factor s, then
-//   V, S, M and the Hessian change by their powers of s. This is exact for powers of two, and accurate to 1e-12 for
-//   other factors.
+//   solid, and M is zero within 1e-14 of this surface times the distance.
+// If a whole pair is scaled by a factor s, then V, S, M and the Hessian change by their powers of s. This is exact for
+// powers of two, and accurate to 1e-12 for other factors.
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,9 @@
 // - For corners in faces, crossed edges and random orientations with V = 1e-3 … 1e-15, errors are at most 1e-12.
 // - The Hessian agrees with differences of S in quadruple precision to 1e-8 of its translational block.
 // - For solids that coincide and for coplanar faces, errors are at most 1e-14, with the loop or with clipping.
-// - The reported features are those that clipping finds. Some of them have numbers above 31. For solids with at most 32
-//   edges, the contact loop for 64 edges gives exactly the same results as the one for 32 edges.
+// - The reported features are those that clipping finds. Some of them have numbers above 31.
+// For solids with at most 32 edges, the contact loop for 64 edges gives exactly the same results as the one for 32
+// edges.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // Properties tested here, for cubes:
 // - The nearest image is in [−L/2, L/2) along each axis, an integer number of sides away, and the shortest of all
 //   images. It does not depend on the image from which it is computed.
-// - The side of a cell must be finite and positive. For cells of any shape:
+// - The side of a cell must be finite and positive.
+// For cells of any shape:
 // - Translations, fractional coordinates, heights and volume are those of the lattice vectors, also in double-double.
 // - Reduction keeps the lattice (in double-double) and its handedness, and does not change a reduced cell. No
 //   translation out of a thousand is shorter than the reduced vectors. Reduction also terminates for extremely skew
