@@ -89,8 +89,8 @@ TEST(HoldingMeasure, PrestressCountsConstraintsAndModes) {
     const Json& modes = state.at("modes");
     EXPECT_EQ(modes.at("looked_at").get<int>(), 6 * packing.size() - 3);
     EXPECT_LE(modes.at("worst_sum").get<double>(), 1e-6);
-    // For every motion that no normal opposes, there is one mode of which normals have less than half of the stiffness,
-    // or almost one.
+    // In at least half as many modes as there are motions that no normal opposes, normals have less than half of the
+    // stiffness.
     EXPECT_GE(modes.at("held_by_second").get<int>(), (normals.floppy - 3) / 2);
     EXPECT_LE(modes.at("held_by_prestress").get<int>(), modes.at("held_by_second").get<int>());
     expect_choices(state, packing);
