@@ -9,21 +9,21 @@
 
 namespace isojam {
 
-// The base selects the row with which the other rows of the same solid and number of particles are compared. It is a
-// JSON object with swept parameters and their values, in canonical form and sorted by name. For a parameter that the
-// base does not contain, each row is compared with the base row that has the same value. If the base is empty, no rows
+// The base of a manifest as a JSON object: swept parameters with their values, sorted by name. A row of a table is
+// compared with its base row. The base row has the values of the base for the parameters in the base, and the values of
+// the compared row for everything else: solid, number of particles and other parameters. If the base is empty, no rows
 // are compared.
 
-/// Reads the base of a manifest. Throws InputError for an unknown parameter or an invalid value. It does not check
-/// whether the parameter is swept, see check_base().
+/// Reads the base of a manifest. Throws InputError if the object is empty, if a parameter is unknown, or if a value is
+/// not allowed. check_base() checks whether the parameters are swept.
 Json read_base(const JsonPlace& place);
 
-/// Throws InputError for the base at `place` if one of its parameters is not swept, or if the sweep does not contain
-/// the value of the base.
+/// Checks that each parameter in `base` is one of the `swept` parameters and has one of the swept values there. Throws
+/// InputError otherwise. `place` is the location of the base, for error messages.
 void check_base(const JsonPlace& place, const Json& base, const std::vector<SweptField>& swept);
 
-/// Parses the text of an option: "none", or "parameter=value" with commas between several. Returns an error text if the
-/// text is wrong.
+/// Parses the value of the option --base: "none", or one or more "parameter=value" separated by commas. "none" gives an
+/// empty base. Returns nullopt, or an error message if the text is invalid.
 std::optional<std::string> parse_base(const std::string& text, Json& base);
 
 /// The base as text, such as "method = newton, step_fraction = 0.35".

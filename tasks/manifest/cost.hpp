@@ -9,22 +9,25 @@ namespace isojam {
 /// Estimated cost of a replicate.
 struct Cost {
   double cpu_seconds = 0;
-  double memory_bytes = 0;  ///< memory while the replicate runs, in addition to the memory of the program itself
-  double disk_bytes = 0;    ///< size of the record, the packing, and the path if it is kept
+  double memory_bytes = 0;  ///< memory that the replicate needs while it runs, without the memory of the program itself
+  double disk_bytes = 0;    ///< size of the record, of the packing, and of the path if it is kept
 };
 
-/// Estimates the cost of a replicate. The estimate is a power of N for each solid. It was fitted to replicates with the
-/// default protocol at N = 100 and 400 on two virtual cores of an AMD EPYC. The cost of compression increases if its
-/// steps are shorter. The estimate is accurate to a factor of about two. On another machine or with another protocol,
-/// all costs change by about the same factor, which can be found from existing records.
+/// Estimates the cost of a replicate. The CPU time is a power of N, fitted for each named solid to replicates with the
+/// default protocol at N = 100 and 400, on two virtual cores of an AMD EPYC. Other solids and mixtures count as cubes.
+/// The time of compression is inversely proportional to consolidation_step. The CPU time is accurate to a factor of
+/// about two. On another machine or with another protocol, all CPU times change by about the same factor, see
+/// Survey::calibration.
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path);
 
-/// Number of bytes that this process can still allocate before the memory of the machine, or of its control group, runs
-/// out. 0 if this is unknown.
+/// Number of bytes that this process can still allocate: the free memory of the machine or of the control group of the
+/// process, whichever is smaller. 0 if both are unknown.
 double available_memory();
 
-/// Number of replicates that may be in memory at the same time, if each needs at most `largest` bytes. It is at least
-/// one, and at most `threads`, because more would not be faster.
+/// Number of replicates that may be in memory at the same time, if each needs at most `largest` bytes and `available`
+/// bytes are free. One fifth of the free memory is not used, because `largest` is an estimate. The number is at least
+/// 1, and at most `threads`, because more replicates than threads would not be faster. If `available` is 0, that is,
+/// unknown, the number is `threads`.
 int replicates_in_flight(int threads, double largest, double available);
 
 }  // namespace isojam

@@ -15,29 +15,29 @@
 
 namespace isojam {
 
-/// A parameter of the protocol or the minimiser that takes several values.
+/// A swept parameter of the protocol or the minimiser.
 struct SweptField {
-  std::string name;          ///< name, as in find_field()
-  std::vector<Json> values;  ///< values in canonical form, ascending, all different
+  std::string name;          ///< name, for find_field()
+  std::vector<Json> values;  ///< values as field_value() returns them, ascending and all different
 };
 
-/// Goal of a stopping rule: a sweep point needs no more replicates if a confidence interval is narrow enough.
+/// Goal of a sweep point: a mean whose confidence interval is narrow enough. More replicates are then not needed.
 struct Goal {
-  std::string quantity;   ///< name of a column of the tables
-  double half_width = 0;  ///< largest half width of the 95 % confidence interval of the mean over replicates
+  std::string quantity;   ///< name of the quantity in tables
+  double half_width = 0;  ///< largest allowed half width of the 95 % confidence interval of the mean over replicates
 
   bool operator==(const Goal&) const = default;
 };
 
 /// Number of replicates of a sweep point.
 struct Replicates {
-  int min = 0, max = 0;  ///< smallest and largest number; both are equal if there is no goal
+  int min = 0, max = 0;  ///< smallest and largest number; they are equal if there is no goal
   std::optional<Goal> goal;
 
   bool operator==(const Replicates&) const = default;
 };
 
-/// A study as the user requested it. All values have been checked.
+/// The content of a manifest. All values have been checked.
 struct Manifest {
   std::string name;
   std::uint64_t seed = 0;
@@ -48,51 +48,57 @@ struct Manifest {
   JamOptions protocol;  ///< options of the protocol and of the minimiser
   std::vector<Measure> measures;
   MeasureOptions measuring;
-  /// keep the packings of all states of a decompression, not only of the state nearest jamming
+  /// true: paths are kept, with the packings of all states of a decompression; false: only the nearest state is kept
   bool keep_path = false;
-  /// replicates with one of these flags are left out of means, and the stopping rule ignores them
+  /// replicates with one of these flags are excluded from means, and the stopping rule ignores their values
   std::vector<Flag> exclude = usually_excluded();
-  /// Swept parameters and their values that select the base row, see base.hpp. Empty: rows are not compared.
+  /// the base, see base.hpp; if it is empty, no rows are compared
   Json base = Json::object();
-  std::optional<Start> start{};  ///< user-defined initial packings instead of random ones
+  std::optional<Start> start{};  ///< user-defined initial configurations; nullopt: random ones
 };
 
-/// One combination of the values of swept parameters: the complete options, and the values of the swept parameters.
+/// One combination of values of the swept parameters.
 struct OptionSet {
-  Json parameters;  ///< JSON object with the names of the swept parameters, in order, and their values
+  Json parameters;  ///< the swept parameters, sorted by name, with their values
+  /// all options of the protocol and the minimiser, with the values in `parameters`
   JamOptions options;
 };
 
-/// All combinations of the values of swept parameters. If only solids and particles are swept, there is one combination
-/// with an empty object.
+/// All combinations of the values of the swept parameters. If no parameter is swept, there is one combination, whose
+/// `parameters` are empty.
 std::vector<OptionSet> option_sets(const Manifest& manifest);
 
-/// Parses a manifest. Throws one InputError with all errors: unknown keys, values that are not allowed, and too few
-/// particles for the cell.
+/// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value, then
+/// combinations of values, and last the files of /start. Throws one InputError with all errors of the first stage that
+/// finds any. `file` is the name of the manifest in error messages; paths in /start are relative to its folder.
 Manifest parse_manifest(std::string_view text, const std::string& file);
-/// Reads and parses a manifest. The file name "-" means standard input. Throws FileError if the file cannot be read.
+/// Reads a manifest and passes it to parse_manifest(). The file name "-" means standard input. Throws FileError if the
+/// file cannot be read.
 Manifest read_manifest(const std::string& file);
 
-/// Canonical form of a manifest: it contains every value, also defaults, and lists are sorted. parse_manifest() of this
-/// form gives the same manifest.
+/// Canonical form of a manifest. It contains every value, including defaults, and lists whose order has no meaning are
+/// sorted. parse_manifest() converts it to the same manifest.
 Json to_json(const Manifest& manifest);
 
-/// Canonical form of everything on which the result of a replicate depends. It does not contain the keys that may
-/// change later: the number of replicates, the files to keep, the excluded flags and the base.
+/// The part of the canonical form that must be the same for all runs in a results directory. It does not contain the
+/// keys that the user may change later: the number of replicates, keep_path, the excluded flags and the base. It
+/// contains the digests of initial configurations, but not the paths of their files.
 Json identity(const Manifest& manifest);
+/// Digest of identity().
 std::string digest(const Manifest& manifest);
 
-/// The manifest with more measures, sorted as in records.
+/// The manifest with additional measures. The measures are sorted, and each occurs once.
 Manifest with_measures(Manifest manifest, const std::vector<Measure>& more);
-/// The digest of the manifest without its measures.
+/// The value of digest() for the manifest without any measure.
 std::string digest_without_measures(const Manifest& manifest);
-/// True if two manifests differ at most in their measures.
+/// True if the identity() of two manifests differs at most in the measures.
 bool is_same_sweep(const Manifest& a, const Manifest& b);
-/// True if `digest_of_record` is the digest of this manifest with these measures instead of its own.
+/// True if `digest_of_record` is the value of digest() for this manifest with `measures` instead of its own measures.
 bool is_of_sweep(const Manifest& manifest, const std::vector<Measure>& measures, const std::string& digest_of_record);
 
-/// Text with the keys in which two manifests differ, and both values: "/seed: 8 there, 7 here; ...". It lists a few
-/// keys and states the number of the others. Empty if the digests are equal.
+/// Text with the keys in which the identity() of two manifests differs, and both values: "/seed: 8 in the directory, 7
+/// in this manifest; ...". It lists at most five keys and states how many more there are. Empty if there is no
+/// difference.
 std::string differences(const Manifest& theirs, const Manifest& ours);
 
 }  // namespace isojam

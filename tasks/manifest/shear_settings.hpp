@@ -5,11 +5,11 @@
 
 namespace isojam {
 
-/// Reads /shear of a manifest: the settings of the measure `shear`. Throws InputError for unknown keys, for numbers out
-/// of range, and for a step that is larger than the final load.
+/// Reads /shear of a manifest: the settings of the measure `shear`. Throws InputError if a key is unknown, if a value
+/// is not allowed, or if the number of steps is less than 1 or more than 10000.
 ShearOptions read_shear(const JsonPlace& place);
 
-/// Canonical form of the settings, which contains every value, also defaults.
+/// All settings, including defaults, as a JSON object.
 Json shear_json(const ShearOptions& options);
 
 }  // namespace isojam

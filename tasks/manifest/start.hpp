@@ -11,28 +11,36 @@ namespace isojam {
 
 struct Manifest;
 
-/// User-defined initial packings instead of random ones. Replicate k starts from the k-th file.
+/// User-defined initial configurations, which replace the random ones. Replicate k starts from files[k].
 struct Start {
   std::vector<StartFile> files;
-  /// density to which the packing is strained before the protocol; nullopt: it is not strained
+  /// density to which each packing is strained before the protocol starts; nullopt: packings are not strained
   std::optional<double> density;
   JamStage stage = JamStage::consolidation;  ///< first stage of the protocol
 };
 
-/// Reads {"packing": FILE or [FILE, …], "frame": k, "density": φ, "stage": "consolidation" or "expansion"}; paths are
-/// relative to the manifest. In the canonical form there is also the key "digests". The files are then not read before
-/// they are needed.
+/// Reads {"packing": FILE or [FILE, …], "frame": k, "density": φ, "stage": "consolidation" or "expansion"}. Paths are
+/// relative to the folder of the manifest. The canonical form of a manifest has an additional key "digests" with the
+/// digests of the files. This function does not read the files, see load_start().
 Start read_start(const JsonPlace& place);
 Json to_json(const Start& start);
 
-/// Reads the files that have not been read yet. Throws InputError for these errors: a file does not contain a packing
-/// of the particles in the manifest; a file has changed since its digest was computed; there are fewer files than
-/// replicates; an overlap of two particles is more than half of a particle. `place` is the value of /start.
+/// Reads the files that have not been read yet. `place` is the location of /start in the manifest. Throws InputError in
+/// each of these cases:
+/// - The sweep has more than one solid or more than one number of particles.
+/// - There are fewer files than replicates.
+/// - A file cannot be read, or does not contain a packing of the particles in the manifest.
+/// - A file has changed since its digest was computed.
+/// - The initial density is not below max_density.
+/// - The cell is not a cube, although the manifest prescribes the cell shape.
+/// - The cell is so small that a particle could touch two images of another one.
+/// - An overlap is larger than half of the volume of the smaller particle.
 void load_start(const JsonPlace& place, Manifest& manifest);
-/// Reads the files without the location of an error in the manifest. Does nothing if the manifest has no start.
+/// The same for a manifest without its document. Error messages contain the name of the manifest instead of its file.
+/// Does nothing if the manifest has no start.
 void load_start(Manifest& manifest);
 
-/// The initial packing of a replicate. Its file must have been loaded.
+/// The initial configuration of a replicate, strained to `density` if it is given. load_start() must have been called.
 Packing initial_packing(const Start& start, int replicate);
 
 }  // namespace isojam
