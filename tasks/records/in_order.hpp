@@ -13,7 +13,8 @@
 namespace isojam {
 
 /// Makes values with several threads and returns them in the order of their indices. Finished values wait in a ring of
-/// slots. A value is made only when a slot for it is free, so that few values are in memory at the same time.
+/// slots. A value is made only when a slot is free, so that at most four values for each processor thread are in
+/// memory.
 template <class Make>
 class InOrder {
  public:
@@ -21,9 +22,9 @@ class InOrder {
 
   InOrder(std::size_t count, const Make& make)
       : make_(make), count_(count), slots_(4 * std::max(1U, std::thread::hardware_concurrency())) {
-    // The calling thread makes values too. If the system cannot start another thread, the loop is slower but still
-    // works. After a thread has started to wait, no exception may leave this constructor, because the thread would wait
-    // forever.
+    // The calling thread makes values too. If the system cannot start another thread, the existing threads make all
+    // values. After a thread has started, no exception may leave this constructor, because the destructor would not run
+    // and the thread would wait forever.
     try {
       for (std::size_t k = 1; k < slots_.size() / 4; ++k) threads_.emplace_back([this] { work(); });
     } catch (const std::exception&) {
@@ -38,8 +39,8 @@ class InOrder {
   InOrder(const InOrder&) = delete;
   InOrder& operator=(const InOrder&) = delete;
 
-  /// The next value, or nullopt after the last one. If `make` threw an exception for this value, it is thrown from
-  /// here.
+  /// Returns the next value, or nullopt after the last one. If `make` threw an exception for this value, next() throws
+  /// it.
   std::optional<Value> next() {
     std::unique_lock lock(mutex_);
     if (used_ == count_) return std::nullopt;
@@ -100,13 +101,15 @@ class InOrder {
   std::vector<Slot> slots_;
   std::size_t started_ = 0, used_ = 0;
   bool stopped_ = false;
-  std::vector<std::jthread> threads_;  // last: they end before what they use does
+  // declared last, so that the threads end before the members that they use are destroyed
+  std::vector<std::jthread> threads_;
 };
 
-/// Makes `count` values on all threads and passes them to `use` on the calling thread, in the order of their indices.
-/// Few values are in memory at the same time. An exception of `make` is thrown from here after all earlier values were
-/// used. The failure with the lowest index is therefore reported, for any number of threads. An exception of `use` also
-/// ends the loop.
+/// Makes `count` values with all threads and passes them to `use` on the calling thread, in the order of their indices.
+/// At most four values for each processor thread are in memory at the same time. If `make` throws an exception for a
+/// value, it is thrown from here after `use` has received all earlier values. The exception is therefore that of the
+/// lowest index, for any number of threads. If `use` throws an exception, the loop ends and the exception is thrown
+/// from here.
 template <class Make, class Use>
 void in_order(std::size_t count, const Make& make, const Use& use) {
   InOrder<Make> values(count, make);

@@ -11,28 +11,32 @@ inline constexpr std::string_view record_schema = "isojam.replicate.v4";
 inline constexpr std::string_view path_schema = "isojam.path.v2";
 inline constexpr std::string_view packing_schema = "isojam.packing.v3";
 
-/// Makes the record of an outcome that was not interrupted. If the replicate failed, the values that were not computed
-/// are null, with a reason. Two runs of the same replicate by the same build may differ only in `timing`.
+/// Makes the record of an outcome that was not interrupted. If the replicate failed, quantities of the replicate are
+/// null, and the record states the reason. The records of two runs of a replicate by the same build differ at most in
+/// `timing`.
 Json make_record(const Outcome& outcome);
 
-/// The hash of a record without timing, provenance and checksums. Two runs of the same replicate have the same hash.
+/// The hash of a record without timing, provenance and checksum. Records with the same result have the same hash.
 std::string result_digest(const Json& record);
 
-/// Makes a record to which measures were added. `record` contains all measures, and `before` is the record before the
-/// addition. The result keeps the provenance and the timing of `before`. It also states which measures were added, the
-/// build that added them, and the digests of `before`.
+/// Makes a record to which measures were added. `record` is a record with all measures, and `before` is the record
+/// before the addition. The returned record has the provenance of `before` and the sum of both times. It also states
+/// which measures were added, which build added them, and the digests of `before`.
 Json with_added(Json record, const Json& before, const std::vector<Measure>& added);
 
-/// Makes the record of a replicate that failed before any measure, for a specification with more measures than
-/// `before`.
+/// Makes the record of a replicate that failed before any measure. It is equal to `before`, except that it has the
+/// measures of `spec`.
 Json failed_record(const Json& before, const ReplicateSpec& spec);
 
-/// Makes the document of the state nearest jamming, for an outcome without failure and the record with this digest.
+/// Makes the document of a packing file, with the nearest state. The replicate must not have failed. `result_digest` is
+/// the digest of its record.
 Json make_packing(const Outcome& outcome, const std::string& result_digest);
-/// Makes the document with all states of the decompression, in order, each with its Δφ.
+/// Makes the document of a path file, with all states of the decompression and their Δφ. The conditions are the same as
+/// for make_packing().
 Json make_path(const Outcome& outcome, const std::string& result_digest);
 
-/// Parts that records and checkpoints have in common.
+/// Part of records and checkpoints: the build, the manifest digest, the seed, and the file of the initial configuration
+/// if there is one.
 Json provenance(const ReplicateSpec& spec);
 Json to_json(const Timing& timing);
 

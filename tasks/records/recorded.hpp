@@ -17,46 +17,48 @@ struct RecordedReplicate {
   std::string name;  ///< name of its files, without extension
   Json record;
   RecordSummary summary;
-  bool is_earlier = false;  ///< true if the file of the record has the schema of an earlier version
+  bool is_earlier = false;  ///< true if the record file has the schema of an earlier version
 };
 
 /// Reads the record with this name. Throws FileError if it does not exist or cannot be read at the moment. Throws
-/// InputError if it is damaged, if its result digest is wrong, or if it belongs to another replicate than its name
-/// states.
+/// InputError if it is damaged, if its result digest is wrong, or if it describes another replicate than its name.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
-/// True if the record belongs to the sweep of this manifest. The measures may differ.
+/// True if the record belongs to this manifest, apart from measures: identity() differs at most in the measures.
 bool is_of(const RecordedReplicate& replicate, const Manifest& manifest);
-/// The measures of a manifest that are missing in the record, because they were added to the manifest later.
+/// The measures of a manifest that the record does not have, because they were added to the manifest later.
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest);
 
-/// Throws InputError unless the record has all settings of this specification. The measures may differ.
+/// Throws InputError unless the specification in the record is equal to `spec`, apart from measures.
 void check_spec(const RecordedReplicate& replicate, const ReplicateSpec& spec);
 
-/// Checks the packing of a replicate that did not fail, and also its path if `with_path` is true. Throws the same
-/// exceptions as read_record() if a file is missing or damaged, or belongs to another record.
+/// Checks the packing file of a replicate, and also its path file if `with_path` is true. Does nothing if the replicate
+/// failed. Throws FileError if a file does not exist or cannot be read at the moment. Throws InputError if a file is
+/// damaged or belongs to another record.
 void check_companions(const std::filesystem::path& directory, const RecordedReplicate& replicate, bool with_path);
 
-/// Reads the packing or the path of the replicate; `folder` is "packings" or "paths". Throws the same exceptions as
-/// read_record().
+/// Reads the packing file or the path file of a replicate; `folder` is "packings" or "paths". Throws the same
+/// exceptions as check_companions().
 Json read_state_file_of(const std::filesystem::path& directory, const RecordedReplicate& replicate,
                         const std::string& folder);
 
-/// True if the replicate failed because of a resource failure. An earlier version of isojam wrote records of such
-/// failures.
+/// True if the record states that the replicate failed because of a resource failure. Only earlier versions of isojam
+/// wrote such records.
 bool is_resource_failure_record(const RecordedReplicate& replicate);
 
-/// Throws FileError, with the same text for every command, if there is no such directory.
+/// Throws FileError if the directory does not exist or is not a directory. The text of the error is the same for every
+/// command.
 void expect_directory(const std::filesystem::path& directory);
 
-/// The manifest of a results directory, or nullopt if it has none. Throws InputError if the manifest is damaged, and
-/// FileError if it cannot be read at the moment.
+/// The manifest in a results directory; nullopt if there is none. Throws FileError if the directory does not exist, or
+/// if the manifest cannot be read at the moment. Throws InputError if the manifest is damaged or not valid.
 std::optional<Manifest> stored_manifest(const std::filesystem::path& directory);
-/// The manifest of a results directory. Throws if the directory has none.
+/// The manifest in a results directory. Throws the same exceptions as stored_manifest(), and FileError if there is no
+/// manifest.
 Manifest own_manifest(const std::filesystem::path& directory);
 
-/// Sorted names of the files in a folder, without extension. Empty if the folder does not exist. Temporary files of
-/// write_atomically() are skipped.
+/// Names of the JSON files in a folder, sorted and without extension. Empty if the folder does not exist. Hidden files,
+/// such as the temporary files of write_atomically(), are left out. Throws FileError if the folder cannot be listed.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
 }  // namespace isojam

@@ -16,51 +16,52 @@ namespace isojam {
 
 /// The stage in which a replicate failed, and the reason.
 struct Failure {
-  std::string where;  ///< begin, jam, or the name of a measure
+  std::string where;  ///< "begin", "jam", or the name of a measure
   std::string why;
 };
 
-/// Time that a replicate took. The CPU time is that of the threads that ran the stages, without the additional threads
-/// of the pair loop.
+/// Time that a replicate took. The CPU time contains only the threads that ran the stages. It does not contain the
+/// additional threads of the pair loop.
 struct Timing {
   double wall_seconds = 0, cpu_seconds = 0;
 };
 
-/// Complete result of one replicate.
+/// Result of one replicate, also of a failed or interrupted one.
 struct Outcome {
   ReplicateSpec spec;
   JamResult jam;
-  std::map<Measure, Measurement> measured;  ///< all requested measures, unless the replicate failed or was interrupted
+  /// results of the measures that were computed: all requested ones, unless the replicate failed or was interrupted
+  std::map<Measure, Measurement> measured;
   std::optional<Failure> failure;
   bool interrupted = false;
   Timing timing;
-  std::map<std::string, double> stage_seconds;  ///< CPU time of each stage: jam, and every measure that was computed
+  std::map<std::string, double> stage_seconds;  ///< CPU time of the stage "jam" and of every measure that was computed
 };
 
-/// State from which a replicate can be resumed: the progress of its run, and the time that it has taken so far.
+/// Progress from which a replicate can be resumed, and the time that the replicate has taken so far.
 struct Checkpoint {
   JamProgress progress;
   Timing spent;
 };
 
-/// The stages of a replicate, as functions without side effects. Several threads may call them at the same time.
+/// The stages of a replicate, as functions. Several threads may call them at the same time.
 struct Stages {
-  /// Makes the state from which the run begins: randomly placed particles, or a state of a run that was interrupted.
+  /// Makes the progress with which the run begins, from the initial configuration or from a checkpoint.
   std::function<Checkpoint(const ReplicateSpec&)> begin;
+  /// Compresses and decompresses the packing.
   std::function<JamResult(const ReplicateSpec&, JamProgress, std::stop_token, const OnProgress&)> jam;
+  /// Computes one measure.
   std::function<Measurement(const ReplicateSpec&, Measure, const JamResult&)> measure;
 };
 
-/// The stages that call the engine.
+/// The stages that call the engine and have no side effects.
 Stages engine_stages();
 
-/// The reason why a result of the stage jam has no jamming point; nullopt if it has one.
+/// The reason why a result of the stage "jam" counts as a failure; nullopt if it does not.
 std::optional<Failure> failure_of(const JamResult& jam);
 
-/// Names of the flags of an outcome without failure, in a fixed order. goal_not_reached: the decompression ended
-/// farther from jamming than requested. not_balanced: states whose forces do not balance were accepted because of
-/// minimiser.energy_change. outside_fit_window: fewer than two states are in the fit window, so φ_J was fitted to the
-/// two states nearest jamming. Then follow the flags of the measures.
+/// Names of the flags of an outcome without failure, in a fixed order: first goal_not_reached, not_balanced and
+/// outside_fit_window, then the flags of the measures.
 std::vector<std::string> flags_of(const Outcome& outcome);
 
 }  // namespace isojam

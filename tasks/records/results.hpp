@@ -11,19 +11,20 @@
 
 namespace isojam {
 
-/// The content of a results directory, for the report.
+/// The content of a results directory that the report shows.
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct Results {
-  Json manifest;  ///< manifest in canonical form; null if there is none
+  Json manifest;  ///< manifest in canonical form; null if the directory has none
   std::vector<RecordedReplicate> replicates;
 };
 
-/// Reads a results directory. Throws FileError if the directory has no records or a file cannot be read at the moment,
-/// and InputError if a record is damaged.
+/// Reads a results directory. It warns about the same records as for_each_record() and skips them. Throws FileError if
+/// the directory has no records, or if a file cannot be read at the moment. Throws InputError if the manifest or
+/// another record is damaged.
 Results read_results(const std::filesystem::path& directory, const Warn& warn);
 
-/// Reads the state nearest jamming of a replicate. nullopt if the directory does not contain it. Throws InputError if
-/// the file is damaged or belongs to another record.
+/// Reads the nearest state of a replicate from its packing file; nullopt if there is no such file. Throws InputError if
+/// the file is damaged or belongs to another record. Throws FileError if it cannot be read at the moment.
 std::optional<Packing> read_nearest_packing(const std::filesystem::path& directory, const RecordedReplicate& replicate);
 
 }  // namespace isojam

@@ -8,22 +8,23 @@
 
 namespace isojam {
 
-/// Identifies the record to which a packing or a path belongs. These files contain this identity at their beginning. It
-/// shows whether an undamaged file belongs to another replicate, or to another run of the same replicate.
+/// Identifies the record to which a packing file or a path file belongs. Both files begin with this identity. It shows
+/// whether an undamaged file belongs to another replicate, or to another run of the same replicate.
 struct RecordIdentity {
-  std::string replicate;  ///< name
+  std::string replicate;  ///< name of the replicate
   std::string manifest_digest, result_digest;
 };
 
-/// Makes the first members of a packing or path file.
+/// The first members of a packing file or a path file.
 Json state_file_head(std::string_view schema, const RecordIdentity& identity);
 
-/// Checks a packing or path file. Throws FileError if it does not exist or cannot be read at the moment. Throws
-/// InputError if it is damaged, has another schema, or belongs to another record. `identities` are the present identity
-/// of the record, and its earlier identities from before measures were added.
+/// Checks a packing file or a path file. `identities` are the identity of its record, and the identities that the
+/// record had before measures were added; the file must have one of them. Throws FileError if the file does not exist
+/// or cannot be read at the moment. Throws InputError if it is damaged, has another schema, or belongs to another
+/// record.
 void check_state_file(const std::string& file, std::string_view schema, std::span<const RecordIdentity> identities);
 
-/// Reads a packing or path file, with the checks of check_state_file().
+/// Checks a packing file or a path file with check_state_file(), and returns its content.
 Json read_state_file(const std::string& file, std::string_view schema, std::span<const RecordIdentity> identities);
 
 }  // namespace isojam

@@ -14,53 +14,55 @@
 
 namespace isojam {
 
-/// Function that receives warnings about faulty files.
+/// Function that receives warnings.
 using Warn = std::function<void(const std::string&)>;
 
 /// Checks whether results of this manifest may be written to a directory. It only reads files. Throws InputError if the
-/// directory has the manifest of another sweep, with the keys that differ, or a record of another sweep. Damaged
-/// records are reported as warnings; damaged records of the plan are recomputed later. Throws FileError if a file
-/// cannot be read at the moment.
+/// directory has another manifest or records of another manifest; the error states the keys that differ. A damaged
+/// record of the plan is ignored, because it will be recomputed. For a damaged record that is not in the plan, `warn`
+/// is called. Throws FileError if a file cannot be read at the moment, or if one of the folders is a symbolic link,
+/// because results would then be written to another directory.
 void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Warn& warn);
 
 /// A results directory. It contains manifest.json, tables.json, and the folders records/, packings/, paths/ and
 /// checkpoints/ with one file for each replicate. All files are written atomically and have a checksum. Records,
-/// packings and paths do not change, except when measures are added. A checkpoint is replaced after every strain step,
-/// and deleted when the record of its replicate is written. There is no index, so several shards can write to the
-/// directory at the same time. If several manifests start at the same time in a fresh directory, the directory belongs
-/// to one of them.
+/// packings and paths change only if measures are added, or if a replicate is repeated. A checkpoint is replaced after
+/// every strain step, and deleted when the record of its replicate is written. There is no index, so several shards can
+/// write to the directory at the same time. If several processes with different manifests start in an empty directory
+/// at the same time, the directory belongs to one of them; for the others, the constructor throws InputError.
 class Store {
  public:
-  /// Opens the directory for a manifest, and creates missing folders. It makes all checks before it writes. Throws the
-  /// same exceptions as check_directory(). Throws FileError if the directory cannot be written, or if one of its
-  /// folders is a symbolic link, because results would then be written to another directory.
+  /// Opens the directory for a manifest, and creates the directory and its folders if they are missing. Calls
+  /// check_directory() before it writes anything, and throws the same exceptions. Throws FileError if the directory
+  /// cannot be written.
   Store(std::filesystem::path directory, const Manifest& manifest, Warn warn);
 
-  /// Summary of the record of this replicate. nullopt if there is no valid record, if the packing is missing, or if the
-  /// manifest keeps paths and the path is missing. A damaged record is reported as a warning. Throws InputError if the
-  /// record belongs to another manifest. Throws FileError if it cannot be read at the moment; such a file does not
-  /// count as damaged.
+  /// Summary of the record of this replicate; nullopt if there is no valid record, so that the replicate must be
+  /// computed. A record is not valid if the file is damaged, if it has not all measures of the manifest, or if it
+  /// records a resource failure. It is also not valid if its packing is damaged or missing, or, if the manifest keeps
+  /// paths, its path. For a record that is not valid, `warn` is called. Throws InputError if the record belongs to
+  /// another manifest. Throws FileError if a file cannot be read at the moment; such a file does not count as damaged.
   std::optional<RecordSummary> recorded(const ReplicateSpec& spec) const;
-  /// Reads the checkpoint of a replicate; nullopt if there is none. A damaged checkpoint, or a checkpoint of another
-  /// build, is reported as a warning and not used. Throws FileError if it cannot be read at the moment.
+  /// Reads the checkpoint of a replicate; nullopt if there is none. If the checkpoint is damaged or belongs to another
+  /// build, returns nullopt after a warning. Throws FileError if it cannot be read at the moment.
   std::optional<Checkpoint> checkpoint(const ReplicateSpec& spec) const;
 
+  /// Replaces the checkpoint of a replicate. Writes nothing if make_checkpoint() returns nullopt.
   void write_checkpoint(const ReplicateSpec& spec, const Checkpoint& checkpoint) const;
-  /// Writes all files of a finished replicate: first the packing and the path, then the record, so that a record always
-  /// has its packing and path. Finally it deletes the checkpoint.
+  /// Writes all files of a finished replicate: first the packing and the path, then the record, so that each record has
+  /// its packing and path. A failed replicate has only a record. Finally deletes the checkpoint.
   void write(const Outcome& outcome) const;
-  /// Replaces a record by one to which measures were added. `outcome` contains all measures. `moved` is true if states
-  /// have changed because a measure first relaxed saddles to minima. Packing and path are then written again. If
-  /// `moved` is false, everything except the added measures must have the same bits as in `before`; otherwise
-  /// InputError is thrown.
+  /// Replaces a record by one to which measures were added. `outcome` has all measures, and `before` is the replaced
+  /// record. `moved` is true if a state has changed, because an added measure needs minima and saddles were relaxed to
+  /// minima. The packing and the path are then written again. If `moved` is false, everything except the added measures
+  /// must have the same bits as in `before`; otherwise throws InputError.
   void write_added(const Outcome& outcome, const RecordedReplicate& before, bool moved) const;
-  /// Replaces the record of a replicate that failed before any measure.
+  /// Replaces the record of a replicate that failed before any measure, so that it states the measures of `spec`.
   void write_added(const ReplicateSpec& spec, const RecordedReplicate& failed) const;
   void write_tables(const Json& tables) const;
 
   const std::filesystem::path& directory() const { return directory_; }
-  /// The manifest in manifest.json. All records belong to it. It may have more replicates than the manifest with which
-  /// the store was opened.
+  /// The manifest in manifest.json. It may have more replicates than the manifest with which the store was opened.
   const Manifest& kept() const { return kept_; }
   std::filesystem::path record_path(const ReplicateSpec& spec) const { return file("records", spec); }
   std::filesystem::path packing_path(const ReplicateSpec& spec) const { return file("packings", spec); }
@@ -78,20 +80,21 @@ class Store {
   Manifest kept_;
 };
 
-/// Adds measures to the manifest in the directory, and returns the new manifest. The records lack these measures until
-/// they are added. Throws the same exceptions as own_manifest(), and FileError if the manifest cannot be written.
+/// Adds measures to the manifest in the directory, and returns the new manifest. It does not compute them: existing
+/// records do not have these measures yet. Throws the same exceptions as own_manifest(), and FileError if the manifest
+/// cannot be written.
 Manifest extend_manifest(const std::filesystem::path& directory, const std::vector<Measure>& more);
 
-/// Throws the error that a path is not a directory, or that the directory has no results.
+/// Throws the FileError for a path that is not a directory, or for a directory that has no records.
 [[noreturn]] void throw_without_records(const std::filesystem::path& directory);
 
-/// Passes every record of a results directory to `use`, one at a time, in the order of their names. It warns about
-/// records of another manifest, and about damaged records that are not in the plan of this manifest, and skips them.
-/// Throws InputError for any other damaged record. Throws FileError if the directory has no records, or if a record
-/// cannot be read at the moment.
+/// Passes the records of a results directory to `use`, one at a time, in the order of their names. Some records are
+/// skipped with a warning: records of another manifest, and damaged records that are not in the plan of `manifest`. If
+/// `manifest` is nullopt, no record is skipped. Throws InputError for any other damaged record. Throws FileError if the
+/// directory has no records, or if a record cannot be read at the moment.
 void for_each_record(const std::filesystem::path& directory, const std::optional<Manifest>& manifest, const Warn& warn,
                      const std::function<void(RecordedReplicate)>& use);
-/// The same loop for the manifest in the directory.
+/// The same loop with the manifest in the directory, if there is one.
 void for_each_record(const std::filesystem::path& directory, const Warn& warn,
                      const std::function<void(RecordedReplicate)>& use);
 

@@ -11,11 +11,13 @@
 
 namespace isojam {
 
-/// Values of all_quantities(), in the same order. nullopt if a quantity was not measured or could not be computed.
+/// Values of all_quantities(), in the same order. A value is nullopt if the quantity was not measured or could not be
+/// computed.
 using Values = std::vector<std::optional<double>>;
 inline Values no_values() { return Values(all_quantities().size()); }
 
-/// The distance of a state to jamming, and the values of its quantities. Quantities of replicates have no value here.
+/// Values of the quantities of one state, and its distance to jamming. Quantities that have one value per replicate are
+/// nullopt here.
 struct StateValues {
   double delta_phi = 0;
   Values values = no_values();
@@ -29,29 +31,30 @@ struct RecordSummary {
   Json parameters;
   int replicate = 0;
   std::string manifest_digest;
-  /// The digests of a record before measures were added, and the build that added the measures.
+  /// The digests of a record before measures were added, and the build that added them.
   struct Before {
     std::string manifest_digest, result_digest, added_by;
   };
+  /// one element for each time that measures were added
   std::vector<Before> before;
-  std::vector<Measure> measures;  ///< measures in the record that this version of isojam knows
-  Json settings;                  ///< settings of protocol, minimiser and measure
+  std::vector<Measure> measures;  ///< measures of the record, without those that this version of isojam does not know
+  Json settings;                  ///< settings of the protocol, the minimiser and the measures
   std::string build;              ///< version, commit and compiler of the program that made the record
-  /// digest of the record without timing and provenance; two runs of the same replicate have the same digest
+  /// result_digest() of the record; two records with the same result have the same digest
   std::string result_digest;
   double cpu_seconds = 0;
   bool failed = false, flagged = false;
-  std::vector<Flag> flags;          ///< flags of the replicate that this version of isojam knows
-  Values values = no_values();      ///< quantities of the replicate, and of its state nearest jamming
-  std::vector<StateValues> states;  ///< states with Δφ > 0, in the order of Δφ
+  std::vector<Flag> flags;          ///< flags of the replicate, without those that this version of isojam does not know
+  Values values = no_values();      ///< quantities of the replicate, and quantities of its nearest state
+  std::vector<StateValues> states;  ///< states with Δφ > 0, sorted by Δφ
   std::optional<double> residual;   ///< largest residual of the states that were used to fit φ_J
 };
 
-/// True if the replicate has one of these flags.
+/// True if the replicate has at least one of these flags.
 bool has_any(const RecordSummary& summary, const std::vector<Flag>& flags);
 
-/// Reads the summary of a record. Throws InputError if the document is not a record of isojam, or if values that a
-/// table needs are missing.
+/// Reads the summary of a record. Throws InputError if the document is not a record of isojam, or if a value that
+/// tables need is missing.
 RecordSummary summarise_record(const Json& record, const std::string& file);
 
 }  // namespace isojam

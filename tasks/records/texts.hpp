@@ -4,7 +4,7 @@
 
 namespace isojam {
 
-// Messages that several sources print.
+// Texts of messages that several source files use.
 
 inline constexpr std::string_view no_directory = "no such directory";
 inline constexpr std::string_view no_results = "contains no results";

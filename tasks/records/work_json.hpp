@@ -7,12 +7,12 @@
 
 namespace isojam {
 
-/// Ranges of numbers in records and checkpoints: any finite number, and counts that a double represents exactly.
+/// Ranges of numbers in records and checkpoints: every finite number, and every count that a double represents exactly.
 inline constexpr Range any_number{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
 inline constexpr Range count_range{0, 9007199254740992};
 
-// Conversions of the work of a computation to and from JSON, for records and checkpoints. The functions that read throw
-// InputError if the JSON is different from the JSON that is written here.
+// Counts of the work of a computation, and rearrangements, as JSON in records and checkpoints. The functions that read
+// throw InputError if the JSON does not have the form that to_json() writes.
 
 Json to_json(const PairCounts& counts);
 PairCounts read_counts(const JsonPlace& place);
