@@ -11,41 +11,43 @@
 
 namespace isojam {
 
-/// The records of a directory that lack measures of a manifest.
+/// The replicates in a directory whose records do not have all measures of a manifest.
 struct Additions {
-  std::vector<ReplicateSpec> measured;  ///< replicates whose stored states can be measured
-  std::vector<ReplicateSpec> failed;    ///< replicates that failed before their states were measured
-  /// A replicate whose states are not stored, and the reason. Only isojam run can compute its measures.
+  std::vector<ReplicateSpec> measured;  ///< replicates whose paths are stored, so that measures can be added
+  /// replicates that failed before the first measure; nothing must be computed for them
+  std::vector<ReplicateSpec> failed;
+  /// A replicate to whose record nothing can be added, and the reason. "isojam run" can compute the replicate again.
   struct Impossible {
     std::string name, why;
   };
   std::vector<Impossible> impossible;
 };
 
-/// Finds the records that lack measures, among the records with these names. It only reads files. Throws InputError if
-/// a record is damaged, belongs to another sweep, or is not in the plan. Throws FileError if a file cannot be read at
-/// the moment.
+/// Finds, among the records with these names, those that do not have all measures of the plan. It only reads files.
+/// Throws InputError if a record is damaged, belongs to another manifest, or is not in the plan. Throws FileError if a
+/// file cannot be read at the moment.
 Additions additions(const std::filesystem::path& directory, const Plan& plan, const std::vector<std::string>& names);
 
-/// Adds measures to the records of a store. A record is read and checked when the work on its replicate begins. It is
-/// read again before it is replaced, because another process may have changed it.
+/// Adds measures to the records of a store. It reads a record when the work on its replicate begins. Before it replaces
+/// the record, it reads the record again, because another process may have changed it.
 class Adder {
  public:
-  /// `replicates` are all replicates that will be passed to the stages, each of them once.
+  /// `replicates` are all replicates that will be passed to the stages. Each of them is passed once.
   Adder(const Store& store, const std::vector<ReplicateSpec>& replicates);
 
-  /// The stages that add measures. The run is restored from the record and the path. If a measure needs minima and no
-  /// earlier measure did, saddles are relaxed to minima. Earlier measures are taken from the record if no state has
-  /// changed. The stages use this object, which must outlive them.
+  /// The stages that add measures. They use this object, which must outlive them. `begin` restores the run from the
+  /// record and the path. `jam` relaxes saddles to minima if a measure needs minima and no measure in the record did.
+  /// `measure` takes a measure that is in the record from there, unless a state has changed.
   Stages stages();
 
-  /// Replaces the record by one with all measures. If this is impossible, returns the reason and does not change the
-  /// record. Throws FileError if the record cannot be read or written at the moment.
+  /// Replaces the record by one with all measures. Returns nullopt, or the reason if this failed; the record is then
+  /// unchanged. Throws FileError if the record cannot be read or written at the moment.
   std::optional<std::string> finish(const Outcome& outcome);
 
  private:
   const Store& store_;
-  std::map<std::string, std::optional<RecordedReplicate>> records_;  // those in flight have a value
+  // records of the replicates on which work has begun; nullopt for all others
+  std::map<std::string, std::optional<RecordedReplicate>> records_;
 };
 
 }  // namespace isojam

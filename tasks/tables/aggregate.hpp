@@ -22,30 +22,29 @@ namespace isojam {
 using Estimates = std::vector<Estimate>;
 inline Estimates no_estimates() { return Estimates(all_quantities().size()); }
 
-/// Estimates at one distance to jamming. Quantities of replicates have no estimate here.
+/// Estimates at one distance to jamming. Quantities that have one value per replicate have no estimate here.
 struct SeriesPoint {
   double delta_phi = 0;
-  Estimates estimates = no_estimates(), all = no_estimates();  ///< the same as in Row
+  Estimates estimates = no_estimates(), all = no_estimates();  ///< without and with the excluded replicates, as in Row
 };
 
-/// Progress of a sweep point towards the goal.
+/// Progress of a sweep point towards its goal.
 struct GoalOutcome {
   Goal goal;
-  /// number of replicates at which the stopping rule ended; nullopt if it needs more replicates
+  /// number of replicates at which the stopping rule ended; nullopt if more replicates are needed
   std::optional<int> needed;
-  /// true if the goal is reached. False if the rule ended with an interval that is too wide, because the maximum was
-  /// reached or no replicate has a value
+  /// True if the goal is reached. If the rule ended without the goal, the largest number of replicates was reached, or
+  /// none of the first `min` replicates has a value.
   bool met = false;
-  std::optional<double> half_width;  ///< half width at the last complete batch
+  std::optional<double> half_width;  ///< half width of the confidence interval after the last complete batch
 };
 
-/// Paired differences of a row from its base row. The base row has the same solid and number of particles, the values
-/// in the base of the parameters that the base contains, and the values of this row of all other parameters. A pair
-/// consists of a replicate of each row, with the same number and manifest. Both have the same initial configuration, so
-/// most of the spread between packings cancels in the difference.
+/// Paired differences of a row from its base row, see base.hpp. A pair consists of two replicates with the same number
+/// and manifest, one of each row. Both have the same initial configuration, so most of the spread between packings
+/// cancels in the difference.
 struct Differences {
-  int pairs = 0;  ///< number of pairs in which no replicate failed or is excluded
-  /// estimates of the value of this row minus the value of the base row, over the pairs in which both replicates have a
+  int pairs = 0;  ///< number of pairs in which both replicates neither failed nor are excluded
+  /// estimates of the value in this row minus the value in the base row, over the pairs in which both replicates have a
   /// value
   Estimates estimates = no_estimates();
 };
@@ -59,16 +58,17 @@ struct Row {
   int replicates = 0;  ///< number of recorded replicates, including failed ones
   int failed = 0;
   int flagged = 0;   ///< number of replicates that did not fail but have a flag
-  int excluded = 0;  ///< number of replicates with a flag that the table excludes
-  /// estimates over the replicates that did not fail, are not excluded and have a value
+  int excluded = 0;  ///< number of replicates that are excluded because of a flag
+  /// estimates over the replicates that neither failed nor are excluded
   Estimates estimates = no_estimates();
-  Estimates all = no_estimates();  ///< estimates that also include the excluded replicates
-  /// estimates at those values of series_distances that lie between the states of a replicate
+  Estimates all = no_estimates();  ///< estimates over the replicates that did not fail, including the excluded ones
+  /// estimates at each value of series_distances that lies between two states of at least one replicate
   std::vector<SeriesPoint> series;
-  /// largest residual of the states that were used to fit φ_J; nullopt if all replicates failed
+  /// largest residual of the states that were used to fit φ_J, over all replicates; nullopt if all replicates failed
   std::optional<double> residual;
   std::optional<GoalOutcome> goal;
-  /// differences from the base row; nullopt for the base row itself, and if there is no base
+  /// paired differences from the base row; nullopt for the base row itself, if the base is empty, and if the base has a
+  /// parameter that was not swept for this row
   std::optional<Differences> differences;
 };
 
@@ -76,35 +76,37 @@ struct Row {
 // NOLINTNEXTLINE(bugprone-exception-escape): as above.
 struct Table {
   std::vector<Row> rows;
+  /// flags that exclude a replicate from means
   std::vector<Flag> exclude;
-  std::map<Flag, int> excluded;  ///< number of replicates with each excluded flag
-  Json base = Json::object();    ///< the base: swept parameters and their values; empty if rows are not compared
-  std::set<std::string> builds;  ///< builds of the program that made the records
+  std::map<Flag, int> excluded;  ///< number of replicates with each of these flags
+  Json base = Json::object();    ///< the base, see base.hpp; if it is empty, no rows are compared
+  std::set<std::string> builds;  ///< builds of the program that made the records or added measures to them
 };
 
-/// Collects records one by one for a table. It keeps only the few kilobytes of each record that the table needs. The
-/// result does not depend on the order of the records.
+/// Collects records one by one for a table. For each record, it stores only the few kilobytes that the table needs. The
+/// table does not depend on the order in which records are added.
 class Aggregation {
  public:
-  /// Replicates with one of the flags in `exclude` are used only for the estimates over all replicates, and the
-  /// stopping rule ignores them. Rows are compared with the base row, see base.hpp.
+  /// Replicates with a flag in `exclude` are excluded from means, and the stopping rule ignores their values. `base`
+  /// selects the base rows, see base.hpp.
   explicit Aggregation(std::vector<Flag> exclude = usually_excluded(), Json base = Json::object())
       : exclude_(std::move(exclude)), base_(std::move(base)) {}
 
-  /// Adds a record. A record that is added twice counts once. Throws InputError if records of one sweep point were made
-  /// with different settings, or if two records of the same replicate differ.
+  /// Adds a record. If a record is added twice, it counts once. Throws InputError if two records of a sweep point have
+  /// different settings, or if two records of a replicate have different results.
   void add(const RecordSummary& record);
 
-  /// Makes the table. `rule` is the number of replicates in the manifest. If it has a goal, every row reports the
+  /// Makes the table. `rule` is the number of replicates in the manifest. If it has a goal, every row states its
   /// progress towards the goal.
   Table table(const std::optional<Replicates>& rule = std::nullopt) const;
 
  private:
-  /// A value of a replicate. `quantity` is an index in all_quantities(). `place` is 0 for a value of the replicate or
-  /// of its state nearest jamming, and k for a value at series_distances[k − 1].
+  /// A value of a replicate. `quantity` is an index in all_quantities(). If `place` is 0, the value is that of the
+  /// replicate or of its nearest state. If `place` is k > 0, it is the value at series_distances[k − 1].
   struct Cell {
     std::uint16_t quantity, place;
     double value;
+    /// The part of a record that the table needs.
   };
   struct Kept {
     std::string result_digest;
@@ -119,12 +121,12 @@ class Aggregation {
   // NOLINTNEXTLINE(bugprone-exception-escape): as above.
   struct Point {
     Json settings;
-    std::string first;  // the record from which they were taken
+    std::string first;  // the record from which `settings` were taken
     std::map<ReplicateKey, Kept> replicates;
   };
 
   Kept kept(const RecordSummary& record) const;
-  static Values own_values(const Kept& kept);  ///< values of the replicate and of its state nearest jamming
+  static Values own_values(const Kept& kept);  ///< values of the replicate and of its nearest state
   static Row row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule);
   std::optional<Differences> differences(const PointKey& key, const Point& point) const;
   static std::optional<GoalOutcome> goal_outcome(const Point& point, const std::optional<Replicates>& rule);
@@ -136,7 +138,7 @@ class Aggregation {
   std::set<std::string> builds_;
 };
 
-/// Makes the table of several records.
+/// Makes a table of these records, see Aggregation.
 Table aggregate(std::span<const RecordSummary> records, const std::optional<Replicates>& rule = std::nullopt,
                 std::vector<Flag> exclude = usually_excluded(), Json base = Json::object());
 

@@ -12,41 +12,43 @@
 
 namespace isojam {
 
-// Common parts of tables in the formats text, LaTeX and CSV.
+// Common parts of the tables as text, LaTeX and CSV.
 
 using Cells = std::vector<std::string>;
 
-/// Name of the last column of main tables.
+/// Heading of the column with the residual.
 inline constexpr std::string_view residual_column = "residual";
 
 std::string joined(const Cells& cells, std::string_view separator);
 
-/// Names of all swept parameters of a table, in order.
+/// Names of the swept parameters of all rows, sorted.
 std::vector<std::string> parameter_names(const Table& table);
-/// Heading of the column of a parameter. It is the name of the parameter in manifests, except if another column of
-/// every table already has this name.
+/// Heading of the column of a parameter: the name of the parameter. The parameter `residual` has the heading
+/// "minimiser.residual" instead, because another column is called residual.
 std::string parameter_head(const std::string& name);
-/// Value of a parameter at a sweep point, as text. Empty if the parameter was not swept.
+/// Value of a parameter in a row, as text. Empty if the parameter was not swept.
 std::string parameter_text(const Row& row, const std::string& name);
 
-/// Title of the table of differences, such as "differences from step_fraction = 0.35". Empty if no row is compared.
+/// Title of the table of paired differences, such as "differences from step_fraction = 0.35". Empty if the table has no
+/// base.
 std::string difference_title(const Table& table);
 
-/// "excluded from means: crystalline (2), not_balanced (0)", with numbers of replicates; empty if the table excludes no
-/// flag. It precedes the first table.
+/// "excluded from means: crystalline (2), not_balanced (0)", with the numbers of replicates. Empty if the table
+/// excludes no flag.
 std::string exclusion_text(const Table& table);
 
-/// The replicates over which the estimates of a line are taken. kept: replicates that are not excluded. all: all
-/// replicates. difference: pairs of a replicate of the row and a replicate of its base row.
+/// The replicates that are used for the estimates of a line. kept: all that neither failed nor are excluded. all: all
+/// that did not fail. difference: pairs of a replicate of the row and a replicate of its base row.
 enum class Over : std::uint8_t { kept, all, difference };
 template <>
 inline constexpr std::array enum_names<Over>{EnumName{Over::kept, "kept"}, EnumName{Over::all, "all"},
                                              EnumName{Over::difference, "difference"}};
 
-/// A line of a table: a row, or one point of the series of a row. If replicates are excluded, there are two lines, one
-/// without and one with these replicates.
+/// A line of a table: a row, or one point of the series of a row. If replicates of the row are excluded, there is a
+/// second line that includes them.
 struct TableLine {
   const Row* row = nullptr;
+  /// distance to jamming of a point of the series; nullopt for a row
   std::optional<double> delta_phi;
   const Estimates* estimates = nullptr;
   Over over = Over::kept;
@@ -58,9 +60,9 @@ struct TableLine {
   }
 };
 
-/// All lines of a table, except the lines of differences. They refer to the table, which must outlive them.
+/// All lines of a table without the lines of paired differences. The table must outlive them.
 std::vector<TableLine> lines_of(const Table& table, View view);
-/// The line with the differences of a row from its base row. The row must have differences.
+/// The line with the paired differences of a row. The row must have differences.
 TableLine difference_line(const Row& row);
 
 }  // namespace isojam

@@ -10,25 +10,25 @@ namespace isojam {
 
 /// Progress of a sweep point towards its goal.
 struct Advance {
-  /// number of replicates that must be recorded before the rule is checked again, or at which it ended
+  /// number of replicates that must be recorded before the rule is checked again, or at which the rule ended
   int wanted = 0;
-  /// true if no more replicates are needed: the goal or the maximum is reached, or none of the first `min` replicates
-  /// has a value
+  /// true if no more replicates are needed: the goal or the largest number of replicates is reached, or none of the
+  /// first `min` replicates has a value
   bool finished = false;
-  bool met = false;                  ///< true if the requested half width was reached; false if there is no goal
-  std::optional<double> half_width;  ///< half width at the last complete batch
+  bool met = false;                  ///< true if the goal is reached; false if there is no goal
+  std::optional<double> half_width;  ///< half width of the confidence interval after the last complete batch
 };
 
-/// Number of replicates at the end of the next batch: a quarter more than `replicates`, at least two more, and at most
-/// `max`.
+/// Number of replicates after the next batch. A batch has a quarter of `replicates`, but at least two replicates. The
+/// total is at most `max`.
 int next_batch_end(int replicates, int max);
 
-/// Stopping rule. It is checked after `min` replicates and after every batch. A sweep point is finished if the 95 %
-/// confidence interval (Student t) of the mean over its first n replicates is narrow enough for the goal. `values[r]`
-/// is the value of replicate r; it is nullopt if the replicate failed, is excluded or has no value. `values` must end
-/// before the first replicate that is not recorded. The rule uses replicates in the order of their numbers, so the
-/// result does not depend on which replicate finished first. It is checked only after whole batches, because an
-/// interval that is checked after each replicate reaches the goal by chance too often.
+/// The stopping rule of a sweep point. It is checked after the first `min` replicates and after every batch. The point
+/// is finished if the 95 % confidence interval of the mean over all replicates so far is narrow enough for the goal.
+/// The rule is not checked after each replicate, because the interval would then be narrow by chance too often.
+/// `values[r]` is the value of replicate r; it is nullopt if the replicate failed, is excluded or has no value.
+/// `values` must end before the first replicate that is not recorded. The result therefore does not depend on which
+/// replicate finishes first.
 Advance advance_of(const Replicates& replicates, std::span<const std::optional<double>> values);
 
 }  // namespace isojam

@@ -10,20 +10,20 @@
 
 namespace isojam {
 
-/// Excluded flags and base of a table. nullopt: as in the manifests of the records.
+/// Flags to exclude, and the base of a table. nullopt means: as in the manifests of the directories.
 struct TableChoices {
   std::optional<std::vector<Flag>> exclude;
   std::optional<Json> base;
 };
 
-/// Makes the table of all records in one or several results directories. The excluded flags and the base come from
-/// `choices`, or else from the manifests. A directory without a manifest excludes the default flags and has no base.
-/// The function warns about excluded replicates and about records of different builds. Throws InputError if the
-/// manifests differ in the excluded flags or the base. Also throws the exceptions of for_each_record() and
+/// Makes the table of all records in one or several results directories. The excluded flags and the base are those in
+/// `choices`. Where `choices` has none, they are those of the manifests; a directory without a manifest has
+/// usually_excluded() and no base. Warns if the records were made by different builds. Throws InputError if the
+/// manifests differ in the excluded flags or in the base. Also throws the exceptions of for_each_record() and
 /// Aggregation::add().
 Table table_of(const std::vector<std::string>& directories, const Warn& warn, const TableChoices& choices = {});
 
-/// Error text if the base of a table contains a parameter or a value that no row has; nullopt otherwise.
+/// Error message if the base of a table has a parameter or a value that no row has; nullopt otherwise.
 std::optional<std::string> misplaced_base(const Table& table);
 
 /// Makes the table of a run, from the records of this manifest in one directory. `seen` is called with each record.

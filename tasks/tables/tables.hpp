@@ -9,29 +9,32 @@ namespace isojam {
 
 inline constexpr std::string_view table_schema = "isojam.tables.v2";
 
-/// The content of tables.json, and one of its rows.
+/// The content of tables.json.
 Json to_json(const Table& table);
+/// One row in tables.json.
 Json to_json(const Row& row);
 
-/// States of the replicates to which a table refers. nearest: the states nearest jamming. series: states interpolated
-/// at each of series_distances.
+/// States that a table describes. nearest: the nearest state of each replicate. series: values at each of
+/// series_distances, interpolated between the states of a replicate.
 enum class View : std::uint8_t { nearest, series };
 
-/// The tables as aligned text, one table for each group of quantities that have values. An entry is the mean ± the half
-/// width of the 95 % confidence interval. It is followed by (n) if only n replicates have the value, fewer than are
-/// used for the line. The first line of the text states how many replicates are excluded from the means. The goal and
-/// the differences from the base row, if there are any, follow the first table.
+/// The tables as aligned text, with one table for each group of quantities that have values. If the table excludes
+/// flags, the first line states how many replicates have each of these flags. An entry of a table is the mean ± half
+/// the width of its 95 % confidence interval. The number n follows in parentheses if only n of the replicates of the
+/// line have the value. After the first table there are two more if they have rows: the progress towards the goal, and
+/// the paired differences.
 std::string to_text(const Table& table, View view = View::nearest);
 
-/// The tables as CSV. Each row, or each point of a series, has a line with `kept` in the column `over`. If replicates
-/// are excluded, it has a second line with `all`, over all replicates. If there are differences from the base row, it
-/// has a line with `difference`. For each quantity that has a value in some line, there are columns for mean, ci95 low
-/// and high, sd, n, bootstrap95 low and high. An empty field means that there is no value.
+/// The tables as CSV. Each row, or each point of a series, has one to three lines; the column `over` distinguishes
+/// them. The line `kept` is for the replicates that are not excluded. The line `all` includes the excluded replicates;
+/// it is missing if there are none. The line `difference` has the paired differences from the base row; it is missing
+/// if there are none, and in series. Each quantity has columns for mean, low and high end of the 95 % confidence
+/// interval, sd, n, and low and high end of the bootstrap interval. A field without a value is empty.
 std::string to_csv(const Table& table, View view = View::nearest);
-/// The tables as CSV with a separate line for each quantity. An additional column contains the name of the quantity.
+/// The same lines, but with a separate line for each quantity. An additional column contains the name of the quantity.
 std::string to_long_csv(const Table& table, View view = View::nearest);
 
-/// The tables as LaTeX, with a tabular environment for each group of quantities that have values.
+/// The tables as LaTeX: the same as the text, with a tabular environment for each table.
 std::string to_latex(const Table& table, View view = View::nearest);
 
 }  // namespace isojam
