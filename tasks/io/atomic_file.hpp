@@ -7,31 +7,31 @@
 
 namespace isojam {
 
+/// Guarantee for the content of a file after a power failure.
 enum class Durability : std::uint8_t {
-  synced,  ///< the content is on the disk when the call returns
-  /// the content is not synchronised to the disk; after a power failure the file may be truncated, which its reader
-  /// must detect
+  synced,  ///< the complete content is on the disk when the call returns
+  /// the content may not be on the disk yet; after a power failure the file may be truncated, which its reader must
+  /// detect
   lossless
 };
 
-/// Writes a file atomically: every reader, even after a crash, sees either the old content or the complete new content.
-/// The function writes a temporary file with a unique name in the same directory, synchronises it (fsync), renames it,
-/// and synchronises the directory. It replaces an existing file or symbolic link at the path and does not follow links.
-/// Throws FileError.
+/// Writes a file atomically, see the glossary. The function writes a temporary file with a unique name in the same
+/// directory and renames it. With Durability::synced, it also synchronises the file and the directory (fsync). It
+/// replaces an existing file or symbolic link at the path. Throws FileError.
 void write_atomically(const std::filesystem::path& path, std::string_view content,
                       Durability durability = Durability::synced);
 
-/// Writes a file atomically, but only if the path does not exist. If several processes write at the same time, exactly
-/// one succeeds. Returns false and changes nothing if the path exists.
+/// Writes a file atomically, but only if the path does not exist. Otherwise it changes nothing and returns false. If
+/// several processes call it for the same path at the same time, it succeeds in exactly one of them. Throws FileError.
 bool write_exclusively(const std::filesystem::path& path, std::string_view content);
 
-/// Writes a file that the user named on the command line. The write is atomic, but the function follows symbolic links
-/// and keeps the mode and owner of an existing file. It writes into a pipe or device instead of replacing it. Throws
-/// FileError.
+/// Writes a file that the user named on the command line. The write is atomic. Unlike write_atomically(), the function
+/// follows symbolic links, keeps the mode and owner of an existing file, and writes into a pipe or device instead of
+/// replacing it. Throws FileError.
 void write_output(const std::filesystem::path& path, std::string_view content);
 
-/// Does the same as write_output() for content that is too long for the memory. If the path is not a pipe or device,
-/// the file appears only when finish() is called. Each function throws FileError.
+/// Writes like write_output(), but in several parts, for content that does not fit in the memory. A regular file
+/// appears only when finish() is called. Without this call, it does not change. All functions throw FileError.
 class OutputWriter {
  public:
   explicit OutputWriter(const std::filesystem::path& path);
@@ -47,15 +47,15 @@ class OutputWriter {
   std::unique_ptr<Target> target_;
 };
 
-/// True if the path is a pipe, a device, or a file descriptor of the shell. No other file can be written in the same
-/// place.
+/// True if the path is a pipe, a device, or an open file descriptor, such as /dev/stdout. Other files cannot be written
+/// beside it.
 bool is_stream(const std::filesystem::path& path);
 
-/// Throws FileError if files cannot be written in the directory.
+/// Throws FileError if no file can be created in the directory.
 void check_writable(const std::filesystem::path& directory);
 
-/// Removes temporary files of write_atomically() that killed processes left in a directory. It removes files older than
-/// an hour, because no process still writes them.
+/// Removes temporary files of write_atomically() that remain in a directory after a process was killed. It removes only
+/// files older than an hour, because a younger file may still be in use.
 void remove_stale_temporaries(const std::filesystem::path& directory);
 
 }  // namespace isojam

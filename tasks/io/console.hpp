@@ -23,13 +23,13 @@ inline constexpr std::array enum_names<MessageForm>{EnumName{MessageForm::text, 
                                                     EnumName{MessageForm::json, "json"}};
 
 struct ConsoleOptions {
-  bool quiet = false;    ///< print only errors
-  bool verbose = false;  ///< print a line for each replicate
+  bool quiet = false;    ///< print errors only
+  bool verbose = false;  ///< also print a line for each replicate
   Colour colour = Colour::automatic;
   MessageForm form = MessageForm::text;
 };
 
-/// Additional parts of a message, as pairs of a name and a text.
+/// Additional members of a message in JSON, as pairs of a name and a text. Messages as text do not contain them.
 using MessageParts = std::vector<std::pair<std::string_view, std::string_view>>;
 
 /// Prints messages and progress to stderr. Several threads may use it at the same time.
@@ -43,16 +43,18 @@ class Console {
   void error(std::string_view message, const MessageParts& parts = {});
   void warn(std::string_view message);
   void info(std::string_view message);
-  void detail(std::string_view message);  ///< printed only with the option -v
+  void detail(std::string_view message);  ///< printed only if `verbose` is true
 
-  /// Begins a round of `total` replicates. `work` is the total cost of the round in any unit. It is used to estimate
-  /// the remaining time.
+  /// Begins a round of `total` replicates. `work` is their total cost in any unit; the remaining time is estimated from
+  /// it.
   void begin(int total, double work);
+  /// Counts a replicate as finished, with its cost in the same unit.
   void finished(double work, bool failed);
-  /// Shows the progress. On a terminal it redraws the progress bar, which is not wider than the terminal. Otherwise it
-  /// prints a line every few seconds. If begin() was not called, it prints only `what`. With MessageForm::json, begin()
-  /// and end() also print a message.
+  /// Shows the progress of the round and the text `what`, or only `what` before the first begin(). On a terminal it
+  /// redraws a progress bar that is not wider than the terminal. Otherwise it prints a line. It does nothing if it was
+  /// called less than 0.1 s ago, or 5 s ago for lines of text.
   void tick(std::string_view what);
+  /// Ends the round: removes the progress bar, or prints the final progress as JSON.
   void end();
 
  private:

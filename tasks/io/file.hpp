@@ -8,19 +8,21 @@
 
 namespace isojam {
 
-/// Exception: a directory or file cannot be read or written.
+/// Exception: a file or directory cannot be read or written.
 class FileError : public std::runtime_error {
  public:
   enum class Reason : std::uint8_t {
-    refused,           ///< the path, the permissions or the device do not allow it
-    missing,           ///< the path does not exist
-    no_file,           ///< the path is not a regular file
-    resource_failure,  ///< memory, file descriptors or disk space ran out
+    refused,  ///< any other reason, such as permissions
+    missing,  ///< the path does not exist
+    /// the path is a directory, a pipe, a device or a loop of symbolic links, where a regular file is needed
+    no_file,
+    resource_failure,  ///< memory, file descriptors or disk space ran out, or the device reported an error
   };
 
   explicit FileError(const std::string& message, Reason reason = Reason::refused)
       : std::runtime_error(message), reason_(reason) {}
-  /// Makes the error of the system call that has just failed, from errno. The message is "path: what: why".
+  /// Makes the error of the system call that has just failed; errno has the reason. The message is "path: what:
+  /// reason".
   static FileError of_errno(const std::filesystem::path& path, std::string_view what);
 
   Reason reason() const { return reason_; }
@@ -29,7 +31,7 @@ class FileError : public std::runtime_error {
   Reason reason_;
 };
 
-/// A file descriptor that the destructor closes. If the file could not be opened, the descriptor is invalid, and errno
+/// A file descriptor, which the destructor closes. If the file cannot be opened, the descriptor is invalid and errno
 /// has the reason.
 class Descriptor {
  public:
@@ -41,19 +43,19 @@ class Descriptor {
 
   bool valid() const { return fd_ >= 0; }
   int number() const { return fd_; }
-  /// Writes the whole content. If this fails, it returns false, and errno has the reason.
+  /// Writes the whole content. If this fails, returns false, and errno has the reason.
   bool write(std::string_view content) const;
 
  private:
   int fd_;
 };
 
-/// Reads the bytes of a path that the user named on the command line. It may be a file, or a pipe or device with at
-/// most 256 MiB. Throws FileError.
+/// Reads the bytes of a path that the user named on the command line: a regular file of any size, or a pipe or device
+/// with at most 256 MiB. Throws FileError.
 std::string read_text(const std::filesystem::path& path);
 
-/// Reads the bytes of a regular file. Throws FileError. The reason is no_file for a pipe or device, which might never
-/// end.
+/// Reads the bytes of a regular file. Throws FileError; the reason is no_file for a pipe or device, from which a read
+/// might never end.
 std::string read_file(const std::filesystem::path& path);
 
 }  // namespace isojam

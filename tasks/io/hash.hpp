@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// The result of hash_of(text) as 16 hexadecimal digits.
+/// The value of hash_of(text) as 16 hexadecimal digits.
 std::string hex_hash(std::string_view text);
 
 }  // namespace isojam

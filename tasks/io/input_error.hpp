@@ -11,19 +11,19 @@ namespace isojam {
 class InputError : public std::runtime_error {
  public:
   struct Details {
-    std::string file;     ///< followed by ":line:column" if the text is not JSON
-    std::string pointer;  ///< JSON pointer to the faulty value (RFC 6901); empty for the whole document
+    std::string file;     ///< name of the input; ":line:column" follows if the text is not JSON
+    std::string pointer;  ///< JSON pointer to the value with the error (RFC 6901); empty for the whole document
     std::string problem;
-    std::string allowed;      ///< the accepted values, as in "expected an integer"; empty if `remedy` is given
-    std::string suggestion;   ///< name that was probably meant; empty if no known name is similar
-    std::string remedy = {};  ///< an instruction, as in "remove the comment"
+    std::string allowed;      ///< the allowed values, to be printed after "expected"; empty if `remedy` is given
+    std::string suggestion;   ///< name that the user probably meant; empty if no known name is similar
+    std::string remedy = {};  ///< an instruction, such as "remove the comment"
 
-    /// The accepted values or the instruction.
+    /// The allowed values or the instruction.
     const std::string& correction() const { return remedy.empty() ? allowed : remedy; }
   };
 
   explicit InputError(Details details);
-  /// Makes an exception with one or more errors, which are reported in this order.
+  /// Makes an exception with one or more errors, in this order.
   explicit InputError(std::vector<Details> all);
 
   const Details& details() const { return all_.front(); }  ///< the first error
@@ -33,7 +33,8 @@ class InputError : public std::runtime_error {
   std::vector<Details> all_;
 };
 
-/// The line of what() for one error. It contains the accepted values only if there is no suggestion.
+/// The line of what() for one error. If there is a suggestion, the line contains it instead of the allowed values or
+/// the remedy.
 std::string one_line(const InputError::Details& details);
 
 }  // namespace isojam

@@ -8,12 +8,15 @@
 
 namespace isojam {
 
-/// While this object exists, SIGINT and SIGTERM cause a stop request instead of ending the process. If the process
-/// still runs after the time `patience`, or if a second signal arrives, the object ends the process at once with exit
-/// code 75. No result is lost in this case, because files are written atomically. Create the object before any other
-/// thread. The object blocks both signals and waits for them in its own thread, because a signal handler may not
-/// request a stop. Threads that are created later inherit the blocked signals. If a signal was already ignored, for
-/// example under nohup or in the background of a shell, it stays ignored.
+/// While this object exists, SIGINT and SIGTERM cause a stop request instead of ending the process.
+///
+/// The process ends with exit code 75 if it still runs after the time `patience`, or if a second signal arrives. No
+/// recorded result is lost in this case, because files are written atomically.
+///
+/// Create the object before any other thread. It blocks both signals and waits for them in its own thread, because a
+/// signal handler may not request a stop. Threads that are created later inherit the blocked signals.
+///
+/// A signal that was already ignored, for example under nohup or in the background of a shell, stays ignored.
 class InterruptWatcher {
  public:
   explicit InterruptWatcher(std::chrono::milliseconds patience = std::chrono::milliseconds(1500));

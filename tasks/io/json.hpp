@@ -5,16 +5,16 @@
 #include <string>
 #include <string_view>
 
-// Instantiated once, in json.cpp.
+// The template is instantiated once, in json.cpp.
 extern template class nlohmann::basic_json<nlohmann::ordered_map>;
 
 namespace isojam {
 
-/// A JSON value. Keys keep the order in which they were inserted, so that the same value always has the same text.
+/// A JSON value. Its keys have the order in which they were inserted, so that the same value always has the same text.
 using Json = nlohmann::ordered_json;
 
-/// The text of a value, indented by two spaces, with lists of scalars on one line and a line feed at the end. Numbers
-/// have enough digits to reproduce them exactly. The value must not contain NaN or infinity.
+/// The text of a value, indented by two spaces and with a line feed at the end. Lists that contain only scalars are on
+/// one line. Numbers have enough digits to reproduce them exactly. The value must not contain NaN or infinity.
 std::string pretty(const Json& value);
 
 /// The text of a value on one line.
@@ -23,17 +23,17 @@ std::string compact(const Json& value);
 /// Parses a text. Throws Json::parse_error if it is not JSON.
 Json parsed(std::string_view text);
 
-/// Sets object[key] to a number. NaN or infinity, which JSON cannot represent, becomes null, and object[key +
-/// "_reason"] states this.
+/// Sets object[key] to a number. JSON has no NaN and no infinity: for these, it sets object[key] to null, and
+/// object[key + "_reason"] to "not a number" or "infinite".
 void put_number(Json& object, const std::string& key, double value);
 
 /// Sets object[key] to null, and object[key + "_reason"] to the reason.
 void put_absent(Json& object, const std::string& key, std::string_view reason);
 
-/// Calls put_number() if there is a value, and put_absent() otherwise.
+/// Calls put_number() if there is a value, and put_absent() with the reason otherwise.
 void put_optional(Json& object, const std::string& key, const std::optional<double>& value, std::string_view reason);
 
-/// A step of a JSON pointer: "/name", with the characters escaped according to RFC 6901.
+/// One step of a JSON pointer: "/name", with "~" and "/" escaped according to RFC 6901.
 std::string pointer_step(std::string_view name);
 
 }  // namespace isojam

@@ -10,13 +10,14 @@
 
 #include "tasks/io/place.hpp"
 
-// Options of manifests and configurations: reading, writing and describing values of each type. Readers throw
-// InputError. If errors are collected, a list lacks the refused entries.
+// Functions that read, write and describe the values of options in manifests and configurations. The functions that
+// read throw InputError, or collect the errors, see JsonPlace. If errors are collected, the entries with errors are
+// missing in a list.
 
 namespace isojam {
 
-/// Reads a list. `read` converts one entry to its canonical value. Two entries with the same canonical value are an
-/// error. `allowed` describes the allowed lists, for error messages.
+/// Reads a list. `read` converts one entry to a value. Two entries with the same value are an error. `allowed`
+/// describes the allowed lists in error messages.
 template <class Read>
 auto read_list(const JsonPlace& place, std::string_view allowed, Read read) {
   const auto size = place.expect_list(allowed);
@@ -33,7 +34,7 @@ auto read_list(const JsonPlace& place, std::string_view allowed, Read read) {
   return values;
 }
 
-/// Reads the value of an option. A number must be in `range`.
+/// Reads the value of an option. If it is a number, it must be in `range`.
 template <class T>
 T read_option(const JsonPlace& place, [[maybe_unused]] const Range& range) {
   if constexpr (std::is_enum_v<T>) {
@@ -47,7 +48,7 @@ T read_option(const JsonPlace& place, [[maybe_unused]] const Range& range) {
   }
 }
 
-/// Text that describes the allowed values, such as "a number in (0, 1]".
+/// Text that describes the allowed values of an option, such as "a number in (0, 1]".
 template <class T>
 std::string allowed_option([[maybe_unused]] const Range& range) {
   if constexpr (std::is_enum_v<T>) {
@@ -61,6 +62,7 @@ std::string allowed_option([[maybe_unused]] const Range& range) {
   }
 }
 
+/// The value of an option as JSON.
 template <class T>
 Json option_json(const T& value) {
   if constexpr (std::is_enum_v<T>) {
@@ -70,7 +72,7 @@ Json option_json(const T& value) {
   }
 }
 
-/// Reads a list of one or more distinct values.
+/// Reads a list of one or more values that are all different.
 template <class T>
 void read_option(const JsonPlace& place, const Range& range, std::vector<T>& list) {
   list = read_list(place, "a list of one or more values",

@@ -13,7 +13,7 @@
 
 namespace isojam {
 
-/// An interval of numbers. It includes its ends, unless they are marked as excluded.
+/// An interval of numbers. It includes each end that is not marked as excluded.
 struct Range {
   double low = 0, high = 0;
   bool low_excluded = false, high_excluded = false;
@@ -23,32 +23,33 @@ struct Range {
   }
 };
 
-/// Texts that describe the allowed numbers, such as "a number in (0, 1]" or "an integer from 1 to 20".
+/// Texts that describe the allowed numbers: "a number in (0, 1]", "an integer from 1 to 20".
 std::string number_in(const Range& range);
 std::string integer_in(const Range& range);
 
-/// The names as a text: `"a", "b", "c"`.
+/// The names in quotation marks: `"a", "b", "c"`.
 std::string quoted_list(std::span<const std::string_view> names);
-/// `"a"`, or `one of "a", "b", "c"`
+/// `"a"` for one name, `one of "a", "b", "c"` for several.
 std::string one_of(std::span<const std::string_view> names);
 
-/// The candidate that is most similar to `word` by the edit distance. Empty if no candidate is similar enough.
+/// The candidate that is most similar to `word`, according to the edit distance. Empty if no candidate is similar
+/// enough.
 std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
 
-/// Text for an unknown name: `unknown flag "x"; did you mean "y"?`. If no name is similar, the text lists the names:
-/// `unknown flag "x"; expected one of …`. `besides` precedes the list.
+/// Error message for an unknown name: `unknown flag "x"; did you mean "y"?`. If no name is similar, the message lists
+/// all names: `unknown flag "x"; expected one of …`. The text `besides` precedes the list.
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> names,
                          std::string_view besides = "");
 
-/// Collects the errors of a document while it is read. Only the first error at each JSON pointer is kept, because other
-/// errors at the same value are consequences of it.
+/// Collects the errors of a document while it is read. For each JSON pointer it stores only the first error, because
+/// later errors at the same value are consequences of it.
 class Problems {
  public:
   void note(const InputError& error);
-  /// Suppresses errors at this JSON pointer, because they are consequences of an error at another pointer.
+  /// Suppresses later errors at this JSON pointer, because they are consequences of an error at another pointer.
   void settle(std::string pointer) { settled_.insert(std::move(pointer)); }
-  /// Throws one InputError with all collected errors, if there are any, in the order of the document. An error about a
-  /// missing key has the position of the object that lacks the key.
+  /// If errors were collected, throws one InputError with all of them, in the order of the document. If a required key
+  /// is missing, the error has the position of the object without this key.
   void refuse_any(const Json& document) const;
 
  private:
@@ -56,12 +57,11 @@ class Problems {
   std::set<std::string> settled_;
 };
 
-/// A value of a JSON document together with its location (file and JSON pointer), which error messages contain. It
-/// refers to the document, which must outlive it. All functions that read a value throw InputError if the value is not
-/// allowed.
+/// A value of a JSON document together with its location (file and JSON pointer), which error messages contain. The
+/// document must outlive this object. All functions that read a value throw InputError if the value is not allowed.
 class JsonPlace {
  public:
-  /// If `problems` is given, attempt() collects errors in it. Otherwise reading ends at the first error.
+  /// If `problems` is given, attempt() collects errors in it. Otherwise the first error ends the reading.
   JsonPlace(const Json& value, std::string file, std::string pointer = "", Problems* problems = nullptr)
       : value_(value), file_(std::move(file)), pointer_(std::move(pointer)), problems_(problems) {}
 
@@ -70,17 +70,18 @@ class JsonPlace {
   const std::string& pointer() const { return pointer_; }
 
   bool has(const std::string& key) const { return value_.contains(key); }
-  JsonPlace at(const std::string& key) const;  ///< throws if the value is not an object or does not have the key
+  JsonPlace at(const std::string& key) const;  ///< throws InputError if the value is not an object with this key
   JsonPlace at(std::size_t index) const;
 
+  /// Throws an InputError for this value, with the allowed values.
   [[noreturn]] void refuse(std::string problem, std::string allowed = "", std::string suggestion = "") const;
-  /// With an instruction instead of the accepted values.
+  /// Throws an InputError for this value, with an instruction instead of the allowed values.
   [[noreturn]] void refuse_with_remedy(std::string problem, std::string remedy) const;
-  /// Refuses the value itself.
+  /// Throws an InputError that states the value and the allowed values.
   [[noreturn]] void not_accepted(std::string_view allowed) const;
 
-  /// Calls `work`. If it throws an InputError, adds the error to `problems` and returns false. If errors are not
-  /// collected, the exception is rethrown. Returns true if `work` did not throw.
+  /// Calls `work`, and returns true if it does not throw. If it throws an InputError and errors are collected, adds the
+  /// error to `problems` and returns false. If errors are not collected, the exception is not caught.
   template <class Work>
   bool attempt(const Work& work) const {
     try {
@@ -92,7 +93,8 @@ class JsonPlace {
       return false;
     }
   }
-  /// Calls `work` by attempt() with the value of a key. The key is required for read() and optional for read_if_any().
+  /// Calls `work` with the value of a key, inside attempt(). The key is required for read(), and optional for
+  /// read_if_any().
   template <class Work>
   void read(const std::string& key, const Work& work) const {
     attempt([&] { work(at(key)); });
@@ -105,19 +107,19 @@ class JsonPlace {
   void expect_object(std::string_view allowed) const;
   std::size_t expect_list(std::string_view allowed) const;  ///< returns the size of the list
   void expect_length(std::size_t length, std::string_view allowed) const;
-  /// Returns the size of the list, which is from 1 to `most`.
+  /// Throws unless the value is a list with 1 to `most` entries. Returns the number of entries.
   std::size_t expect_entries(std::size_t most, std::string_view allowed) const;
-  /// Throws if the object has a key that is not in `names`. The error suggests the most similar name; `elsewhere` may
-  /// give a better suggestion.
+  /// Throws if the object has a key that is not in `names`. The error suggests the name that `elsewhere` returns for
+  /// the key. If `elsewhere` is not given or returns an empty text, it suggests the most similar name.
   void expect_keys(std::span<const std::string_view> names, std::string (*elsewhere)(std::string_view) = nullptr) const;
 
   double number(const Range& range) const;
   std::int64_t integer(const Range& range) const;
   bool boolean() const;
   std::string text(std::string_view allowed = "a string") const;
-  /// Reads a text that must be one of `names`, and returns its index.
+  /// Reads a text that must be one of `names`, and returns the index of this name.
   std::size_t choice(std::span<const std::string_view> names) const;
-  /// Reads the name of an enumerator and returns the enumerator.
+  /// Reads the name of an enumerator, and returns the enumerator.
   template <NamedEnum Enum>
   Enum choice() const {
     return all_of<Enum>[choice(all_names<Enum>)];

@@ -6,16 +6,16 @@
 
 namespace isojam {
 
-/// Identifies a process uniquely, even if the system reuses its process number later.
+/// Identifies a process. It is unique even if the system later gives the process number to another process.
 struct ProcessId {
-  std::string machine;       ///< identifier of the running kernel (its boot) and of the PID namespace
+  std::string machine;       ///< identifies the boot of the machine and the PID namespace
   std::int64_t process = 0;  ///< process number (PID)
-  std::int64_t started = 0;  ///< start of the process, in clock ticks after the boot
+  std::int64_t started = 0;  ///< start of the process, in clock ticks since the boot
 };
 
 const ProcessId& this_process();
 
-/// True if the process still runs. nullopt if it belongs to another machine.
+/// True if the process still runs. nullopt if it belongs to another machine, boot or PID namespace.
 std::optional<bool> is_alive(const ProcessId& process);
 
 }  // namespace isojam

@@ -10,21 +10,22 @@
 
 namespace isojam {
 
-/// Format of the lines of a table. In both formats, numbers have enough digits to reproduce them exactly.
+/// Format of a table with one line per row. In both formats, numbers have enough digits to reproduce them exactly.
 enum class RowFormat : std::uint8_t {
-  csv,        ///< CSV according to RFC 4180, except that lines end in a line feed; null is an empty field
-  json_lines  ///< one JSON object per line
+  csv,        ///< CSV according to RFC 4180, except that a line ends in a line feed only; null is an empty field
+  json_lines  ///< each line is a JSON object
 };
 
-/// The text as a CSV field. It is quoted if it contains a separator.
+/// The text as a CSV field. It is in quotation marks if it contains a comma, a quotation mark or a line break.
 std::string csv_field(const std::string& text);
 
-/// Names of the columns, in order, and the header line of a table. JSON lines have no header line, because each line
-/// contains the names.
+/// Names of the columns, in order.
 using Columns = std::vector<std::string>;
+/// The first line of a table, with the names of the columns. Empty for JSON lines, because each line contains the
+/// names.
 std::string head_line(RowFormat format, const Columns& columns);
 
-/// The line of a row. `values` has a scalar or null for each column.
+/// The line of one row. `values` has a scalar or null for each column.
 std::string row_line(RowFormat format, const Columns& columns, const std::vector<Json>& values);
 
 }  // namespace isojam

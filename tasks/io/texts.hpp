@@ -4,7 +4,7 @@
 
 namespace isojam {
 
-// Messages that several sources print.
+// Texts of messages that several source files use.
 
 inline constexpr std::string_view nested_too_deeply = "nested too deeply";
 inline constexpr std::string_view how_to_resume = "recorded results are kept; repeat the command to resume";

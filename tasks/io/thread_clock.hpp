@@ -4,7 +4,7 @@
 
 namespace isojam {
 
-/// CPU time of the calling thread in seconds, without other threads and processes.
+/// CPU time of the calling thread in seconds.
 inline double thread_cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

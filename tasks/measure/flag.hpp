@@ -10,13 +10,15 @@ namespace isojam {
 
 /// Warnings in the record of a replicate that did not fail.
 enum class Flag : std::uint8_t {
-  crystalline,         ///< Q6 of the contacts has the value of a crystal
-  not_balanced,        ///< states whose forces do not balance were accepted because of minimiser.energy_change
-  goal_not_reached,    ///< the decompression ended farther from jamming than requested
-  outside_fit_window,  ///< φ_J was fitted to two states, because fewer than two are in the fit window
-  not_stable,          ///< some state has a negative mode, or a number of zero modes other than three
-  classes_undecided,   ///< a fit of the alignment angles gave no cut-off
-  classes_doubtful     ///< a fit gave a cut-off, but the fitted curve does not support it
+  crystalline,       ///< Q6 of the nearest state, computed from all contacts, is above crystalline_q6
+  not_balanced,      ///< a state that is not in equilibrium was accepted because of minimiser.energy_change
+  goal_not_reached,  ///< the decompression ended farther from jamming than requested
+  /// φ_J was fitted to the two nearest states, because fewer than two states are in the fit window
+  outside_fit_window,
+  not_stable,         ///< a state has a negative mode, or a number of zero modes other than three
+  classes_undecided,  ///< a fit of the alignment angles gave no cut-off
+  /// a fit gave a doubtful cut-off, because the fitted curve deviates too much from the distribution of angles
+  classes_doubtful
 };
 template <>
 inline constexpr std::array enum_names<Flag>{EnumName{Flag::crystalline, "crystalline"},
@@ -27,7 +29,7 @@ inline constexpr std::array enum_names<Flag>{EnumName{Flag::crystalline, "crysta
                                              EnumName{Flag::classes_undecided, "classes_undecided"},
                                              EnumName{Flag::classes_doubtful, "classes_doubtful"}};
 
-/// Flags that exclude a replicate from means by default, because means are for disordered packings in equilibrium.
+/// Flags that exclude a replicate from means by default. Means are for disordered packings in equilibrium.
 inline std::vector<Flag> usually_excluded() { return {Flag::crystalline, Flag::not_balanced}; }
 
 }  // namespace isojam

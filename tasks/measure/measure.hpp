@@ -16,24 +16,28 @@
 namespace isojam {
 
 struct MeasureOptions {
-  int modes = 50;  ///< number of vibrational modes at each end of the spectrum; the paper averages over 50
+  int modes = 50;  ///< number of vibrational modes at each end of the spectrum; the paper averages over 50 modes
   ShearOptions shear;
 };
 
-/// Contribution of one measure to the record of a replicate. If a number is null, another field states the reason.
+/// Part of a record that one measure writes. If a number is null, another field states the reason.
 struct Measurement {
-  std::vector<Json> states;  ///< an object for each element of jam.states; it is added to the record of the state
-  Json replicate = Json::object();  ///< results that use all states; they are added to the record of the replicate
-  std::vector<std::string> flags;   ///< flags of the replicate
+  /// one object for each element of jam.states; its members are added to the record of the state
+  std::vector<Json> states;
+  /// results from several states; its members are added to the record of the replicate
+  Json replicate = Json::object();
+  std::vector<std::string> flags;  ///< flags of the replicate
 };
 
-/// A measure: its quantities in tables, and its function.
+/// Definition of a measure.
 struct MeasureDefinition {
+  /// quantities of the measure that are columns of tables
   std::span<const Quantity> quantities;
+  /// function that computes the measure
   Measurement (*measure)(const JamResult& jam, const MeasureOptions& options);
-  std::span<const Flag> flags = {};  ///< flags that only this measure sets, in the order in which it sets them
-  bool by_default = false;           ///< true if the measure is computed when a manifest names no measures
-  /// true if the measure is meaningful only at minima; saddles are then first relaxed along their negative modes
+  std::span<const Flag> flags = {};  ///< flags that only this measure sets, in the order in which the record lists them
+  bool by_default = false;           ///< true if the measure is computed for manifests without the key `measure`
+  /// true if the measure needs minima; saddles are then relaxed along their negative modes before any measure
   bool needs_minima = false;
 };
 
@@ -41,12 +45,12 @@ inline const MeasureDefinition& definition_of(Measure measure) {
   return *measure_definitions[static_cast<std::size_t>(measure)];
 }
 
-/// Computes a measure for a result that has states. It has no side effects; several threads may call it at the same
-/// time.
+/// Computes a measure. `jam` must have states. The function has no side effects, and several threads may call it at the
+/// same time.
 Measurement measure(Measure what, const JamResult& jam, const MeasureOptions& options = {});
 
-/// Index in jam.states of the state nearest jamming, which is the state with the lowest density among the states with
-/// positive energy. nullopt if there is none.
+/// Index in jam.states of the nearest state: the state with the lowest density among the states with positive energy.
+/// nullopt if no state has positive energy.
 std::optional<std::size_t> nearest_state(const JamResult& jam);
 
 }  // namespace isojam

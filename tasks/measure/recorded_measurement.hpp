@@ -4,8 +4,8 @@
 
 namespace isojam {
 
-/// The part of the record of a successful replicate that this measure wrote. Combining the parts of all measures gives
-/// the same bytes again.
+/// The part of a record that this measure wrote. The replicate must not have failed. A record that is made from the
+/// parts of all measures has the same bytes as the original.
 Measurement recorded_measurement(Measure what, const Json& record);
 
 }  // namespace isojam

@@ -11,11 +11,10 @@
 
 namespace isojam {
 
-/// Precision for all measures. States are measured with the full precision with which they are stored, also if the
-/// minimiser used a lower precision.
+/// Precision of all measures. They use both doubles of each coordinate, even if the minimiser used only the first.
 inline constexpr Precision state_precision = Precision::double_double;
 
-/// The contacts of a state, their angles and their classes.
+/// The contacts of a state, their alignment angles and their classes.
 struct ClassifiedContacts {
   std::vector<Contact> contacts;
   std::vector<Alignment> alignments;
@@ -23,27 +22,29 @@ struct ClassifiedContacts {
 };
 ClassifiedContacts classified_contacts(const Packing& packing, PackingEnergy& energy);
 
-/// The reason why contacts are not classified; nullopt if they are.
+/// The reason why the contacts cannot be classified; nullopt if they can.
 std::optional<std::string_view> undecided(const ContactAnalysis& analysis);
 
-/// JSON with Z and its parts, C, Q6, and the fits from which the classes follow.
+/// JSON with Z and its contributions, C, Q6, and the fits that give the cut-offs.
 Json contact_record(const ContactAnalysis& analysis);
-/// Flags: classes_undecided (a fit gave no cut-off), classes_doubtful (a fit gave a cut-off that its curve does not
-/// support), crystalline (Q6 is above crystalline_q6).
+/// The flags of the measure `contacts` that the nearest state causes: classes_undecided or classes_doubtful, and
+/// crystalline. See Flag.
 std::vector<std::string> contact_flags(const ContactAnalysis& nearest);
 
-/// The number x, which must be finite, rounded to this number of significant digits. It keeps long lists short.
+/// The finite number x, rounded to this number of significant digits. It keeps long lists short.
 double to_digits(double x, int digits);
 
-/// The reason why the cell of a state cannot be relaxed or sheared. nullopt if it can be, that is, if the forces
-/// balance and the pressure is positive.
+/// The reason why a state cannot be relaxed in a variable cell or sheared: its pressure is not positive, or its
+/// residual is above 1e-3. nullopt if it can.
 std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy& energy);
 
-/// Fits y ∝ Δφ^exponent to the states with Δφ ≤ scaling_window. Writes the exponent, its ci95_half_width and the number
-/// of points to the record of a replicate. `y` has one element per state, which is nullopt if y is unknown.
+/// Fits the exponent of y ∝ Δφ^exponent to the states with Δφ ≤ scaling_window. Writes the exponent, its
+/// ci95_half_width and the number of fitted states to the record of a replicate. `y` has one element for each state; it
+/// is nullopt if y is unknown.
 void put_scaling(Json& replicate, const Quantity& exponent, const JamResult& jam,
                  const std::vector<std::optional<double>>& y);
-/// largest Δφ of the fits; the default fit window of φ_J. Farther from jamming there is no single power law
+/// Largest Δφ of the states in these fits. It is the default fit window of φ_J. At larger Δφ, y does not follow one
+/// power law.
 inline constexpr double scaling_window = 0.02;
 
 }  // namespace isojam
