@@ -7,13 +7,13 @@
 
 namespace isojam {
 
-/// Numbers of records to which measures were added, and of records that were not changed because a measure failed.
+/// Number of records to which measures were added, and number of records that are unchanged because of a problem.
 struct AddingTally {
   std::size_t added = 0, left = 0;
 };
 
-/// Adds missing measures to records, with the parallel flow graph of a run. Shows a progress bar, and prints a warning
-/// for each failure.
+/// Adds measures to the records in `additions`, on `threads` threads. It shows the progress, and prints a warning for
+/// each record that remains unchanged. `memory_bytes` is the available memory.
 AddingTally add_measures(const Store& store, const Additions& additions, int threads, double memory_bytes,
                          const std::stop_token& stop, Console& console);
 

@@ -13,48 +13,49 @@
 #include "tasks/io/exit_codes.hpp"
 
 // CLI11 takes long to compile, so only command_line.cpp includes it.
-// NOLINTNEXTLINE(readability-identifier-naming): CLI11 is called so
+// NOLINTNEXTLINE(readability-identifier-naming): the library has this name
 namespace CLI {
 class App;
 }  // namespace CLI
 
 namespace isojam {
 
-/// The parsed command line: settings of the output, and the function of the chosen command.
+/// Result of parsing the command line: the options of the output, and the function to call.
 struct Session {
   ConsoleOptions console;
+  /// calls the function of the chosen command
   std::function<ExitCode(Console&)> work;
   ProgramDescription program;  ///< description of all commands and options
 };
 
-/// Defines arguments and options of a command or of the program. The variables that are passed by reference must exist
-/// as long as the app.
+/// Defines the arguments and options of a command or of the program. The variables that are passed by reference must
+/// exist as long as the app.
 class Options {
  public:
   enum class Need : bool { optional, required };
 
   explicit Options(CLI::App& app) : app_(app) {}
 
-  /// `name` is "word" for a positional argument and "-s,--long" for an option. `type` is the name of the value in the
-  /// help.
+  /// `name` is "word" for a positional argument, and "-s,--long" for an option. `type` is the name of the value in the
+  /// help, such as FILE.
   void text(const std::string& name, std::string& value, const std::string& description, const std::string& type,
             Need need = Need::optional);
   void texts(const std::string& name, std::vector<std::string>& values, const std::string& description,
              const std::string& type);
   void flag(const std::string& name, bool& value, const std::string& description);
   void positive(const std::string& name, double& value, const std::string& description, const std::string& type);
-  /// An option whose text the function `read` parses; it returns an error text if the text is wrong. `absent` is called
-  /// if the option is not given.
+  /// An option with its own syntax. `read` parses its text, and returns an error message if the text is invalid.
+  /// `absent` is called if the user does not give the option.
   void parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
               std::function<void()> absent, const std::string& description, const std::string& type);
-  /// An option whose value is the name of an enumerator.
+  /// An option with an enumeration: its value is the name of an enumerator.
   template <NamedEnum Enum>
   void choice(const std::string& name, Enum& value, const std::string& description, Need need = Need::optional) {
     one_of(
         name, {all_names<Enum>.begin(), all_names<Enum>.end()},
         [&value](const std::string& choice) { value = *from_string<Enum>(choice); }, description, need);
   }
-  /// Declares that the user may not give both options.
+  /// Forbids using both options together.
   void exclusive(const std::string& one, const std::string& other);
 
   void results_directory(std::string& directory);
@@ -67,12 +68,12 @@ class Options {
   CLI::App& app_;
 };
 
-/// Adds a command. `work` is the function that runs if the user gives this command.
+/// Adds a command. `work` is called if the user chooses this command.
 Options add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                     std::function<ExitCode(Console&)> work);
 
-/// Adds a command whose function has arguments. This function creates the object of the arguments; `work` receives it
-/// after the command line was parsed.
+/// Adds a command whose function takes arguments. Creates the object that stores them, and sets `arguments` to it.
+/// After the command line was parsed, `work` receives this object.
 template <class Arguments>
 Options add_command(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                     ExitCode (*work)(const Arguments&, Console&), Arguments*& arguments) {
@@ -82,7 +83,7 @@ Options add_command(CLI::App& app, Session& session, const std::string& name, co
                      [owned, work](Console& console) { return work(*owned, console); });
 }
 
-/// A function that adds a command, with its options and its function, to the program.
+/// A function that adds one command with its options to the program.
 using AddCommand = void (*)(CLI::App& app, Session& session);
 
 void add_run(CLI::App& app, Session& session);
@@ -94,9 +95,9 @@ void add_measure(CLI::App& app, Session& session);
 void add_completions(CLI::App& app, Session& session);
 void add_manual(CLI::App& app, Session& session);
 
-/// Parses the command line and stores the function of the chosen command in `session`. The help lists `commands` in
-/// this order. If there is nothing to run, because the user asked for help or the version or made an error, prints the
-/// text and returns the exit code.
+/// Parses the command line, and stores the function of the chosen command in `session`. The help lists `commands` in
+/// this order. If the user asked for the help or the version, or made an error, there is no function to call: the text
+/// is printed, and the exit code is returned.
 std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<const AddCommand> commands,
                                            Session& session);
 

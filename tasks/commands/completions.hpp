@@ -14,7 +14,7 @@ template <>
 inline constexpr std::array enum_names<Shell>{EnumName{Shell::bash, "bash"}, EnumName{Shell::zsh, "zsh"},
                                               EnumName{Shell::fish, "fish"}};
 
-/// The completion script for a shell. It completes commands, options, choices of options, files and directories.
+/// The completion script for a shell. It completes commands, options, their values, and names of files and directories.
 std::string completions(const ProgramDescription& program, Shell shell);
 
 }  // namespace isojam

@@ -5,12 +5,14 @@
 
 namespace isojam {
 
-/// An argument or option of a command or of the program, as the help shows it.
+/// Description of an argument or option of a command or of the program.
 struct OptionDescription {
-  /// names with their dashes, such as "-o" and "--output"; empty for a positional argument
+  /// names with dashes, such as "-o" and "--output"; empty for a positional argument
   std::vector<std::string> names;
-  std::string place;  ///< name of a positional argument
-  std::string type;   ///< name of the value in the help, such as DIR or FILE, or the choices; empty for a flag
+  std::string place;  ///< name of a positional argument; empty for an option
+  /// name of the value in the help, such as DIR or FILE, or a list of the choices; empty for a flag
+  std::string type;
+  /// all allowed values; empty if any text is allowed
   std::vector<std::string> choices;
   std::string description;
   bool required = false;
@@ -21,10 +23,10 @@ struct CommandDescription {
   std::vector<OptionDescription> options;
 };
 
-/// Description of the whole command line, from which the help, the manual page and the completions are made.
+/// Description of the whole command line. The help, the manual page and the completion scripts are made from it.
 struct ProgramDescription {
   std::string name, description, version, footer;
-  std::vector<OptionDescription> options;  ///< options of every command
+  std::vector<OptionDescription> options;  ///< options of the program, which are allowed with every command
   std::vector<CommandDescription> commands;
 };
 

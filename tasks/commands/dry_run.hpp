@@ -8,9 +8,9 @@
 
 namespace isojam {
 
-/// Prints a line for every sweep point: the number of replicates, the number of recorded replicates, and an estimate of
-/// the CPU time, disk space and memory of the other replicates. If there are records, their times are used to scale the
-/// estimate. The function writes no file.
+/// Prints a line for every sweep point: the number of replicates, how many of them are recorded, and the estimated CPU
+/// time of each. Then prints the estimated time, disk space and memory that the remaining replicates need. If there are
+/// records, the estimate is scaled to their times. It writes no file.
 ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& directory,
                  const RunArguments& arguments);
 

@@ -12,7 +12,8 @@
 
 namespace isojam {
 
-/// Formats of an export: packings for other programs, or tables of contacts, replicates or states.
+/// Formats of an export. The first three are for packings. The others are tables with one row per contact, replicate or
+/// state.
 enum class Exported { gsd, vtp, xyz, contacts, replicates, states };
 template <>
 inline constexpr std::array enum_names<Exported>{EnumName{Exported::gsd, "gsd"},
@@ -24,33 +25,37 @@ inline constexpr std::array enum_names<Exported>{EnumName{Exported::gsd, "gsd"},
 
 struct ExportArguments {
   std::string directory;  ///< results directory
-  std::string replicate;  ///< its name, or "all"
+  std::string replicate;  ///< name of a replicate; "all" for every recorded replicate
   Exported what = Exported::gsd;
-  /// Output path. For packings of all replicates, it is the directory for the files <name>.<format>, which is created
-  /// if it is missing. For tables, it is a file; empty means standard output.
+  /// Output path.
+  /// - Packing of one replicate: the file. It must not be empty. Some formats write more files beside it, see
+  ///   exported_files().
+  /// - Packings of all replicates: the directory for the files <name>.<extension>. It must not be empty, and is created
+  ///   if it is missing.
+  /// - Table: the file; empty for standard output.
   std::string output;
-  bool path = false;      ///< export all states of the decompression instead of only the state nearest jamming
-  bool contacts = false;  ///< also export the contact networks of packings
+  bool path = false;      ///< export all states of the decompression; otherwise only the nearest state
+  bool contacts = false;  ///< also export the contact networks of the packings
 
   bool all() const { return replicate == "all"; }
 };
 
-/// Names of the requested replicates. They are names of existing records, so no other text becomes a part of a path.
+/// Names of the replicates to export. If the user gave a name, throws FileError unless a record has this name. With
+/// this check, text such as "../x" cannot become part of a path.
 std::vector<std::string> chosen_names(const ExportArguments& arguments);
 
-/// Reads a record and checks that it belongs to this manifest, if there is one. Throws the same exceptions as
-/// read_record().
+/// Reads a record with read_record(). If there is a manifest and the record does not belong to it, throws InputError.
 RecordedReplicate own_record(const ExportArguments& arguments, const std::optional<Manifest>& manifest,
                              const std::string& name);
 
-/// Returns false if the replicate failed and therefore has no packing. If the user requested this replicate by name,
-/// throws an error; otherwise prints a warning.
+/// True if the replicate did not fail. For a failed replicate, prints a warning and returns false if all replicates are
+/// exported. If the user gave the name of a failed replicate, throws FileError.
 bool has_packing(const ExportArguments& arguments, const RecordedReplicate& held, Console& console);
 
-/// Writes packings in files for other programs, and prints the paths of the files to standard output.
+/// Writes files with packings for other programs, and prints the paths of these files to standard output.
 ExitCode export_packings(const ExportArguments& arguments, Console& console);
 
-/// Writes a table as CSV, or as JSON lines if the file name ends in .jsonl.
+/// Writes a table as CSV, or as JSON lines if the output path ends in .jsonl.
 ExitCode export_rows(const ExportArguments& arguments, Console& console);
 
 }  // namespace isojam

@@ -5,29 +5,29 @@
 #include "tasks/io/console.hpp"
 #include "tasks/io/exit_codes.hpp"
 
-// The commands that write pages need Vega and three.js. Without them (ISOJAM_PAGES=OFF) report.cpp and chart.cpp are
-// not compiled, and pages.cpp names the packages instead.
+// The commands that write HTML pages need Vega and three.js. Without these (ISOJAM_PAGES=OFF), report.cpp and chart.cpp
+// are not compiled. The commands then only print an error that names the missing packages.
 
 namespace isojam {
 
 struct ReportArguments {
   std::string directory;
-  std::string output;  ///< output path; empty: report.html in the results directory
+  std::string output;  ///< output path; empty means report.html in the results directory
 };
 
-/// Writes the report of a results directory as one interactive HTML file, and prints the path of the file to standard
-/// output.
+/// Writes the report of a results directory as one interactive HTML file, and prints its path to standard output.
 ExitCode report(const ReportArguments& arguments, Console& console);
 
 struct ChartArguments {
-  std::string config;  ///< path of a configuration; empty: the default configuration
-  bool full = false;   ///< use the built-in configuration that takes an hour
+  std::string config;  ///< path of a configuration; empty means a built-in configuration
+  bool full = false;   ///< use the built-in configuration that takes an hour instead of the one that takes five minutes
+  /// output directory
   std::string directory;
 };
 
-/// Compares methods on this machine, and writes data.json, table.txt and chart.html to the directory. The directory is
-/// created if it is missing. The table is also printed to standard output; its last three lines are the conclusion.
-/// After a signal, the results that were measured so far are written.
+/// Compares methods on this machine, and writes data.json, table.txt and chart.html to the directory, which is created
+/// if it is missing. Prints the table to standard output; its last three lines are the conclusion. After a signal,
+/// writes the results that have been measured so far.
 ExitCode chart(const ChartArguments& arguments, Console& console);
 
 }  // namespace isojam

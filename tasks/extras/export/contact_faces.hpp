@@ -6,20 +6,23 @@
 
 namespace isojam {
 
-/// Sets of the faces of A and of B that belong to a contact, as bits.
+/// The faces of A and of B that belong to a contact, as sets of bits.
 struct ContactFaces {
   std::uint64_t of_a = 0, of_b = 0;
 };
 
-/// Cut-off angles (radians) below which two faces, or an edge and a face, count as parallel.
+/// Cut-offs (radians) of the angle between two faces, and of the angle between an edge and a face.
 struct Cutoffs {
   double face_face = 0, edge_face = 0;
 };
 
-/// Finds the faces of a contact. For a face-face contact, these are the two parallel faces. For an edge-face contact,
-/// these are the face, and the two faces that meet in the edge. For a lower-order contact, these are all faces that
-/// bound the intersection. If several features are aligned, as for two solids in the same orientation, the features
-/// with the smallest depth are taken, because the others bound the intersection at its sides.
+/// Finds the faces of a contact.
+/// - For a face-face contact, these are its two faces.
+/// - For an edge-face contact, these are the face, and the two faces that meet at the edge.
+/// - For a lower-order contact, these are all faces that bound the intersection.
+///
+/// Several pairs of features may have alignment angles below the cut-off, for example if both solids have the same
+/// orientation. The pair with the smallest depth then counts, because the others bound the intersection at its sides.
 ContactFaces contact_faces(const ConvexSolid& solid_a, const ConvexSolid& solid_b, const Contact& contact,
                            ContactClass contact_class, const Cutoffs& cutoffs);
 

@@ -10,30 +10,31 @@
 
 namespace isojam {
 
-/// A contact with all exported properties, in the lab frame and in the units of ContactForce.
+/// A contact with all exported properties. Vectors are in the lab frame, and units are those of ContactForce.
 struct NetworkContact {
   NeighbourPair pair;
   Alignment alignment;
-  std::optional<ContactClass> contact_class;  ///< class by the fitted cut-offs; nullopt if the classes are undecided
+  std::optional<ContactClass> contact_class;  ///< class of the contact; nullopt if a fit found no cut-off
   ContactForce force;
 };
 
-/// All contacts of a packing, sorted by (a, b, shift), classified as in the measures.
+/// All contacts of a packing, sorted by (a, b, shift). They are classified as in the measure `contacts`.
 std::vector<NetworkContact> contact_network(const Packing& packing);
 std::vector<NetworkContact> contact_network(const Packing& packing, const ClassifiedContacts& classified);
 
-/// Identifies a state of a replicate in rows of contacts.
+/// Identifies a state in the rows of a table of contacts.
 struct StateName {
   std::string replicate;
   std::size_t state = 0;  ///< index of the state in the list `states` of the record
   std::optional<double> delta_phi;
 };
 
-/// The columns of a table of contacts, and the rows of one state. Columns: replicate, state, Δφ, a, b, image (the
-/// centre of the image of b is x_b + Σ image·(lattice vector)), V, |S|, force on a, point of application, normal that
-/// points out of a, torques on a and b about their centres, class by the fitted cut-offs, kind by the shape of the
-/// intersection, θ_ef, θ_ff (radians), depth, solids of a and b.
+/// Columns of a table of contacts: replicate, state, Δφ, a, b, image, V, |S|, force on a, point of application, normal
+/// (points out of a), torques on a and b about their centres, class, kind, θ_ef and θ_ff (radians), depth, solids of a
+/// and b. `image` has three integers n_i: the centre of the touching image of b is x_b + Σ n_i·(lattice vector i). The
+/// class depends on the fitted cut-offs, and the kind on the shape of the intersection, see ContactKind.
 const Columns& contact_columns();
+/// The rows of all contacts of one state.
 std::string contact_lines(RowFormat format, const StateName& name, const Packing& packing);
 
 }  // namespace isojam

@@ -21,12 +21,16 @@ struct ExportedFile {
   std::string bytes;
 };
 
-/// Makes the files of one replicate, in the order in which they are written, so that a file refers only to earlier
-/// ones. gsd: the file `output`. xyz: the file `output`, and the solid as an .obj file in the same folder. vtp: the
-/// file `output`; for a `collection`, files _0000.vtp, _0001.vtp, … for the frames and a .pvd file, whose names begin
-/// with `output` without its extension. The time of a frame is its Δφ, or its number if it has no Δφ. If frames have a
-/// contact network, there is a second set of files whose names end in -contacts. Throws FileError if two files would
-/// have the same path.
+/// Makes the files of one replicate, in the order in which they must be written: a file refers only to earlier ones.
+/// - gsd: the file `output`.
+/// - xyz: the file `output`, and the shape of each solid as an .obj file in the same folder. If particles differ in
+///   solid or size, the name of the solid is part of the name of its .obj file.
+/// - vtp without `collection`: the file `output`.
+/// - vtp with `collection`: files _0000.vtp, _0001.vtp, … for the frames, and a .pvd file. All names begin with
+///   `output` without the extension .vtp or .pvd. The time of a frame is its Δφ, or its index if a frame has no Δφ.
+///
+/// For vtp, frames with a contact network have a second set of files, whose names end in -contacts before the
+/// extension. Throws FileError if `output` for xyz has the extension .obj.
 std::vector<ExportedFile> exported_files(std::span<const ExportFrame> frames, ExportFormat format, bool collection,
                                          const std::filesystem::path& output);
 

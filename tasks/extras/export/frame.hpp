@@ -10,19 +10,19 @@
 
 namespace isojam {
 
-/// The contact of a face with the largest number of constraints. The numbers are written to files.
+/// The contacts of a face: the class with the most constraints among them. The numbers are written to files.
 enum class FaceContact : std::int32_t {
-  undecided = -1,  ///< the face has contacts, but they are not classified, because a fit found no cut-off
+  undecided = -1,  ///< the face has contacts, but their classes are undecided, because a fit found no cut-off
   none = 0,
   lower_order = 1,
   edge_face = 2,
   face_face = 3
 };
 
-/// The FaceContact of a contact of this class.
+/// The FaceContact of a face whose only contact has this class.
 FaceContact strength_of(ContactClass contact_class);
 
-/// One state of a decompression, with the properties that pictures show. N is the number of particles.
+/// One state, with the properties that viewers show. N is the number of particles.
 struct ExportFrame {
   static constexpr int no_cluster = -1;         ///< the particle has no face-face contact
   static constexpr int undecided_cluster = -2;  ///< the classes of the contacts are undecided
@@ -30,42 +30,44 @@ struct ExportFrame {
   Packing packing;
   std::optional<double> delta_phi;  ///< φ − φ_J; nullopt if there is no φ_J
   std::vector<std::int32_t> Z;      ///< number of contacts of each particle; N elements
-  /// For each particle, the smallest index of a particle in the same cluster of face-face contacts, or one of the
-  /// constants above; N elements.
+  /// For each particle, the smallest index of a particle in its cluster, or one of the constants above; N elements.
   std::vector<std::int32_t> cluster;
-  /// The contacts of all faces; face f of particle i has the index first_face[i] + f. The faces of a contact are those
-  /// of contact_faces(). If the classes are undecided, they are all faces that bound the intersection.
+  /// FaceContact of every face; that of face f of particle i has the index first_face[i] + f. The faces of a contact
+  /// are those of contact_faces(). If the classes are undecided, the faces of a contact are all faces that bound its
+  /// intersection.
   std::vector<FaceContact> faces;
-  /// index of the first face of each particle, N + 1 elements; the last element is the total number of faces
+  /// index of the first face of each particle; N + 1 elements, the last of which is the total number of faces
   std::vector<std::size_t> first_face{};
   std::optional<std::vector<NetworkContact>> network{};  ///< contact network, if requested
 
   const ConvexSolid& solid(std::size_t particle) const { return packing.solids[particle]; }
 };
 
-/// Makes a frame. Contacts, classes and clusters are found as in the measures. The contact network takes about 50 µs
-/// per contact. Throws std::invalid_argument if the cell is not larger than least_side() of the widest solid.
+/// Makes a frame. Contacts, classes and clusters are those of the measures. The contact network takes about 50 µs per
+/// contact. Throws std::invalid_argument if the cell is so small that a particle could touch two images of another one.
 ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network = false);
 
 /// Throws std::invalid_argument if there is no frame, or if the frames have different particles.
 void check_frames(std::span<const ExportFrame> frames);
 
-/// A position wrapped into the cell, and the number of lattice vectors: position = wrapped + h·image.
+/// A position that was wrapped into the cell, and the lattice translation: position = wrapped + h·image, where the
+/// columns of h are the lattice vectors.
 struct WrappedPosition {
   Eigen::Vector3d wrapped;
   Eigen::Vector3i image;
 };
 
-/// Wraps a position into [0, 1) along each lattice vector.
+/// Wraps a position so that its coordinates along the lattice vectors are in [0, 1).
 WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& position);
-/// Wraps a position into [−½, ½) along each lattice vector. For a cube, this is also true after the components and the
-/// side L were rounded to single precision.
+/// Wraps a position so that its coordinates along the lattice vectors are in [−½, ½). For a cube, they are still in
+/// this interval after the position and the side are rounded to single precision.
 WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position);
 
-/// Rotation of a packing to the frame that in_standard_frame() describes; the identity for a cube.
+/// The rotation of in_standard_frame(); the identity for a cube.
 Eigen::Matrix3d to_standard_frame(const PeriodicCell& cell);
-/// The packing, rotated so that its first lattice vector is along x and the second one in the xy plane. File formats
-/// that describe a cell by tilt factors require this. A cube is unchanged.
+/// The packing, rotated so that its first lattice vector is along x, and the second one is in the xy plane. File
+/// formats that describe a cell by tilt factors require this. A cube is unchanged; otherwise only the first double of
+/// each coordinate is kept.
 Packing in_standard_frame(Packing packing);
 
 }  // namespace isojam

@@ -13,28 +13,35 @@
 
 namespace isojam {
 
-/// The object that one row of a table describes.
+/// Kind of object that a row describes.
 enum class RowOf : std::uint8_t {
-  replicate,  ///< a replicate, with the quantities of the replicate and of its state nearest jamming
+  replicate,  ///< a replicate, with the quantities of the replicate and of its nearest state
   state       ///< a state of a decompression, with its quantities
 };
 
-/// Records as tables with one row per replicate or state, and one column per measured quantity. The columns are:
-/// replicate, solid, particles, swept parameters, number (of the replicate at its sweep point), status, flags and
-/// reasons as texts with "; " between them, excluded (from means); phi, delta_phi and the other values of a state; the
-/// quantities with their names in tables; evaluations and cpu_seconds of a replicate. Numbers are copied from the
-/// records. A missing value stays null, and `reasons` contains the reason.
+/// Records as a table with one row per replicate or state. The columns are, in this order:
+/// - replicate (its name), solid, particles, the swept parameters, and number (of the replicate at its sweep point)
+/// - only for replicates: status, failed_in and failure
+/// - flags, separated by "; ", and excluded (true if the replicate is excluded from means)
+/// - state (its index), phi, delta_phi and the other numbers that every state has
+/// - one column per measured quantity, with its name in tables
+/// - only for replicates: evaluations and cpu_seconds
+/// - reasons for missing values, separated by "; "
+///
+/// Numbers are copied from the records. A missing value is null.
 class RecordRows {
  public:
-  /// The columns depend on the manifest, or on the specification of the record `first` if there is no manifest.
+  /// The columns depend on the manifest. Without a manifest, they depend on the specification of the record `first`.
   RecordRows(RowOf of, RowFormat format, const std::optional<Manifest>& manifest, const RecordedReplicate& first);
 
+  /// The first line of the table.
   std::string head() const;
-  /// A failed replicate has one row in the table of replicates, and none in the table of states.
+  /// The lines of a replicate. If it failed, it has one line in the table of replicates, and none in the table of
+  /// states.
   std::string lines(const std::filesystem::path& directory, const RecordedReplicate& held) const;
 
  private:
-  /// Sources of the values of a row; `state` is null for a failed replicate.
+  /// The values of a row are taken from this; `state` is null for a failed replicate.
   struct Source {
     const RecordedReplicate& held;
     const Json* state;

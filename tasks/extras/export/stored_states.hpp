@@ -9,18 +9,19 @@
 
 namespace isojam {
 
-/// A state of a decompression that is stored in a results directory.
+/// A state that is stored in a results directory.
 struct StoredState {
   std::size_t index = 0;            ///< index of the state in the list `states` of the record
-  std::optional<double> delta_phi;  ///< φ − φ_J; nullopt without a jamming point
+  std::optional<double> delta_phi;  ///< φ − φ_J; nullopt if the record has no φ_J
   Packing packing;
 };
 
-/// Index of the state nearest jamming in the list `states` of the record. Throws InputError if there is none.
+/// Index of the nearest state in the list `states` of the record. Throws InputError if the list does not contain it.
 std::size_t index_of_nearest(const std::filesystem::path& directory, const RecordedReplicate& held);
 
-/// Reads the state nearest jamming of a replicate, or all states in order if `path` is true. The replicate must not
-/// have failed. Throws the same exceptions as read_record(), and FileError if the path was not kept.
+/// Reads the nearest state of a replicate. If `path` is true, reads all states of its path, in order. The replicate
+/// must not have failed. Throws FileError if a file is missing, for example because the path was not kept, or cannot be
+/// read at the moment. Throws InputError if a file is damaged or belongs to another record.
 std::vector<StoredState> stored_states(const std::filesystem::path& directory, const RecordedReplicate& held,
                                        bool path);
 

@@ -15,7 +15,7 @@ namespace isojam {
 
 using Text = std::back_insert_iterator<std::string>;
 
-/// Appends an array with the values values(k) for k < count, with `per_line` values on each line.
+/// Appends an array with the values values(k) for k = 0, …, count − 1. Each line of text contains `per_line` values.
 template <class Values>
 void append_array(std::string& xml, std::string_view type, std::string_view attributes, std::size_t count,
                   std::size_t per_line, const Values& values) {
@@ -26,10 +26,11 @@ void append_array(std::string& xml, std::string_view type, std::string_view attr
   xml += "</DataArray>\n";
 }
 
-/// The beginning of a PolyData file up to its piece. The field data are side, cell if it is not a cube, phi, and
-/// delta_phi if there is one. `explanation` is a comment, which may be empty.
+/// The beginning of a PolyData file, up to the element Piece. Field data: side, cell (three lattice vectors) unless it
+/// is a cube, phi, and delta_phi if the frame has it. `explanation` is an XML comment, or empty.
 std::string vtk_head(const ExportFrame& frame, std::string_view explanation);
 
+/// The end of a PolyData file, from the end of the element Piece.
 inline constexpr std::string_view vtk_foot = "</Piece>\n</PolyData>\n</VTKFile>\n";
 
 }  // namespace isojam

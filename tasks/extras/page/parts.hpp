@@ -6,27 +6,28 @@
 
 namespace isojam {
 
-/// A file that was compiled into the program.
+/// A file that is part of HTML pages and was compiled into the program.
 struct PagePart {
   enum class Kind : std::uint8_t {
-    frame,   ///< HTML with a placeholder for each of the other parts
+    frame,   ///< HTML with a placeholder for the parts of each other kind
     notice,  ///< licences of the libraries
+    /// CSS
     style,
-    module,  ///< a CommonJS module of Vega, required by `name`
-    script   ///< a script that is run unchanged, in the order of the parts
+    module,  ///< a CommonJS module of Vega; other modules refer to it by `name`
+    script   ///< a script; scripts run unchanged, in the order of the parts
   };
   Kind kind;
   std::string_view name;
   std::string_view text;
 };
 
-// These lists are generated when the program is built. The parts have the order in which they appear in a page.
+// These lists are generated when the program is built. Parts are in the order in which they appear in a page.
 
 /// Parts of every page: Vega, the code that loads it, and the code that draws figures.
 std::span<const PagePart> common_parts();
-/// Additional parts of the report of a sweep.
+/// Additional parts of the report of a study.
 std::span<const PagePart> report_parts();
-/// Additional parts of the chart of accuracy against speed.
+/// Additional parts of the chart, which compares the accuracy and the speed of methods.
 std::span<const PagePart> chart_parts();
 
 }  // namespace isojam

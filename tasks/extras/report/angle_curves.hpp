@@ -8,26 +8,26 @@
 
 namespace isojam {
 
-/// Critical angles and random curves of a solid, as in the paper's Figure 2. They do not depend on a run. Angles are in
-/// degrees:
-///  {"critical": {"face_face": [{"topology", "angle"}], "edge_face": [...]},
-///   "random": [{"which", "face_face": [[θ, c], ...], "edge_face": [...]}]}.
-/// For a mixture, it has the smallest critical angles and no random curves.
+/// Critical angles of a solid, and distributions of the alignment angles of random contacts, as in the paper's Figure
+/// 2. They do not depend on a run. Angles are in degrees; c is the fraction of angles up to θ:
+/// {"critical": {"face_face": [{"topology", "angle"}], "edge_face": [...]},
+/// "random": [{"which", "face_face": [[θ, c], ...], "edge_face": [...]}]}.
+/// For a mixture, the critical angles are the smallest ones of its solids, and "random" is empty.
 Json angle_references(const Mixture& mixture);
 
-/// Empirical distribution of angles (radians, in any order) as [[θ in degrees, c], ...], with one entry for each step.
-/// If several steps are so close in log θ that a diagram does not resolve them, only the last one is kept. Angles below
+/// The empirical distribution of angles (radians, in any order) as [[θ in degrees, c], ...], with one entry for each
+/// step. Where steps are too close in log θ for a diagram to resolve them, it contains only the last one. Angles below
 /// `angle_floor` are replaced by `angle_floor`.
 Json thinned_cdf(std::span<const double> angles);
 
 /// Smallest angle that is drawn, in degrees.
 inline constexpr double angle_floor = 1e-6;
 
-/// Jamming density of the paper's Table I, with the half width of its 95 % confidence interval.
+/// Jamming density in Table I of the paper, and half the width of its 95 % confidence interval.
 struct PaperDensity {
   double phi_j = 0, half_width = 0;
 };
-/// The value for a packing of the paper; nullopt for all other packings.
+/// The jamming density for packings of this solid with this N; nullopt if Table I does not contain it.
 std::optional<PaperDensity> paper_density(const Mixture& solid, int particles);
 
 }  // namespace isojam

@@ -6,8 +6,8 @@
 
 namespace isojam {
 
-/// Makes the HTML file of a report, which shows report_data(). The file is self-contained: it loads no other files.
-/// Text in the data is never interpreted as HTML.
+/// Makes the HTML file of a report. `data` is the result of report_data(). The file is self-contained: it loads no
+/// other files. Text in `data` is never interpreted as HTML.
 std::string report_page(const Json& data);
 
 }  // namespace isojam

@@ -10,11 +10,11 @@
 namespace isojam {
 
 struct ViewOptions {
-  /// Largest total number of particles of all views with modes. Each particle takes a quarter to one millisecond and
-  /// about 300 bytes.
+  /// Largest total number of particles of all views that have modes. Each particle takes 0.25 to 1 ms and about 300
+  /// bytes.
   int budget = 2000;
   /// Largest total number of particles of all views. Each particle takes about 160 bytes, half of them for forces.
-  /// Every sweep point has one view even if this number is exceeded.
+  /// Every sweep point has at least one view, even if this number is then exceeded.
   int most_particles = 40000;
   int modes = 4;  ///< number of modes at each end of the spectrum
 };
@@ -22,28 +22,33 @@ struct ViewOptions {
 /// A replicate whose packing is shown.
 struct ChosenView {
   std::size_t replicate = 0;  ///< index of the replicate in the results
-  bool with_modes = false;    ///< false if the number of particles would exceed the budget
+  /// true if the view has modes; false if their total number of particles would exceed `budget`
+  bool with_modes = false;
 };
 
-/// Chooses the replicates whose packings are shown. For each sweep point, it chooses the first successful replicate, if
-/// possible one without a flag. Then it chooses more replicates of each sweep point in turn, as long as the limits
-/// allow. The result is in the order of the replicates.
+/// Chooses the replicates whose packings are shown. First it chooses one replicate of each sweep point: the first one
+/// that did not fail and has no flag, or else the first one that did not fail. Then it repeatedly adds one more
+/// replicate of each sweep point, as long as ViewOptions allows. The result is sorted by replicate.
 std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& options = {});
 
-/// Data of a packing for the three-dimensional view. For the particles, it has positions (in the cell), orientations
-/// (w, x, y, z), numbers of contacts, local Q6, and the cluster of face-face contacts. It also has the unwrapped
-/// largest cluster, and the largest force (Y·V_p^(2/3)). Each contact is a row of six integers: a, b, the force in
-/// thousandths of the largest force, and the point of application relative to the centre of a in hundredths (lab
-/// frame). `modes` is the number of modes at each end of the spectrum; it may be 0. A mode has ω (null if λ ≤ 0) and
-/// the displacements (x, θ) of each particle in the lab frame, scaled so that the largest is 1. Missing values are
-/// null.
+/// Data of a packing for the three-dimensional view.
+/// - For each particle: its position in the cell, orientation (w, x, y, z), number of contacts, local Q6, and cluster.
+/// - The largest cluster, see unwrapped_cluster().
+/// - Six integers for each contact, one contact after another: a, b, the force in thousandths of the largest force, and
+///   the point of application relative to the centre of a, in hundredths (lab frame). The largest force is given in
+///   units of Y·V_p^(2/3).
+/// - Modes: `modes` of them at each end of the spectrum; `modes` may be 0. A mode has its frequency ω and the
+///   displacements (x, θ) of each particle in the lab frame. These are scaled so that the component with the largest
+///   magnitude is ±1. If the eigenvalue is not positive, ω is null.
+///
+/// Missing values are null.
 Json packing_view(const Packing& packing, int modes);
 
-/// {"members", "positions", "winding_rank"} of a cluster that is followed along its bonds. Its mean position is at the
-/// centre of the cell.
+/// {"members", "positions", "winding_rank"} of a cluster. Positions are followed along the contacts, without jumps at
+/// the faces of the cell, and shifted so that their mean is the centre of the cell.
 Json unwrapped_cluster(const Packing& packing, const Cluster& cluster);
 
-/// Vertices, faces and edges of a solid in the body frame.
+/// The circumradius, vertices, faces and edges of a solid in its body frame.
 Json solid_shape(const ConvexSolid& solid);
 
 }  // namespace isojam
