@@ -9,15 +9,15 @@
 
 namespace isojam {
 
-/// The stability atlas as a part of a chart.
+/// The stability atlas of a chart, see atlas.hpp.
 struct ChartAtlas {
   FamilyEnd ended = FamilyEnd::complete;
   std::vector<AtlasRow> rows;
 };
 
-/// Cost of a part of a chart, including untimed work.
+/// CPU time of a part of a chart, including work that is not timed for points.
 struct PartCost {
-  std::string part;  ///< "packings", "equilibria" (made once for several families), or the comparison
+  std::string part;  ///< name of a comparison, or "packings" and "equilibria", which several comparisons use
   double cpu_seconds = 0;
 };
 
@@ -25,8 +25,8 @@ struct PartCost {
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a Json is noexcept; the check sees its assertions throw.
 struct ChartResult {
   std::vector<ChartFamily> families;
-  std::optional<ChartAtlas> atlas;  ///< nullopt unless requested
-  std::vector<PartCost> costs;      ///< in the order of measurement
+  std::optional<ChartAtlas> atlas;  ///< nullopt if the configuration does not request the atlas
+  std::vector<PartCost> costs;      ///< in the order in which the parts were measured
 };
 
 }  // namespace isojam

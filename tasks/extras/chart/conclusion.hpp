@@ -8,21 +8,22 @@
 
 namespace isojam {
 
-/// Number of tasks in which a method reaches a residual, and the time that it needs.
+/// Result of a method: in how many tasks it reaches a residual, and how much time it needs.
 struct Standing {
   std::string method;
-  /// number of tasks in which the largest residual of a point is within the limit, and number of tasks that were tried
+  /// number of tasks in which the method reaches the residual in all packings with at least one setting, and number of
+  /// tasks that were tried
   int reached = 0, tasks = 0;
-  double seconds = 0;  ///< time for all reached tasks, each with the fastest setting
+  double seconds = 0;  ///< sum of the times of the reached tasks, each with the fastest of these settings
 };
 
-/// Ranks the methods of the family `equilibrium` for a residual: by the number of tasks in which they reach it, then by
-/// time. A setting that did not reach its own tolerance may still reach this residual.
+/// Ranks the methods in the family `equilibrium` for a residual: first by the number of tasks in which they reach it,
+/// then by time. A setting may reach this residual even if it failed to reach the residual that it requested.
 std::vector<Standing> standings(std::span<const ChartPoint> points, double residual);
 
-/// Makes three lines of text: the fastest method that reaches 1e-6, the fastest method that reaches 1e-9, and the
-/// methods that miss each requested residual, together with the residuals of the paper's stopping rule. All lines use
-/// the same criterion, whether a residual is reached. `bias` contains the points of the family `bias`.
+/// Makes three lines of text: a comparison of methods for the residual 1e-6, the same for the residual 1e-9, and a list
+/// of the methods that miss each requested residual. The last line also states the residuals with the paper's stopping
+/// rule. `bias` contains the points of the family `bias`.
 std::array<std::string, 3> conclusion(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias);
 
 }  // namespace isojam

@@ -12,7 +12,7 @@
 
 namespace isojam {
 
-/// Comparisons of a chart, in the order of measurement.
+/// Comparisons of a chart, in the order in which they are measured.
 enum class Comparison { equilibrium, hessian, modes, overlap, atlas, phi_j, growth };
 template <>
 inline constexpr std::array enum_names<Comparison>{EnumName{Comparison::equilibrium, "equilibrium"},
@@ -24,8 +24,8 @@ inline constexpr std::array enum_names<Comparison>{EnumName{Comparison::equilibr
                                                    EnumName{Comparison::growth, "growth"}};
 inline constexpr auto all_comparisons = all_of<Comparison>;
 
-/// Settings of the protocol. Each setting has the first value of its list, except for one setting at a time, which
-/// takes its other values.
+/// Settings of the comparison phi_j. The first setting of the protocol consists of the first values of all lists. Every
+/// other setting differs from it in one parameter, which has another value of its list.
 struct PhiJConfig {
   SolidKind solid = SolidKind::octahedron;
   int replicates = 3;
@@ -36,50 +36,53 @@ struct PhiJConfig {
   std::vector<double> residual{1e-6, 1e-3};
 };
 
-/// Sizes for which the cost as a function of the number of particles is measured.
+/// Settings of the comparison growth, which measures the CPU time as a function of N.
 struct GrowthConfig {
   std::vector<SolidKind> solids{SolidKind::octahedron};
   std::vector<int> particles{50, 100, 200};
-  int replicates = 2;  ///< number of replicates per solid and size
-  /// distances to jamming Δφ of the equilibria whose time is measured
+  int replicates = 2;  ///< number of replicates for each solid and N
+  /// distances Δφ of the equilibria that are timed
   std::vector<double> distances{0.05, 0.03, 0.02, 0.012};
 };
 
-/// Comparisons of a chart and their time limits. The default values of the members are the default configuration, which
-/// takes less than five minutes on a machine with two cores.
+/// Configuration of a chart. The default values of the members are the default configuration, which takes less than
+/// five minutes on a machine with two cores.
 struct ChartConfig {
   std::vector<Comparison> compare{all_comparisons.begin(), all_comparisons.end()};
   std::vector<SolidKind> solids{SolidKind::tetrahedron, SolidKind::octahedron};
   std::uint64_t seed = 1;
   int particles = 64;
-  int packings = 2;                                ///< number of packings per solid
-  std::vector<double> distances{0.1, 0.03, 0.01};  ///< distances to jamming Δφ of the equilibria to be found
-  double fit_window = 0.05;  ///< largest Δφ of the states to which φ_J is fitted; methods are compared by this φ_J
-  std::vector<double> tolerances{1e-3, 1e-6, 1e-9};  ///< residuals that are requested of every method
-  std::vector<double> energy_changes{1e-12};         ///< relative energy changes of the paper's stopping rule
+  int packings = 2;                                ///< number of packings of each solid
+  std::vector<double> distances{0.1, 0.03, 0.01};  ///< distances Δφ of the equilibria that are compared
+  double fit_window = 0.05;  ///< φ_J is fitted to states with Δφ up to this value; methods are compared by this φ_J
+  /// residuals that every minimiser except for the paper's stopping rule has to reach
+  std::vector<double> tolerances{1e-3, 1e-6, 1e-9};
+  /// relative energy changes at which the paper's stopping rule ends a minimisation
+  std::vector<double> energy_changes{1e-12};
+  /// steps of central differences
   std::vector<double> difference_steps{1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-11};
   std::vector<double> shifts{1e-6, 1e-9, 1e-11, 1e-13};  ///< shifts −σ/λ_max of the shift-invert method
-  std::vector<int> subspaces{120, 200};                  ///< dimensions of the Krylov spaces
-  int pairs = 40;                                        ///< number of pairs per solid and class of contact
-  int repetitions = 3;                                   ///< number of repetitions of each time measurement
-  long max_evaluations = 4000;                           ///< largest number of evaluations of one minimisation
-  /// Largest number of evaluations of one minimisation with the paper's stopping rule, which needs more evaluations.
+  std::vector<int> subspaces{120, 200};                  ///< dimensions of the Krylov space of Lanczos methods
+  int pairs = 40;                                        ///< number of pairs for each solid and class of pairs
+  int repetitions = 3;                                   ///< number of repetitions of each measurement of time
+  long max_evaluations = 4000;                           ///< largest number of evaluations in one minimisation
+  /// The same for a minimisation with the paper's stopping rule, which needs more evaluations.
   long rule_evaluations = 20000;
-  double point_seconds = 10;   ///< largest wall-clock time of one point
-  double total_seconds = 280;  ///< wall-clock time after which the current point is stopped and no further point begins
+  double point_seconds = 10;   ///< wall-clock time after which a minimisation is stopped
+  double total_seconds = 280;  ///< wall-clock time after which the chart is stopped
   PhiJConfig phi_j;
   GrowthConfig growth;
 };
 
-/// The configuration of a chart that takes an hour. It has larger packings, and all solids except cubes, whose
-/// constraints are redundant.
+/// The configuration of a chart that takes an hour. It has larger packings and more settings. It has all named solids
+/// except cubes, whose constraints are redundant.
 ChartConfig full_chart_config();
 
-/// Reads a configuration. A missing key has the default value in ChartConfig. Throws InputError if a key is unknown or
-/// occurs twice, or if a value is not allowed.
+/// Reads a configuration. A key that is missing has the default value in ChartConfig. Throws InputError if a key is
+/// unknown or occurs twice, or if a value is not allowed. `file` is the name of the configuration in error messages.
 ChartConfig parse_chart_config(std::string_view text, const std::string& file);
 
-/// The complete configuration in the format that parse_chart_config() reads.
+/// All values of a configuration, in the format that parse_chart_config() reads.
 Json to_json(const ChartConfig& config);
 
 }  // namespace isojam

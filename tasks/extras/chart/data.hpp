@@ -9,12 +9,11 @@
 
 namespace isojam {
 
-/// The content of data.json (schemas/chart_data.schema.json), which the page of the chart shows: configuration,
-/// provenance, families with their points, Pareto fronts of the tasks, the atlas, the costs of the parts, and the
-/// conclusion.
+/// The content of data.json (schemas/chart_data.schema.json), which the page of the chart shows: the configuration, the
+/// build, the families of points with their Pareto fronts, the atlas, the costs of the parts, and the conclusion.
 Json chart_data(const ChartConfig& config, const ChartResult& result);
 
-/// The family with this name; empty if there is none.
+/// The points of the family with this name; empty if there is no such family.
 std::span<const ChartPoint> points_of(std::span<const ChartFamily> families, std::string_view name);
 
 /// The chart as text: a table for each family and for the atlas, the costs of the parts, and the conclusion.

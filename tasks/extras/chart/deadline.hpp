@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// Requests a stop after a given time, or when another stop token requests a stop.
+/// Requests a stop after a given time, or when the stop token `outer` requests a stop.
 class Deadline {
  public:
   Deadline(double seconds, const std::stop_token& outer);
@@ -17,7 +17,7 @@ class Deadline {
  private:
   std::stop_source source_;
   std::stop_callback<std::function<void()>> on_outer_;
-  std::jthread timer_;  // last, so that it ends before the members that it uses
+  std::jthread timer_;  // declared last, so that its thread ends before the members that it uses are destroyed
 };
 
 }  // namespace isojam

@@ -8,10 +8,10 @@
 
 namespace isojam {
 
-/// Indices of the Pareto front of the points of one task, in the order of time. The front consists of the successful
-/// points that no other point dominates. A point dominates another one if its median time and its median error are not
-/// greater, and at least one of them is smaller. If several points have equal time and error, only the first is on the
-/// front.
+/// Indices of the points on the Pareto front of one task, sorted by time. Points that failed, or that have no time or
+/// error, are ignored. A point is on the front if no other point dominates it, that is, if no other point is better in
+/// time or error without being worse in the other one. Times and errors are medians. If several points have the same
+/// time and error, only the first is on the front.
 std::vector<std::size_t> pareto_front(std::span<const ChartPoint> points);
 
 }  // namespace isojam

@@ -13,22 +13,23 @@
 
 namespace isojam {
 
-/// Settings that all measurements of a chart share.
+/// Settings of all measurements of a chart.
 struct Measuring {
   const ChartConfig& config;
-  std::stop_token stop;  ///< requests a stop when the time is over, or after a signal
-  /// called with the name of the next part before it is measured
+  std::stop_token stop;  ///< requests a stop when the time limit is reached, or after a signal
+  /// called before each part is measured, with the name of the part
   std::function<void(const std::string& next)> progress;
 
   bool over() const { return stop.stop_requested(); }
 };
 
-/// Work that takes longer than this is timed only once, because repetitions are needed only to reduce the noise of the
-/// clock.
+/// Work that takes longer than this is timed only once. Repetitions only reduce the noise of the clock, which is small
+/// for such work.
 inline constexpr double seconds_worth_repeating = 0.1;
 
-/// Runs `work` as often as the configuration requires, or once if it takes long, and returns the CPU times of the
-/// calling thread. `work` must give the same result each time.
+/// Runs `work` as often as the configuration requires, and returns the CPU time of the calling thread for each run.
+/// Stops earlier if all runs together take longer than seconds_worth_repeating. `work` must give the same result each
+/// time.
 template <class Work>
 std::vector<double> timed(const Measuring& measuring, const Work& work) {
   const auto begun = std::chrono::steady_clock::now();

@@ -11,50 +11,52 @@
 
 namespace isojam {
 
-/// A packing that was jammed with Newton's method. All comparisons begin from states of its decompression.
+/// A packing that was jammed with Newton's method. The comparisons of minimisers, Hessians and modes start from states
+/// of its decompression.
 struct JammedSolid {
   SolidKind solid = SolidKind::octahedron;
-  int number = 0;  ///< number of the packing
+  int number = 0;  ///< index of the packing, from 0
   double phi_j = 0;
-  std::vector<Packing> states;  ///< states of the decompression, in the order of descending density
+  std::vector<Packing> states;  ///< states of the decompression, in the order of decreasing density
 };
 
-/// Jams as many packings of every solid as the configuration requests, and returns the packings that jammed. After a
-/// stop request there are fewer.
+/// Jams as many packings of every solid as the configuration requests, and returns those for which φ_J was found. After
+/// a stop request, no further packing is added.
 std::vector<JammedSolid> jam_all(const Measuring& measuring);
 
-/// A strain step as in a decompression.
+/// A strain step of a decompression.
 struct StrainStart {
-  Packing equilibrium;  ///< equilibrium before the step, a state of the decompression
-  double distance = 0;  ///< φ − φ_J of this equilibrium
+  Packing equilibrium;  ///< state before the step
+  double distance = 0;  ///< φ − φ_J of this state
   double density = 0;   ///< density after the step
 
   /// The packing after the affine strain, which is not in equilibrium.
   Packing strained() const { return strained_to(equilibrium, density); }
 };
 
-/// The strain step from a state of the decompression to the density φ_J + distance. nullopt if the decompression began
-/// at a smaller distance.
+/// The strain step to the density φ_J + distance. It starts from the nearest state with φ − φ_J ≥ 1.1·distance; nullopt
+/// if there is no such state.
 std::optional<StrainStart> start_at(const JammedSolid& jammed, double distance);
 
-/// The equilibrium that minimise() finds after this strain step by the default method, with a residual of 1e-9 or as
-/// small as possible. nullopt if it finds none.
+/// The equilibrium after this strain step. It is found by minimise() with the default method, with a residual of 1e-9
+/// or at the residual floor. nullopt if no equilibrium is found.
 std::optional<Packing> equilibrium_at(const JammedSolid& jammed, double distance, const Measuring& measuring);
 
-/// The equilibria of a solid at a distance to jamming, of every packing that has one.
+/// Equilibria of packings of one solid at one distance to jamming. The pair of solid and distance is called a task.
 struct TaskEquilibria {
+  /// name of the task, see task_name()
   std::string task;
   std::vector<Packing> packings;
 };
 
-/// The equilibria for every solid and distance of the configuration, in this order. After a stop request, returns those
-/// that are complete.
+/// The equilibria for every solid and distance of the configuration, in this order. A packing without an equilibrium at
+/// the distance is left out. After a stop request, all further packings are left out.
 std::vector<TaskEquilibria> all_equilibria(std::span<const JammedSolid> jammed, const Measuring& measuring);
 
 /// The dynamical matrix of an equilibrium, computed in double-double.
 BlockMatrix double_double_hessian(const Packing& packing);
 
-/// "octahedron, Δφ = 0.015"
+/// Name of a task, such as "octahedron, Δφ = 0.015".
 std::string task_name(SolidKind solid, double distance);
 
 }  // namespace isojam

@@ -8,18 +8,21 @@
 
 namespace isojam {
 
-/// A group of cells of one regime and method with the same verdict.
+/// Cells of the atlas with the same regime, method and verdict. If the verdict is not `holds`, they also have the same
+/// reason.
 struct AtlasRun {
   std::string regime, method;
+  /// true if isojam uses this method in this regime
   bool standard = false;
   AtlasVerdict verdict = AtlasVerdict::holds;
-  std::string settings;  ///< "1e-04 … 1e-08, 1e-12": neighbours in the atlas as ranges
-  std::string figure;    ///< of the first cell
-  std::string reason;    ///< reason of the first cell; all cells of a group that does not hold have the same reason
+  /// settings of the cells, such as "1e-04 … 1e-08, 1e-12"; "…" stands for the cells between two cells of the atlas
+  std::string settings;
+  std::string figure;  ///< measured value in the first cell
+  std::string reason;  ///< reason in the first cell
 };
 
-/// Makes a short form of the atlas. Regimes and methods have the same order as in the atlas. For each of them, the
-/// group that holds comes first, then one group for each other reason.
+/// Makes a short form of the atlas. Regimes and methods have the same order as in the atlas. For each regime and
+/// method, the group with the verdict `holds` comes first, followed by one group for each other reason.
 std::vector<AtlasRun> atlas_runs(std::span<const AtlasRow> rows);
 
 }  // namespace isojam

@@ -8,12 +8,12 @@
 
 #include "tasks/extras/chart/atlas/atlas.hpp"
 
-// Shared by the parts of the atlas.
+// Functions and classes that several parts of the atlas use.
 
 namespace isojam {
 
-/// Collects rows in the order in which they are added. After a stop request no row is added, because its measurement
-/// may be incomplete.
+/// Collects rows in the order in which they are added. After a stop request it adds no row, because the measurement of
+/// the row may be incomplete.
 class AtlasRows {
  public:
   explicit AtlasRows(std::stop_token stop) : stop_(std::move(stop)) {}
@@ -23,6 +23,7 @@ class AtlasRows {
   void add(AtlasRow row) {
     if (!over()) rows_.push_back(std::move(row));
   }
+  /// All collected rows. Call it only once.
   std::vector<AtlasRow> taken() { return std::move(rows_); }
 
  private:
@@ -30,13 +31,14 @@ class AtlasRows {
   std::vector<AtlasRow> rows_;
 };
 
-/// Sets the verdict of a row: holds if error ≤ tolerance; fails if it is larger or if there is no value. `what` is the
-/// name of the error.
+/// Sets the verdict of a row: `holds` if error ≤ tolerance, and `fails` if the error is larger or missing. `what` is
+/// the name of the error.
 AtlasRow judged(AtlasRow row, std::optional<double> error, double tolerance, const std::string& what);
 
+/// Sets the verdict `refuses` of a row, with the reason.
 AtlasRow refused(AtlasRow row, const std::string& why);
 
-/// "1e-10"; "exactly" for 0.
+/// Text such as "1e-10"; "exactly" for 0.
 std::string decade_name(double x);
 
 }  // namespace isojam

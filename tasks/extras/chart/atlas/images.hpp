@@ -4,18 +4,18 @@
 
 namespace isojam {
 
-/// The energy from all images of all pairs, including images of the same particle, by clipping in quadruple precision.
-/// It is correct for any cell.
+/// The energy of all pairs of particles and images, including images of the same particle, by clipping in quadruple
+/// precision. It is correct for every cell in the atlas, however small.
 double energy_over_images(const Packing& packing);
-/// The energy from only the nearest image of each pair.
+/// The energy of each pair of particles, with only the nearest image.
 double energy_of_nearest_images(const Packing& packing);
 
-/// A packing of n tetrahedra at random positions near the corner of a cell. They are so close that all of them touch,
-/// most of them across a periodic boundary.
+/// A packing of n tetrahedra at random positions near the corner of a cell. They are so close together that all of them
+/// touch, most of them across a face of the cell.
 Packing cornered(int n, double side);
 
-/// A packing of twelve solids near the origin of a cell. The cell is so large that no rotation of the packing makes a
-/// solid touch an image.
+/// A packing of twelve solids near the origin of a cell. The cell is so large that, for every rotation of the packing,
+/// no solid touches an image.
 Packing cluster(SolidKind kind);
 
 }  // namespace isojam

@@ -7,22 +7,23 @@
 
 namespace isojam {
 
-/// States of 45 octahedra, which is the smallest number that is allowed in a cell, decompressed to Δφ = 1.3e-3. The
-/// condition numbers of their Hessians range from 1e3 to 6e12.
+/// States of a packing of 45 octahedra, decompressed to Δφ = 1.3e-3. N = 45 is the smallest number that the cell
+/// allows. The condition numbers of the Hessians of these states are between 1e3 and 6e12.
 class AtlasStates {
  public:
-  /// Jams the packing. Throws std::runtime_error if this fails, which happens only if the protocol has an error.
+  /// Jams the packing. Throws std::runtime_error if no φ_J is found, which would be an error of the protocol.
   explicit AtlasStates(const std::stop_token& stop = {});
 
-  /// True if there are no states because of a stop request. No other function may then be called.
+  /// True if there are no states because of a stop request. In this case call no other function.
   bool empty() const { return states_.empty(); }
 
   double phi_j() const { return phi_j_; }
-  /// States of the decompression, in the order of descending density.
+  /// All states of the decompression, in the order of decreasing density.
   const std::vector<Packing>& all() const { return states_; }
   /// φ − φ_J of one of these states.
   double distance_of(const Packing& packing) const { return packing.density() - phi_j_; }
-  /// The state from which one strain step leads to Δφ: the nearest state with a larger Δφ, or the first state.
+  /// The state before a strain step to Δφ: the nearest one whose distance is above Δφ, or the first state if there is
+  /// none.
   const Packing& above(double delta_phi) const;
 
  private:

@@ -7,8 +7,9 @@
 
 namespace isojam::oracle {
 
-/// A convex polyhedron, stored as closed polygons, which is cut by one half-space after another. The result is exact if
-/// T is an exact number type. With T = double, it is accurate enough to construct a test case with a given volume.
+/// A convex polyhedron, stored as closed polygons. Half-spaces can be cut off one after another. If T is an exact
+/// number type, the result is exact. With T = double, it is accurate enough to construct a test case with a given
+/// volume.
 template <class T>
 class ClipPolytope {
  public:
@@ -25,7 +26,7 @@ class ClipPolytope {
   void clip(const Vector& normal, const T& offset) {
     std::vector<Side> kept;
     std::vector<Segment> rim;
-    bool capped = false;  // a face that lies in the plane already closes the cut
+    bool capped = false;  // true if a face lies in the cutting plane, so that the cut is already closed
     for (const Side& side : sides_) {
       const MarkedPolygon cut = clip_polygon(side.corners, normal, offset);
       const std::size_t n = cut.size();
@@ -62,7 +63,7 @@ class ClipPolytope {
     return T(six / 6);
   }
 
-  /// The vector area ∫ n dS, directed outwards, of the remaining parts of the original faces.
+  /// The vector area ∫ n dS of the remaining parts of the original faces. n points outwards.
   Vector original_area() const {
     Vector twice{T(0), T(0), T(0)};
     for (const Side& side : sides_) {
@@ -105,8 +106,8 @@ class ClipPolytope {
     return T(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2] - offset);
   }
 
-  /// The intersection of an edge with the plane. It is always computed from the inner end of the edge, so that both
-  /// faces of the edge get the same bits.
+  /// The intersection of an edge with the plane. It is always computed from the end of the edge that remains, so that
+  /// both faces of the edge get the same bits.
   static Vector crossing(const Vector& in, const T& below, const Vector& out, const T& above) {
     const T t(below / (below - above));
     return {T(in[0] + t * (out[0] - in[0])), T(in[1] + t * (out[1] - in[1])), T(in[2] + t * (out[2] - in[2]))};
@@ -126,7 +127,7 @@ class ClipPolytope {
     return cut;
   }
 
-  /// Joins the edges of the cut to the polygon that lies in the cutting plane.
+  /// Joins the edges of the cut to a polygon in the cutting plane.
   static void close(std::vector<Side>& kept, std::vector<Segment>& rim) {
     if (rim.size() < 3) return;
     Polygon cap;

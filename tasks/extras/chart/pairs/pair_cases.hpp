@@ -12,17 +12,19 @@
 
 namespace isojam::oracle {
 
-/// Classes of pairs that are difficult for an overlap algorithm for different reasons.
+/// Classes of pairs of solids. Each is difficult for an overlap algorithm for another reason.
 enum class PairClass {
-  random_contact,       ///< random orientation and direction
-  near_parallel_faces,  ///< two faces in contact, tilted by 1e-10..1e-2
-  edge_in_face,         ///< an edge in a face, tilted by 0 or 1e-16..1e-2
-  parallel_edges,       ///< two edges in contact, parallel within rounding errors
-  vertex_vertex,        ///< two vertices in contact on a common axis
-  same_orientation,     ///< equal orientation up to a symmetry of the solid, with any displacement
-  coplanar_faces,       ///< equal orientation, displaced so that faces are coplanar, exactly or within rounding errors
-  coincident,           ///< equal position and orientation up to a symmetry, exactly or within rounding errors
-  near_coincident,      ///< nearly equal position and orientation, displaced and rotated by 1e-16..1e-8
+  random_contact,       ///< random orientation, displaced in a random direction
+  near_parallel_faces,  ///< two faces in contact; the angle between them is 1e-10 to 1e-2
+  edge_in_face,         ///< an edge in contact with a face; the angle between them is 0, or 1e-16 to 1e-2
+  parallel_edges,       ///< two edges in contact that are parallel within rounding errors
+  vertex_vertex,        ///< two vertices in contact; both are on a line through the two centres
+  same_orientation,     ///< equal orientation up to a symmetry of the solid, displaced in a random direction
+  /// equal orientation up to a symmetry, displaced so that faces are coplanar, exactly or within rounding errors
+  coplanar_faces,
+  coincident,  ///< equal position, and equal orientation up to a symmetry, exactly or within rounding errors
+  /// nearly equal position and orientation: the displacement and the rotation are 0, or 1e-16 to 1e-8
+  near_coincident,
 };
 
 }  // namespace isojam::oracle
@@ -47,20 +49,21 @@ namespace isojam::oracle {
 
 inline constexpr auto all_pair_classes = all_of<PairClass>;
 
-/// Range of V/V_p for the first five classes, which are contacts. The logarithm is uniformly distributed.
+/// Range of V/V_p of the first five classes; its logarithm is uniformly distributed in this range.
 inline constexpr double least_contact_volume = 1e-5, greatest_contact_volume = 3e-2;
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): A and B first reads best, and there are few of them
+/// A pair of solids: A is at the origin and not rotated, B is rotated and displaced.
 struct PairCase {
   SolidKind a, b;
-  Eigen::Quaterniond quaternion;  ///< quaternion of any length
+  Eigen::Quaterniond quaternion;  ///< rotation of B; the quaternion may have any length
   Eigen::Vector3d displacement;
 };
 
-/// The first `count` pairs of a class. They depend only on the arguments, because the seed is fixed.
+/// The first `count` pairs of a class. Equal arguments give equal pairs, because the seed is fixed.
 std::vector<PairCase> pair_cases(SolidKind a, SolidKind b, PairClass pair_class, int count);
 
-/// Volume of the intersection by clipping in double precision. Use it to construct pairs, not to check results.
+/// Volume of the intersection, by clipping in double precision. Use it to construct pairs, but not to check results.
 double rough_volume(const PairCase& pair);
 
 }  // namespace isojam::oracle

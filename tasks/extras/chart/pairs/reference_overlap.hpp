@@ -16,10 +16,9 @@ struct ReferenceOverlap {
   std::array<Digits50, 3> area;  ///< S_A = ∂V/∂x_A
 };
 
-/// Computes V and S_A of a pair with an error of at most 1e-25, by cutting A with one face plane of B after another.
-/// The rotation by q/|q| and the displacement are used as exact numbers. The vertices of the solids have an error of
-/// 1e-32. Do not use it for pairs with coplanar faces, because with this error they cannot be distinguished from nearly
-/// coplanar ones.
+/// Computes V and S_A of a pair with an error of at most 1e-25: it cuts A with the face planes of B, one after another.
+/// The rotation by q/|q| and the displacement are exact. The vertices of the solids have an error of 1e-32. Do not use
+/// the function for pairs with coplanar faces, because this error can make such faces cross each other.
 ReferenceOverlap reference_overlap(const PairCase& pair);
 
 }  // namespace isojam::oracle
