@@ -7,11 +7,11 @@
 
 namespace isojam::bench {
 
-/// Particles of one solid, each placed once, and pairs in the order of a neighbour list.
+/// Particles of one solid, and pairs of them in the order of a neighbour list. Each particle is placed once.
 struct PairSet {
   struct Pair {
     int a = 0, b = 0;
-    Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< x_b − x_a
+    Eigen::Vector3d r = Eigen::Vector3d::Zero();  ///< x_b − x_a for this image of b
   };
 
   PlacedSolids placed;
@@ -23,15 +23,15 @@ struct PairSet {
   const Eigen::Vector3d& r(std::size_t k) const { return pairs[k].r; }
 };
 
-/// Random orientations and directions, V/V_p in 1e-5 … 3e-2. There are too many different pairs for a branch predictor
-/// to learn. Kept from one call to the next.
+/// Pairs with random orientations and directions, and V/V_p from 1e-5 to 3e-2. There are so many different pairs that a
+/// branch predictor cannot learn them. Later calls with the same argument return the same object.
 const PairSet& touching_pairs(SolidKind kind);
 
-/// The pairs of compressed packings of N particles with this overlap, packing after packing, in the order in which each
-/// evaluates them; 10⁴ particles in total.
+/// Pairs with V/V_p from 1e-5 to 3e-2 in the packings of relaxed(), each with n particles. There are 10⁴ particles in
+/// total. The pairs of one packing follow those of the previous one, in the order in which the energy evaluates them.
 const PairSet& packing_pairs(SolidKind kind, int n);
 
-/// The same for separated pairs whose circumspheres overlap.
+/// The same number of pairs as touching_pairs(), without contact, but with circumspheres that overlap.
 const PairSet& separated_pairs(SolidKind kind);
 
 }  // namespace isojam::bench

@@ -10,10 +10,10 @@
 
 namespace isojam::bench {
 
-// Alternatives that a user could choose instead of the contact loop and the block factorisation.
+// Programs of others with which the contact loop and the block factorisation are compared.
 
-/// voro++: A's cell, cut once per particle, is copied and cut by B's planes. The results are volume, centroid,
-/// neighbours and, from its face areas, S_A.
+/// The library voro++. For each particle A, its cell is made once. For each pair, a copy of the cell is cut by the
+/// planes of B. This gives the volume, the centroid, the neighbours, and S_A from the areas of the faces.
 class VoroCells {
  public:
   explicit VoroCells(const PairSet& set);
@@ -21,9 +21,9 @@ class VoroCells {
   VoroCells(const VoroCells&) = delete;
   VoroCells& operator=(const VoroCells&) = delete;
 
-  /// Volume of A ∩ B for pair k.
+  /// Volume of the intersection of pair k.
   double overlap(std::size_t k);
-  /// S_A of the pair in the last call of overlap().
+  /// S_A of the pair in the latest call of overlap().
   const Eigen::Vector3d& area() const { return area_; }
 
  private:
@@ -33,10 +33,12 @@ class VoroCells {
   std::unique_ptr<Cells> cells_;
 };
 
-/// CGAL: intersection of the half-spaces of both solids, with exact predicates and constructions in double.
+/// The library CGAL: intersection of the half-spaces of both solids. Predicates are exact, and constructions are in
+/// double.
 double cgal_overlap(const PairSet& set, std::size_t k);
 
-/// CHOLMOD: supernodal, with the better order of minimum degree and METIS, its symbolic part kept; one thread.
+/// The library CHOLMOD: supernodal factorisation with one thread. The elimination order is that of minimum degree or
+/// METIS, whichever is better. The symbolic part is computed once.
 class CholmodFactor {
  public:
   explicit CholmodFactor(const Eigen::SparseMatrix<double>& lower_half);
@@ -44,7 +46,7 @@ class CholmodFactor {
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 
-  /// Returns false if the matrix is not positive definite.
+  /// Factorises the matrix. Returns false if it is not positive definite.
   bool factorise();
   Eigen::VectorXd solve(const Eigen::VectorXd& b);
 
@@ -54,10 +56,11 @@ class CholmodFactor {
   std::unique_ptr<Workspace> workspace_;
 };
 
-/// The BLAS used by CHOLMOD: its version, its kernels for this machine, and its threads.
+/// Description of the BLAS that CHOLMOD uses: its version, its kernels for this processor, and its number of threads.
 std::string blas_in_use();
 
-/// Largest relative difference between a peer's volumes and the contact loop's over the first `pairs` pairs.
+/// Largest relative difference between the volumes of another method and those of the contact loop, for the first
+/// `pairs` pairs.
 template <class Volume>
 double worst_difference(const PairSet& set, std::size_t pairs, const Volume& volume) {
   double worst = 0;
@@ -65,12 +68,12 @@ double worst_difference(const PairSet& set, std::size_t pairs, const Volume& vol
     SeparatingAxis unused;
     const double ours = overlap(set.a(k), set.b(k), set.r(k), unused).volume;
     const double difference = std::abs(volume(k) - ours) / ours;
-    if (!(difference <= worst)) worst = difference;  // keeps a NaN
+    if (!(difference <= worst)) worst = difference;  // also if the difference is NaN
   }
   return worst;
 }
 
-/// The same for S_A of all pairs, relative to |S_A| of the contact loop.
+/// The same for S_A, for all pairs and relative to |S_A| of the contact loop.
 template <class Area>
 double worst_area_difference(const PairSet& set, const Area& area) {
   double worst = 0;

@@ -12,17 +12,17 @@
 
 namespace isojam::bench {
 
-/// Collects every repetition of every benchmark.
+/// Collects the results of all repetitions of all benchmarks.
 class MedianReporter : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& context) override;
   void ReportRuns(const std::vector<Run>& runs) override;
 
-  /// Quantities by name, as in Claim.
+  /// Median of each quantity, by its name as in Claim.
   std::map<std::string, double> medians() const;
   const std::map<std::string, std::string>& labels() const { return labels_; }
   bool failed() const { return failed_; }
-  /// CPU, cores, compiler.
+  /// Description of the machine: processor, number of cores, compiler.
   const nlohmann::ordered_json& machine() const { return machine_; }
 
  private:

@@ -6,12 +6,13 @@
 
 namespace isojam::bench {
 
-/// Random packings of density 0.7 after a few evaluations of L-BFGS each: contacts similar to those of a compressed
-/// packing, at a cost that allows 10⁴ particles. Kept from one call to the next.
+/// Random packings with density 0.7 after a few evaluations with L-BFGS. Their contacts are similar to those of a
+/// compressed packing, but they can be computed for 10⁴ particles. Later calls with the same arguments return the same
+/// object.
 const std::vector<Packing>& relaxed(SolidKind kind, int n, int packings = 1);
 
-/// A packing strained affinely from an equilibrium to `distance` in density above its jamming point, where it is not in
-/// equilibrium. Kept from one call to the next.
+/// A packing whose density is about φ_J + `distance`. It was strained from an equilibrium and is not in equilibrium
+/// itself. Later calls with the same arguments return the same object.
 const Packing& strained(SolidKind kind, int n, double distance);
 
 }  // namespace isojam::bench

@@ -12,57 +12,62 @@
 
 namespace isojam::oracle {
 
-/// 100 decimal digits: sums over an intersection then keep the solids' own 60 digits, even for very thin intersections.
+/// A number with 100 decimal digits. Sums over an intersection then retain the 60 digits of the solids, even if the
+/// intersection is very thin.
 using Real =
     boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<100>, boost::multiprecision::et_off>;
 using RealVector = Eigen::Matrix<Real, 3, 1>;
 using RealMatrix = Eigen::Matrix<Real, 3, 3>;
 using RealQuaternion = Eigen::Quaternion<Real>;
 
-/// Pose of B in A's body frame: y ↦ R y + displacement, R the rotation by q/|q|. q must not be zero, and need not be a
-/// unit quaternion; R is the exact rational matrix of its components.
+/// Pose of B in the body frame of A: y ↦ R y + displacement. R is the rotation by q/|q|. It is computed exactly, as a
+/// rational function of the components of q, which may have any length except 0.
 struct ExactPose {
   RealQuaternion quaternion{Real(1), Real(0), Real(0), Real(0)};
   RealVector displacement = RealVector::Zero();
 };
 
-/// The pose that these doubles represent exactly.
+/// The pose with exactly these components.
 ExactPose exact_pose(const Eigen::Quaterniond& quaternion, const Eigen::Vector3d& displacement);
 inline ExactPose exact_pose(const PairCase& pair) { return exact_pose(pair.quaternion, pair.displacement); }
 
-/// The same pose with its exact rotation matrix rounded to double once: the input of the engine.
+/// The same pose for the engine: the exact rotation matrix and displacement, rounded once to double.
 RelativePose rounded(const ExactPose& pose);
 
-/// A as seen from B (lengths V_p^(1/3), rotation inverted): exchanges the two solids.
+/// The pose of A in the body frame of B, which exchanges the two solids.
 ExactPose inverse(const ExactPose& pose);
 
-/// Upper limit of the displacement of a face plane by rounding errors in double, of the pose and of the algorithm: 64
+/// Upper limit of the displacement of a face plane by rounding errors of the pose and of the algorithm in double: 64
 /// ulp of the size of the pair.
 double plane_rounding(SolidKind a, SolidKind b);
 
-/// Intersection of A and B to at least 30 digits; conventions of isojam::Overlap (A's body frame, A's centre).
+/// The intersection of A and B with at least 30 correct digits. Vectors are in the body frame of A, and moments are
+/// about its centre, as in isojam::Overlap.
 struct ExactOverlap {
   Real volume = 0;
   RealVector area = RealVector::Zero();    ///< S_A = ∂V/∂x_A
   RealVector moment = RealVector::Zero();  ///< M_A = ∂V/∂θ_A
-  /// False if a face of A and one of B share a piece of the boundary (or touch along it). S and M are then one-sided,
-  /// and the values count the shared piece as A's.
+  /// False if a face of A and a face of B lie in one plane and share a part of the boundary. S and M are then
+  /// discontinuous; the values here count the shared part as a part of A.
   bool single_valued = true;
-  /// Area of the boundary that may change between A and B if the face planes move by plane_rounding(): strips along the
-  /// contact loop, and whole facets where faces of A and B nearly coincide. An upper limit of the effect of rounding on
-  /// S.
+  /// Upper limit of the effect of rounding on S: the area of the boundary that may change between A and B if the face
+  /// planes move by plane_rounding(). It consists of strips along the contact loop, and of whole faces where faces of A
+  /// and B nearly coincide.
   double contested_area = 0;
-  std::uint32_t faces_a = 0, faces_b = 0;  ///< faces with a piece of positive area on the intersection
-  std::uint32_t edges_a = 0, edges_b = 0;  ///< edges with a piece of positive length on it
+  /// bits of the faces of which a part with positive area bounds the intersection
+  std::uint32_t faces_a = 0, faces_b = 0;
+  /// bits of the edges of which a part with positive length bounds the intersection
+  std::uint32_t edges_a = 0, edges_b = 0;
 };
 
-/// Convex hull, in exact rational arithmetic (CGAL), of the vertices of either solid inside the other and of the points
-/// where an edge of one crosses a face of the other. The only approximation is in the solids: √5 and the cube roots of
-/// the unit-volume scale are rationals with errors of 1e-60, the same for A and B. Throws std::logic_error if the
-/// engine's vertices are not within 1e-14 of the closed forms, std::invalid_argument for a zero quaternion.
+/// Computes the intersection as a convex hull in exact rational arithmetic (CGAL). The points are the vertices of each
+/// solid inside the other one, and the points where an edge of one solid crosses a face of the other one. Only the
+/// solids are approximate: √5 and the cube roots of the scales are rational numbers with errors of 1e-60. Throws
+/// std::logic_error if a vertex of the engine's solids deviates by more than 1e-14 from the closed form. Throws
+/// std::invalid_argument for a quaternion of length 0.
 ExactOverlap exact_overlap(SolidKind a, SolidKind b, const ExactPose& pose);
 
-/// The volume by an independent method: A cut in rational arithmetic by one face plane of B after another.
+/// The volume by an independent method: it cuts A with the face planes of B, one after another, in rational arithmetic.
 Real exact_clipped_volume(SolidKind a, SolidKind b, const ExactPose& pose);
 
 }  // namespace isojam::oracle

@@ -28,29 +28,29 @@ RationalVector operator+(const RationalVector& u, const RationalVector& v);
 RationalVector operator-(const RationalVector& u, const RationalVector& v);
 RationalVector operator*(const RationalMatrix& m, const RationalVector& v);
 
-/// Rotation by q/|q|: quadratic in q over |q|², hence rational.
+/// The matrix of the rotation by q/|q|. It is rational, because its entries are quadratic forms of q divided by |q|².
 RationalMatrix rotation_matrix(const RealQuaternion& q);
 
-/// normal·y ≤ offset inside. The normal is not normalised.
+/// A half-space: the points y with normal·y ≤ offset. The normal may have any length.
 struct RationalPlane {
   RationalVector normal;
   Rational offset;
 };
 
-/// A Platonic solid with rational vertices whose faces are exactly planar. Features have the same indices as in the
-/// engine.
+/// A named solid with rational vertices, whose faces are exactly planar. Vertices, edges and faces have the same
+/// indices as in the engine.
 struct ExactSolid {
   std::vector<RationalVector> vertices;
   std::vector<RationalPlane> planes;
-  std::vector<std::vector<int>> faces;  ///< vertices counter-clockwise seen from outside
+  std::vector<std::vector<int>> faces;  ///< indices of the vertices of each face, counter-clockwise seen from outside
   std::vector<Edge> edges;
-  std::vector<std::uint32_t> vertex_planes;  ///< bit i: the vertex lies on face i
+  std::vector<std::uint32_t> vertex_planes;  ///< for each vertex: bit i is set if it lies on face i
 };
 
-/// The shared instance; throws like exact_overlap().
+/// The only object for this solid. Throws the std::logic_error of exact_overlap().
 const ExactSolid& exact_solid(SolidKind kind);
 
-/// The solid after y ↦ rotation·y + displacement.
+/// The solid with each point y replaced by rotation·y + displacement.
 ExactSolid moved(const ExactSolid& solid, const RationalMatrix& rotation, const RationalVector& displacement);
 
 }  // namespace isojam::oracle

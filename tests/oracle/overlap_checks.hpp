@@ -8,41 +8,41 @@
 
 namespace isojam::oracle {
 
-/// Deviation of an Overlap from the exact one, each relative to its scale.
+/// Deviations of an Overlap from the exact overlap. Each is relative to a scale.
 struct OverlapErrors {
-  double volume = 0;  ///< |ΔV|/V; infinite if the exact V is 0 and the other is not
+  double volume = 0;  ///< |ΔV|/V; infinite if V is 0 but the other value is not
   double area = 0;    ///< |ΔS|/|S|
-  double moment = 0;  ///< |ΔM|/max(|M|, |S|·inradius): M may vanish although its parts do not
+  double moment = 0;  ///< |ΔM|/max(|M|, |S|·inradius of A); |M| alone can be 0 although its contributions are not
 };
 
 OverlapErrors errors(const Overlap& measured, const ExactOverlap& exact, SolidKind a);
 
-/// Largest errors permitted for a class of pairs.
+/// Largest allowed errors for a class of pairs.
 struct OverlapTolerance {
   double volume = 0;
-  /// Absolute: the change of V due to a shift by plane_rounding(), hence the limit if V itself is that small.
+  /// Largest allowed absolute error of V, which applies if V is very small: the effect of plane_rounding() on V.
   double volume_floor = 0;
-  double gradient = 0;  ///< for area and moment, if they are single-valued
-  /// True if faces may nearly coincide, so that rounding of the pose limits S and M. The limit is then
-  /// gradient_noise().
+  double gradient = 0;  ///< largest allowed error of `area` and `moment`
+  /// True if faces may nearly coincide, so that rounding of the pose changes S and M. The allowed error is then
+  /// gradient_noise() if this is larger.
   bool contested = false;
 };
 
 OverlapTolerance tolerance(PairClass pair_class, SolidKind a, SolidKind b);
 
-/// Effect of rounding of the pose alone on S and M, relative to their scales: contested_area/|S|, and for M times the
-/// longest lever arm. Above the tolerance, a pose in double does not determine the gradient to that accuracy. Infinite
-/// if the gradient is not single-valued.
+/// Upper limit of the relative errors of S and M that rounding of the pose alone can cause: contested_area/|S|, times
+/// the ratio of circumradius and inradius of A. It is infinite if S and M are discontinuous.
 double gradient_noise(const ExactOverlap& exact, SolidKind a);
 
-/// The limit on S and M for a pair: the tolerance, or gradient_noise() if that is permitted and larger.
+/// Largest allowed error of S and M for a pair: the tolerance, or gradient_noise() if it is larger and faces may nearly
+/// coincide.
 double gradient_limit(const ExactOverlap& exact, SolidKind a, const OverlapTolerance& tolerance);
 
-/// Description of the deviations of `measured`, with numbers; empty if it agrees with the oracle.
+/// Text with the errors of `measured` that are too large; empty if there are none.
 std::string disagreement(const Overlap& measured, const ExactOverlap& exact, SolidKind a,
                          const OverlapTolerance& tolerance);
 
-/// The complete input, so that a failure can be reproduced.
+/// Text with all digits of the pair, so that a failure can be reproduced.
 std::string describe(const PairCase& pair);
 
 }  // namespace isojam::oracle

@@ -13,7 +13,7 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   return m;
 }
 
-/// H_AB only, in A's body frame.
+/// The block H_AB of the Hessian of V, in the body frame of A.
 inline Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis unused;
   OverlapHessian hessian;
@@ -22,7 +22,8 @@ inline Matrix6d overlap_cross_hessian(const ConvexSolid& a, const ConvexSolid& b
   return hessian.ab;
 }
 
-/// ∂²V/∂(x_A, θ_A)² by the plain formula of OverlapHessian. For B exchange the bodies: H_BAᵀ, S_B = −S_A, −r.
+/// The block ∂²V/∂(x_A, θ_A)², by the formula in the comment of OverlapHessian. For the block of B, exchange the
+/// solids: pass the transpose of H_AB, S_B = −S_A, and −r.
 inline Matrix6d own_hessian(const Matrix6d& cross, const Eigen::Vector3d& area, const Eigen::Vector3d& r) {
   Matrix6d transport = Matrix6d::Identity();
   transport.topRightCorner<3, 3>() = -skew(r);

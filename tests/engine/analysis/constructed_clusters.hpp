@@ -8,22 +8,23 @@
 
 namespace isojam::constructed {
 
-/// Unit cubes parallel to the axes, and bonds between them.
+/// Unit cubes with faces parallel to those of the cell, and bonds between some of them.
 struct Structure {
   Packing packing;
   std::vector<NeighbourPair> bonds;
 };
 
-/// Cubes with these centres in a cell with this side, without bonds.
+/// Cubes with these centres in a cubic cell, without bonds.
 Structure at(double side, const std::vector<Eigen::Vector3d>& centres);
 
-/// n sites along an axis with distance 1.
+/// n points on a coordinate axis with distance 1, from the origin.
 std::vector<Eigen::Vector3d> row(int n, int axis);
 
-/// Bonds from each of the particles from..to − 1 to the next one.
+/// Adds a bond from each of the particles from, …, to − 1 to the next one.
 void add_chain(Structure& structure, int from, int to);
 
-/// All sites of an n[0] × n[1] × n[2] block, bonded along the axes, and through the boundary where `closed`.
+/// A block of n[0] × n[1] × n[2] cubes with bonds between neighbours. If `closed` is true for an axis, bonds also
+/// connect the two ends of the block through the face of the cell.
 Structure block(const Eigen::Vector3i& n, const std::array<bool, 3>& closed, double side);
 
 std::vector<Cluster> clusters_of(const Structure& structure);

@@ -9,18 +9,19 @@
 
 namespace isojam::testing_packings {
 
-inline constexpr double epsilon = 2.220446049250313e-16;  ///< of double
+/// rounding unit of double: the distance from 1 to the next larger double
+inline constexpr double epsilon = 2.220446049250313e-16;
 
-/// One random packing of every solid, with contacts of all depths.
+/// One random packing of every named solid. The contacts have many different depths.
 std::vector<Packing> samples(std::uint64_t seed, int n, double density);
 
-/// A random packing that depends only on the arguments.
+/// A random packing; equal arguments give equal packings.
 Packing sample(SolidKind kind, int n, double density, std::uint64_t seed);
 
-/// 6N independent standard normal numbers, in the order of moved().
+/// 6N independent numbers from the standard normal distribution, in the order that moved() expects.
 Eigen::VectorXd random_step(RandomStream& random, int n);
 
-/// Rounding error of the energy due to the coordinates and to a sum over the contacts.
+/// Upper limit of the rounding error of the energy, which comes from the coordinates and from the sum over contacts.
 double energy_tolerance(const Evaluation& evaluation);
 
 Eigen::MatrixXd dense(const BlockMatrix& matrix);

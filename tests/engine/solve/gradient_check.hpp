@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// Energy and gradient (6N entries, as Evaluation::gradient) of a packing.
+/// Energy of a packing, and its gradient (6N entries, in the order of Evaluation::gradient).
 struct EnergyAndGradient {
   double energy = 0;
   Eigen::VectorXd gradient;
@@ -15,19 +15,19 @@ struct EnergyAndGradient {
 using EnergyFunction = std::function<EnergyAndGradient(const Packing&)>;
 
 struct GradientCheck {
-  /// Largest distance between g·d and the central difference along d, divided by the tolerance from the mean value
-  /// theorem and rounding. At most 1 if the gradient is correct.
+  /// Largest difference between g·d and the central difference along d, divided by its tolerance. The tolerance follows
+  /// from the mean value theorem and from rounding. If the gradient is correct, `worst` is at most 1.
   double worst = 0;
-  Eigen::Index entry = -1;  ///< coordinate of the largest; −1 for a random direction
-  double allowed = 0;       ///< its tolerance, relative to the largest entry of the gradient
+  Eigen::Index entry = -1;  ///< coordinate of this difference; −1 for a random direction
+  double allowed = 0;       ///< tolerance of this difference, divided by the largest entry of the gradient
 
   bool passes() const { return worst <= 1; }
 };
 
-/// Compares the gradient of `function` with central differences of its energy over ±step (a length), along every
-/// coordinate and along as many random directions, up to the first contradiction. By the mean value theorem the
-/// difference quotient is the slope somewhere in between. It may therefore differ from the slope in the middle by at
-/// most the variation of slopes there.
+/// Compares the gradient of `function` with central differences of its energy, for displacements ±step (a length). It
+/// tests the directions of all coordinates and as many random directions, and stops at the first error. By the mean
+/// value theorem, a central difference equals the slope at some point between the two ends. It therefore differs from
+/// the slope at the centre by at most the variation of the slope between the ends.
 GradientCheck check_gradient(const EnergyFunction& function, const Packing& packing, double step, RandomStream& random);
 
 }  // namespace isojam

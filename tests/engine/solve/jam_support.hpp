@@ -6,12 +6,13 @@
 
 namespace isojam {
 
+/// A solid and a number of particles.
 struct System {
   SolidKind kind;
   int n;
 };
 
-/// Large steps and a coarse goal.
+/// Options for fast tests: large steps, and states that are far from jamming.
 inline JamOptions lax() {
   JamOptions options;
   options.compression.initial_density = 0.2;

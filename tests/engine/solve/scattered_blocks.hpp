@@ -8,8 +8,8 @@
 
 namespace isojam {
 
-/// A matrix on the graph of n points scattered in a periodic cube, each coupled to about ten near ones by random
-/// blocks. A shift of `safe_shift` makes it positive definite.
+/// A matrix for n points at random positions in a periodic cube. A random block couples each point to each of about ten
+/// near points. With a shift of `safe_shift` the matrix is positive definite.
 inline BlockMatrix scattered_blocks(int n, std::uint64_t seed) {
   RandomStream random{seed, static_cast<std::uint64_t>(n)};
   Eigen::Matrix3Xd points(3, n);
@@ -30,7 +30,7 @@ inline BlockMatrix scattered_blocks(int n, std::uint64_t seed) {
   return matrix;
 }
 
-/// Rows of about 60 entries with variance 1/12 have eigenvalues between about −5 and 5.
+/// Rows with about 60 random entries of variance 1/12 give eigenvalues between about −5 and 5.
 inline constexpr double safe_shift = 10;
 
 }  // namespace isojam

@@ -14,10 +14,10 @@
 
 namespace isojam {
 
-/// Uniform in [low, high).
+/// A number uniformly distributed in [low, high).
 inline double uniform(RandomStream& random, double low, double high) { return low + (high - low) * random.uniform(); }
 
-/// Log-uniform in [10^low, 10^high).
+/// A number in [10^low, 10^high) whose logarithm is uniformly distributed.
 inline double decade(RandomStream& random, double low, double high) { return std::pow(10, uniform(random, low, high)); }
 
 inline Eigen::VectorXd normal_vector(Eigen::Index size, RandomStream& random) {
@@ -26,14 +26,14 @@ inline Eigen::VectorXd normal_vector(Eigen::Index size, RandomStream& random) {
   return result;
 }
 
-/// A random packing of `kind` with as few particles as its cell allows, at least `least`.
+/// A random packing with the smallest number of particles that its cell allows, but with at least `least` particles.
 inline Packing small_packing(SolidKind kind, double density, std::uint64_t seed, int least = 24) {
   RandomStream random{seed, static_cast<std::uint64_t>(kind)};
   const ConvexSolid& solid = platonic(kind);
   return random_packing(solid, std::max(least, least_particles(solid, density)), density, random);
 }
 
-/// A density at which random packings are certainly jammed. Cubes can order, and then fit at 0.75.
+/// A density at which random packings are always jammed. For cubes it is larger, because they can order.
 inline double over_compressed(SolidKind kind) { return kind == SolidKind::cube ? 0.85 : 0.75; }
 
 inline bool same_bits(const Packing& p, const Packing& q) {
@@ -54,10 +54,12 @@ inline Eigen::MatrixXd dense(const BlockMatrix& matrix) {
   return result;
 }
 
-/// Forces and torques about the centres, summed over contacts from the definition, and their residuals.
+/// Energy, residual and number of contacts of a packing. They are computed from the definitions, by a sum over
+/// contacts.
 struct Balance {
   double energy = 0;
-  double residual = 0;  ///< max over particles of |F| and |T|/R, divided by the mean contact force
+  /// largest |F| or |T|/R of a particle, divided by the mean contact force; T is the torque about the centre
+  double residual = 0;
   long contacts = 0;
 };
 
@@ -73,7 +75,7 @@ inline Balance balance_of(const Packing& packing) {
     force.col(contact.pair.a) += on_a;
     force.col(contact.pair.b) -= on_a;
     torque.col(contact.pair.a) += turn_a;
-    // The same line of action relative to B's centre.
+    // The force on B has the same line of action, but the torque is about the centre of B.
     torque.col(contact.pair.b) -= turn_a - contact.displacement.cross(on_a);
     balance.energy += contact.overlap.volume * contact.overlap.volume / 4;
     sum_of_forces += on_a.norm();
@@ -86,7 +88,7 @@ inline Balance balance_of(const Packing& packing) {
   return balance;
 }
 
-/// Particles without contacts.
+/// Number of particles without contacts.
 inline int without_contacts(const Packing& packing) {
   PackingEnergy fresh;
   std::vector<char> touched(packing.poses.size(), 0);

@@ -4,11 +4,11 @@
 
 namespace isojam {
 
-/// The states of one run of the protocol down to φ − φ_J < final_distance, minimised to a residual of 1e-9. Computed
-/// once per program and arguments.
+/// The result of one run of the protocol, decompressed to φ − φ_J < final_distance, with residuals of 1e-9. Each call
+/// with new arguments computes it; later calls with the same arguments return the same object.
 const JamResult& jammed(SolidKind kind, int particles, double final_distance, std::uint64_t seed = 1);
 
-/// The state nearest to jamming.
+/// The nearest state.
 inline const Packing& nearest_state(const JamResult& result) { return result.states.back(); }
 
 }  // namespace isojam

@@ -6,7 +6,7 @@
 
 namespace isojam {
 
-/// side³ particles on a cubic lattice, all with the same random orientation.
+/// A packing of side³ particles on a cubic lattice. All have the same random orientation.
 inline Packing lattice(SolidKind kind, int side, double density, std::uint64_t seed) {
   RandomStream random{seed};
   Eigen::Quaterniond orientation(random.normal(), random.normal(), random.normal(), random.normal());

@@ -23,6 +23,8 @@ inline Json crash_manifest() {
   return manifest;
 }
 
+/// Tests that interrupt runs. Once for all tests, it makes a reference: the results of a run that was not interrupted.
+/// Each test has its own directory.
 class Crash : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -53,7 +55,7 @@ class Crash : public testing::Test {
   TemporaryDirectory here_;
 };
 
-/// Stops a run when `count` checkpoints are there.
+/// Waits until a run has written `count` checkpoints, and then sends the signal to the process.
 inline void stop_at_checkpoints(const std::filesystem::path& results, std::size_t count, int process, int signal) {
   for (int i = 0; i < 200000; ++i) {
     if (names_in(results / "checkpoints").size() >= count) break;

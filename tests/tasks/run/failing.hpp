@@ -6,12 +6,14 @@
 namespace isojam::test {
 
 #if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool with_sanitizer = true;  ///< which has the calls of the preloaded library for itself
+/// it replaces the same functions as the preloaded library, so the two cannot be combined
+inline constexpr bool with_sanitizer = true;
 #else
 inline constexpr bool with_sanitizer = false;
 #endif
 
-/// While it lives, processes that are started lose this call: see failing_calls.cpp.
+/// While this object exists, a system call or function fails in all processes that are started. `order` states which
+/// one, see failing_calls.cpp.
 class Failing {
  public:
   explicit Failing(const std::string& order) {
@@ -26,7 +28,7 @@ class Failing {
   Failing& operator=(const Failing&) = delete;
 };
 
-/// The number of calls that a process counted, from what it wrote to stderr.
+/// The number of calls that a process counted. `err` is its output on stderr.
 inline long calls_counted(const std::string& err, const std::string& call) {
   const std::string before = call + " calls: ";
   return std::atol(err.substr(err.find(before) + before.size()).c_str());

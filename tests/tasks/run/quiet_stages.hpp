@@ -15,14 +15,14 @@ inline std::vector<ReplicateSpec> plan_of(int replicates) {
   return make_plan(parse_manifest(manifest.dump(), "m"));
 }
 
-/// Gives the specifications one after the other.
+/// Returns the specifications, one after the other.
 inline NextReplicate one_by_one(std::vector<ReplicateSpec> specs) {
   return [specs = std::move(specs), at = std::size_t{0}]() mutable {
     return at < specs.size() ? std::optional(specs[at++]) : std::nullopt;
   };
 }
 
-/// Stages that give made-up results at once.
+/// Stages that return artificial results without any computation.
 inline Stages quiet_stages() {
   return {[](const ReplicateSpec& spec) {
             return Checkpoint{begin_jam(made_up_outcome(spec).jam.states.front(), spec.options), {}};

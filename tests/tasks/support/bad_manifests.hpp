@@ -7,16 +7,16 @@
 
 namespace isojam::test {
 
-/// A manifest that must be refused, and its expected error.
+/// A manifest with an error, and the expected error message.
 struct BadManifest {
   std::string name;
   std::string text;
-  std::string pointer;   ///< of the error; empty: of no particular value
-  std::string says;      ///< a part of the message
-  bool schema_can_tell;  ///< whether draft-07 can express the rule (text that is not JSON never gets that far)
+  std::string pointer;   ///< JSON pointer of the error; empty if the error belongs to no particular value
+  std::string says;      ///< a part of the expected message
+  bool schema_can_tell;  ///< true if the JSON schema of manifests finds the error too
 };
 
-/// A manifest that is accepted; the bad ones differ from it in one place.
+/// A manifest without errors. Each bad manifest differs from it in one place.
 Json good_manifest();
 
 std::vector<BadManifest> bad_manifests();

@@ -6,10 +6,10 @@
 
 namespace isojam::test {
 
-/// schemas/<name>.schema.json
+/// The content of schemas/<name>.schema.json.
 Json schema(const std::string& name);
 
-/// Violations that a draft-07 validator finds in a document; empty if it conforms.
+/// Violations of a schema that a draft-07 validator finds in a document; empty if there are none.
 std::string violations(const std::string& schema_name, const Json& document);
 
 }  // namespace isojam::test

@@ -12,7 +12,7 @@
 
 namespace isojam::test {
 
-/// A directory that is removed with its contents.
+/// A temporary directory. The destructor removes it with its contents.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();
@@ -27,61 +27,64 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
+/// Result of a process that has ended.
 struct Finished {
-  int exit_code = -1;  ///< −1 if a signal ended the process
+  int exit_code = -1;  ///< exit code; −1 if a signal ended the process
   std::string out, err;
 };
 
-/// Runs the isojam executable with `directory` as working directory. `meanwhile` is called with the process id while
-/// it runs.
+/// Runs the isojam executable with `directory` as working directory, and waits until it ends. Meanwhile calls
+/// `meanwhile` with its process number.
 Finished isojam(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
                 const std::function<void(int)>& meanwhile = {});
 
-/// The same for a line of a shell, in which $ISOJAM is the executable.
+/// Runs a line of shell commands in the same way. In this line, $ISOJAM is the path of the executable.
 Finished shell(const std::string& line, const std::filesystem::path& directory);
 
-/// Output of `work` on a terminal, in a separate process, and the status of waitpid.
+/// Calls `work` in a separate process on a terminal with this number of columns. Returns the output and the status of
+/// waitpid().
 std::pair<std::string, int> on_a_terminal(const std::function<void()>& work, int columns = 80);
 
-/// Collects warnings for a test.
+/// Collects the warnings that a function passes to warn().
 struct Warnings {
   std::vector<std::string> said;
   std::function<void(const std::string&)> warn() {
     return [this](const std::string& message) { said.push_back(message); };
   }
 };
+/// Ignores a warning.
 inline void unheard(const std::string&) {}
 
 void write_text(const std::filesystem::path& path, const std::string& text);
 
-/// The text with the checksum that it should have.
+/// The text with its checksum replaced by the correct one.
 std::string sealed_again(std::string text);
 
-/// Content of every file below, by relative path.
+/// The content of every file in a directory and its subfolders, by relative path.
 std::map<std::string, std::string> files_below(const std::filesystem::path& directory);
 
-/// The same for a results directory, records without what may differ between runs, and without what writers that were
-/// killed left behind.
+/// The same for a results directory, without everything that may differ between two runs: the checksums and times in
+/// records, and temporary files of processes that were killed.
 std::map<std::string, std::string> results_below(const std::filesystem::path& directory);
 
-/// Real packings in about a second each: 24 or 28 dodecahedra, loosely converged.
+/// A manifest of real packings that take about one second each: 24 or 28 dodecahedra, minimised to large residuals.
 Json tiny_manifest();
 
-/// Every specification of a plan, in order.
+/// Every specification of the plan of a manifest, in order.
 std::vector<ReplicateSpec> make_plan(const Manifest& manifest);
 
-/// A record or packing without its checksum, and a record without the values that may differ between runs.
+/// A document without its checksum and its time.
 Json without_checksum(Json document);
 
-/// The record as it is read back from its file.
+/// The record of an outcome as it is read from its file.
 Json record_on_disk(const Outcome& outcome);
 
-/// Contacts of which both fits gave a cut-off.
+/// Artificial contacts, for which both fits gave a cut-off.
 ContactAnalysis made_up_contacts(double z);
-/// Replaces the contacts of the state nearest jamming of a made-up outcome.
+/// Replaces the contacts of the nearest state of an artificial outcome.
 void set_nearest_contacts(Outcome& outcome, const ContactAnalysis& analysis);
 
-/// A made-up outcome without failure, a function of the specification.
+/// An artificial outcome without failure. It depends only on the specification.
 Outcome made_up_outcome(const ReplicateSpec& spec);
 
 }  // namespace isojam::test

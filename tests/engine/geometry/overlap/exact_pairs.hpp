@@ -12,7 +12,7 @@
 
 namespace isojam::testing_pairs {
 
-/// Two solids of any kind and size in the lab frame, in double-double.
+/// Two solids in the lab frame, with poses in double-double.
 struct PosedPair {
   const ConvexSolid &a, &b;
   Pose at_a, at_b;
@@ -21,40 +21,42 @@ struct PosedPair {
 /// x_B − x_A.
 Quad3 displacement(const PosedPair& pair);
 
-/// Overlap from clipping in quadruple precision; S and M in the lab frame.
+/// The overlap by clipping in quadruple precision. S and M are in the lab frame.
 QuadOverlap exact(const PosedPair& pair);
 
-/// Overlap from overlap_with_hessian() in double-double.
+/// The overlap by overlap_with_hessian() in double-double.
 Overlap found(const PosedPair& pair, OverlapHessian& hessian);
 Overlap found(const PosedPair& pair);
 
-/// Largest error of that overlap: of V over V, of S over |S|, of M over |S| and the inradius of A.
+/// Largest relative error of found(): of V relative to V, of S relative to |S|, and of M relative to |S| times the
+/// inradius of A.
 double error(const PosedPair& pair);
 
-/// Largest error of a column of ∂S_A/∂x_B relative to this block of H_AB, with differences of S in quadruple precision
-/// as reference.
+/// Largest error of a column of ∂S_A/∂x_B in H_AB, relative to this block. The reference is differences of S in
+/// quadruple precision.
 double hessian_error(const PosedPair& pair);
 
-/// B with one of its faces on a face of A, parallel within `tilt` and `depth` deep. The middles of the faces are at
-/// most a third of the smaller face apart.
+/// A pair in which a face of B is in contact with a face of A. The angle between the faces is `tilt`, and their depth
+/// is `depth`. The centres of the faces are displaced along the faces by at most a third of the radius of the smaller
+/// face.
 PosedPair flat_contact(const ConvexSolid& a, const ConvexSolid& b, double depth, double tilt, RandomStream& random);
 
-/// A pair, and the line along which B is moved into A.
+/// A pair, and the line on which the centre of B moves.
 struct Approach {
   PosedPair pair;
-  Eigen::Vector3d from, outward;  ///< B's centre is at `from` + t `outward`, |outward| = 1
+  Eigen::Vector3d from, outward;  ///< the centre of B is at `from` + t·`outward`; `outward` is a unit vector
 };
-/// Random orientations; B approaches A's centre from a random direction.
+/// Random orientations. B approaches the centre of A from a random direction.
 Approach random_approach(const ConvexSolid& a, const ConvexSolid& b, RandomStream& random);
-/// A vertex of B over the middle of a face of A.
+/// A vertex of B approaches the centre of a face of A.
 Approach corner_over_face(const ConvexSolid& a, const ConvexSolid& b, RandomStream& random);
-/// An edge of B across an edge of A, middle over middle.
+/// The midpoint of an edge of B approaches the midpoint of an edge of A that crosses it.
 Approach edge_over_edge(const ConvexSolid& a, const ConvexSolid& b, RandomStream& random);
 
-/// The pair at the distance where V equals `volume` within a factor of 2; nullopt if V jumps there.
+/// The pair at the distance where V equals `volume` within a factor of 2; nullopt if V is discontinuous there.
 std::optional<PosedPair> at_volume(Approach approach, double volume);
 
-/// Points on a sphere: all of them are vertices, and all faces are triangles.
+/// n random points on a sphere. In their convex hull, all points are vertices and all faces are triangles.
 std::vector<Eigen::Vector3d> points_on_sphere(int n, std::uint64_t seed);
 
 }  // namespace isojam::testing_pairs

@@ -9,17 +9,19 @@
 
 #include "tests/engine/geometry/overlap/exact_pairs.hpp"
 
-// Requirements on overlap() for every family of solids. A family is a function that visits its pairs of solids.
+// Requirements on overlap() for each family of solids. A family is a function that calls another one for each of its
+// pairs.
 
 namespace isojam::testing_pairs {
 
-/// Text such as "cube (1) and rock (0.1)", with sizes in brackets.
+/// Text with the names and sizes of both solids, such as "cube (1) and rock (0.1)".
 inline std::string names(const ConvexSolid& a, const ConvexSolid& b) {
   return a.name() + " (" + std::to_string(a.scale()) + ") and " + b.name() + " (" + std::to_string(b.scale()) + ")";
 }
 
-/// For face-face contacts with depths of 1e-4 … 1e-12 and tilts as large, V, S and M have errors of at most 1e-13, half
-/// of them at most 1e-15. All but one in fifty pairs use the loop.
+/// For face-face contacts with depths from 1e-4 to 1e-12 and angles of the same size, the errors of V, S and M are at
+/// most 1e-13. The median error is at most 1e-15. Clipping is used for fewer than one in fifty pairs, and the contact
+/// loop for all others.
 template <class Family>
 void expect_flat_contacts_right(const Family& for_each_pair, RandomStream& random) {
   std::vector<double> errors;
@@ -41,7 +43,7 @@ void expect_flat_contacts_right(const Family& for_each_pair, RandomStream& rando
   EXPECT_LT(clipped, static_cast<int>(errors.size()) / 50);
 }
 
-/// Derivatives of S agree with differences in quadruple precision to 1e-8, in more than `least` pairs.
+/// For more than `least` pairs, the derivatives of S agree within 1e-8 with differences in quadruple precision.
 template <class Family>
 void expect_hessians_of_differences(const Family& for_each_pair, RandomStream& random, int least) {
   double worst = 0;

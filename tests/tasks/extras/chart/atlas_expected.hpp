@@ -4,7 +4,7 @@
 
 namespace isojam::test {
 
-/// Verdicts of a method in a regime, a letter for each setting, in the order of the atlas.
+/// Expected verdicts of a method in a regime: one letter for each setting, in the order of the atlas.
 struct ExpectedCells {
   const char *regime, *method, *verdicts;
 };
