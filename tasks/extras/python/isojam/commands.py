@@ -1,4 +1,4 @@
-"""Commands of the program: each call ends with the results directory as a Study."""
+"""Functions that call commands of the program. Each returns the results directory as a Study."""
 
 import json
 import os
@@ -15,22 +15,22 @@ from .progress import shown
 from .study import Study
 
 _SOME_FAILED, _BAD_INPUT, _INTERRUPTED = 1, 65, 75
-#: The name of a manifest on standard input, in messages of the program.
+#: Name of standard input in messages of the program.
 _STANDARD_INPUT = "-"
 
 
 def run(manifest: Mapping[str, Any] | Path, directory: Path, threads: int = 2, progress: bool = True, *,
         program: Path | None = None) -> Study:
-    """Runs the missing replicates of a manifest.
+    """Runs all replicates of a manifest that have no record yet. Returns a Study.
 
-    manifest   a dict, whose relative paths start from the current directory, or the path of a file
+    manifest   a dict, in which paths are relative to the current directory, or the path of a manifest file
     directory  the results directory, which is created if it does not exist
-    threads    the number of threads
-    progress   show progress: a bar if tqdm is installed, else text on stderr
-    program    path of the program; by default the module looks for it
+    threads    number of threads
+    progress   show the progress: as a bar if tqdm is installed, otherwise as text on stderr
+    program    path of the program; without it, the module searches for the program
 
-    Warns if replicates failed. Raises ManifestError for a manifest that is refused and ProgramError for other failures.
-    After KeyboardInterrupt the same call resumes."""
+    Warns if replicates failed. Raises ManifestError if the manifest has errors, and ProgramError if the program reports
+    another error. After a KeyboardInterrupt, repeat the call to resume."""
     words: list[Path] = ["-o", directory, "-j", str(threads)]
     if not isinstance(manifest, Mapping):
         file = os.fspath(manifest)
@@ -49,11 +49,12 @@ def run(manifest: Mapping[str, Any] | Path, directory: Path, threads: int = 2, p
 
 def measure(directory: Path, *measures: str, threads: int = 2, progress: bool = True,
             program: Path | None = None) -> Study:
-    """Adds measures to the records of a directory whose manifest has "keep_path": true.
+    """Adds measures to the records of a study whose manifest has "keep_path": true. Returns a Study.
 
-    measures   names as in "measure" of a manifest; by default those that an interrupted call left
+    directory  the results directory
+    measures   names of measures; without them, the function completes an interrupted call
 
-    The other arguments, warnings and errors are those of `run`."""
+    The other arguments, the warnings and the errors are those of `run`."""
     words: list[Path] = ["measure", directory, "-j", str(threads), *(["--add", ",".join(measures)] if measures else [])]
     with shown(progress) as show:
         ended = _program.call(program, words, show=show)
@@ -61,9 +62,9 @@ def measure(directory: Path, *measures: str, threads: int = 2, progress: bool = 
 
 
 def aggregate(directory: Path, *, program: Path | None = None) -> Study:
-    """Writes the tables of a directory to its tables.json; the `table` of the Study is the same table.
+    """Writes the tables of a results directory to its file tables.json. Returns a Study with this table.
 
-    A run writes the tables itself, but a shard does not."""
+    `run` also writes the tables, except for a shard: after the last shard has ended, call this function."""
     tables = pathlib.Path(directory, "tables.json")
     table = _program.table(program, ["aggregate", directory, "--format", "csv", "-o", tables])
     return Study(directory, program, table=table)
@@ -78,7 +79,7 @@ def _text(manifest: Mapping[str, Any]) -> str:
 
 
 def _plain(value: object) -> Any:
-    """Arrays and numbers of numpy as JSON has them, paths as text."""
+    """Converts a path to text, and an array or number of numpy to lists and numbers that JSON can contain."""
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if isinstance(value, Mapping):
@@ -89,7 +90,9 @@ def _plain(value: object) -> Any:
 
 
 def _refuse_manifest(ended: Ended, file: str) -> None:
-    """Raises ManifestError if all errors are of the manifest; "file:line:column" is where one is no JSON."""
+    """Raises ManifestError if the program ended with errors and all of them are errors of the manifest.
+
+    An error of JSON syntax has "file:line:column" in place of the file name."""
     errors = ended.errors if ended.code == _BAD_INPUT else []
     own = [error for error in errors if f"{error.get('file')}:".startswith(f"{file}:")]
     if own and own == errors:
@@ -97,7 +100,7 @@ def _refuse_manifest(ended: Ended, file: str) -> None:
 
 
 def _renamed(text: str) -> str:
-    """A text that begins with a file name; a manifest in memory is named "manifest"."""
+    """Replaces the name of standard input at the beginning of a message by "manifest"."""
     name, colon, rest = text.partition(":")
     return f"manifest{colon}{rest}" if name == _STANDARD_INPUT else text
 
@@ -111,7 +114,7 @@ def _input_error(error: Mapping[str, str]) -> InputError:
 
 
 def _study(ended: Ended, directory: Path, program: Path | None) -> Study:
-    """The results. Warnings name the line from which the caller was called."""
+    """The Study after a call of the program. Warnings refer to the line that called the function of the module."""
     ended.warn(stacklevel=3)
     if ended.code == _INTERRUPTED:
         raise KeyboardInterrupt(f"{directory}: the program was interrupted; repeat the call to resume")

@@ -1,28 +1,28 @@
-"""Exceptions of the module. Each states where the error is, what is wrong, and how to correct it."""
+"""Exceptions of the module. Each states what is wrong, where, and how to correct it."""
 
 import os
 from collections.abc import Iterable, Sequence
 
 
 class InputError(ValueError):
-    """A file or a request that is refused.
+    """An error in a file or in an argument.
 
     file     path of the file
-    place    a JSON pointer, a line or a column; "" for the whole file
+    place    JSON pointer, line or column of the error; "" for the whole file
     why      the problem
-    allowed  the accepted values, or an instruction; "" if the problem is enough"""
+    allowed  the allowed values, or an instruction; "" if `why` is sufficient"""
 
     def __init__(self, file: str | os.PathLike[str], place: str, why: str, allowed: str = "", remedy: str = "") -> None:
-        """`allowed` gives the accepted values, `remedy` an instruction."""
+        """`allowed` gives the allowed values, `remedy` an instruction. Only one of the two may be given."""
         self.file, self.place, self.why, self.allowed = str(file), place, why, allowed or remedy
         text = f"{self.file}: {place}: {why}" if place else f"{self.file}: {why}"
         super().__init__(text + (f"; expected {allowed}" if allowed else f"; {remedy}" if remedy else ""))
 
 
 class ManifestError(InputError):
-    """A manifest that the program refuses.
+    """A manifest has errors.
 
-    errors   all errors of the manifest, each an InputError whose place is a JSON pointer
+    errors   all errors of the manifest: InputErrors whose place is a JSON pointer
 
     file, place, why and allowed are those of the first error."""
 
@@ -34,9 +34,9 @@ class ManifestError(InputError):
 
 
 class ProgramError(RuntimeError):
-    """The program isojam was not found, or ended with an error.
+    """The program isojam was not found, or it ended with an error.
 
-    command  the command line, a list of words
+    command  the command line as a list of arguments
     message  the error that the program reported"""
 
     def __init__(self, command: Iterable[object], message: str) -> None:

@@ -1,4 +1,6 @@
-"""Facts about the files of the program, stored when it is built: schemas, names of quantities, usual exclusions."""
+"""Facts about the files of the program: schemas, quantities, and flags that exclude replicates by default.
+
+The build writes them to facts.json."""
 
 import json
 import pathlib
@@ -20,19 +22,21 @@ _FACTS = _read()
 
 #: Version of the program that this module was built with.
 version: str = _FACTS["version"]
-#: Names that files of this version have under "schema".
+#: Values of the key "schema" in files that this version writes.
 schemas: dict[str, str] = _FACTS["schemas"]
-#: The schema of records of an earlier version, which are read as well.
+#: Schema of records of an earlier version. The module reads these records too.
 earlier_record: str = _FACTS["earlier_record"]
-#: Flags that exclude a replicate where a directory has no manifest.
+#: Flags that exclude a replicate if a directory has no manifest.
 usual_exclusions: tuple[str, ...] = tuple(_FACTS["exclude"])
-#: Every quantity of tables, in their order: dicts of name, pointer (in a record or a state), of ("replicate" or "state"),
-#: unit and group.
+#: All quantities in the order of tables. Each is a dict with the keys name, pointer (in a record or a state), of
+#: ("replicate" or "state"), unit and group.
 quantities: list[dict[str, str]] = _FACTS["quantities"]
-#: Where the program lies, from here.
+#: Path of the program that was built or installed with this module.
 program = (_HERE / _FACTS["program"]).resolve()
 
 
 def names(of: str) -> dict[tuple[str, ...], str]:
-    """Column names by the path in a record ("of" = "replicate") or a state, as ("clusters", "S")."""
+    """Names of columns, by the path of a quantity in a record (`of` is "replicate") or in a state (`of` is "state").
+
+    A path is a tuple of keys, such as ("clusters", "S")."""
     return {tuple(q["pointer"].split("/")[1:]): q["name"] for q in quantities if q["of"] == of}

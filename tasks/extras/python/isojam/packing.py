@@ -16,25 +16,25 @@ Floats = NDArray[numpy.float64]
 
 
 class Packing:
-    """One state of a replicate.
+    """One packing of a replicate, in one state.
 
-    name          of the replicate
+    name          name of the replicate
     delta_phi     φ − φ_J
-    phi           density
-    cell          (3, 3): its rows are the lattice vectors, in V_p^(1/3); side times the unit matrix in a cube
-    side          of a cubic cell; None for any other cell
-    positions     (N, 3) centres, not wrapped into the cell
-    orientations  (N, 4) quaternions (w, x, y, z) that rotate the body frame into the lab frame, |q| = 1 to rounding
-    kind          (N,) index into solids
-    size          (N,) length of a particle over that of its solid of unit volume
-    solid_names   of the kinds
+    phi           density φ
+    cell          (3, 3): the lattice vectors as rows, in units of V_p^(1/3)
+    side          side of the cell; None if the cell is not a cube
+    positions     (N, 3): centres, not wrapped into the cell
+    orientations  (N, 4): quaternions (w, x, y, z) that rotate the body frame into the lab frame; |q| = 1 within rounding
+    kind          (N,): index of the solid of each particle in `solids`
+    size          (N,): each particle is its solid, scaled in length by this number
+    solid_names   names of the elements of `solids`
 
-    Coordinates are double-doubles: these arrays are the nearest doubles, and cell_low, positions_low and
-    orientations_low are the remainders."""
+    Coordinates are double-doubles. The arrays above are the nearest doubles; `cell_low`, `positions_low` and
+    `orientations_low` contain the remainders."""
 
     def __init__(self, name: str, document: dict[str, Any], file: str | os.PathLike[str], place: str, delta_phi: float,
                  shapes: Callable[[], dict[str, Solid]]) -> None:
-        """From the JSON of a packing, which stands at that place of a file. `shapes()` gives the replicate's solids by
+        """Makes a packing from the JSON at `place` in a file. `shapes()` returns the solids of the replicate by
         name."""
         self.name, self.delta_phi = name, delta_phi
         self._document, self._file, self._place, self._shapes = document, file, place, shapes
@@ -53,7 +53,7 @@ class Packing:
             self.kind, self.size = numpy.zeros(n, dtype=int), numpy.ones(n)
 
     def __len__(self) -> int:
-        """N."""
+        """Number of particles."""
         return len(self.positions)
 
     def __repr__(self) -> str:
@@ -75,19 +75,19 @@ class Packing:
 
     @functools.cached_property
     def solids(self) -> tuple[Solid, ...]:
-        """The Solid of every kind, of unit volume, asked of the program."""
+        """The Solid of each kind of particle, with unit volume. The first access calls the program."""
         shapes = self._shapes()
         return tuple(shapes[name] for name in self.solid_names)
 
     def rotations(self) -> Floats:
-        """(N, 3, 3) matrices that rotate body frames into the lab frame."""
+        """(N, 3, 3): matrices that rotate the body frame of each particle into the lab frame."""
         w, x, y, z = (self.orientations / numpy.linalg.norm(self.orientations, axis=1)[:, None]).T
         return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
                             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]).transpose(2, 0, 1)
 
     def corners(self, particle: int) -> Floats:
-        """(V, 3): the vertices of one particle where it stands."""
+        """(V, 3): the vertices of one particle in the lab frame."""
         vertices = self.size[particle] * self.solids[self.kind[particle]].vertices
         corners: Floats = self.positions[particle] + vertices @ self.rotations()[particle].T
         return corners

@@ -21,13 +21,15 @@ from .rows import Rows
 from .solid import Solid, read_obj
 from .table import read_table
 
-#: A path as users give it.
+#: Type of paths in arguments.
 Path = str | os.PathLike[str]
 
 
 def find(program: Path | None = None) -> str:
-    """The path of the program: `program` if given, else the environment variable ISOJAM, else the program that was built
-    or installed with this module, else the one on the PATH. Raises ProgramError if there is none."""
+    """Returns the path of the program. Raises ProgramError if there is none.
+
+    It is the first that is given or found: the argument `program`, the environment variable ISOJAM, the program that
+    was built or installed with this module, the program on the PATH."""
     for asked, by in ((program, "the argument `program`"),
                       (os.environ.get("ISOJAM"), "the environment variable ISOJAM")):
         if asked:
@@ -44,7 +46,9 @@ def find(program: Path | None = None) -> str:
 
 @functools.lru_cache(maxsize=None)
 def _compare_versions(program: str) -> None:
-    """Warns if the program has another version than this module. Raises ProgramError if their files differ."""
+    """Warns if the program and this module have different versions.
+
+    Raises ProgramError if the program writes files that the module cannot read."""
     ended = subprocess.run([program, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                            errors="replace", check=False)
     words = ended.stdout.split()
@@ -61,7 +65,7 @@ def _compare_versions(program: str) -> None:
 
 @dataclasses.dataclass
 class Ended:
-    """How a call of the program ended.
+    """Result of a call of the program.
 
     errors    messages of kind "error"
     warnings  texts of warnings"""
@@ -82,14 +86,15 @@ class Ended:
 
 def call(program: Path | None, words: Iterable[Path], stdin: int | IO[str] = subprocess.DEVNULL,
          stdout: int | IO[str] = subprocess.DEVNULL, show: Callable[[Message], None] = lambda message: None) -> Ended:
-    """Runs the program to its end; `show` gets its messages of progress. If Python is interrupted, the program is asked
-    to stop, and the exception is passed on when it has stopped."""
+    """Runs the program and waits until it ends. `show` is called with each message about the progress.
+
+    If Python is interrupted, the program is requested to stop. When it has stopped, the exception is raised again."""
     found = find(program)
     _compare_versions(found)
     ended = Ended([found, "--messages", "json", *(os.fspath(word) for word in words)])
     plain = []
-    # In its own session the program does not get the Ctrl-C of a terminal: with that of _stop it would be the second one,
-    # which ends the program before it has kept its last step.
+    # The program runs in its own session and does not get the Ctrl-C of a terminal. Otherwise the signal of _stop would be
+    # its second one, which ends the program before it has saved its last step.
     with subprocess.Popen(ended.command, stdin=stdin, stdout=stdout, stderr=subprocess.PIPE, text=True, encoding="utf-8",
                           errors="replace", start_new_session=True) as process:
         try:
@@ -115,7 +120,10 @@ def call(program: Path | None, words: Iterable[Path], stdin: int | IO[str] = sub
 
 
 def _message(line: str) -> Message:
-    """A message of the program. Messages that it writes when it is out of memory, and those of libraries, are plain."""
+    """Parses one line that the program wrote to stderr.
+
+    A line that is not a message in JSON has the kind "plain". Libraries, and the program when it is out of memory,
+    write such lines."""
     with contextlib.suppress(ValueError):
         message = json.loads(line)
         if isinstance(message, dict) and "kind" in message and "text" in message:
@@ -124,14 +132,15 @@ def _message(line: str) -> Message:
 
 
 def _stop(process: "subprocess.Popen[str]") -> None:
-    """Asks the program to stop and waits until it has; a second interruption kills it. Its files are whole in both cases.
+    """Requests the program to stop, and waits until it has ended. If Python is interrupted again, kills the program.
 
-    SIGTERM stops it as SIGINT does, also where SIGINT is ignored, such as in the background of a shell."""
+    The files of the program are complete in both cases. The signal is SIGTERM, because SIGINT may be ignored, for
+    example in the background of a shell."""
     if process.poll() is None:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGTERM)
     try:
-        for _ in process.stderr or ():  # a full pipe would keep it from stopping
+        for _ in process.stderr or ():  # read on, because the program cannot stop while the pipe is full
             pass
         process.wait()
     except BaseException:
@@ -140,7 +149,7 @@ def _stop(process: "subprocess.Popen[str]") -> None:
 
 
 def solids(program: Path | None, directory: Path, replicate: str) -> dict[str, Solid]:
-    """The solids of a replicate by their names."""
+    """The solids of a replicate, by their names."""
     with tempfile.TemporaryDirectory() as folder:
         ended = call(program, ["export", directory, replicate, "--format", "xyz", "-o",
                                pathlib.Path(folder, "packing.xyz")])
@@ -151,7 +160,9 @@ def solids(program: Path | None, directory: Path, replicate: str) -> dict[str, S
 
 
 def table(program: Path | None, words: list[Path]) -> Rows:
-    """The table that the program prints. Warnings name the line from which the caller was called."""
+    """Calls the program and returns the table that it prints.
+
+    Warnings refer to the line that called the function of the module."""
     with tempfile.TemporaryFile("w+", newline="", encoding="utf-8") as output:
         ended = call(program, words, stdout=output)
         ended.warn(stacklevel=3)

@@ -1,4 +1,4 @@
-"""Shows the progress of the program: as a bar of tqdm if that is installed, else as text on stderr."""
+"""Shows the progress of the program: as a bar if tqdm is installed, otherwise as text on stderr."""
 
 import contextlib
 import shutil
@@ -7,17 +7,17 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any, TextIO
 
-#: A message of the program: one line of stderr.
+#: A message of the program, which is one line of its stderr.
 Message = dict[str, Any]
 
-#: Seconds between lines where stderr is not a terminal.
+#: Seconds between two lines if stderr is not a terminal.
 _INTERVAL = 5
 _CLEAR = "\r\033[K"
 
 
 @contextlib.contextmanager
 def shown(wanted: bool) -> Iterator[Callable[[Message], None]]:
-    """A function that shows a message of progress; it does nothing unless `wanted`."""
+    """Gives a function that shows a message about the progress. If `wanted` is false, this function does nothing."""
     display = _display() if wanted else None
     if display is None:
         yield lambda message: None
@@ -37,7 +37,7 @@ def _display() -> "_Bar | _Text | None":
 
 
 class _Bar:
-    """Bars of tqdm, one for each round of replicates."""
+    """Progress bars of tqdm, one for each round of replicates."""
 
     def __init__(self, tqdm: Callable[..., Any]) -> None:
         self._tqdm, self._bar = tqdm, None  # type: Callable[..., Any], Any
@@ -58,7 +58,8 @@ class _Bar:
 
 
 class _Text:
-    """The program's own words: one line that changes on a terminal, elsewhere a line every few seconds and the last."""
+    """Prints messages of the program. A terminal has one line that changes. Any other stream gets a line every few
+    seconds, and the last message."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream, self._terminal = stream, stream.isatty()

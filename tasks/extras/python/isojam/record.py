@@ -1,4 +1,4 @@
-"""Records as rows: numbers and texts of a record by the names that tables have for them."""
+"""Rows of `Study.replicates` and `Study.states`: the numbers and texts of records, with the names of columns."""
 
 import functools
 import os
@@ -10,26 +10,29 @@ from .errors import InputError
 from .rows import Rows, column_of
 
 _REASON = "_reason"
-#: Keys of a record whose content has columns of its own, or is no measurement.
+#: Keys of a record that are left out: they are not measured, or other functions make their columns.
 _APART = {"schema", "checksum", "result_digest", "provenance", "spec", "status", "flags", "failure", "nearest", "states",
           "path"}
-#: Members of a record of the earlier version: the measure whose object has them now, and their key in it.
+#: Keys of the earlier version. The value is the measure whose object now contains this member, and its key there.
 _MOVED = {"mode_scaling": ("modes", "scaling"), "moduli_scaling": ("moduli", "scaling"), "freed": ("strict", "freed")}
-#: The last columns: the cost of a replicate, and the build that computed it.
+#: Keys of the last columns: the cost of a replicate, and its origin.
 _COST = ("evaluations", "work", "pairs")
 _ORIGIN = ("version", "git", "compiler", "manifest_digest", "seed")
-#: Figures that every state has; a quantity that has the name of one is the same.
+#: Numbers that every state has. A quantity with the same name is the same number.
 _FIGURES = {"step", "phi", "delta_phi", "energy_per_particle", "pressure", "deviator", "residual", "residual_floor",
             "stopped", "descents"}
-#: Names of quantities by their paths, in a record and in a state.
+#: Names of quantities, by their paths in a record and in a state.
 _NAMES: dict[str, dict[tuple[str, ...], str]] = {of: facts.names(of) for of in ("replicate", "state")}
 _QUANTITIES = {name for names in _NAMES.values() for name in names.values()} - _FIGURES
 
 
 @functools.lru_cache(maxsize=None)
 def _names_of(path: tuple[str, ...], of: str) -> list[str]:
-    """The name that tables have for it, or those of what is below it; else the path with dots, after "state." if it
-    is another quantity's name."""
+    """Names of the columns for a path in a record or in a state.
+
+    If the path belongs to a quantity, or to an object with quantities, these are the names of the quantities in tables.
+    Otherwise the name is the path with dots, as in "clusters.largest". It has a prefix, as in "state.Q6", if it would
+    be the name of another quantity."""
     known = [name for place, name in _NAMES[of].items() if place[:len(path)] == path]
     if known:
         return known
@@ -38,8 +41,9 @@ def _names_of(path: tuple[str, ...], of: str) -> list[str]:
 
 
 def flat(document: dict[str, Any], of: str, apart: Collection[str] = ()) -> tuple[dict[str, Any], dict[str, str]]:
-    """Numbers, texts and nulls of a record or a state by column name, and the reasons of nulls by column name. Lists are
-    left out, and the keys in `apart`."""
+    """Two dicts by column name: the numbers, texts and nulls of a record or a state, and the reasons for nulls.
+
+    Lists and the keys in `apart` are left out."""
     values: dict[str, Any] = {}
     reasons: dict[str, str] = {}
 
@@ -60,8 +64,9 @@ def flat(document: dict[str, Any], of: str, apart: Collection[str] = ()) -> tupl
 
 
 def upgraded(record: dict[str, Any]) -> dict[str, Any]:
-    """A record of the earlier version with the keys of this one, in which each measure owns one object of its name; any
-    other record as it is."""
+    """Converts a record of the earlier version to the present keys: each measure has one object with its name.
+
+    Any other record is returned unchanged."""
     if record["schema"] != facts.earlier_record:
         return record
     measures = set(record["spec"]["measure"])
@@ -82,7 +87,7 @@ def upgraded(record: dict[str, Any]) -> dict[str, Any]:
 
 
 def _upgraded_state(state: dict[str, Any], measures: set[str]) -> dict[str, Any]:
-    """The earlier version has the numbers of `contacts` in the state itself, after "step"."""
+    """In the earlier version, the numbers of `contacts` are members of the state itself, after "step"."""
     keys = list(state)
     after = keys.index("step") + 1
     contacts = {key: state[key] for key in keys[after:] if key not in measures}
@@ -91,14 +96,15 @@ def _upgraded_state(state: dict[str, Any], measures: set[str]) -> dict[str, Any]
 
 
 def _parameters(spec: dict[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Swept values by the names that tables have for them: `residual` is a column of its own."""
+    """Swept parameters with the names of their columns. `residual` has a prefix, because another column is called
+    residual."""
     for name, value in spec["parameters"].items():
         group = next((group for group in ("protocol", "minimiser") if name in spec[group]), "parameters")
         yield (f"{group}.{name}" if name == "residual" else name), value
 
 
 def head_of(name: str, record: dict[str, Any], excluding: Collection[str]) -> dict[str, Any]:
-    """The first columns of a row. `excluding`: flags whose replicates are excluded from means."""
+    """The first columns of a row. `excluding` are the flags that exclude a replicate from means."""
     spec, flags = record["spec"], tuple(record.get("flags") or ())
     head = {"replicate": name, "solid": spec["solid"], "particles": spec["particles"], **dict(_parameters(spec))}
     return {**head, "number": spec["replicate"], "status": record["status"], "flags": flags,
@@ -106,7 +112,7 @@ def head_of(name: str, record: dict[str, Any], excluding: Collection[str]) -> di
 
 
 def replicate_row(head: dict[str, Any], record: dict[str, Any]) -> dict[str, Any]:
-    """One row of everything that is one number per replicate, the state nearest jamming among it."""
+    """The row of a replicate, with its own values and those of its nearest state."""
     failure, provenance = record.get("failure") or {}, record["provenance"]
     values, reasons = flat(record, "replicate", _APART.union(_COST, ("timing",)))
     near, near_reasons = flat(record.get("nearest") or {}, "state")
@@ -120,14 +126,15 @@ def replicate_row(head: dict[str, Any], record: dict[str, Any]) -> dict[str, Any
 
 
 def _index_of_nearest(record: dict[str, Any]) -> int | None:
-    """Index of the state nearest jamming, found by its strain step; None for a failed replicate."""
+    """Index of the nearest state, which is found by its strain step; None for a failed replicate."""
     step = (record.get("nearest") or {}).get("step")
     return next((k for k, state in enumerate(record["states"]) if state["step"] == step), None)
 
 
 def state_rows(head: dict[str, Any], record: dict[str, Any]) -> list[dict[str, Any]]:
-    """One row for each state of the expansion, `state` its number in it; `nearest` is true for the one nearest jamming.
-    None of a replicate that failed."""
+    """One row for each state of a replicate; an empty list if the replicate failed.
+
+    `state` is the index of the state in the decompression, and `nearest` is true for the nearest state."""
     if record["status"] == "failed":
         return []
     nearest, rows = _index_of_nearest(record), []
@@ -139,7 +146,7 @@ def state_rows(head: dict[str, Any], record: dict[str, Any]) -> list[dict[str, A
 
 def read_rows(name: str, record: dict[str, Any], file: str | os.PathLike[str],
               excluding: Collection[str]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """The row of a replicate and those of its states. Raises InputError if the record lacks what every record has."""
+    """The row of a replicate, and the rows of its states. Raises InputError if the record is not valid."""
     try:
         head = head_of(name, record, excluding)
         return replicate_row(head, record), state_rows(head, record)
@@ -149,8 +156,9 @@ def read_rows(name: str, record: dict[str, Any], file: str | os.PathLike[str],
 
 
 def as_columns(rows: list[dict[str, Any]]) -> Rows:
-    """Rows of dicts, in which null and missing are the same; columns in the order of the rows that have most of them,
-    reasons last."""
+    """Converts rows (dicts) to Rows. A missing value is null.
+
+    Columns have the order of the row with most columns; `reasons` is the last one."""
     fullest = sorted(rows, key=len, reverse=True)
     names = dict.fromkeys(key for row in fullest for key in row if key != "reasons")
     columns = {name: column_of([row.get(name) for row in rows]) for name in names}

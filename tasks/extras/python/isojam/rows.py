@@ -1,4 +1,4 @@
-"""Tables in memory: named columns of one length."""
+"""Tables in memory: named columns of equal length."""
 
 import difflib
 from collections.abc import Iterator, Mapping
@@ -12,10 +12,10 @@ Array = NDArray[Any]
 
 
 class Rows:
-    """Named numpy arrays of one length: rows["phi_j"] is a column, rows[rows["Z"] > 8] are some of the rows.
+    """Named numpy arrays of equal length. rows["phi_j"] is a column; rows[rows["Z"] > 8] are some of the rows.
 
-    Columns are of numbers (null is NaN), of text (null is ""), truth values, or objects (tuples of flags, dicts of
-    reasons); a vector is one column of shape (rows, 3). Columns are the arrays themselves, not copies."""
+    The values of a column are numbers (null is NaN), texts (null is ""), truth values, or objects: tuples of flags, or
+    dicts of reasons. A vector is one column of shape (rows, 3). A column is the array itself, not a copy."""
 
     def __init__(self, columns: Mapping[str, ArrayLike]) -> None:
         self._columns = {name: numpy.asarray(values) for name, values in columns.items()}
@@ -25,11 +25,11 @@ class Rows:
 
     @property
     def columns(self) -> list[str]:
-        """Names, in order."""
+        """Names of the columns, in order."""
         return list(self._columns)
 
     def __len__(self) -> int:
-        """Rows."""
+        """Number of rows."""
         return len(next(iter(self._columns.values()))) if self._columns else 0
 
     def __contains__(self, name: object) -> bool:
@@ -45,7 +45,7 @@ class Rows:
     def __getitem__(self, which: slice | list[int] | Array) -> "Rows": ...
 
     def __getitem__(self, which: str | int | slice | list[int] | Array) -> Any:
-        """A column by its name; rows by a mask, a slice or a list of indices."""
+        """A column by its name, one row as a dict by its index, or Rows by a mask, a slice or a list of indices."""
         if isinstance(which, str):
             return self._column(which)
         if isinstance(which, (int, numpy.integer)):
@@ -56,18 +56,18 @@ class Rows:
         return Rows({name: values[chosen] for name, values in self._columns.items()})
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
-        """Every row in turn, a dict."""
+        """Iterates over the rows; each is a dict."""
         return (self[i] for i in range(len(self)))
 
     def by(self, name: str) -> list[tuple[Any, "Rows"]]:
-        """Pairs of a value of that column and the rows that have it, in order of values, null left out."""
+        """Pairs of a value of this column and the Rows with this value, sorted by value. Null is left out."""
         places: dict[Any, list[int]] = {}
         for i, value in enumerate(self._column(name).tolist()):
             places.setdefault(value, []).append(i)
         return [(value, self[places[value]]) for value in sorted(value for value in places if value == value)]
 
     def frame(self) -> Any:
-        """A pandas DataFrame; a vector becomes three columns, "force_x" and so on."""
+        """The rows as a pandas DataFrame. A vector becomes three columns: "force_x", "force_y", "force_z"."""
         import pandas  # type: ignore[import]
 
         flat = {}
@@ -92,8 +92,10 @@ class Rows:
 
 
 def column_of(values: list[Any]) -> Array:
-    """The array of a list of values, None for null: of truth values, integers, floats (null is NaN) or text (null is "");
-    of anything else an array of objects."""
+    """Converts a list of values to an array; None stands for null.
+
+    The array contains truth values, integers, floats (null is NaN) or texts (null is ""). If the values have other or
+    different types, it contains objects."""
     kinds = {type(value) for value in values if value is not None}
     missing = any(value is None for value in values)
     if kinds == {bool} and not missing:

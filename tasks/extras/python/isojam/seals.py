@@ -1,12 +1,14 @@
-"""JSON files of isojam, which vouch for their bytes.
+"""JSON files of isojam, and the checksums that they contain.
 
-The second key, "checksum", is the 64-bit FNV-1a of the file with zeros in place of its sixteen digits: for every byte b
-in turn, h = (h xor b)·p modulo 2^64. That chain can be taken apart exactly, so that numpy sees to it:
+The second key, "checksum", is the 64-bit FNV-1a hash of the file with zeros in place of its sixteen digits. The hash is
+computed byte by byte: for each byte b, h = (h xor b)·p modulo 2^64. The two steps below give the same result with array
+operations of numpy:
 
-- the xor changes the low byte of h alone: h xor b = h + d, where d = (l xor b) − l and l is that low byte. With all d known,
-  h is a polynomial in p: h_n = p^n h_0 + Σ_i d_i p^(n−i) modulo 2^64, a scalar product.
-- low bytes follow from each other: l' = p·(l xor b) modulo 256. p is odd, so bit k of l' is bit k of l, flipped by bit k of
-  b and by what the bits below k carry over; given those, bit k of all low bytes is a running xor, and so bit by bit."""
+- The xor changes only the low byte l of h: h xor b = h + d with d = (l xor b) − l. If all d are known, h is a
+  polynomial in p: h_n = p^n h_0 + Σ_i d_i p^(n−i) modulo 2^64. This sum is a scalar product.
+- Each low byte follows from the previous one: l' = p·(l xor b) modulo 256. Since p is odd, bit k of l' is bit k of l,
+  flipped by bit k of b and by the carry from the lower bits. If the lower bits of all low bytes are known, bit k of all
+  low bytes is therefore a running xor. The bits are computed one after another, from the lowest."""
 
 import json
 import os
@@ -24,13 +26,13 @@ MASK = (1 << 64) - 1
 BLOCK = 1 << 16
 _WORD = numpy.dtype("<u8")
 _BEFORE, _BLANK = b'"checksum": "', b"0" * 16
-#: The checksum stands second; names of schemas are short.
+#: The checksum begins before this position: it is the second member, and names of schemas are short.
 _FARTHEST = 200
 _WHOLE = "a complete file written by isojam"
 
 
 def _powers() -> NDArray[numpy.uint64]:
-    """p^BLOCK … p^2, p."""
+    """p^BLOCK, …, p^2, p."""
     return numpy.multiply.accumulate(numpy.full(BLOCK, PRIME, dtype=numpy.uint64))[::-1].copy()
 
 
@@ -38,7 +40,7 @@ _POWERS = _powers()
 
 
 def _running_xor(flips: NDArray[numpy.uint8]) -> None:
-    """Changes the bytes in place; their number is a multiple of eight."""
+    """Replaces each byte by the xor of all bytes up to it. The number of bytes must be a multiple of eight."""
     words = flips.view(_WORD)
     for shift in (8, 16, 32):
         words ^= words << _WORD.type(shift)
@@ -47,7 +49,7 @@ def _running_xor(flips: NDArray[numpy.uint8]) -> None:
 
 
 def _mixed_low_bytes(data: NDArray[numpy.uint8], low: int) -> NDArray[numpy.uint8]:
-    """l xor b for every byte b, where l is the low byte of the hash before it; `low` before the first."""
+    """l xor b for every byte b, where l is the low byte of the hash before b. `low` is l for the first byte."""
     mixed = numpy.zeros_like(data)
     flips = numpy.empty_like(data)
     for k in range(8):
@@ -64,7 +66,7 @@ def _mixed_low_bytes(data: NDArray[numpy.uint8], low: int) -> NDArray[numpy.uint
 
 
 def fnv1a(data: bytes) -> int:
-    """The 64-bit FNV-1a of bytes, as an int."""
+    """The 64-bit FNV-1a hash of `data`."""
     everything = numpy.frombuffer(data, dtype=numpy.uint8)
     value = BASIS
     for start in range(0, len(everything), BLOCK):
@@ -79,7 +81,7 @@ def fnv1a(data: bytes) -> int:
 
 
 def check_seal(data: bytes, file: str | os.PathLike[str]) -> None:
-    """Raises InputError unless the bytes of the file have the checksum that they state."""
+    """Raises InputError unless the file has a checksum that matches its bytes."""
     at = data.find(_BEFORE, 0, _FARTHEST)
     if at < 0 or len(data) < at + len(_BEFORE) + len(_BLANK):
         raise InputError(file, "/checksum", "the file has no checksum", _WHOLE)
@@ -91,8 +93,10 @@ def check_seal(data: bytes, file: str | os.PathLike[str]) -> None:
 
 
 def read_sealed(file: str | os.PathLike[str], schemas: str | tuple[str, ...] = (), check: bool = True) -> dict[str, Any]:
-    """The document in a file of isojam's, a dict. Raises InputError if it is not there, damaged, or of another schema; the
-    checksum is looked at if `check`."""
+    """Returns the document in a file that isojam wrote, as a dict.
+
+    Raises InputError if the file cannot be read, is not valid JSON, or has a schema that is not in `schemas`. If
+    `check` is true, also raises it if the checksum does not match."""
     try:
         data = pathlib.Path(file).read_bytes()
     except OSError as error:
@@ -112,10 +116,10 @@ def read_sealed(file: str | os.PathLike[str], schemas: str | tuple[str, ...] = (
 
 
 def check_owner(document: dict[str, Any], file: str | os.PathLike[str], name: str, record: dict[str, Any]) -> None:
-    """Raises InputError unless a packing or path says in its head that it is of this record."""
+    """Raises InputError unless the first keys of a packing file or a path file identify this record."""
     provenance = record["provenance"]
     now = {"manifest_digest": provenance["manifest_digest"], "result_digest": record["result_digest"]}
-    # Packings and paths stay as they are when measures are added to their record.
+    # Files of packings and paths do not change when measures are added to the record.
     owners = [{"replicate": name, **digests} for digests in [now] + [each["before"] for each in provenance.get("added", [])]]
     if any(all(document.get(key) == expected for key, expected in owner.items()) for owner in owners):
         return

@@ -1,4 +1,4 @@
-"""Solids as the program writes them."""
+"""Shapes of solids, read from files of the program."""
 
 import dataclasses
 import os
@@ -12,9 +12,10 @@ from .errors import InputError
 
 @dataclasses.dataclass(frozen=True)
 class Solid:
-    """A convex polyhedron of unit volume in its body frame, its centroid at the origin.
+    """A convex polyhedron of unit volume. Its centroid is the origin of the body frame.
 
-    vertices: (V, 3); faces: lists of indices of vertices, counter-clockwise seen from outside."""
+    vertices  (V, 3)
+    faces     for each face, a list of indices of vertices, counter-clockwise seen from outside"""
 
     name: str
     vertices: NDArray[numpy.float64]
@@ -25,7 +26,7 @@ class Solid:
 
 
 def read_obj(file: str | os.PathLike[str]) -> Solid:
-    """The solid in a Wavefront OBJ file of `isojam export --format xyz`."""
+    """Reads the solid in a Wavefront OBJ file that `isojam export --format xyz` wrote."""
     name = ""
     vertices: list[list[float]] = []
     faces: list[list[int]] = []

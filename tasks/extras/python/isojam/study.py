@@ -1,4 +1,4 @@
-"""A results directory."""
+"""Results of a study, read from a results directory."""
 
 import difflib
 import pathlib
@@ -19,24 +19,25 @@ _HOW_TO_GET_RESULTS = "give a results directory of isojam run"
 
 
 def load(directory: Path, program: Path | None = None, check: bool = True) -> "Study":
-    """The results in a directory, as a Study.
+    """Returns the results in a directory as a Study.
 
-    program  path of the program, which computes contacts, solids and the table; by default the module looks for it
-    check    require of every file that it has the checksum that it states
+    directory  the results directory
+    program    path of the program, which computes contacts, solids and the table; without it, the module searches for it
+    check      compare each file with the checksum that it contains
 
-    Raises InputError if there is no such directory or it holds no records."""
+    Raises InputError if the directory does not exist or contains no records."""
     return Study(directory, program, check)
 
 
 class Study:
-    """Results of `isojam run`. A file is read when its content is first needed.
+    """Results of `isojam run`. Each file is read when its content is first needed.
 
-    directory   a pathlib.Path
-    names       names of the recorded replicates, in order
-    manifest    a dict, or None
-    replicates  Rows, one for each replicate
-    states      Rows, one for each state of each replicate
-    table       Rows, one for each row of the table"""
+    directory   path of the results directory (pathlib.Path)
+    names       names of the recorded replicates, sorted
+    manifest    the manifest as a dict; None if the directory has none
+    replicates  Rows: one row for each replicate
+    states      Rows: one row for each state of each replicate that did not fail
+    table       Rows: one row for each line of the table"""
 
     def __init__(self, directory: Path, program: Path | None = None, check: bool = True, table: Rows | None = None) -> None:
         self.directory, self._program, self._check = pathlib.Path(directory), program, check
@@ -56,7 +57,7 @@ class Study:
 
     @property
     def excluding(self) -> tuple[str, ...]:
-        """Flags whose replicates count in no mean, as the manifest says."""
+        """Flags that exclude a replicate from means, as in the manifest."""
         return tuple((self.manifest or {}).get("exclude", facts.usual_exclusions))
 
     @property
@@ -69,13 +70,14 @@ class Study:
 
     @property
     def table(self) -> Rows:
-        """The table, as the program computes it when it is first needed; its warnings become warnings."""
+        """The table of `isojam aggregate --format csv`. The first access calls the program, whose warnings become
+        Python warnings."""
         if self._table is None:
             self._table = program.table(self._program, ["aggregate", self.directory, "--format", "csv"])
         return self._table
 
     def record(self, name: str) -> dict[str, Any]:
-        """The whole record of a replicate, a dict as schemas/replicate.schema.json has it."""
+        """The record of a replicate as a dict, see schemas/replicate.schema.json."""
         file = self._file("records", name)
         record = upgraded(read_sealed(file, (facts.schemas["record"], facts.earlier_record), self._check))
         spec = record.get("spec", {})
@@ -85,20 +87,23 @@ class Study:
         return record
 
     def packing(self, name: str) -> Packing:
-        """The state of a replicate nearest jamming. Raises InputError for a replicate that failed."""
+        """The nearest state of a replicate. Raises InputError if the replicate failed."""
         file, record, document = self._companion("packings", "packing", name)
         return Packing(name, document, file, "", record["nearest"]["delta_phi"], lambda: self._shapes(name, record))
 
     def path(self, name: str) -> list[Packing]:
-        """All states of a replicate, in order of expansion: a list of Packings. Raises InputError for one that failed, and
-        where expansions were not kept ("keep_path" in the manifest)."""
+        """All states of a replicate as a list of Packings, in the order of decompression.
+
+        Raises InputError if the replicate failed, or if the manifest does not have "keep_path": true."""
         file, record, document = self._companion("paths", "path", name)
         return [Packing(name, state, file, f"/states/{k}", state["delta_phi"], lambda: self._shapes(name, record))
                 for k, state in enumerate(document["states"])]
 
     def contacts(self, name: str | None = None, path: bool = False) -> Rows:
-        """Rows, one for each contact of one or all replicates: of the states nearest jamming, or with `path` of all states.
-        The program computes them; its warnings, for example of failed replicates, become warnings."""
+        """Rows with one row for each contact of a replicate; without `name`, of all replicates.
+
+        The contacts are those of the nearest states, or of all states if `path` is true. The program computes them. Its
+        warnings, for example about failed replicates, become Python warnings."""
         if name is not None:
             self._whole(name)
         words: list[Path] = ["export", self.directory, "all" if name is None else name, "--format", "contacts"]
@@ -112,7 +117,7 @@ class Study:
         return self.directory / folder / f"{name}.json"
 
     def _whole(self, name: str) -> dict[str, Any]:
-        """The record of a replicate that did not fail."""
+        """The record of a replicate. Raises InputError if the replicate failed."""
         record = self.record(name)
         if record["status"] == "failed":
             failure = record["failure"]
@@ -121,7 +126,9 @@ class Study:
         return record
 
     def _companion(self, folder: str, kind: str, name: str) -> tuple[pathlib.Path, dict[str, Any], dict[str, Any]]:
-        """File, record and document of a packing or path, which is known to be its own."""
+        """Path and content of a packing file or a path file, with the record to which it belongs.
+
+        Raises InputError if the replicate failed, or if the file is missing, damaged or belongs to another record."""
         record, file = self._whole(name), self._file(folder, name)
         if folder == "paths" and not file.exists():
             raise InputError(file, "", "the states of the decompression were not saved",
@@ -131,7 +138,7 @@ class Study:
         return file, record, document
 
     def _shapes(self, name: str, record: dict[str, Any]) -> dict[str, Solid]:
-        """Solids by name. The manifest defines them, so a name means the same solid in the whole directory."""
+        """Solids by their names. The manifest defines them, so a name means the same solid in the whole directory."""
         spec = record["spec"]
         wanted = {kind["solid"] for kind in spec.get("mixture", [spec])}
         if not wanted <= self._solids.keys():
@@ -152,7 +159,7 @@ class Study:
                 digests.add(row["manifest_digest"])
                 added = record["provenance"].get("added", [])
                 earlier.update(each["before"]["manifest_digest"] for each in added)
-            # Records to which measures were added stand beside those that lack them.
+            # Some records may have additional measures, and others may not have them yet.
             digests -= earlier
             if len(digests) > 1:
                 warnings.warn(f"{self.directory}: contains records of {len(digests)} manifests; distinguish them by "

@@ -1,4 +1,4 @@
-"""Tables that the program exports, as CSV or a JSON object per line."""
+"""Tables that the program exports, as CSV or as JSON lines."""
 
 import csv
 import json
@@ -13,7 +13,7 @@ from . import facts
 from .errors import InputError
 from .rows import Array, Rows, column_of
 
-#: Types of columns whose values do not show them: 0 may mean 0.0, and an empty cell any null.
+#: Types of columns. Values do not always show the type: 0 may be 0.0, and an empty cell is null for every type.
 _TEXT = {"replicate", "solid", "class", "kind", "solid_a", "solid_b", "status", "stopped", "failed_in", "failure"}
 _LISTS = {"flags", "reasons"}
 _INTEGER = {"state", "a", "b", "image"}
@@ -21,16 +21,20 @@ _FLOAT = {"delta_phi", "phi", "volume", "area", "force", "attack", "normal", "to
           "theta_ff", "depth", "energy_per_particle", "pressure", "residual"}
 _FLOAT |= {quantity["name"] for quantity in facts.quantities}
 _AXES = ("_x", "_y", "_z")
-#: Divides what one cell lists.
+#: Separator of several values in one cell.
 _BETWEEN = "; "
 _TRUTH = {"true": True, "false": False}
 
 
 def read_table(file: str | os.PathLike[str] | IO[str], name: str | None = None) -> Rows:
-    """The table in a file of `isojam export --format contacts`, `replicates` or `states`, or in an open text file; Rows.
+    """Reads a table that `isojam export` wrote in the format `contacts`, `replicates` or `states`. Returns Rows.
 
-    Columns NAME_x, NAME_y, NAME_z become one of shape (rows, 3). Null is NaN among numbers and "" among text. Raises
-    InputError, with file and line, for what is no such table; `name` is what messages call an open file."""
+    file  path of the file, or an open text file
+    name  name of an open file in error messages
+
+    Columns NAME_x, NAME_y and NAME_z become one column NAME of shape (rows, 3). Null is NaN in a column of numbers,
+    and "" in a column of text. Raises InputError with the file and the line if the file does not contain such a
+    table."""
     if not isinstance(file, (str, os.PathLike)):
         return _read(file, name or str(getattr(file, "name", "the table")))
     try:
@@ -56,7 +60,9 @@ def _read(opened: Iterable[str], file: str | os.PathLike[str]) -> Rows:
 
 
 def _reasons(names: set[str]) -> Callable[[str], Any]:
-    """A function that splits "Z_ff: no cut-off; S: …" into a dict by names; a reason may contain the separator."""
+    """Returns a function that splits a text such as "Z_ff: no cut-off; S: …" into a dict by names of columns.
+
+    A reason may contain the separator."""
     def take(text: str) -> dict[str, str]:
         found: dict[str, str] = {}
         name = None
@@ -90,7 +96,7 @@ def _csv_columns(lines: Iterable[str], file: str | os.PathLike[str]) -> dict[str
 
 
 def _parsed(name: str, texts: Sequence[str], file: str | os.PathLike[str]) -> Array:
-    """The array of a column's texts."""
+    """Converts the texts of a column to an array."""
     plain = _plain(name)
     if plain in _TEXT | _LISTS:
         return numpy.array(texts, dtype=str)
@@ -110,7 +116,7 @@ def _parsed(name: str, texts: Sequence[str], file: str | os.PathLike[str]) -> Ar
 
 
 def _plain(name: str) -> str:
-    """Without the axis, as which a vector's type is known."""
+    """The name of a column without the suffix of an axis. The type of the column depends on this name."""
     return name[:-2] if name.endswith(_AXES) else name
 
 
@@ -140,7 +146,7 @@ def _json_columns(lines: Iterable[str], file: str | os.PathLike[str]) -> dict[st
 
 
 def _gathered(name: str, values: list[Any]) -> Array:
-    """The array of a column's JSON values."""
+    """Converts the JSON values of a column to an array."""
     if name in _TEXT | _LISTS and all(value is None for value in values):
         return numpy.array([""] * len(values))
     if _plain(name) in _FLOAT and all(value is None or isinstance(value, (int, float)) for value in values):
@@ -149,7 +155,7 @@ def _gathered(name: str, values: list[Any]) -> Array:
 
 
 def _with_vectors(columns: Mapping[str, Array]) -> dict[str, Array]:
-    """One column for every three of which the names end with _x, _y and _z."""
+    """Joins columns whose names end in _x, _y and _z to one column each."""
     merged = {}
     for name, values in columns.items():
         stem = name[:-2]
