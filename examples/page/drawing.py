@@ -1,4 +1,4 @@
-"""Shared parts of the pages' figures: colours and symbols by solid, means against Δφ, reproducible files."""
+"""Shared parts of the figures: colours and symbols of solids, means against Δφ, and writing of reproducible files."""
 
 import math
 
@@ -19,9 +19,11 @@ SETTINGS = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False
 
 
 def mean_path(data, solid, particles, column, logarithmic=False):
-    """Means over replicates with half widths, at distances where at least half of the replicates have a value.
-    If logarithmic, the means are geometric, and the confidence interval is that of the mean logarithm. For two
-    replicates the half width is 0."""
+    """Means over replicates at the distances of GRID, with half the widths of their 95 % confidence intervals.
+
+    Returns a list of distances, a list of means, and two lists of half widths, below and above the means. A distance is
+    left out unless at least half of the replicates have a value there. If `logarithmic`, means are geometric, for
+    quantities that vary over decades. With two replicates, the half widths are 0."""
     paths = [(x, [math.log(v) if v and v > 0 else None for v in y] if logarithmic else y)
              for x, y in data.paths(solid, particles, column)]
     x, y, error = [], [], []
@@ -38,6 +40,6 @@ def mean_path(data, solid, particles, column, logarithmic=False):
 
 def save(figure, path, dpi=100):
     figure.tight_layout()
-    # The file does not contain the version of matplotlib, so that the same data give the same file.
+    # The version of matplotlib is left out, so that the same data give the same file.
     figure.savefig(path, dpi=dpi, metadata={"Software": None}, pil_kwargs={"optimize": True})
     pyplot.close(figure)

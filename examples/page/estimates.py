@@ -1,6 +1,10 @@
-"""Means over replicates with confidence intervals: pure functions. An estimate is a dict of mean, half_width and n. The
-half width is that of the 95 % confidence interval (Student t), or None for a single value. If several choices of the
-analysis were compared, the dict also has `systematic`, the systematic error."""
+"""Means over replicates with confidence intervals. All functions are pure.
+
+An estimate is a dict with these keys:
+- `mean`
+- `half_width`: half the width of the 95 % confidence interval (Student's t); None for a single value
+- `n`: the number of values
+- `systematic`: the systematic error, if a choice in the analysis was varied"""
 
 import math
 import random
@@ -12,26 +16,28 @@ NORMAL = float(ndtri(0.975))  # half width of a 95 % confidence interval in stan
 
 
 def student(freedom, probability=0.975):
-    """Quantile of Student's t."""
+    """Quantile of Student's t distribution for this number of degrees of freedom."""
     return float(stdtrit(freedom, probability))
 
 
 def normal_deviate(t, freedom):
-    """Normal deviate with the same two-sided probability as t has in Student's distribution; limited to ±8."""
+    """Converts a value t of Student's distribution to the normal deviate with the same two-sided probability. At most
+    8."""
     return math.copysign(min(-float(ndtri(stdtr(freedom, -abs(t)))), 8.0), t)
 
 
 def added(variances):
-    """(standard deviation, degrees of freedom) of a sum by Welch and Satterthwaite, from (variance, degrees of freedom)
-    of each part. The degrees of freedom of an exactly known variance are None."""
+    """Standard deviation of a sum, and its degrees of freedom by Welch and Satterthwaite.
+
+    `variances` has a pair (variance, degrees of freedom) for each part of the sum. The degrees of freedom are None if
+    the variance is known exactly."""
     total = sum(variance for variance, _ in variances)
     spent = sum(variance ** 2 / freedom for variance, freedom in variances if freedom)
     return math.sqrt(total), min(1e6, total ** 2 / spent) if spent > 0 else 1e6
 
 
 def difference_of(first, second):
-    """Mean of `second` minus mean of `first`, two lists of independent values, with the 95 % confidence interval of
-    Welch's t test."""
+    """Mean of `second` minus mean of `first`, two lists of independent values, with the 95 % interval by Welch's t."""
     parts = [(statistics.variance(values) / len(values), len(values) - 1) for values in (first, second)]
     deviation, freedom = added(parts)
     return {"mean": statistics.fmean(second) - statistics.fmean(first),
@@ -39,12 +45,12 @@ def difference_of(first, second):
 
 
 def binomial_at_least(k, n, p):
-    """Probability of at least k successes in n trials."""
+    """Probability of at least k successes in n trials, if p is the probability of success in one trial."""
     return float(bdtrc(k - 1, n, p))
 
 
 def estimate_of(values, systematic=None):
-    """Estimate from the values that are not None. Returns None if all are None."""
+    """Estimate from the values that are not None; None if there are no such values."""
     values = [value for value in values if value is not None]
     if not values:
         return None
@@ -55,19 +61,23 @@ def estimate_of(values, systematic=None):
 
 
 def of_choices(central, others):
-    """The central estimate. Its systematic error is half the range of the means of all choices."""
+    """The central estimate with a systematic error: half the range of the means of all choices, including the central
+    one."""
     means = [e["mean"] for e in (central, *others) if e]
     return {**central, "systematic": 0.5 * (max(means) - min(means))} if central else None
 
 
 def single_half_width(estimate):
-    """Half width of the 95 % prediction interval for one more packing, t·sd·√(1 + 1/n)."""
+    """Half the width of the 95 % prediction interval for one more packing: t·sd·√(1 + 1/n). It follows from
+    `half_width`."""
     return estimate["half_width"] * math.sqrt(estimate["n"] + 1)
 
 
 def pooled_correlation(found):
-    """Common correlation r of several samples, from (r, number of pairs) of each, by the weighted mean of Fisher's z.
-    Returns (r, its 95 % confidence interval), or (None, None) if every sample has fewer than four pairs."""
+    """Common correlation of several samples, and its 95 % interval, by the weighted mean of Fisher's z.
+
+    `found` has a pair (r, number of pairs) for each sample. The result is (None, None) if no sample has at least four
+    pairs."""
     some = [(math.atanh(r), n - 3) for r, n in found if r is not None and n > 3 and abs(r) < 1]
     weight = sum(w for _, w in some)
     if not weight:
@@ -77,6 +87,8 @@ def pooled_correlation(found):
 
 
 def resamples(count, draws, seed):
-    """Bootstrap samples: `draws` lists of `count` random indices of replicates. The same seed gives the same lists."""
+    """Lists of `count` random indices below `count`, one list for each of `draws` bootstrap samples.
+
+    Calls with the same arguments give the same lists."""
     stream = random.Random(seed)
     return [[stream.randrange(count) for _ in range(count)] for _ in range(draws)]

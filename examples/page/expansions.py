@@ -1,4 +1,4 @@
-"""φ_J of each replicate, and estimates over replicates as functions of Δφ."""
+"""φ_J of each replicate of some studies, and estimates over replicates as functions of Δφ."""
 
 import functools
 
@@ -6,17 +6,18 @@ from estimates import estimate_of, of_choices
 from scaling import at, free_exponent, jamming_density, local_slopes
 
 LEFT_OUT = {"crystalline", "goal_not_reached"}
-# Windows of φ − φ_J in which φ_J is fitted, smallest first. The first window with at least ENOUGH states gives φ_J. The
-# next two contribute to its systematic error.
+# Fit windows for φ_J, nearest first. φ_J comes from the first one with enough states, and its systematic error from the
+# next two and the free exponent.
 WINDOWS = ((0, 0.0025), (0, 0.005), (0, 0.01), (0, 0.02))
 ENOUGH = 4
-CHOICES = 4  # fits of φ_J: three windows and a free exponent
+CHOICES = 4  # number of fits of φ_J: three windows and a free exponent
 
 
 def densities(replicate):
-    """A list of fitted φ_J of a replicate: from the first three windows with enough states, then with a free exponent
-    in the last of these windows. A failed fit is None; if the first fit fails, the φ_J of the record replaces it. If no
-    window has enough states, the list contains only the φ_J of the record."""
+    """φ_J of a replicate, by several fits.
+
+    The fits use the nearest three windows with enough states, and then a free exponent with the last of these windows.
+    A fit that fails gives None. If no window has enough states, the only value is φ_J in the record."""
     phi, energy, start = replicate["states"]["phi"], replicate["states"]["E"], replicate["phi_j"]["phi_j"]
     windows = [w for w in WINDOWS if sum(w[0] <= x - start < w[1] for x in phi) >= ENOUGH][:3]
     if not windows:
@@ -31,8 +32,10 @@ def chosen(found, choice):
 
 
 class Expansions:
-    """Replicates of several studies, {name: {"replicates": [...]}}. Estimates use only studies that are named in
-    `main`, and only replicates without a flag of LEFT_OUT."""
+    """Estimates over the replicates of studies: {name: {"replicates": [...]}}.
+
+    Only the studies in `main` are used. Crystalline replicates, and replicates that did not reach their goal, are left
+    out."""
 
     def __init__(self, studies, main):
         self.studies, self.main = studies, main
@@ -52,13 +55,14 @@ class Expansions:
 
     @functools.cache
     def distances(self, solid, particles, choice=0):
-        """Δφ of every state of every replicate, measured from the fitted φ_J with the number `choice`. If this fit
-        failed, the first fit replaces it, so that all choices use the same replicates."""
+        """Δφ of every state of every replicate, for one choice of φ_J.
+
+        If a fit failed for a replicate, its first φ_J is used instead, so that all choices have the same replicates."""
         return [[x - chosen(found, choice) for x in replicate["states"]["phi"]] for replicate, found in zip(
             self.counted(solid, particles), self.densities(solid, particles))]
 
     def phi_j(self, solid, particles):
-        """Estimate of φ_J. Its systematic error is half the range over the fits."""
+        """Estimate of φ_J. The systematic error is half the range over the fits."""
         found = self.densities(solid, particles)
         if not found:
             return None
@@ -66,26 +70,26 @@ class Expansions:
         return of_choices(choices[0], choices[1:])
 
     def column(self, solid, particles, name):
-        """For every replicate the list of values of its states, or None if it does not have this column."""
+        """Values in the states of every replicate; None for a replicate without this column."""
         return [r["states"].get(name) for r in self.counted(solid, particles)]
 
     def paths(self, solid, particles, name, choice=0):
-        """(list of Δφ, list of values) of every replicate that has this column."""
+        """A pair (Δφ, values) for every replicate that has this column."""
         return [(x, y) for x, y in zip(self.distances(solid, particles, choice), self.column(solid, particles, name))
                 if y is not None]
 
     def nearest(self, solid, particles, name):
-        """Estimate over the nearest states of all replicates."""
+        """Estimate over the nearest states."""
         return estimate_of([y[-1] for y in self.column(solid, particles, name) if y])
 
     def at(self, solid, particles, name, distance):
-        """Estimate at a distance from jamming, interpolated between the two states around it."""
+        """Estimate at a distance to jamming, interpolated between the two states on either side."""
         return estimate_of([at(x, y, distance) for x, y in self.paths(solid, particles, name)])
 
     def nearest_distance(self, solid, particles):
         return estimate_of([x[-1] for x in self.distances(solid, particles)])
 
     def slopes(self, solid, particles, name, edges):
-        """Local exponents in Δφ for each bin. Their systematic error is half the range over the fits of φ_J."""
+        """Local exponents in Δφ, one estimate for each bin. The systematic error comes from the choice of φ_J."""
         choices = [local_slopes(self.paths(solid, particles, name, i), edges) for i in range(CHOICES)]
         return [of_choices(central, [choice[i] for choice in choices[1:]]) for i, central in enumerate(choices[0])]

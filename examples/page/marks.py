@@ -1,6 +1,7 @@
-"""Replaces the parts of a page that are made from data. Blocks are enclosed by `<!-- block NAME -->` and
-`<!-- end -->`. Numbers in a sentence are enclosed by `<!-- = NAME -->` and `<!-- / -->`. The text
-between these marks is replaced; everything else is unchanged."""
+"""Replaces the parts of a page that are made from data.
+
+A block is the text between `<!-- block NAME -->` and `<!-- end -->`. A value in a sentence is the text between `<!-- =
+NAME -->` and `<!-- / -->`. Both are replaced by the text for NAME. The rest of the page does not change."""
 
 import re
 
@@ -9,12 +10,14 @@ VALUE = re.compile(r"(<!-- = ([^\n]+?) -->).*?(<!-- / -->)", re.DOTALL)
 
 
 class PageError(Exception):
-    """The blocks of the page are not the expected ones, or a number has no value."""
+    """The page does not have the required blocks, or it contains an unknown value."""
 
 
 def renewed(page, blocks, data, value_of=None, every=True):
-    """The page with new text between all marks. blocks is {name: function of data}; value_of is a function of (data,
-    name). The page must contain every block of `blocks` once. With every=False, at least one of them is enough."""
+    """The page with all its parts made again.
+
+    `blocks` is {name: function of data}. `value_of` is a function of (data, name). The page must have every block once.
+    With every=False, it must have at least one of them."""
     names = [match.group(2) for match in BLOCK.finditer(page)]
     if not every and not names or not set(names) <= set(blocks):
         raise PageError(f"the page must have some of these blocks: {', '.join(sorted(blocks))}")
@@ -32,5 +35,5 @@ def renewed(page, blocks, data, value_of=None, every=True):
 
 
 def without_marks(text):
-    """The text without HTML comments."""
+    """The text without HTML comments, as a reader sees it."""
     return re.sub(r"<!--.*?-->", "", text)

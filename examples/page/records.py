@@ -1,4 +1,4 @@
-"""Reads the records of a results directory, and writes the data files of a page."""
+"""Reads the records of a results directory, and writes the rounded values that a page uses, one line per replicate."""
 
 import csv
 import json
@@ -7,14 +7,14 @@ import sys
 
 
 def records_of(directory):
-    """Yields (name, record) in the order of the names. Yields nothing if the directory does not exist."""
+    """Pairs (name, record), sorted by name; none if the directory does not exist."""
     for path in sorted((directory / "records").glob("*.json")):
         with open(path, encoding="utf-8") as file:
             yield path.stem, json.load(file)
 
 
 def found(value, place):
-    """Value at a place of a record, or None if it is missing. The keys in `place` are separated by /."""
+    """Value in a record at a place, which consists of keys separated by "/"; None if it is missing."""
     for key in place.split("/"):
         if not isinstance(value, dict) or key not in value:
             return None
@@ -23,7 +23,7 @@ def found(value, place):
 
 
 def replicate_of(record):
-    """The values of a record that every page needs, except those of states."""
+    """The parts of a record that every page needs. States are not included."""
     spec = record["spec"]
     made = {"solid": spec["solid"], "particles": spec["particles"], "replicate": spec["replicate"],
             "status": record["status"], "flags": record.get("flags") or [],
@@ -35,8 +35,8 @@ def replicate_of(record):
 
 
 def contacts_of(isojam, directory, name):
-    """A list with a dict for every state of a replicate. The dict has four lists with one element per contact: the
-    particles a and b, and the angles theta_ef and theta_ff in radians."""
+    """Contacts of every state of a replicate: one dict per state, with the lists a, b (particles), theta_ef, theta_ff
+    (radians)."""
     command = [isojam, "export", directory, name, "--format", "contacts", "--path"]
     states = {}
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
@@ -51,7 +51,7 @@ def contacts_of(isojam, directory, name):
 
 
 def rounded(value, digits=4):
-    """The value with all numbers rounded: φ, φ_J and angles to nine digits, E/N to six, all others to `digits`."""
+    """Rounds numbers: φ and angles to nine significant digits, E/N to six, all others to `digits`."""
     if isinstance(value, float):
         return float(f"{value:.{digits}g}")
     if isinstance(value, list):
@@ -63,8 +63,8 @@ def rounded(value, digits=4):
 
 
 def write(path, value):
-    """Writes a dict as JSON. Its values are lists of replicates, or dicts with the key "replicates". Each replicate
-    is on its own line, so that diffs are readable."""
+    """Writes {name: list} or {name: {..., "replicates": list}} as JSON with one line per replicate, so that diffs are
+    readable."""
     parts = []
     for name, entry in rounded(value).items():
         rows = entry["replicates"] if isinstance(entry, dict) else entry

@@ -1,6 +1,6 @@
-"""Power laws in Δφ = φ − φ_J, and φ_J itself, from the states of decompressions: pure functions.
+"""φ_J and power laws of Δφ = φ − φ_J, from the states of decompressions. All functions are pure.
 
-A path is a list of states in order of decreasing φ; each value of a state is a number or None."""
+The states of a replicate are in the order of decreasing φ. A value of a state is a number or None."""
 
 import math
 
@@ -10,7 +10,7 @@ LEAST_STATES = 2
 
 
 def line(x, y):
-    """Intercept, slope and sum of squared residuals of a least-squares line."""
+    """Least-squares line through points: intercept, slope and squared residual."""
     n = len(x)
     mean_x, mean_y = sum(x) / n, sum(y) / n
     xx = sum((a - mean_x) ** 2 for a in x)
@@ -20,10 +20,12 @@ def line(x, y):
 
 
 def jamming_density(phi, energy, start, window, exponent=6):
-    """φ_J: the density at which the line fitted to (E/N)^(1/exponent) reaches zero. It is fitted to the states with
-    lower ≤ φ − φ_J < upper. Because these states depend on φ_J, the fit is repeated, beginning with
-    φ_J = `start`, until they no longer change. If they repeat in a cycle, returns the mean φ_J of the cycle. Returns
-    None if fewer than LEAST_STATES states are in the window."""
+    """φ_J by a linear fit: the density where (E/N)^(1/exponent) vanishes.
+
+    The fit uses the states with lower ≤ φ − φ_J < upper, where `window` is (lower, upper). These states depend on φ_J,
+    so the fit is repeated, first with φ_J = `start`, until the states no longer change. If they repeat in a cycle, the
+    result is the mean over the cycle. The result is None if too few states are in the window, or if (E/N)^(1/exponent)
+    does not increase with φ."""
     lower, upper = window
     found, seen, history = start, [], []
     while True:
@@ -42,8 +44,10 @@ def jamming_density(phi, energy, start, window, exponent=6):
 
 
 def free_exponent(phi, energy, start, window):
-    """(φ_J, x) of the least-squares fit of ln E for E ∝ (φ − φ_J)^x, with φ_J and x free, over the states with
-    φ − `start` in the window. Returns None if there are fewer than four such states."""
+    """Fit of E ∝ (φ − φ_J)^x by least squares of ln E: (φ_J, x).
+
+    The fit uses the states whose distance from `start` is in the window. The result is None for fewer than four
+    states."""
     chosen = [i for i, x in enumerate(phi) if window[0] <= x - start < window[1] and energy[i] > 0]
     if len(chosen) < 4:
         return None
@@ -53,7 +57,7 @@ def free_exponent(phi, energy, start, window):
     def off(gap):
         return line([math.log(a - least + gap) for a in x], y)[2]
 
-    # Golden section search over ln(gap), where gap is the distance from φ_J to the last state. There is one minimum.
+    # Golden section: as a function of the logarithm of the gap between φ_J and the last state there is one minimum.
     low, high, ratio = math.log(reach * 1e-4), math.log(reach * 10), (math.sqrt(5) - 1) / 2
     for _ in range(120):
         first, second = high - ratio * (high - low), low + ratio * (high - low)
@@ -63,7 +67,7 @@ def free_exponent(phi, energy, start, window):
 
 
 def slopes(x, y):
-    """(geometric mean of x, d ln y/d ln x) for each pair of neighbouring states whose x and y are positive."""
+    """Pairs (geometric mean of x, d ln y/d ln x) for neighbouring states with positive numbers."""
     found = []
     for (x1, y1), (x2, y2) in zip(zip(x, y), zip(x[1:], y[1:])):
         if None in (x1, x2, y1, y2) or min(x1, x2, y1, y2) <= 0 or x1 == x2:
@@ -73,8 +77,10 @@ def slopes(x, y):
 
 
 def binned(paths, edges):
-    """An estimate for each bin between ascending edges, from one list of (x, value) per replicate. Each replicate
-    contributes one value to a bin: its mean in this bin."""
+    """One estimate for each bin between two consecutive edges, which ascend.
+
+    `paths` has one list of pairs (x, value) per replicate. A replicate counts once in a bin, with the mean of its
+    values."""
     bins = []
     for lower, upper in zip(edges, edges[1:]):
         means = []
@@ -87,13 +93,15 @@ def binned(paths, edges):
 
 
 def local_slopes(paths, edges):
-    """An estimate of the local exponent in each bin, from one (x values, y values) per replicate."""
+    """Local exponents, one estimate for each bin. `paths` has a pair (values of x, values of y) for each replicate."""
     return binned([slopes(x, y) for x, y in paths], edges)
 
 
 def at(x, y, where):
-    """y at x = `where`, interpolated linearly in ln x between the neighbouring known values. x must decrease. Returns
-    None if `where` is outside of the known values."""
+    """y at x = where, interpolated linearly in ln x between two neighbouring states with numbers; None if there are
+    none.
+
+    x must decrease."""
     known = [(a, b) for a, b in zip(x, y) if b is not None and a > 0]
     for (x1, y1), (x2, y2) in zip(known, known[1:]):
         if x2 <= where <= x1:

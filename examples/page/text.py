@@ -1,4 +1,4 @@
-"""Numbers and tables of the pages: pure functions from values to Markdown."""
+"""Converts numbers and tables to Markdown. All functions are pure."""
 
 import math
 import re
@@ -7,13 +7,13 @@ from estimates import single_half_width
 
 
 def number(x, places):
-    """x with the given number of decimal places. A minus sign replaces the hyphen; zero has no sign."""
+    """A number with a minus sign instead of a hyphen. A zero has no sign."""
     text = f"{x:.{places}f}"
     return (text.lstrip("-") if float(text) == 0 else text).replace("-", "−")
 
 
 def places_of(half_width):
-    """Number of decimal places that shows two digits of the half width, at most five."""
+    """Number of decimal places that shows two significant digits of `half_width`, at most five."""
     if not half_width > 0:
         return 3
     return min(5, max(0, 1 - math.floor(math.log10(half_width * 1.05))))
@@ -24,8 +24,9 @@ def signed(x, places):
 
 
 def interval(estimate):
-    """mean ± half width of the 95 % confidence interval, and ± systematic error if there is one. If only one replicate
-    has a value, there is no half width. If all replicates have the same value, the half width is 0."""
+    """mean ± half width of the 95 % confidence interval ± systematic error, if there is one.
+
+    The value of a single replicate has no interval. Equal values have the interval ± 0."""
     if not estimate or estimate["mean"] is None:
         return "–"
     systematic = estimate.get("systematic")
@@ -40,18 +41,17 @@ def interval(estimate):
 
 
 def bounded(estimate):
-    """The same text as interval(), but if the last error rounds to zero, it is written as less than one unit of the
-    last digit."""
+    """The text of interval(). If its last error rounds to zero, "<" and one unit of the last digit replace the zero."""
     return re.sub(r"± 0\.(0+)$", lambda match: f"± < 0.{match.group(1)[:-1]}1", interval(estimate))
 
 
 def counted(estimate):
-    """The text of interval() with the number of replicates in brackets."""
+    """The text of interval(), followed by the number of replicates in parentheses."""
     return f"{interval(estimate)} ({estimate['n']})" if estimate else "–"
 
 
 def spread(estimate):
-    """± half width of the 95 % prediction interval for one more packing."""
+    """± half the width of the 95 % prediction interval for one more packing."""
     if not estimate or estimate["half_width"] is None:
         return "–"
     if estimate["half_width"] == 0:
@@ -69,7 +69,7 @@ def significant(x, digits):
 
 
 def power(x):
-    """1e-7 as 1·10⁻⁷, rounded up to one digit because the pages use it for upper bounds."""
+    """A largest value with one digit, such as 1·10⁻⁷ for 1e-7. It is rounded up."""
     if not x:
         return "0"
     exponent = math.floor(math.log10(x))
