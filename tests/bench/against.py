@@ -1,8 +1,10 @@
-"""Compares benchmarks of two trees: python3 against.py BEFORE NOW [--filter REGEX] [--rounds N]
+"""Compares the speed of two versions: python3 against.py BEFORE NOW [--filter REGEX] [--rounds N]
 
-BEFORE and NOW are two isojam_bench programs. Each round runs both, in alternating order, so that other load on the
-machine affects both equally. For every benchmark in both programs it prints the medians over the rounds, and the median
-and range of the rounds' ratios, before over now: NOW is faster if the ratio is above 1.
+BEFORE and NOW are two programs isojam_bench. Each round runs both. The order alternates from round to round, so that
+other load on the machine affects both equally.
+
+For every benchmark in both programs, the output has the median time of each program. It also has the ratio of times,
+BEFORE divided by NOW: the median and the range over the rounds. NOW is faster if the ratio is above 1.
 """
 
 import argparse
@@ -14,7 +16,7 @@ import tempfile
 
 
 def medians(binary, pattern):
-    """Times of one run in ns by name, without the other counters of a benchmark."""
+    """Times of one run in ns, by the name of the benchmark. Other counters are left out."""
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
         words = [binary, "--benchmark_filter=" + pattern, "--benchmark_repetitions=3", "--ratios", file.name]
         subprocess.run(words, check=True, stdout=subprocess.DEVNULL)

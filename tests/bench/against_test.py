@@ -1,9 +1,11 @@
-"""Properties of against.py tested here, with two programs that replace isojam_bench and print prescribed results:
-- The printed ratio is the median of the rounds' ratios, before over now, with its range, next to both medians.
-- The order of the programs alternates from round to round.
-- A benchmark that only one of them has is skipped, and so are counters other than times. If none is left, the output is
-  one line that names the filter. If a program fails, so does the comparison.
-usage: against_test.py
+"""Tests against.py with two programs that replace isojam_bench and print given results. usage: against_test.py
+
+- The printed ratio is the median of the ratios of the rounds, BEFORE divided by NOW. Its range and both median times
+  are printed too.
+- The order of the two programs alternates from round to round.
+- A benchmark that only one program has is left out, and so are counters other than times. If no benchmark is left, the
+  output is one line with the filter.
+- If a program fails, against.py fails too.
 """
 
 import json
@@ -34,7 +36,7 @@ class Against(unittest.TestCase):
         self.root = pathlib.Path(directory.name)
 
     def compared(self, before, now):
-        """Each program's answers, one for each round."""
+        """Calls against.py with programs that print these results, one result for each round."""
         for name, answers in (("before", before), ("now", now)):
             (self.root / (name + ".json")).write_text(json.dumps(answers))
             (self.root / name).write_text(FAKE)

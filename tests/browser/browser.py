@@ -1,4 +1,4 @@
-"""Chromium for the report's test: pages from disk, no network, everything it says written down."""
+"""Runs Chromium for the browser tests: it opens pages from disk without a network, and records all messages."""
 
 import json
 import shutil
@@ -13,7 +13,7 @@ FLAGS = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "
 
 
 class Browser:
-    """A browser with a profile and a download directory of its own, both below `root`."""
+    """A browser. Its profile and its download directory are below `root`."""
 
     def __init__(self, root, name, flags=()):
         options = Options()
@@ -28,7 +28,7 @@ class Browser:
                                     {"behavior": "allow", "downloadPath": str(self.downloads)})
 
     def media(self, **features):
-        """Media features that pages see, such as prefers_color_scheme="dark"."""
+        """Sets media features for pages, such as prefers_color_scheme="dark"."""
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [
             {"name": name.replace("_", "-"), "value": value} for name, value in features.items()]})
 
@@ -40,7 +40,7 @@ class Browser:
         return self.driver.execute_script(script, *arguments)
 
     def wait(self, script, what, seconds=200):
-        """Until the expression is true in the page."""
+        """Waits until a JavaScript expression is true in the page."""
         self.driver.set_script_timeout(seconds + 5)
         done = self.driver.execute_async_script(f"""
             const done = arguments[arguments.length - 1], until = performance.now() + {seconds * 1000};
@@ -58,7 +58,7 @@ class Browser:
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
     def requests(self):
-        """Addresses that pages from disk asked for since the last call."""
+        """Addresses that pages have requested since the last call."""
         addresses = []
         for entry in self.driver.get_log("performance"):
             message = json.loads(entry["message"])["message"]

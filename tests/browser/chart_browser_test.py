@@ -1,15 +1,15 @@
-"""These tests prove, in Chromium, of a chart that isojam wrote and that is opened from disk:
-- the page has no console error, and asks the network for nothing;
-- every family of errors against times has a figure with a panel for each case, both axes logarithmic; each failure is
-  drawn once, and the reason is written at the upper edge, clear of the marks; fronts are drawn;
-- settings of the protocol have a row each, labelled, at a wide and at a narrow window: no two labels or points of a panel
-  touch, each point stands in the row of its label, and a failure is one cross;
-- costs against N have a line for each thing that is timed, and beside it the fitted power as the data have it;
-- the conclusion stands as the data have it;
-- the atlas has a cell for each row, marked by sign and word, not by colour alone; its tooltip says figure and reason;
-  each failure and refusal is also text, which is open in print;
-- nothing is wider than the window on a narrow screen.
-usage: chart_browser_test.py ISOJAM
+"""Tests the page of a chart in Chromium, opened from disk. usage: chart_browser_test.py ISOJAM
+
+- The page has no console error and requests nothing from the network.
+- Each family of errors and times has a figure with one panel for each task and two logarithmic axes. Each failure is
+  drawn once, and its reason is written at the upper edge without covering other marks. Pareto fronts are drawn.
+- Each setting of the protocol has a row with a label, in a wide and in a narrow window. No two labels or points of a
+  panel touch, each point is in the row of its label, and a failure is one cross.
+- Costs as functions of N have one line for each method, with the fitted power next to it, as in the data.
+- The conclusion has the text of the data.
+- Each row of the atlas has a cell with a sign and a word, not only a colour. Its tooltip shows the value and the
+  reason. Each failure and refusal is also written as text, which is visible in print.
+- On a narrow screen, no element is wider than the window.
 """
 
 import collections
@@ -90,7 +90,7 @@ class Chart(unittest.TestCase):
         self.assertTrue(any(point["failed"] for point in self.data["families"][0]["points"]))
 
     def rows_of_settings(self):
-        """Boxes of labels, points and crosses of both panels, left to right or top to bottom."""
+        """Boxes of the labels, points and crosses in both panels, from left to right or from top to bottom."""
         return self.browser.run(f"""
             const boxes = (panel, marks) => [...panel.querySelectorAll(marks)].map((mark) => {{
               const {{left, right, top, bottom}} = mark.getBoundingClientRect();

@@ -1,22 +1,25 @@
-"""These tests prove, in Chromium, of pages that isojam wrote and that are opened from disk:
-- no page has a console error, asks the network for anything, or opens an alert;
-- every chart has marks, in every panel, and none of them lies at NaN; tooltips appear;
-- charts are saved as SVG, PNG, specification (with the data) and data;
-- a mean of one replicate is drawn open and joined to no other; panels and bands say what varies, in full;
-- the table sorts by every column, both ways, by click and by keyboard; copies are what `isojam aggregate` prints;
-- the 3D view draws, turns by mouse and by keys, zooms, colours, shows the largest cluster alone, animates a mode, and
-  leaves out the outlines of 400 particles while they turn; without WebGL a sentence stands in its place;
-- someone who asked for less motion is shown none;
-- all solids stand in one chart where the reader asks, distinguished by colour and symbol; symbols are set as
-  mathematics;
-- of 400 replicates none hides another: boxes, swarms; crystals stretch an axis only where the reader asks; flagged ones
-  are listed by flag; the page says which packings it holds;
-- forces of contacts are drawn; the view is saved as PNG;
-- pages of failed replicates, of one replicate, without vibrations, of swept parameters, of cubes show what there is and
-  say which `measure` would give the rest;
-- names and texts that are markup are shown as text;
-- nothing is wider than its place, on a screen of 1400 pixels or of 390, and nothing scrolls sideways.
-usage: report_browser_test.py ISOJAM
+"""Tests pages of reports in Chromium, opened from disk. usage: report_browser_test.py ISOJAM
+
+- No page has a console error, requests anything from the network, or opens an alert.
+- Every panel of every chart has marks, and no mark has a coordinate NaN. Tooltips appear.
+- A chart can be saved as SVG, as PNG, as a specification with data, and as data.
+- The mean of one replicate is drawn as an open symbol and is not joined to other points. Panels and bands have complete
+  labels.
+- The table can be sorted by every column in both directions, by mouse and by keyboard. A copy of the table is the
+  output of `isojam aggregate`.
+- The 3D view draws a packing. It can be rotated by mouse and keyboard, zoomed and coloured, show only the largest
+  cluster, and animate a mode. For 400 particles it leaves out outlines during a rotation. Without WebGL a sentence
+  replaces it.
+- If the reader prefers reduced motion, nothing moves.
+- The reader can choose one chart for all solids, which then differ in colour and symbol. Symbols of quantities are set
+  as mathematics.
+- With 400 replicates, no replicate hides another one; there are boxes and swarms. Crystalline replicates extend an axis
+  only if the reader chooses this. Flagged replicates are listed by flag. The page states which packings it contains.
+- Contact forces are drawn. The view can be saved as PNG.
+- Pages are complete for failed replicates, for one replicate, without modes, with swept parameters, and for cubes. They
+  name the measure that would give the missing parts.
+- Names and texts that are markup are shown as text.
+- No element is wider than its container, on screens of 1400 and of 390 pixels, and no page scrolls horizontally.
 """
 
 import sys

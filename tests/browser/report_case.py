@@ -1,4 +1,4 @@
-"""Shared by the report's browser tests: pages made once, a browser, and queries of a page."""
+"""Shared parts of the browser tests of reports: pages that are made once, a browser, and queries of a page."""
 
 import pathlib
 import sys
@@ -105,14 +105,15 @@ class Case(unittest.TestCase):
         return self.browser.run("return [...document.querySelectorAll('.chart')].map((c) => c.id.slice(6))")
 
     def choose(self, name, on=True):
-        """Sets a switch of all charts and waits for them."""
+        """Sets a switch of all charts, and waits until they are drawn again."""
         self.browser.run(f"""const box = document.getElementById('choose-{name}');
             if (box.checked !== {str(on).lower()}) box.click();""")
         self.browser.wait("[...document.querySelectorAll('.chart')].every((chart) => chart.dataset.drawn === 'yes')",
                           "charts to be drawn again")
 
     def marks(self, chart):
-        """For each panel of a chart: fills and forms of its symbols, lines with more than one point, boxes."""
+        """Marks in each panel of a chart: colours, shapes and number of symbols, lines with more than one point, and
+        boxes."""
         return self.browser.run("""
             const panels = [...document.querySelectorAll(`#chart-${arguments[0]} g.role-scope > g`)]
               .filter((panel) => panel.querySelector(':scope > g .role-axis'));
@@ -126,7 +127,7 @@ class Case(unittest.TestCase):
             }));""", chart)
 
     def saved(self, names):
-        """The files, once all of them are there."""
+        """Waits until the browser has saved these files, and returns their paths."""
         for _ in range(2000):
             paths = [self.browser.downloads / name for name in names]
             if all(path.exists() for path in paths):
@@ -135,14 +136,14 @@ class Case(unittest.TestCase):
         self.fail(f"saved {sorted(path.name for path in self.browser.downloads.iterdir())}, expected {names}")
 
     def view(self):
-        """The canvas, in the window and drawn."""
+        """Scrolls to the 3D view, waits until it is drawn, and returns its canvas."""
         canvas = self.find("#packing")
         self.browser.run("arguments[0].scrollIntoView({block: 'center'})", canvas)
         self.browser.wait("document.getElementById('packing').dataset.frames > 0", "the first frame")
         return canvas
 
     def after(self, action):
-        """The drawing after an action led to a new frame."""
+        """Calls `action`, waits for the next frame of the 3D view, and returns what is drawn."""
         before = self.browser.run("return Number(document.getElementById('packing').dataset.frames)")
         action()
         self.browser.wait(f"document.getElementById('packing').dataset.frames > {before}", "another frame")

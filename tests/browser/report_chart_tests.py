@@ -1,4 +1,4 @@
-"""Tests of the report's charts and tables, see report_browser_test.py."""
+"""Tests of the charts and tables of a report, see report_browser_test.py."""
 
 import json
 
@@ -112,7 +112,7 @@ class ChartTests:
         self.assertIn("phi_j", lines[0])
 
     def column(self, heading):
-        """Numbers of a column of the main table as they stand, one for each sweep point, None for a dash."""
+        """Numbers in a column of the main table as they are shown: one for each sweep point, None for a dash."""
         return self.browser.run("""
             const table = document.querySelector('#table table');
             const names = [...table.tHead.rows[0].cells].map((cell) => cell.textContent);
@@ -153,7 +153,7 @@ class ChartTests:
                     self.assertEqual(len(shown), 1, f"{chart} at {width}: {label} in {texts}")
 
     def swept(self):
-        """Results of which both sizes and a parameter were swept; made once."""
+        """Results of a study that sweeps the number of particles and a parameter. They are computed once."""
         directory = self.root / "swept"
         if directory.exists():
             return directory

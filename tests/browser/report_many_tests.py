@@ -1,4 +1,4 @@
-"""Tests of the report of four hundred replicates, see report_browser_test.py."""
+"""Tests of a report with 400 replicates, see report_browser_test.py."""
 
 from report_case import TOGETHER
 
@@ -44,7 +44,7 @@ class ManyTests:
         self.assertEqual(hidden, 0, f"{name}: discs that cover the centre of another")
 
     def expect_lists(self):
-        """Flagged replicates by flag, and which packings there are."""
+        """The page lists flagged replicates by flag, and states which packings it contains."""
         text = self.find("#reservations").text
         for line in ("crystalline: 40 replicates, excluded from means", "not_stable: 40 replicates",
                      "icosahedron, N = 28, 20 of 200: icosahedron-N28-r0009, icosahedron-N28-r0019"):
@@ -53,7 +53,7 @@ class ManyTests:
                       self.find("#view-choice").text)
 
     def expect_crystals_at_the_ends(self):
-        """Beyond the axes, until the reader asks for them."""
+        """Crystalline replicates are marked at the end of an axis, unless the reader chooses to extend the axis."""
         ends = """
             const chart = document.getElementById('chart-density');
             const ticks = [...chart.querySelectorAll('.role-axis-label text')].map((text) => parseFloat(text.textContent));

@@ -1,4 +1,4 @@
-"""Results directories for the browser test: a real run, what may become of one, and packings made by hand."""
+"""Results directories for the browser tests: results of a real run, modified copies of it, and artificial packings."""
 
 import copy
 import fractions
@@ -15,7 +15,7 @@ HOSTILE = "<script>alert(1)</script>"
 
 
 def manifest(**changes):
-    """Packings of a second each: 24 or 28 dodecahedra, loosely converged."""
+    """A manifest of packings that take about one second each: 24 or 28 dodecahedra, minimised to large residuals."""
     tiny = {
         "name": "tiny", "seed": 11, "sweep": {"solid": ["dodecahedron"], "particles": [24, 28]}, "replicates": 2,
         "protocol": {"initial_density": 0.3, "consolidation_step": 0.07, "target_energy": 3e-7, "longest_step": 0.03,
@@ -27,7 +27,7 @@ def manifest(**changes):
 
 
 def checksum(data):
-    """FNV-1a, 64 bits."""
+    """64-bit FNV-1a hash of `data`."""
     value = 0xCBF29CE484222325
     for byte in data:
         value = ((value ^ byte) * 0x100000001B3) & 0xFFFFFFFFFFFFFFFF
@@ -38,7 +38,8 @@ NUMBER = "@number "
 
 
 def read(path):
-    """A document whose numbers keep their digits: a hash is of those, and Python would write some otherwise."""
+    """Reads a document, and keeps each number as text. A checksum depends on these texts, and Python would write some
+    of the numbers with other digits."""
     return json.loads(path.read_text(encoding="utf-8"), parse_float=lambda digits: NUMBER + digits)
 
 
@@ -47,21 +48,23 @@ def text_of(document, **form):
 
 
 def write_sealed(path, document, indent=2):
-    """As isojam seals its files: the checksum of the text with zeros in its place stands second."""
+    """Writes a document with its checksum as isojam does: it is the second key, and is computed with zeros in its
+    place."""
     first, *others = [(key, value) for key, value in document.items() if key != "checksum"]
     text = text_of(dict([first, ("checksum", "0" * 16), *others]), indent=indent) + "\n"
     path.write_text(text.replace("0" * 16, checksum(text.encode()), 1), encoding="utf-8")
 
 
 def result_digest(record):
-    """As isojam has it: the hash of all but timing, provenance and what vouches for the record."""
+    """The result digest as isojam computes it: the hash of a record without timing, provenance, checksum and digest."""
     result = {key: value for key, value in record.items()
               if key not in ("checksum", "timing", "provenance", "result_digest")}
     return checksum(text_of(result, separators=(",", ":")).encode())
 
 
 def change_record(path, change):
-    """Changes a record and what vouches for it, its packing's head too; its files get the name that it then has."""
+    """Changes a record, and updates its digest and checksum, the beginning of its packing file, and the names of both
+    files."""
     document = read(path)
     assert result_digest(document) == document["result_digest"], path
     change(document)
@@ -90,7 +93,7 @@ MOVED = {"Z": 0.2, "Z_ff": 0.1, "Z_ef": 0.1, "Z_l": 0.2, "C": 0.3, "energy_per_p
 
 
 def slim(value):
-    """A record whose long lists of numbers are thinned: writing hundreds is to be quick."""
+    """A copy of a record with shorter lists of numbers, so that hundreds of records can be written quickly."""
     if isinstance(value, dict):
         return {key: slim(part) for key, part in value.items()}
     if not isinstance(value, list):
@@ -100,8 +103,8 @@ def slim(value):
 
 
 def written_alike(number):
-    """A number near by of few digits, well within those that round to it: fast printers miss the shortest digits of
-    others now and then."""
+    """A number near `number` with fewer digits. It is far enough from the limits between doubles for every program to
+    print the same shortest digits."""
     for digits in range(8, 0, -1):
         text = f"{number:.{digits}g}"
         if abs(fractions.Fraction(text) - fractions.Fraction(float(text))) < 0.4 * fractions.Fraction(math.ulp(number)):
@@ -110,7 +113,8 @@ def written_alike(number):
 
 
 def moved(value, numbers, denser):
-    """The record of another replicate: densities moved together, other numbers one by one."""
+    """A modified copy of a record, for another replicate. All densities are shifted by the same value; other numbers
+    are changed independently."""
     shift = denser + numbers.gauss(0, 0.004)
 
     def change(part, key=None):
@@ -133,13 +137,13 @@ def moved(value, numbers, denser):
 
 
 class Pages:
-    """Writes results below `root` and turns them into reports with the isojam executable."""
+    """Makes results directories below `root`, and reports of them with the isojam executable."""
 
     def __init__(self, executable, root):
         self.executable, self.root = executable, pathlib.Path(root)
 
     def run(self, name, **changes):
-        """Results of a real run, of which replicates may fail; returns their directory."""
+        """Runs a study and returns its results directory. Replicates may fail."""
         source = self.root / f"{name}.json"
         source.write_text(json.dumps(manifest(**changes)))
         ran = subprocess.run([self.executable, "--quiet", "run", source, "-o", self.root / name], check=False,
@@ -152,7 +156,7 @@ class Pages:
         return self.root / name
 
     def report(self, directory):
-        """Path of the page; isojam says where it wrote it."""
+        """Makes the report of a results directory, and returns its path."""
         made = subprocess.run([self.executable, "report", directory], check=True, capture_output=True, text=True)
         assert made.stdout == f"{directory}/report.html\n", made.stdout
         return directory / "report.html"
@@ -171,7 +175,7 @@ class Pages:
         return directory
 
     def flagged(self, name, source, flags):
-        """With these flags, by name of the replicate; the others without any."""
+        """A copy of results in which replicates have the flags in `flags`, by name. Other replicates have no flags."""
         directory = self.copied(name, source)
         for path in sorted((directory / "records").iterdir()):
             change_record(path, lambda record, stem=path.stem: record.update(flags=flags.get(stem, [])))
@@ -185,7 +189,7 @@ class Pages:
         return directory
 
     def forged(self, name, source):
-        """Texts of records that would be markup if anyone took them for it."""
+        """A copy of results in which texts of records are markup."""
         directory = self.copied(name, source)
 
         def forge(record):
@@ -197,9 +201,11 @@ class Pages:
         return directory
 
     def many(self, name, source, replicates, solids):
-        """As many replicates of every sweep point: slim copies of real ones, shifted at random; every tenth is a
-        crystal with a much higher density. Replicates of a point in `solids` get that solid; the first ones of other
-        points keep their packings."""
+        """Results with `replicates` replicates of every sweep point of `source`.
+
+        They are shortened and modified copies of the real ones. Every tenth is crystalline with a much higher density.
+        All replicates of a sweep point in `solids` have that solid. At other sweep points, the copies that replace the
+        real replicates have packings."""
         directory = self.root / name
         shutil.copytree(source, directory, ignore=lambda folder, names: [entry for entry in names if "-r" in entry])
         numbers, points = random.Random(5), {}
@@ -221,7 +227,8 @@ class Pages:
         return directory
 
     def by_hand(self, name, source, solid, particles, density):
-        """One replicate of `particles` on a lattice, turned at random, with the states of a real one."""
+        """Results with one replicate: particles on a lattice with random orientations, and the states of a real
+        replicate."""
         directory = self.single(name, source)
         record = next((directory / "records").iterdir())
 

@@ -1,11 +1,12 @@
-"""These tests prove: commands_test.py SOURCE PROGRAM
+"""Tests the commands of isojam in the pages. usage: commands_test.py SOURCE PROGRAM
 
-- every command line of isojam that a page shows, in a block or in the text, names a command and options of this program.
-  It runs without an error, on a small results directory in place of the one that it names, and `run` with --dry-run.
-  `chart` takes minutes, so only its options are checked. The lines of docs/tutorial.md are left to tutorial_test.py;
-- every manifest that such a line names is a good one;
-- docs/commands.md has every command and every option of each;
-- a line with another option, command or manifest is found.
+- Every command line in a block or in the text of a page has a command and options of this program. It runs without an
+  error in a small results directory, which replaces the one that the page names; `run` gets the option --dry-run. Only
+  the options of `chart` are checked, because it takes minutes. Command lines of docs/tutorial.md are left to
+  tutorial_test.py.
+- Every manifest in such a command line is valid.
+- docs/commands.md has every command, and every option of each command.
+- A command line with a wrong option, command or manifest is found.
 """
 
 import pathlib
@@ -48,7 +49,7 @@ COMMANDS = {name: options_in(help_of(name)) for name in
 
 
 def shown(text):
-    """Command lines of a page, with their line numbers, as far as they are given in full."""
+    """Command lines of a page that are complete, with their line numbers."""
     found = []
     for number, line in code_lines(text):
         match = LINE.search(re.split(r"\s#|\s>|\)$", line)[0])
@@ -66,7 +67,8 @@ class Refused(Exception):
 
 
 def words_of(line, replicate):
-    """The words of a line, with values for what stands for them and the first of what may be chosen."""
+    """The arguments of a command line. Placeholders are replaced by values, and a list of choices by the first
+    choice."""
     try:
         words = shlex.split(line.replace("[", "").replace("]", ""))
     except ValueError as error:
@@ -86,7 +88,7 @@ def words_of(line, replicate):
 
 
 def check(line, here, replicate):
-    """Runs a line; throws Refused if the program does not take it."""
+    """Runs a command line. Raises Refused if the program does not accept it."""
     words = words_of(line, replicate)
     command = next((word for word in words if not word.startswith("-")), "")
     if command not in COMMANDS:

@@ -1,12 +1,12 @@
-"""These tests prove: fields_test.py SOURCE FACTS
+"""Tests the pages about manifests and fields. usage: fields_test.py SOURCE FACTS
 
-- the tables of docs/manifest.md and docs/fields.md are those that the schemas and the program's quantities give
-  (reference.py --write makes them again);
-- docs/fields.md has every field of records, packings, paths and tables with a meaning, and every quantity with its
-  unit; docs/manifest.md has every key of a manifest with its default. This is found without the code that wrote them;
-- no two quantities have the same meaning;
-- every flag has its row, every measure too;
-- a page that lacks one, has another default or a field without a meaning is found.
+- The tables of docs/manifest.md and docs/fields.md are those that reference.py makes from the schemas and the
+  quantities of the program. `reference.py --write` writes them again.
+- docs/fields.md has a meaning for every field of records, packings, paths and tables, and a unit for every quantity.
+  docs/manifest.md has the default of every key of a manifest. This test does not use reference.py.
+- No two quantities have the same meaning.
+- Every flag and every measure has a row.
+- A missing field, a field without a meaning, and a wrong default are found.
 """
 
 import json
@@ -29,7 +29,7 @@ def schema_of(name):
 
 
 def fields(node):
-    """Pairs of a name and the schema of every field below a node."""
+    """Pairs of a name and a schema, for every field below a node."""
     if isinstance(node, list):
         for value in node:
             yield from fields(value)
@@ -41,7 +41,7 @@ def fields(node):
 
 
 def rows_of(page):
-    """Cells of every row of a table whose first one is a name, by that name."""
+    """Cells of every table row whose first cell is a name, by that name."""
     rows = {}
     for line in page.split("\n"):
         match = re.match(r"\| `([^`]+)` \|(.*)\|$", line)
@@ -58,7 +58,7 @@ def missing_fields(page, schemas):
 
 
 def wrong_defaults(page, schema):
-    """Keys that the page lacks, or has with no such default."""
+    """Keys of a manifest that the page does not have, or that have another default there."""
     rows, wrong = rows_of(page), []
     for name, field in fields(schema):
         while "$ref" in field:

@@ -1,9 +1,10 @@
-"""These tests prove: links_test.py SOURCE
+"""Tests the links in the pages. usage: links_test.py SOURCE
 
-- every relative link and picture of the pages leads to a file of the tree, and every anchor to a heading that has it on
-  GitHub and in the site alike;
-- what is missing, a link that leaves the tree and an anchor that the two name differently are found; code is no link;
-- every page of docs/ is linked from its index, and every example with a page from that of the examples.
+- Every relative link and every picture refers to a file of the source tree. Every anchor belongs to a heading, both on
+  GitHub and in the site.
+- Three errors are found: a missing file, a link that leaves the source tree, and an anchor that differs between GitHub
+  and the site. Code is not a link.
+- The index links to every page in docs/, and the page of the examples links to every example that has a page.
 """
 
 import pathlib
@@ -18,7 +19,7 @@ SOURCE = pathlib.Path(sys.argv[1]).resolve()
 
 
 def broken(root, page):
-    """Broken links of a page, one line for each."""
+    """Descriptions of the broken links of a page, one line each."""
     wrong = []
     for number, target in links(page.read_text(encoding="utf-8")):
         if "://" in target or target.startswith("mailto:"):

@@ -1,14 +1,14 @@
-"""These tests prove: project_test.py SOURCE
+"""Tests files that describe the project. usage: project_test.py SOURCE
 
-- README.md has at most 120 lines and a picture, and names both commands, the licence and how to cite; its lines of C++
-  are those of examples/12-library, and the entry that it explains is in its table;
-- CITATION.cff is YAML with the keys that version 1.2.0 of its form asks for, names the version of CMakeLists.txt, the
-  licence of LICENSE, and the paper by the address that README.md gives it;
-- CHANGELOG.md has the headings of its form;
-- the files of docs/packaging name the version of CMakeLists.txt and are YAML, TOML and Python;
-- every verb of make that a page shows is one of the Makefile's, and the page on developing has all that a person types;
-- docs/install.md has the packages, minimum versions and names that CMake prints;
-- a citation without a key, or of another version, is refused.
+- README.md has at most 120 lines and a picture. It contains both commands, the licence, and how to cite. Its lines of
+  C++ are those of examples/12-library, and the table entry that it explains is in its table.
+- CITATION.cff is YAML with the keys that version 1.2.0 of its format requires. It has the version of CMakeLists.txt,
+  the licence of LICENSE, and the address of the paper in README.md.
+- CHANGELOG.md has the headings of its format.
+- The files in docs/packaging have the version of CMakeLists.txt and are valid YAML, TOML and Python.
+- Every target of make in a page is a target of the Makefile, and the page on developing has all targets for users.
+- docs/install.md has the packages, the minimum versions and the names that CMake prints.
+- A citation without a required key, or of another version, is rejected.
 """
 
 import ast
@@ -32,7 +32,7 @@ def text_of(name):
 
 
 def faults(citation):
-    """Errors of a citation, after https://citation-file-format.github.io, version 1.2.0."""
+    """Errors of a citation file, according to https://citation-file-format.github.io, version 1.2.0."""
     wrong = [f"no {key}" for key in ("cff-version", "message", "title", "authors", "version", "license", "references")
              if not citation.get(key)]
     if citation.get("cff-version") != "1.2.0" or citation.get("type", "software") not in ("software", "dataset"):

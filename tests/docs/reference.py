@@ -1,8 +1,8 @@
-"""reference.py SOURCE FACTS [--write]: makes the tables of docs/manifest.md and docs/fields.md from the schemas.
+"""Makes the tables of docs/manifest.md and docs/fields.md from the schemas: reference.py SOURCE FACTS [--write]
 
-SOURCE is the tree, FACTS the facts.json that the build makes beside the Python module. A page has the tables of a name
-between `<!-- block NAME -->` and `<!-- end -->`. Without --write the pages whose tables differ are named, and the exit
-code is 1 if there are any.
+SOURCE is the source tree. FACTS is the file facts.json, which the build writes next to the Python module. The tables of
+NAME are between `<!-- block NAME -->` and `<!-- end -->`. With --write, the pages are updated. Without it, the pages
+whose tables differ are printed, and the exit code is 1 if there are any.
 """
 
 import json
@@ -53,7 +53,7 @@ def anchor(kind, path):
 
 
 def own_tables(schema, parts):
-    """Tables of an object and those inside it; of one that may have several forms each key once."""
+    """Tables of an object, and of the objects inside it. If an object has several forms, each key occurs once."""
     rows, paths = {}, {}
     for path, fields, required in parts:
         paths.setdefault(path, []).append(fields)
@@ -127,7 +127,7 @@ def objects_block(schema, kind, roots, units):
 
 
 def record_units(schema, quantities):
-    """Units of quantities by the place that they have in records."""
+    """Units of quantities, by their places in records."""
     units = {}
     for one in quantities:
         if one["unit"] == "1":
@@ -214,7 +214,7 @@ def rewritten(text, made, used):
 
 
 def stale(source, facts, write=False):
-    """Pages whose blocks differ from what the schemas and the program give, and blocks that no page has."""
+    """Pages whose blocks differ from the schemas or the program, and blocks that no page has."""
     made, used, pages = blocks(source, facts), set(), []
     for name in PAGES:
         path = pathlib.Path(source) / name

@@ -1,18 +1,19 @@
-"""JSON Schemas of the project as tables: which objects there are, what each of their fields is, may be and means."""
+"""Reads the JSON schemas of the project, to make tables of objects, their fields, and the allowed values and
+meanings."""
 
 import json
 import pathlib
 
 
 class Schema:
-    """One of schemas/, draft-07 as far as these use it."""
+    """One of the files in schemas/. Only the parts of draft-07 that these files use are supported."""
 
     def __init__(self, root, name):
         self.name = name
         self.tree = json.loads((pathlib.Path(root) / f"schemas/{name}.schema.json").read_text(encoding="utf-8"))
 
     def resolved(self, node):
-        """The node with what it refers to; its own description goes before."""
+        """A node with its reference replaced. A description in the node itself has precedence."""
         inner = node
         for part in node.get("allOf", []) + ([self.at(node["$ref"])] if "$ref" in node else []):
             inner = {**self.resolved(part), **inner}
@@ -25,7 +26,7 @@ class Schema:
         return node
 
     def definition_of(self, node):
-        """The name of the definition that a node refers to, if that has fields of its own."""
+        """Name of the definition to which a node refers, if this definition has fields; otherwise None."""
         for part in [node, *node.get("allOf", []), node.get("items", {}), *node.get("anyOf", [])]:
             name = part.get("$ref", "").rsplit("/", 1)[-1]
             if name and fields_of(self.tree["definitions"][name]):
@@ -33,7 +34,7 @@ class Schema:
         return None
 
     def property_at(self, pointer, node=None):
-        """The schema of the value at a JSON pointer of a document, from the root or from a node."""
+        """Schema of the value at a JSON pointer. The pointer starts at `node`, or at the root of a document."""
         node = self.tree if node is None else node
         for key in pointer.split("/")[1:]:
             node = self.resolved(node)
@@ -46,7 +47,7 @@ class Schema:
         return self.resolved(node)
 
     def names(self, node=None):
-        """Every name of a field, wherever it stands."""
+        """Names of all fields, in the node and everything below it."""
         node = self.tree if node is None else node
         if isinstance(node, list):
             return set().union(*map(self.names, node)) if node else set()
@@ -56,8 +57,10 @@ class Schema:
         return found.union(*(self.names(value) for value in node.values()))
 
     def objects(self, node, path=""):
-        """Pairs of a path and the fields of the object there: the object itself, then those inside it, in their order.
-        Objects described by definitions are omitted."""
+        """Triples of a path, the fields of the object at this path, and the names of the required ones.
+
+        The node itself comes first, then the objects inside it, in their order. Objects that a definition describes are
+        left out."""
         fields = fields_of(node)
         if fields:
             yield path, fields, set(node.get("required", []))
@@ -93,12 +96,12 @@ def bounds(node):
 
 
 def number(x):
-    """As a person writes it: the largest whole number that doubles count to has a name of its own."""
+    """A number as text. The largest integer up to which doubles represent every integer is written 2^53."""
     return "2^53" if x == 2**53 else f"{x:g}" if isinstance(x, float) else str(x)
 
 
 def kinds(schema, node):
-    """Allowed kinds of a value, as text."""
+    """Allowed types of a value, as text."""
     node = schema.resolved(node)
     if "const" in node:
         return code(node["const"])

@@ -1,13 +1,13 @@
-"""These tests prove: site_test.py SOURCE
+"""Tests the site that `make docs` makes. usage: site_test.py SOURCE
 
-- every page, and all that it links to, has a place in the site that `make docs` makes, links go along, code is left as
-  it is, and a link that leads nowhere ends it;
-- in the site no comment is left that could end a paragraph, `\\|` in code of a table is `|`, and a value and its first
-  error stay in one line;
-- docs/site/mkdocs.yml has every page in its menu, and nothing else;
-- what Doxygen reads of a header has its lines, each declaration of a line with the comment of that line, overloads with
-  that of the first, and still none where there is none;
-- the public headers, which are installed and have a reference, include no other header of the engine.
+- Every page, and every file to which a page links, is in the site. Links are adapted, and code is not changed. A link
+  without a target ends the conversion with an error.
+- No comment remains that could end a paragraph, `\|` in the code of a table becomes `|`, and a value stays on one line
+  with its first error.
+- The menu in docs/site/mkdocs.yml has exactly the pages of the site.
+- The text of a header for Doxygen has the same number of lines. Each declaration in a line has the comment of this
+  line. Overloads have the comment of the first one. A declaration without a comment still has none.
+- The public headers, which are installed and have a reference, include only public headers of the engine.
 """
 
 import pathlib

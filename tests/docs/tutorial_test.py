@@ -1,13 +1,13 @@
-"""Facts proved here: tutorial_test.py SOURCE PROGRAM MODULE
+"""Tests the tutorial. usage: tutorial_test.py SOURCE PROGRAM MODULE
 
-- the commands of docs/tutorial.md run in their order, in an empty folder, and each prints the lines that the page shows;
-- the page has every step of a first study, and `make` verbs are its only commands that are not run;
-- a line that a command does not print, and a file or command that the page does not give, are found.
+- The commands of docs/tutorial.md run in their order, in an empty folder. Each prints the lines that the page shows.
+- The page has every step of a first study. All its commands except those of `make` are run.
+- These errors are found: a line that a command does not print, and a file or a command that is missing in the page.
 
-A block that begins with ```console has commands after "$ " and the lines that they print. In these lines "…" stands for
-any text, also for lines that are left out; blanks count as one, and so does every duration and size. "^C" interrupts
-the command as soon as it has written a checkpoint. A block that begins with ```json or ```python is a file, which the
-sentence before it names last.
+A block that begins with ```console has commands after "$ ", and the lines that they print. In these lines, "…" stands
+for any text, and also for omitted lines. Any number of blanks counts as one blank, and all durations and sizes count as
+equal. "^C" interrupts the command when it has written a checkpoint. A block that begins with ```json or ```python is
+the content of a file. Its name is the last one in the sentence before the block.
 """
 
 import os
@@ -26,7 +26,7 @@ MEASURED = re.compile(r"\b\d[\d.]* (min \d+ s|s|min|MB|GiB)\b")
 
 
 def blocks(page):
-    """Triples of the kind of a block, its text, and the file that the sentence before it names last."""
+    """Triples of the kind of a block, its text, and the last file name in the sentence before it."""
     for match in BLOCK.finditer(page):
         named = re.findall(r"`([\w-]+\.(?:json|py))`", page[:match.start()].rstrip().rpartition("\n\n")[2])
         yield match[1], match[2], named[-1] if named else None
@@ -51,7 +51,7 @@ def pattern(line):
 
 
 def missing(shown, printed):
-    """The first line of a page that the output lacks; None if it has all, in this order."""
+    """The first line of a page that is missing in the output; None if the output has all lines in this order."""
     rest = [re.sub(r"\s+", " ", MEASURED.sub("@", line)).strip() for line in printed.splitlines()]
     for line in shown:
         at = next((at for at, other in enumerate(rest) if re.fullmatch(pattern(line), other)), None)
@@ -69,7 +69,7 @@ def interrupted(process, here):
 
 
 def run(command, here, interrupt=False):
-    """The output of a command, and its exit code."""
+    """Runs a command, and returns its output and exit code."""
     command = command.replace("/usr/bin/python3", sys.executable)
     # The shell hands over to the command, so that a signal reaches it.
     with subprocess.Popen(["bash", "-c", f"exec {command}" if interrupt else command], cwd=here, text=True,
@@ -81,7 +81,7 @@ def run(command, here, interrupt=False):
 
 
 def follow(page, here):
-    """Does what the page shows; returns what differs, one text for each command."""
+    """Carries out the steps of the page. Returns a list of differences, one text for each command."""
     wrong = []
     for kind, text, file in blocks(page):
         if kind != "console":
