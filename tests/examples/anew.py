@@ -1,4 +1,4 @@
-"""Replicates of a page's studies, run anew: they must have the figures of the committed data, whichever processor."""
+"""Computes replicates of a page's studies again. They must have the values of the committed data on every processor."""
 
 import json
 import subprocess
@@ -8,8 +8,9 @@ from pathlib import Path
 
 
 def gathered(isojam, folder, runs):
-    """Output of the folder's gather.py for some replicates of its studies: {name of a file of data: its content}. A run
-    is (study, name of its results, shard, measures to add)."""
+    """Runs the gather.py of an example for some replicates of its studies. Returns {name of a data file: its content}.
+
+    A run is a tuple: study, name of its results, shard, measures to add."""
     with tempfile.TemporaryDirectory() as here:
         results = Path(here)
         for study, name, shard, measures in runs:
@@ -32,8 +33,8 @@ def without_times(row):
 
 
 def same_figures(test, committed, anew):
-    """Every replicate of `anew`, {study: replicates}, is in `committed` with the same figures but for times. Returns how
-    many there are."""
+    """Checks that every replicate in `anew`, {study: replicates}, has the same values in `committed`, apart from times.
+    Returns the number of replicates."""
     compared = 0
     for name, study in anew.items():
         for row in rows_of(study):

@@ -1,10 +1,13 @@
-"""These tests prove of examples/08-many-short-tasks, with a stand-in for HyperQueue that starts the tasks of an array
-as its options say, each in an environment of its own:
-- as many tasks as replicates, two at a time, the last first, each with a part and a HQ_TASK_ID: after one of them was
-  killed with -9 at work, table and status say that one is missing, and submitting again runs what is missing alone;
-- for all that, records, packings and table are those of one run without shards, and so are the result digests;
-- the script without arguments says how it is used, and a task without its number ends with an error.
-usage: many_tasks_test.py ISOJAM EXAMPLE RESULTS   (RESULTS: of one run of the example's manifest)
+"""Tests examples/08-many-short-tasks. usage: many_tasks_test.py ISOJAM EXAMPLE RESULTS
+
+A program replaces HyperQueue. It starts the tasks of an array as its options require, each in its own environment.
+RESULTS are the results of a single run of the manifest of the example.
+
+- There is one task for each replicate. Two tasks run at the same time, the last task starts first, and each has a shard
+  and its own HQ_TASK_ID. If one task is killed with SIGKILL, the table and the status state that one replicate is
+  missing. If the array is submitted again, only this replicate runs.
+- Records, packings and tables are then equal to those of a run without shards, and so are the result digests.
+- The script without arguments prints its usage. A task without an ID ends with an error.
 """
 
 import json

@@ -1,17 +1,19 @@
-"""These tests prove: page_test.py examples/page
+"""Tests the shared modules of the pages. usage: page_test.py examples/page
 
-- Student's t agrees with tables; an interval of normal samples covers their mean in 95 of 100 cases; the binomial tail
-  is the sum of its terms; the systematic error of choices is half their range;
-- a normal deviate has the probability of its t, and sums of squares of deviates from few values have the distribution
-  of χ²; parts of a variance add as in Welch and Satterthwaite, and the interval of a difference covers it; the common
-  correlation of two samples agrees with Fisher's z;
-- numbers show two digits of their error, with a leading zero and a minus sign instead of a hyphen;
-- φ_J of an exact power law is found in every window, and states outside of the window have no effect; with a free
-  exponent both are found, and too few states give none;
-- local exponents of a power law are its exponent in every bin; gaps are not bridged; a replicate counts once in a bin;
-- a limit is found with the form of the data, its interval covers it in at least 90 of 100 noisy cases, and other forms
-  increase the systematic error;
-- a page without a block or with one twice is rejected; numbers in sentences are updated, and nothing else changes.
+- Student's t agrees with tables. The interval of normal samples contains their true mean in 95 of 100 cases. The
+  binomial tail is the sum of its terms. The systematic error of choices is half their range.
+- A normal deviate has the same probability as its t. Sums of squares of deviates from few values have a χ²
+  distribution. Variances are added as by Welch and Satterthwaite, and the interval of a difference contains the true
+  value. The common correlation of two samples agrees with Fisher's z.
+- Numbers show two digits of their error, with a leading zero, and a minus sign instead of a hyphen.
+- φ_J of an exact power law is found with every window, and states outside the window have no effect. With a free
+  exponent, φ_J and the exponent are found. Too few states give no result.
+- The local exponent of a power law is its exponent in every bin. No slope is computed across a missing value. A
+  replicate counts once in a bin.
+- A limit is found with the form of the data. Its interval contains the true value in at least 90 of 100 noisy cases.
+  Other forms increase the systematic error.
+- A page in which a block is missing or occurs twice is rejected. Values in sentences are updated, and nothing else
+  changes.
 """
 
 import math

@@ -1,13 +1,15 @@
-"""These tests prove: paper_blocks_test.py examples/paper
+"""Tests blocks of the page examples/paper. usage: paper_blocks_test.py examples/paper
 
-- states are counted as minima, unresolved, or with near-rattlers or negative modes as by hand, without crystals;
-- a rank that the remaining rows do not allow is left out, and φ_J of the paper's rule is compared by replicate;
-- the exponent of ⟨ω_l⟩/√K is that of ⟨ω_l⟩ less half that of K;
-- the smallest excess of contacts that a test detects agrees with sums of binomial terms, the order of emergence is
-  found, and shares of random contacts agree with directions drawn at random;
-- the error of C from cut-offs uses the states of C, and that of Z_ff is half the difference between fits and gaps;
-- intervals of solids are compared with both errors, packings with more than three zero modes are counted, deviates of
-  offsets contain the paper's interval and ours, and solids are put in ascending order.
+- The numbers of minima, of unresolved states, and of states with near-rattlers or negative modes agree with numbers
+  that are counted by hand, without crystalline replicates.
+- A rank that is impossible for the remaining rows is left out. φ_J by the paper's rule is compared replicate by
+  replicate.
+- The exponent of ⟨ω_l⟩/√K is the exponent of ⟨ω_l⟩ minus half the exponent of K.
+- The smallest excess of contacts that a test detects agrees with sums of binomial terms. The order of emergence is
+  found. Fractions of random contacts agree with directions drawn at random.
+- The error of C from cut-offs uses the states of C. The error of Z_ff is half the difference between fits and gaps.
+- Intervals of solids are compared with both errors. Packings with more than three zero modes are counted. Deviates of
+  offsets contain the paper's interval and that of isojam. Solids are sorted in ascending order.
 """
 
 import math
@@ -34,7 +36,7 @@ def of(mean, half_width, n=16, **more):
 
 
 class Made(Data):
-    """Data of replicates at hand, without files."""
+    """Artificial data of replicates, without files."""
 
     def __init__(self, studies, figures=()):
         Expansions.__init__(self, {name: {"replicates": some} for name, some in studies.items()}, tuple(studies))
@@ -42,7 +44,7 @@ class Made(Data):
 
 
 def replicate(number, states, solid="octahedron", particles=100, flags=(), **more):
-    """At Δφ = 0.1 · 0.5^i of φ_J = 0.7, with E ∝ Δφ⁶."""
+    """An artificial replicate with φ_J = 0.7, E ∝ Δφ⁶, and states at Δφ = 0.1 · 0.5^i."""
     count = len(next(iter(states.values())))
     x = [0.1 * 0.5 ** i for i in range(count)]
     return {"solid": solid, "particles": particles, "replicate": number, "status": "done", "flags": list(flags),

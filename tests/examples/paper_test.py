@@ -1,16 +1,18 @@
-"""These tests prove: paper_test.py examples/paper ISOJAM
+"""Tests the page examples/paper. usage: paper_test.py examples/paper ISOJAM
 
-- the committed page and its table on the project's first page agree with the committed data, in every block and every
-  number in a sentence; a page with a changed number, without a block or with one twice, is rejected;
-- a value of the paper lies in the confidence interval, in the prediction interval, or outside; with fewer than three
-  packings, or a prediction interval wider than ± half of the value, the comparison is undecided;
-- contacts are classified by cut-offs as in the program; regions, emergence and the distribution of face-face contacts
-  agree with counts by hand, and contacts drawn at random do not hinder each other;
-- shifts of φ_J are differences of paired replicates without crystals; settings are ranked by χ², and one that has the
-  paper's values is the first; confidence intervals agree with those by hand; windows are chosen with the smaller
-  size, and one chosen with the larger is marked; the base of the search is the protocol of the studies;
-- gathering the results of a small run gives the means and the φ_J of the program's tables;
-- two replicates of the studies, run again, have the values of the committed data.
+- The committed page, and its table in README.md, agree with the committed data in every block and every number in a
+  sentence. A page with a changed number is rejected, and so is a page in which a block is missing or occurs twice.
+- The page states whether a value of the paper is in the confidence interval, in the prediction interval, or outside
+  both. The comparison is undecided for fewer than three packings, and if the prediction interval is wider than ± half
+  of the value.
+- Contacts are classified by cut-offs as in the program. Regions, emergence and the distribution of face-face contacts
+  agree with counts by hand. Contacts that are drawn at random are independent of each other.
+- Shifts of φ_J are differences of paired replicates, without crystalline ones. Settings are ranked by χ², and a setting
+  with the paper's values is the first. Confidence intervals agree with those computed by hand. Fit windows are chosen
+  with the smaller N; one that is chosen with the larger N is marked. The base of the search is the protocol of the
+  studies.
+- Gathering the results of a small run gives the means and the φ_J of the program's tables.
+- Two replicates of the studies, run again, have the values of the committed data.
 """
 
 import json

@@ -1,18 +1,18 @@
-"""These tests prove: rigidity_test.py examples/rigidity ISOJAM
+"""Tests the page examples/rigidity. usage: rigidity_test.py examples/rigidity ISOJAM
 
-- the committed page agrees with the committed data, in every block and every number in a sentence; a page with a
-  changed number is rejected; its figures are small and on the page;
-- derived columns are quotients of columns of the records, and None where one of these is; exponents of quotients are
-  differences of exponents also if states lack a column; waves are those of an elastic medium;
-- contacts and tilts made in bands are counted in them, and a boundary that crosses a band increases the systematic
-  error;
-- forces drawn from a power law give its exponent in every step, and one exponent fits; for a curved distribution it
-  does not;
-- additional missing constraints of small packings are found, limits that decrease as 1/N are extrapolated, and a form
-  with a negative limit is left out of the error;
-- exponents and values of too few replicates, or with a large error, are dashes;
-- gathering a small run gives the values of the records, and replicates that were gathered before are kept;
-- two replicates of the studies, run again, have the values of the committed data.
+- The committed page agrees with the committed data in every block and every number in a sentence. A page with a changed
+  number is rejected. The figures are small files, and all of them are on the page.
+- Derived columns are quotients of columns of the records, and None if one of these is None. Exponents of quotients are
+  differences of exponents, even if some states have no value. Waves are those of an elastic medium.
+- Artificial contacts and tilts in a band are counted in this band. A boundary that crosses a band increases the
+  systematic error.
+- Forces that are drawn from a power law give its exponent in every step, and one exponent fits all of them. For a
+  curved distribution, one exponent does not fit.
+- Additional missing constraints of small packings are found. Limits that decrease as 1/N are extrapolated. A form with
+  a negative limit does not contribute to the error.
+- Exponents and values are dashes if there are too few replicates or if the error is large.
+- Gathering a small run gives the values of the records. Replicates that were gathered before are kept.
+- Two replicates of the studies, run again, have the values of the committed data.
 """
 
 import json
@@ -42,7 +42,7 @@ def replicate(number, states, solid="octahedron", particles=100, **more):
 
 
 class Made(data.Data):
-    """Data of replicates at hand."""
+    """Artificial data of replicates."""
 
     def __init__(self, replicates):
         super(data.Data, self).__init__({"made": {"replicates": replicates}}, ("made",))
@@ -51,7 +51,7 @@ class Made(data.Data):
 
 
 def expansion(**columns):
-    """Twelve states of an exact law E ∝ Δφ⁶, with columns that are functions of Δφ."""
+    """Twelve artificial states with E ∝ Δφ⁶, and columns that are functions of Δφ."""
     distances = [0.16 * 0.6 ** i for i in range(13)]
     return {"phi": [0.7 + x for x in distances], "E": [x ** 6 for x in distances],
             **{name: [function(x) for x in distances] for name, function in columns.items()}}

@@ -1,6 +1,7 @@
-"""The cases of a round trip: every replicate, as its nearest state and as its whole expansion.
+"""Shared parts of the tests of exported files: every replicate with its nearest state, and with its path.
 
-usage: gsd_test.py RESULTS EXPORTED, where EXPORTED holds nearest/NAME.gsd and path/NAME.gsd; the others alike."""
+usage of each test, such as gsd_test.py: gsd_test.py RESULTS EXPORTED. The folder EXPORTED contains nearest/NAME.gsd and
+path/NAME.gsd, or the files of the other format."""
 
 import pathlib
 import sys
@@ -12,7 +13,8 @@ import results
 
 
 class RoundTrip(unittest.TestCase):
-    """Base of the tests: `cases()` gives file stem, states, what was measured of them, and whether it is a path."""
+    """Base class of the tests. `cases()` returns the file name without extension, the states, their values in the
+    record, and whether it is a path."""
 
     where = exported = None
     at = ""  # the case, for messages
@@ -32,7 +34,7 @@ class RoundTrip(unittest.TestCase):
                 yield self.exported / folder / name, states, results.measured(self.where, name, whole), whole
 
     def assert_near(self, value, expected, tolerance, what):
-        """Largest absolute difference at most `tolerance`; a shape that differs is an error."""
+        """The largest absolute difference is at most `tolerance`. Arrays of different shape are an error."""
         value, expected = numpy.asarray(value, dtype=float), numpy.asarray(expected, dtype=float)
         self.assertEqual(value.shape, expected.shape, what)
         self.assertTrue(numpy.isfinite(value).all(), f"{what}: not finite")

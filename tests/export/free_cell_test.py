@@ -1,12 +1,14 @@
-"""These tests prove, of packings in cells of any shape, as the same readers see them in every format:
-- the cell of a record is no cube and has volume N/phi;
-- GSD: the box has tilts and is the packing's lattice, turned; positions lie in it, their distances are those of the packing;
-  orientations are turned with it; log/isojam/cell has the lattice vectors as they were;
-- XYZ: Lattice holds the lattice vectors exactly; positions lie in the cell and have the distances of the packing;
-- VTP: the field cell holds the vectors exactly, and a separating-axis test over images in that lattice finds as many
-  contacts of each particle as its Z says.
+"""Tests exported packings in cells that are not cubes, with the same readers as the other tests.
 
-usage: free_cell_test.py RESULTS EXPORTED, where EXPORTED holds NAME.gsd, NAME.xyz and NAME.vtp"""
+usage: free_cell_test.py RESULTS EXPORTED, where EXPORTED contains NAME.gsd, NAME.xyz and NAME.vtp
+
+- The cell of a record is not a cube, and its volume is N/φ.
+- GSD: the box has tilts, and it is the rotated lattice of the packing. Positions are in the box, and their distances
+  are those of the packing. Orientations are rotated with the box. log/isojam/cell has the lattice vectors of the
+  packing.
+- XYZ: Lattice has exactly the lattice vectors. Positions are in the cell and have the distances of the packing.
+- VTP: the field cell has exactly the lattice vectors. A separating-axis test with the images in this lattice finds Z
+  contacts for each particle."""
 
 import itertools
 import json
@@ -25,7 +27,7 @@ IMAGES = numpy.array(list(itertools.product((-1, 0, 1), repeat=3)))
 
 
 def distances(positions, cell):
-    """Distances of all pairs, to the nearest periodic image; rows of `cell` are lattice vectors."""
+    """Distances of all pairs to the nearest periodic image. The rows of `cell` are the lattice vectors."""
     difference = positions[:, None, :] - positions[None, :, :]
     difference -= numpy.round(difference @ numpy.linalg.inv(cell)) @ cell
     images = difference[:, :, None, :] + (IMAGES @ cell)[None, None, :, :]

@@ -1,10 +1,12 @@
-"""These tests prove, of GSD files as python3-gsd reads them, by its C reader and by its Python one:
-- the file is valid "hoomd" 1.4; both readers see the same chunks;
-- number and order of frames, N and the box are those of the packings; steps count from 0;
-- centres lie in the box about the origin, their distances are those of the packings, images undo the wrapping;
-- the shape of the type has unit volume; turned by the quaternions it has the packing's vertices;
-- mass is 1, and the moments of inertia are those of the shape;
-- Z has the record's mean; clusters are the record's; phi, side and delta_phi are exact."""
+"""Tests GSD files with both readers of python3-gsd, the one in C and the one in Python.
+
+- The file is valid "hoomd" 1.4, and both readers find the same chunks.
+- The number and order of frames, N and the box are those of the packings. Steps count from 0.
+- Centres are in the box, whose centre is the origin. Their distances are those of the packings, and the images undo the
+  wrapping.
+- The shape of the type has unit volume. Rotated by the quaternions, it has the vertices of the packing.
+- The mass is 1, and the moments of inertia are those of the shape.
+- Z has the mean of the record, and clusters are those of the record. phi, side and delta_phi are exact."""
 
 import gsd.fl
 import gsd.hoomd
@@ -16,7 +18,8 @@ import results
 
 
 def hull_faces(vertices):
-    """Supporting planes through three or more vertices; each face wound outwards."""
+    """Faces of a convex hull: planes through three or more vertices with all others on one side. Faces are oriented
+    outwards."""
     faces = {}
     for i, j, k in numpy.ndindex(3 * (len(vertices),)):
         if not i < j < k:

@@ -1,11 +1,14 @@
-"""These tests prove, of contacts as they leave the program, in every state of an expansion:
-- CSV and JSON lines hold the same values to the last bit, and the header is the one that is documented;
-- as many rows as the record's Z says, and as many of each class as Z_ff, Z_ef and Z_l say, or no class at all where the
-  record says that classes are undecided;
-- forces and torques on every particle cancel as well as the record's residual says;
-- bonds of the GSD file are these pairs, with these forces, as python3-gsd reads them; the file is valid;
-- lines of the VTP file go from the centre of a by the point of attack to the touching image of b, with these data;
-- in a cell that is no cube, forces in the GSD file are turned with the box, and b's image is where the row says."""
+"""Tests exported contacts in every state of a decompression.
+
+- CSV and JSON lines have the same values, bit by bit. The header is the documented one.
+- The number of rows agrees with Z in the record, and the number of rows of each class with Z_ff, Z_ef and Z_l. If
+  classes are undecided in the record, rows have no class.
+- Forces and torques on every particle are balanced within the residual in the record.
+- The GSD file is valid. python3-gsd reads the same pairs as bonds, with the same forces.
+- Lines in the VTP file start at the centre of a, go through the point of application, and end at the centre of the
+  touching image of b. They have the same data.
+- In a cell that is not a cube, forces in the GSD file are rotated with the box, and the image of b is where the row
+  states."""
 
 import csv
 import json
@@ -56,7 +59,7 @@ class Network(unittest.TestCase):
             self.by_state.setdefault((row["replicate"], int(row["state"])), []).append(row)
 
     def states(self):
-        """Name, number, rows, packing and record of every state."""
+        """Name, index, rows, packing and record of every state."""
         for name in results.names(RESULTS):
             packings, record = results.path(RESULTS, name), results.record(RESULTS, name)
             for k, packing in enumerate(packings):

@@ -1,4 +1,4 @@
-"""Contents of a results directory, for comparison with exported files as third-party readers see them."""
+"""Reads a results directory without isojam, for comparison with exported files."""
 
 import json
 import pathlib
@@ -10,7 +10,8 @@ DOUBLE = numpy.finfo(numpy.float64).eps
 
 
 class State:
-    """One packing: N, side L, positions (N, 3), unit quaternions (N, 4) as (w, x, y, z), delta_phi or None."""
+    """One packing: N, side L, positions (N, 3), unit quaternions (w, x, y, z) (N, 4), and delta_phi, which may be
+    None."""
 
     def __init__(self, packing, delta_phi):
         self.solid = packing["solid"]
@@ -32,25 +33,25 @@ def record(results, name):
 
 
 def nearest(results, name):
-    """The state nearest jamming, as a list of one."""
+    """A list with the nearest state."""
     packing = json.loads(pathlib.Path(results, "packings", name + ".json").read_text())
     return [State(packing, record(results, name)["nearest"]["delta_phi"])]
 
 
 def path(results, name):
-    """Every state, in order of expansion."""
+    """All states, in the order of decompression."""
     states = json.loads(pathlib.Path(results, "paths", name + ".json").read_text())["states"]
     return [State(state, state["delta_phi"]) for state in states]
 
 
 def measured(results, name, whole_path):
-    """Values of the record for each of these states."""
+    """The values of these states in the record."""
     document = record(results, name)
     return document["states"] if whole_path else [document["nearest"]]
 
 
 def rotation(quaternions):
-    """Matrices (N, 3, 3) of unit quaternions (w, x, y, z)."""
+    """Rotation matrices (N, 3, 3) of unit quaternions (w, x, y, z)."""
     w, x, y, z = numpy.asarray(quaternions, dtype=float).T
     return numpy.array([
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -60,22 +61,23 @@ def rotation(quaternions):
 
 
 def distances(positions, side):
-    """Distances of all pairs, to the nearest periodic image."""
+    """Distances of all pairs to the nearest periodic image."""
     difference = positions[:, None, :] - positions[None, :, :]
     difference -= side * numpy.round(difference / side)
     return numpy.linalg.norm(difference, axis=2)
 
 
 def clusters_of(labels):
-    """Labels as files have them: those of lone particles, which a record has too, become -1."""
+    """Labels of clusters as in exported files: a particle without a face-face contact has a label in the record, and −1
+    here."""
     labels = numpy.asarray(labels)
     sizes = numpy.bincount(labels)
     return numpy.where(sizes[labels] > 1, labels, -1)
 
 
 def moments(vertices, faces):
-    """Volume and integral of |x|^2 over the polyhedron, by tetrahedra about the origin; both change sign with the
-    winding of the faces."""
+    """Volume of a polyhedron and the integral of |x|² over it, from tetrahedra with a vertex at the origin. Both are
+    negative if faces are oriented inwards."""
     volume = second = 0.0
     for face in faces:
         a = vertices[face[0]]
@@ -87,7 +89,7 @@ def moments(vertices, faces):
 
 
 def read_obj(file):
-    """Vertices (V, 3) and faces, lists of vertex numbers from 0."""
+    """Vertices (V, 3), and faces as lists of indices of vertices from 0."""
     vertices, faces = [], []
     for line in pathlib.Path(file).read_text().splitlines():
         words = line.split()

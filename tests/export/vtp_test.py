@@ -1,12 +1,13 @@
-"""These tests prove, of VTP and PVD files as VTK reads them:
-- every particle is a closed surface of its own, wound outwards, of unit volume; together they have volume N;
-- centres lie in the cell and have the distances of the packing; all particles are the solid of the OBJ file, turned by
-  the packing's quaternions;
-- side, phi and delta_phi are exact; particles are numbered in order;
-- a separating-axis test of the polygons in the file finds exactly as many contacts of each particle as its Z says, and
-  Z has the record's mean;
-- clusters are the record's; a face marked face-face has a marked face of another particle flush against it;
-- a collection lists files that are there, in order of expansion, with delta_phi for time, and all of them."""
+"""Tests VTP and PVD files with VTK as their reader.
+
+- Every particle is a separate closed surface of unit volume, oriented outwards. All of them together have the volume N.
+- Centres are in the cell and have the distances of the packing. Each particle is the solid of the OBJ file, rotated by
+  the quaternion of the packing.
+- side, phi and delta_phi are exact. Particles are numbered in order.
+- A separating-axis test of the polygons in the file finds Z contacts for each particle. Z has the mean of the record.
+- Clusters are those of the record. Each face with the mark face-face has a parallel face of another particle against
+  it, with the same mark.
+- A collection lists all existing files, in the order of decompression, with delta_phi as their time."""
 
 import itertools
 import re
@@ -35,7 +36,8 @@ def arrays_of(data):
 
 
 class Picture:
-    """A file as arrays: corners (N, V, 3), faces (lists of corners) of each particle, cell and field data."""
+    """The content of a file as arrays: corners (N, V, 3), faces (lists of corners) of each particle, cell and field
+    data."""
 
     def __init__(self, file, n):
         self.data = read(file)
@@ -64,7 +66,7 @@ class Picture:
 
 
 def apart(a, b, normals, edges_a, edges_b):
-    """True if a face normal or a common perpendicular of two edges separates the corners."""
+    """True if the normal of a face, or a common perpendicular of two edges, separates the corners."""
     crosses = numpy.cross(edges_a[:, None, :], edges_b[None, :, :]).reshape(-1, 3)
     lengths = numpy.linalg.norm(crosses, axis=1)
     keep = lengths > 1e-9 * lengths.max()  # parallel edges have no common perpendicular; normals see to them
@@ -74,7 +76,7 @@ def apart(a, b, normals, edges_a, edges_b):
 
 
 def count_contacts(picture, translations):
-    """Number of contacts of each particle, over these images."""
+    """Number of contacts of each particle, including contacts with these images."""
     n = len(picture.corners)
     reach = 2 * numpy.linalg.norm(picture.corners[0] - picture.centres[0], axis=1).max()
     normals = [picture.normals(i) for i in range(n)]
@@ -171,8 +173,11 @@ class Vtp(check.RoundTrip):
         self.assertGreater(marked_in_all, 0)
 
     def check_partners(self, picture, state, marked, cutoff, clusters):
-        """Each marked face has another against it: in the same cluster, antiparallel, and four of five with its centre
-        near the other's plane: classes go by angles, and faces of a pair that touches elsewhere align by chance."""
+        """Each marked face has an antiparallel marked face of another particle in the same cluster.
+
+        For at least four in five marked faces, the centre of such a face is near the plane of the marked face. The
+        others are possible because classes depend on angles, and faces may be parallel by chance although the contact
+        is elsewhere."""
         normals = numpy.array([picture.normals(i)[f] for i, f in marked])
         middles = numpy.array([picture.corners[i][picture.faces[i][f]].mean(axis=0) for i, f in marked])
         inradius = ((middles[0] - picture.centres[marked[0][0]]) @ normals[0])

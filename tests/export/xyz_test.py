@@ -1,8 +1,9 @@
-"""These tests prove, of extended XYZ and OBJ files, read by the few lines that their formats need:
-- frames in order, N lines each, columns as Properties says, the lattice the cell;
-- positions lie in the cell and have the distances of the packing; quaternions (x, y, z, w) are the packing's;
-- Z has the record's mean, clusters are the record's; phi and delta_phi are exact;
-- the OBJ file is a closed solid of unit volume about its centroid, faces wound outwards."""
+"""Tests extended XYZ and OBJ files with short readers that follow the formats.
+
+- Frames are in order and have N lines each. Columns are those in Properties, and Lattice is the cell.
+- Positions are in the cell and have the distances of the packing. Quaternions (x, y, z, w) are those of the packing.
+- Z has the mean of the record, and clusters are those of the record. phi and delta_phi are exact.
+- The OBJ file is a closed solid of unit volume with its centroid at the origin. Faces are oriented outwards."""
 
 import re
 
@@ -13,7 +14,7 @@ import results
 
 
 def read_frames(file):
-    """A list of (values of the comment line, columns by name)."""
+    """Pairs of a dict with the values in the comment line, and a dict with the columns by name."""
     lines = file.read_text().splitlines()
     frames = []
     while lines:

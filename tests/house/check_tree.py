@@ -1,16 +1,17 @@
-"""Checks the rules that a tree of sources keeps. Usage: check_tree.py ROOT
+"""Checks rules for the source tree. usage: check_tree.py ROOT
 
-1. engine/ includes only engine/, the standard library, Eigen, Spectra, Boost.Math and METIS. It includes nothing of
-   tasks/, no library for JSON, text output or command lines, and no header for files, clock, streams or environment. It
-   does not name these either, for another header may bring them.
-2. Inside engine/ and inside tasks/ an include never points upwards in the order of folders below. Every source that
-   includes another of its half stands in one of these folders, except tasks/main.cpp.
-3. oneTBB (also through <execution>) is included in engine/parallel/parallel.cpp and tasks/run/graph.cpp alone, CLI11 in
-   tasks/commands/command_line.cpp alone, METIS in engine/solve/factor/ordering.cpp alone.
-4. No C++ source, shell script or CMake file of engine/, tasks/ or tests/ has more than 400 lines.
-5. The top level holds agreed names alone, and build directories and results, which git ignores.
+1. engine/ includes only engine/, the standard library, Eigen, Spectra, Boost.Math and METIS. It includes nothing from
+   tasks/, no library for JSON, text output or command lines, and no header for files, clocks, streams or the environment.
+   It does not use names from these headers either, because another header may include them.
+2. Inside engine/ and inside tasks/, a file includes only files of its own folder and of folders before it in FOLDERS.
+   Every source that includes another one of its half (engine/ or tasks/) is in one of these folders, except tasks/main.cpp.
+3. oneTBB (and <execution>, which uses it) is included only in engine/parallel/parallel.cpp and tasks/run/graph.cpp, CLI11
+   only in tasks/commands/command_line.cpp, and METIS only in engine/solve/factor/ordering.cpp.
+4. No C++ source, shell script or CMake file in engine/, tasks/ or tests/ has more than 400 lines.
+5. The top folder has only the names in a list, and build directories and results, which git ignores.
 
-Prints one line per breach, `file:line: why: text`. Exit code 1: a rule is broken; 2: nothing could be checked.
+Prints one line for each breach of a rule: `file:line: why: text`. The exit code is 1 if a rule is broken, and 2 if
+nothing could be checked.
 """
 
 import os
@@ -42,7 +43,7 @@ HEADER = re.compile(r'<[^>]*>|"[^"]*"')
 
 
 def sources(root):
-    """Paths of the sources and scripts, relative to the root, in order."""
+    """Sorted paths of the sources and scripts, relative to the root."""
     for half in ("engine", "tasks", "tests"):
         for where, folders, names in os.walk(root / half):
             folders.sort()
@@ -53,7 +54,7 @@ def sources(root):
 
 
 def rank(path):
-    """Place of a path's folder in the order of its half; None outside of the order."""
+    """Position of the folder of a path in the order of its half; None if the folder is not in the order."""
     half, *folders = path.split("/")[:-1]
     for depth in (1, 2):
         folder = "/".join(folders[:depth])
@@ -63,7 +64,7 @@ def rank(path):
 
 
 def order_breach(file, header):
-    """Why a source may not include a header of its own half, or None."""
+    """The reason why a source may not include a header of its own half; None if it may."""
     if file == "tasks/main.cpp":
         return None
     own, theirs = rank(file), rank(header)
@@ -73,7 +74,7 @@ def order_breach(file, header):
 
 
 def engine_breach(header):
-    """Why engine/ may not include a header that is not its own, or None."""
+    """The reason why engine/ may not include a header from outside; None if it may."""
     if LIBRARIES.match(header):
         return None
     if header.startswith('"') or re.search("[/.]", header):
@@ -82,7 +83,7 @@ def engine_breach(header):
 
 
 def include_breaches(file, header):
-    """The rules that one include breaks."""
+    """The rules that an include breaks."""
     half = file.split("/")[0]
     if header.startswith(f'"{half}/'):
         yield order_breach(file, header[1:-1])
@@ -94,7 +95,7 @@ def include_breaches(file, header):
 
 
 class Tree:
-    """Breaches of a tree, and how much of it was read."""
+    """The breaches in a tree, and the number of files that were read."""
 
     def __init__(self, root):
         self.includes = self.files = 0

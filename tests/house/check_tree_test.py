@@ -1,5 +1,7 @@
-"""Facts proved here: check_tree.py accepts a small tree that keeps every rule, and rejects it after each single change
-below, with file, line and rule. A rule that is no longer checked fails here."""
+"""Tests check_tree.py: it accepts a small tree that follows all rules, and rejects the tree after each of the changes
+below.
+
+The message has the file, the line and the rule. A rule that check_tree.py does not check fails here."""
 
 import contextlib
 import io
@@ -80,7 +82,7 @@ TBB = (
 
 
 def run(root):
-    """Exit code and output."""
+    """Exit code and output of check_tree.py."""
     said = io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         status = check_tree.main([str(root)])
@@ -105,7 +107,8 @@ class CheckTree(unittest.TestCase):
         self.assertEqual(status, 0, f"{what}:\n{said}")
 
     def reject(self, file, line, why):
-        """The tree with one line more in a file is rejected on that line, and accepted again without it."""
+        """The tree is rejected with an additional line in a file, at this line. Without the line it is accepted
+        again."""
         path, before = self.root / file, GOOD.get(file, "")
         self.write(file, before + line + "\n")
         status, said = run(self.root)

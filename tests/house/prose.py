@@ -1,12 +1,14 @@
-"""Checks that texts are plain English: prose.py ROOT [FILE...]
+"""Checks that texts are in plain English: prose.py ROOT [FILE...]
 
-Pages, comments and messages are checked, or only the FILEs that are named:
-- no comment or sentence opens without a subject ("Of ...", "What ...", "Those ..." and others in OPENINGS);
-- no word of WORDS stands in them, for which the project uses another one;
-- a sentence of a page has at most 35 words and four numbers; tables are exempt from the count of numbers;
-- no line of text in a page begins with an HTML comment: renderers end the paragraph there.
+Pages, comments and messages are checked. If FILEs are given, only these are checked.
+- No comment or sentence begins without a subject ("Of ...", "What ...", "Those ..." and others in OPENINGS).
+- No text contains a word in WORDS, because the project uses another one.
+- A sentence in a page has at most 35 words and four numbers. In tables, the number of numbers is not limited.
+- No line of text in a page begins with an HTML comment, because renderers end the paragraph there.
+
 A line of prose_exceptions.txt exempts one text: `file: text: reason`.
-Prints one line per finding, `file:line: rule: text`, and exits 1 if there is one.
+
+The output has one line for each finding: `file:line: rule: text`. The exit code is 1 if there is a finding.
 """
 
 import io
@@ -50,7 +52,7 @@ SENTENCE_END = re.compile(r"(?<=[.?!:;])(?:\s+|$)(?=[A-Z\[*`_(]|$)")
 
 
 def comments_of_cpp(text):
-    """Pairs of a line's number and a comment; consecutive lines are one comment."""
+    """Pairs of a line number and a comment. Consecutive lines are one comment."""
     found, block, begins = [], [], 0
     for number, line in enumerate(text.split("\n") + [""], 1):
         alone = re.match(r"\s*//[/!]?<?\s?(.*)", line)
@@ -68,7 +70,7 @@ def comments_of_cpp(text):
 
 
 def messages_of_cpp(text):
-    """String literals of at least three words, neighbours joined."""
+    """String literals with at least three words. Adjacent literals are joined."""
     found = []
     for match in re.finditer(r'"((?:[^"\\\n]|\\.)*)"(?:\s*"((?:[^"\\\n]|\\.)*)")*', text):
         words = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', match[0]))
@@ -102,7 +104,7 @@ def comments_of_python(text):
 
 
 def paragraphs(text):
-    """Triples of a line's number, the text of a paragraph, list entry or table cell, and whether it is in a table."""
+    """Triples: a line number; the text of a paragraph, list entry or table cell; and whether it is in a table."""
     found, block, begins = [], [], 0
 
     def close():
@@ -136,7 +138,7 @@ def without_code(text):
 
 
 def findings_of(text):
-    """Pairs of a rule and the text that breaks it, of any text."""
+    """Pairs of a rule and a text that breaks it, for any text."""
     for sentence in SENTENCE_END.split(without_code(text)):
         opening = sentence.strip(" *_[(")
         if OPENINGS.match(opening):

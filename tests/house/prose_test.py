@@ -1,4 +1,4 @@
-"""Proves that prose.py finds each kind of fault that it describes, and nothing in plain sentences."""
+"""Tests prose.py: it finds each kind of error in its description, and nothing in plain sentences."""
 
 import pathlib
 import sys

@@ -1,12 +1,13 @@
-"""These tests prove: library_test.py CMAKE BUILD SOURCE COMPILER
+"""Tests the installed C++ library. usage: library_test.py CMAKE BUILD SOURCE COMPILER
 
-- a program elsewhere that finds an installed isojam builds, without a warning of its own strictest kind, with this
-  compiler and with clang where there is one, and both print the same bits;
-- nothing that is installed for it names the directories that it was built in, and it works from wherever it is moved;
-- what it is compiled with are the options that the engine's bits depend on and no warning or optimisation of ours;
-- as a part of another project the same sources give the same target, nothing else of the project is built, and the
-  build type and flags of the other project stay as they are;
-- an engine of another minor version is refused, and so is one whose METIS is missing, with the name of its package.
+- An independent program that finds an installed isojam can be built without a warning, even with its own strict
+  warnings. It is built with this compiler, and with clang if it is available; both programs print the same bits.
+- No installed file of the library contains the path of a build directory. The library still works after it was moved.
+- The program is compiled with the options on which the bits of the engine depend, but without the warnings and
+  optimisations of isojam.
+- The sources can be a part of another project. They provide the same target, nothing else of isojam is built, and the
+  build type and flags of the other project do not change.
+- An engine of another minor version is rejected. So is an engine whose METIS is missing; the message names its package.
 """
 
 import json

@@ -1,11 +1,13 @@
-"""These tests prove: shell_test.py CMAKE BUILD
+"""Tests the manual page and the shell completions. usage: shell_test.py CMAKE BUILD
 
-- the manual page that is installed has no error that groff knows, names every command and every option of each
-  command's help, and says what the exit codes mean;
-- the completions that are installed are read by bash, zsh and fish without a message; bash and fish complete commands,
-  options, the choices of an option, directories where one is asked for, and nothing where a number stands;
-- `-o` writes what is else printed.
-A shell that is not here is not tested, which is said.
+- groff reads the installed manual page without an error. The page has every command and option in the help, and
+  explains the exit codes.
+- bash, zsh and fish read the installed completions without a message. bash and fish complete commands, options, the
+  choices of an option, and directories for arguments that are directories. They complete nothing for arguments that are
+  numbers.
+- With `-o`, the completions and the manual page are written to a file instead of standard output.
+
+The test of a shell that is not installed is skipped, with a message.
 """
 
 import pathlib

@@ -1,9 +1,9 @@
-"""These tests prove: without_pages_test.py CMAKE SOURCE PROGRAM
+"""Tests a build without optional packages. usage: without_pages_test.py CMAKE SOURCE PROGRAM
 
-- without Vega, three.js, CGAL and valijson, configuring names their packages and goes on; the tests of the engine are
-  built, and those that need one of them are not;
-- the program that is built then has every command; `report` and `chart` end with exit 2, name the packages and say how to
-  configure; the others work.
+- Without Vega, three.js, CGAL and valijson, the configuration prints the names of their packages and continues. Tests
+  of the engine are built, and tests that need one of these packages are not.
+- The program has all commands. `report` and `chart` end with exit code 2, and print the names of the packages and how
+  to configure the build. The other commands work.
 """
 
 import subprocess

@@ -1,13 +1,14 @@
-"""Properties of contacts as the program prints them, nearest jamming and along paths, in cubic cells, relaxed cells and
-mixtures:
-- their number agrees with Z and its parts of the same state, class by class;
-- forces on every particle cancel, and so do torques about its centre, to the residual in the record;
-- a torque is that of the force at its point of attack, but for a couple along the force itself; the force is V/2 times the
-  area against the normal; solids are those of the packing's particles;
-- angles are the record's; Δφ is the state's;
-- one replicate, all of them, and an exported file give the same rows; a replicate that failed is named in a warning;
-- what the program says of a damaged packing is in the error, with its command;
-- packings and paths are still those of a record to which measures were added."""
+"""Tests Study.contacts() for nearest states and for paths, in cubes, variable cells and mixtures.
+
+- The number of contacts agrees with Z of the same state, and the number of each class with the contributions to Z.
+- Forces on every particle are balanced, and so are torques about its centre, within the residual in the record.
+- A torque is that of the force at its point of application, apart from a component along the force. The force is V/2
+  times the vector area, opposite to the normal. Solids are those of the particles in the packing.
+- Angles are those of the record, and Δφ is that of the state.
+- The contacts of one replicate, those of all replicates, and an exported file have the same rows. A warning names a
+  failed replicate.
+- The error for a damaged packing has the message of the program and its command.
+- After measures were added to a record, packings and paths still belong to it."""
 
 import functools
 import subprocess
@@ -31,7 +32,7 @@ def contacts(directory, name=None, path=False):
 
 class Contacts(support.Case):
     def states(self):
-        """Every packing with the row of its state and its contacts."""
+        """Every packing, with the row of its state and its contacts."""
         for directory, whole in ((CUBES, False), (CUBES, True), (FREE, False), (MIXED, False)):
             study = support.study(directory)
             everything = contacts(directory, path=whole)

@@ -1,9 +1,11 @@
-"""Facts proved here: install_test.py CMAKE BUILD MODULE_DIR RESULTS
+"""Tests the installed module. usage: install_test.py CMAKE BUILD MODULE_DIR RESULTS
 
-- what `cmake --install` puts under a prefix is the program and the module, which finds that program, reads results and
-  gets solids, with nothing of the build directory on its path;
-- without a program beside it the one of the argument, of the environment and of the PATH are found, in that order;
-- the module imported from the sources, where no build has been, says where it is to be imported from."""
+- `cmake --install` installs the program and the module. The module finds this program, reads results and gets solids,
+  and needs nothing in the build directory.
+- If no program is installed with the module, it uses the program of the argument, of the environment variable, or on
+  the PATH, in this order.
+- If the module is imported from the source tree, where no build wrote facts.json, the error states from where to import
+  it."""
 
 import os
 import pathlib

@@ -1,12 +1,14 @@
-"""Properties of packings and solids:
-- positions, orientations, cell, density and Δφ agree with the exported files: extended XYZ to the last bit apart from
-  wrapping into the cell, GSD to single precision. This is tested nearest jamming and for whole paths, in cubic cells and
-  in relaxed cells;
-- corners are the exported solid's, turned by the exported quaternion;
-- solids have unit volume and their centroid at the origin, faces wound outwards; those of a mixture, in their sizes, are
-  the shapes in the exported GSD, particle by particle;
-- the volume of all particles over that of the cell is the density; low parts are below half a unit in the last place;
-- a packing that lacks a list, or has one of another length, is refused with the place."""
+"""Tests packings and solids.
+
+- Positions, orientations, cell, density and Δφ agree with the exported files: exactly with extended XYZ, apart from the
+  wrapping into the cell, and in single precision with GSD. This is tested for nearest states and for paths, in cubes
+  and in variable cells.
+- Corners are those of the exported solid, rotated by the exported quaternion.
+- Solids have unit volume and their centroid at the origin, and their faces are oriented outwards. The solids and sizes
+  in a mixture are the shapes in the exported GSD file, for each particle.
+- The volume of all particles divided by the volume of the cell is the density. Low parts are less than half a unit in
+  the last place.
+- A packing in which a list is missing or has the wrong length is rejected; the error states the place."""
 
 import json
 import pathlib
@@ -25,7 +27,7 @@ import xyz_test
 
 class Exported(support.Case):
     def packings(self):
-        """Every packing with its frame in an XYZ file."""
+        """Every packing, with its frame in an XYZ file."""
         for directory, folder, whole in ((CUBES, "exported/nearest", False), (CUBES, "exported/path", True),
                                          (FREE, "free-exported", False)):
             for name in support.done(directory):
@@ -92,7 +94,7 @@ class Solids(support.Case):
 
     @staticmethod
     def centroid(solid):
-        """The solid has unit volume, computed by tetrahedra about the origin."""
+        """Centroid of a solid with unit volume, from tetrahedra with a vertex at the origin."""
         centroid = numpy.zeros(3)
         for face in solid.faces:
             a = solid.vertices[face[0]]

@@ -1,10 +1,13 @@
-"""Facts proved here, of how the module and the program talk, with programs made for the purpose:
+"""Tests the communication between the module and the program. Small scripts replace the program.
 
-- the program gets one signal when Python is interrupted, also by a terminal, which signals both, and Python waits for it;
-- exit code 75 is KeyboardInterrupt; a message that is no JSON is an error where the program failed, else a warning;
-- progress is a bar of tqdm if that is installed, one line on a terminal, lines of text elsewhere, and nothing if not wanted;
-- a program of another version is named beside the module's: a warning, once, and an error if their files differ;
-- the types of the module are consistent, if mypy is installed."""
+- If Python is interrupted, the program gets one signal, and Python waits for it. This is also true for Ctrl-C in a
+  terminal, which sends a signal to both.
+- Exit code 75 becomes KeyboardInterrupt. A line that is not a message in JSON is an error if the program failed, and a
+  warning otherwise.
+- Progress is a bar of tqdm if it is installed, otherwise one line on a terminal, and lines of text elsewhere. Without
+  `progress`, nothing is shown.
+- If the versions of program and module differ, one warning states both. If their files differ, an error does.
+- The types in the module are consistent. This is tested if mypy is installed."""
 
 import os
 import pathlib
@@ -30,7 +33,7 @@ PROGRESS = '{{"kind": "progress", "done": {}, "total": 2, "failed": {}, "text": 
 
 class Case(support.Case):
     def start(self, code, **environment):
-        """A Python of its own, of which isojam.run is interrupted as by default."""
+        """Starts a Python process in which isojam.run can be interrupted in the usual way."""
         code = ("import signal, sys\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
                 f"sys.path.insert(0, {str(support.MODULE)!r})\n{code}")
         return [sys.executable, "-B", "-s", "-c", code], {**os.environ, **environment}

@@ -1,12 +1,13 @@
-"""Facts proved here, of studies that are run from Python:
+"""Tests isojam.run, isojam.measure and isojam.aggregate.
 
-- a manifest in memory or in a file gives a Study, and the bytes that the program gives by itself;
-- numbers and arrays of numpy and paths in a manifest are what they are in Python; relative paths start from the current
-  directory;
-- measures are added to a directory, and its table is written anew, with the numbers of tables.json;
-- all errors of a manifest come with JSON pointer, reason and remedy, and nothing is written;
-- failed replicates are a warning, and other failures of the program a ProgramError;
-- an interrupted run leaves a directory that the same call completes to the bytes of an undisturbed run."""
+- A manifest in memory and a manifest in a file give a Study, and files with the same bytes as the program itself
+  writes.
+- A manifest may contain numbers and arrays of numpy, and paths. Relative paths are relative to the current directory.
+- Measures are added to a directory. Its table is written again, with the numbers of tables.json.
+- All errors of a manifest are reported with JSON pointer, reason and remedy, and nothing is written.
+- Failed replicates cause a warning. Other failures of the program raise ProgramError.
+- After an interrupted run, the same call completes the directory. It then has the same bytes as after an undisturbed
+  run."""
 
 import contextlib
 import json
@@ -41,7 +42,7 @@ MANIFEST = {
 
 
 def contents(directory):
-    """The part of each file that must be equal in two runs: in records all but the time they took."""
+    """The part of each file that must be equal in two runs: everything except the times in records."""
     found = {}
     for file in sorted(pathlib.Path(directory).rglob("*.json")):
         document = json.loads(file.read_text())
@@ -62,7 +63,7 @@ class Case(support.Case):
         os.chdir(self.here)
 
     def run_quietly(self, *arguments, **options):
-        """A run of which every warning is an error."""
+        """Calls isojam.run and turns every warning into an error."""
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             return isojam.run(*arguments, progress=False, **options)
@@ -180,7 +181,7 @@ class Interruption(Case):
     REPLICATES = 12
 
     def interrupt(self, manifest):
-        """Runs until the first replicate is recorded, then gets SIGINT, as Python does from Ctrl-C."""
+        """Runs a study until the first replicate is recorded, and then sends SIGINT to Python, as Ctrl-C does."""
         def tqdm(total, **_):
             bar = mock.Mock(total=total, n=0)
 

@@ -1,11 +1,12 @@
-"""Facts proved here, of the seals of files:
-- the hash is the byte by byte FNV-1a for every length about those of blocks and words, and for the known values of the
-  reference;
-- every file of the results has the checksum that it states;
-- a flipped byte anywhere in a record, packing, path or manifest is refused, and the file named; without check=True it is
-  read all the same;
-- a packing of another record is refused, whole as it is; so is a record under another's name;
-- a file that is missing, cut short, of another schema, or no file is refused with its name."""
+"""Tests the checksums of files.
+
+- The hash is equal to FNV-1a computed byte by byte, for all lengths near those of blocks and words. It also has the
+  known values of the reference.
+- Every file in the results has the checksum that it contains.
+- A changed byte anywhere in a record, packing, path or manifest is detected, and the error names the file. With
+  check=False, the file is read without an error.
+- An undamaged packing of another record is rejected. So is a record with the name of another replicate.
+- A file that is missing, truncated, of another schema, or not a regular file is rejected; the error names it."""
 
 import re
 

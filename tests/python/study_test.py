@@ -1,13 +1,15 @@
-"""Facts proved here, of replicates and states:
-- the mean of every quantity over replicates without the excluded, and over all, is that of tables.json, and so are their
-  numbers, those of failed and excluded ones, and the rows themselves;
-- every quantity of every state is the number that its pointer finds in the record; null is NaN, and its reason is there;
-- a replicate that failed has no states, although its record may;
-- swept parameters, flags, failures and their reasons stand in columns; `residual` swept is apart from the one reached;
-- all but frames is there without pandas; a frame has the columns and values of its rows;
-- rows are chosen by masks and by values; a column that is not there is refused, with a near one;
-- records of the earlier version have the columns of this one;
-- a directory without records, one that is none, and names that are not there are refused."""
+"""Tests the rows of replicates and states.
+
+- The mean of each quantity is that in tables.json, both without and with the excluded replicates. The numbers of
+  replicates, of failed and of excluded ones agree too, and so do the rows of the table.
+- Each quantity of a state is the number at its pointer in the record. Null is NaN, and the reason is in the row.
+- A failed replicate has no rows of states, even if its record has states.
+- Swept parameters, flags, failures and their reasons are columns. If `residual` is swept, its column differs from the
+  column of the residual that was reached.
+- Everything except frame() works without pandas. A frame has the columns and values of its rows.
+- Rows can be selected by masks and by values. An unknown column is an error that suggests a similar one.
+- Records of the earlier version have the same columns.
+- A directory without records, a path that is not a directory, and unknown names are rejected."""
 
 import json
 import pathlib
@@ -27,7 +29,7 @@ def rows_of_tables(directory):
 
 
 def rows_like(rows, line):
-    """The rows of the sweep point of a line of a table."""
+    """The rows of the sweep point of a line in a table."""
     mask = (rows["solid"] == line["solid"]) & (rows["particles"] == line["particles"])
     for name, value in line["parameters"].items():
         mask &= rows["minimiser.residual" if name == "residual" else name] == value
@@ -49,7 +51,7 @@ class Replicates(support.Case):
         self.assertGreater(compared, 100)
 
     def compare(self, rows, line):
-        """How many quantities the line has."""
+        """Compares a line of a table with rows. Returns the number of compared quantities."""
         compared = 0
         for quantity in isojam.quantities:
             expected = line.get(quantity["name"])
@@ -111,7 +113,7 @@ class States(support.Case):
         self.assertGreater(min(compared, 20 * nulls), 300)
 
     def test_what_failed_later_has_no_states(self):
-        """A replicate that a measurement fails of has states in its record."""
+        """If a replicate failed in a measure, its record has states."""
         where, name = self.copy(CUBES), support.done(CUBES)[0]
         record = support.document(where, "records", name)
         self.assertGreater(len(record["states"]), 1)
@@ -122,7 +124,7 @@ class States(support.Case):
         self.assertEqual(study.replicates[0]["failed_in"], "modes")
 
     def test_names_that_clash(self):
-        """The Q6 of contacts is not the quantity of that name, which is /order/Q6."""
+        """The Q6 of `contacts` is not the quantity Q6, whose pointer is /order/Q6."""
         states = support.study(CUBES).states
         records = [support.document(CUBES, "records", name) for name in support.done(CUBES)]
         expected = [state["contacts"]["Q6"] for record in records for state in record["states"]]
@@ -134,7 +136,7 @@ class EarlierRecords(support.Case):
     MOVED = {"modes": "mode_scaling", "moduli": "moduli_scaling", "strict": "freed"}
 
     def earlier(self, record):
-        """Version 3 of a record: keys of the measures moved back to where that version has them."""
+        """Converts a record to version 3, in which some keys of measures are in other places."""
         def state(now):
             return {key: value for name, each in now.items()
                     for key, value in (each.items() if name == "contacts" else [(name, each)])}

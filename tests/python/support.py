@@ -1,7 +1,8 @@
 """Shared parts of the tests of the Python module.
 
-usage of each: NAME_test.py MODULE RESULTS EXPORTED, where MODULE holds the package isojam, RESULTS the study of
-manifest.json, and EXPORTED what tests/export makes: results, exported/, free-results, free-exported/."""
+usage of each test: NAME_test.py MODULE RESULTS EXPORTED. The folder MODULE contains the package isojam. RESULTS are the
+results of manifest.json. The folder EXPORTED contains what tests/export writes: results, exported/, free-results and
+free-exported/."""
 
 import functools
 import json
@@ -29,7 +30,7 @@ def study(directory):
 
 
 def document(directory, folder, name):
-    """A file as json alone reads it."""
+    """The content of a file, read by the json module only."""
     return json.loads(pathlib.Path(directory, folder, name + ".json").read_text())
 
 
@@ -39,7 +40,7 @@ def done(directory):
 
 
 def at(value, pointer):
-    """The value at a JSON pointer; None where it ends early."""
+    """Value at a JSON pointer; None if it is missing."""
     for key in pointer.split("/")[1:]:
         value = value.get(key) if isinstance(value, dict) else None
     return value
@@ -47,14 +48,14 @@ def at(value, pointer):
 
 class Case(unittest.TestCase):
     def near(self, value, expected, tolerance, what):
-        """Largest absolute difference at most `tolerance`; shapes are the same."""
+        """The largest absolute difference is at most `tolerance`, and the shapes are equal."""
         value, expected = numpy.asarray(value, dtype=float), numpy.asarray(expected, dtype=float)
         self.assertEqual(value.shape, expected.shape, what)
         worst = float(numpy.max(numpy.abs(value - expected), initial=0))
         self.assertTrue(worst <= tolerance, f"{what}: off by {worst:.3g}, allowed {tolerance:.3g}")
 
     def refused(self, call, *words):
-        """The InputError of a call, whose text has all these words."""
+        """Checks that a call raises an InputError whose text contains all these words. Returns the exception."""
         with self.assertRaises(isojam.InputError) as caught:
             call()
         for word in words:
@@ -62,17 +63,18 @@ class Case(unittest.TestCase):
         return caught.exception
 
     def folder(self):
-        """A directory that is removed when the test has ended."""
+        """Makes a directory that is removed at the end of the test."""
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         return folder.name
 
     def copy(self, directory):
-        """A copy of a results directory."""
+        """Makes a copy of a results directory."""
         return pathlib.Path(shutil.copytree(directory, pathlib.Path(self.folder(), "copy")))
 
     def stub(self, body, version=None):
-        """A program in place of isojam: lines of a shell. It has the version of the module, or the text of a file."""
+        """Writes a shell script that replaces isojam. `--version` prints the version of the module, or the text of a
+        file."""
         facts = isojam.facts
         own = f"isojam {facts.version} (stub)\nschemas: {' '.join(facts.schemas.values())}\n"
         file = pathlib.Path(self.folder(), "isojam")

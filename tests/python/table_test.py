@@ -1,11 +1,12 @@
-"""Facts proved here, of tables in files and of how the program is asked for them:
-- numbers come back to the last bit, of whatever length; nothing is null; three columns _x, _y, _z are a vector;
-- flags are tuples, reasons dicts;
-- columns have the types that they are of, also where all values are whole numbers, or missing, and where there are no rows;
-- CSV, the same as an object on every line, and an open file give the same rows;
-- what is no such table is refused with file and line;
-- contacts are asked of the program with the words that they are documented with, and its errors and warnings are told;
-- `aggregate --format csv` is read too, and has the numbers of tables.json."""
+"""Tests tables in files, and the calls of the program for tables.
+
+- Numbers of any length keep all their bits. An empty field is null. Three columns _x, _y, _z become a vector.
+- Flags are tuples, and reasons are dicts.
+- Each column has its type, even if all its values are integers or missing, and even if there are no rows.
+- CSV, JSON lines, and an open file give the same rows.
+- A file that does not contain a table is rejected; the error states the file and the line.
+- The program is called for contacts with the documented arguments. Its errors and warnings are passed on.
+- The table of `aggregate --format csv` has the numbers of tables.json."""
 
 import io
 import json
@@ -77,7 +78,8 @@ class Tables(support.Case):
             numpy.testing.assert_array_equal(rows[name], plain[name], name)
 
     def test_replicates_and_states(self):
-        """The program's own tables of them have the columns of a study, the same values and reasons."""
+        """The tables of replicates and states that the program writes have the columns, values and reasons of a
+        Study."""
         for directory in support.ALL:
             for what in ("replicates", "states"):
                 text = subprocess.run([program.find(), "export", directory, "all", "--format", what], check=True,

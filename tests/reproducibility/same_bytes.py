@@ -1,9 +1,9 @@
-"""Checks that variants of the program give the same bytes: same_bytes.py MANIFEST NAME=PROGRAM [NAME=PROGRAM ...]
+"""Checks that variants of the program write the same bytes: same_bytes.py MANIFEST NAME=PROGRAM [NAME=PROGRAM ...]
 
-Every variant runs the manifest in a directory of its own. PROGRAM may have arguments of its own. VARIABLE:VALUE in front
-of it sets an environment variable, as in  old=GLIBC_TUNABLES:glibc.cpu.hwcaps=-FMA,build/isojam . The digest of each
-result (all of a record but times and provenance) and the bytes of packings and paths are compared with those of the first
-variant. Exits 1 and names the files that differ.
+Every variant runs the manifest in its own directory. PROGRAM may contain arguments. VARIABLE:VALUE and a comma in front
+of PROGRAM set an environment variable, as in old=GLIBC_TUNABLES:glibc.cpu.hwcaps=-FMA,build/isojam . The digest of each
+result and the bytes of packings and paths are compared with those of the first variant. If files differ, their names
+are printed and the exit code is 1.
 """
 
 import json
@@ -17,7 +17,7 @@ from pathlib import Path
 
 
 def parsed(argument):
-    """Splits NAME=[VARIABLE:VALUE,...]PROGRAM; the program stands after the last comma."""
+    """Splits NAME=[VARIABLE:VALUE,...]PROGRAM. The program is the text after the last comma."""
     name, _, rest = argument.partition("=")
     *settings, program = rest.rsplit(",", 1)
     environment = dict(os.environ)
@@ -28,7 +28,7 @@ def parsed(argument):
 
 
 def results_of(directory):
-    """Files that must be identical, by name."""
+    """The content of all files that must be identical, by name."""
     results = {}
     for path in sorted((directory / "records").iterdir()):
         results[f"records/{path.name}"] = json.loads(path.read_text(encoding="utf-8"))["result_digest"]

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""usage: same_results.py DIR OTHER
+"""Checks that two results directories have the same results. usage: same_results.py DIR OTHER
 
-Two results directories hold the same: the same table and packings, byte for byte, and records that differ in nothing
-but the time they took and the checksum that goes with it. Says what differs, and exits with 1.
+The table and the packings must have the same bytes. Records may differ only in their time and in the checksum.
+Differences are printed, and the exit code is then 1.
 """
 import json
 import pathlib
