@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// Number of records to which measures were added, and number of records that are unchanged because of a problem.
+/// Number of records to which measures were added, and number of records that were left unchanged because of a problem.
 struct AddingTally {
   std::size_t added = 0, left = 0;
 };

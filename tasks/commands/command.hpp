@@ -96,8 +96,8 @@ void add_completions(CLI::App& app, Session& session);
 void add_manual(CLI::App& app, Session& session);
 
 /// Parses the command line, and stores the function of the chosen command in `session`. The help lists `commands` in
-/// this order. If the user asked for the help or the version, or made an error, there is no function to call: the text
-/// is printed, and the exit code is returned.
+/// this order. If the user asked for the help or the version, or made an error, there is no function to call. The text
+/// of the help, version or error is then printed, and the exit code is returned.
 std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<const AddCommand> commands,
                                            Session& session);
 

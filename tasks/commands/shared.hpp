@@ -9,7 +9,7 @@
 
 namespace isojam {
 
-/// Prints warnings_of() the manifest. `file` is the name of the manifest in these warnings.
+/// Prints the warnings_of() a manifest. `file` is the name of the manifest in these warnings.
 void warn_about(const Manifest& manifest, const std::string& file, Console& console);
 
 /// Prints a warning if the processor or the build has no AVX2 and FMA, because the program is then slower.

@@ -15,14 +15,15 @@ enum class Durability : std::uint8_t {
   lossless
 };
 
-/// Writes a file atomically, see the glossary. The function writes a temporary file with a unique name in the same
-/// directory and renames it. With Durability::synced, it also synchronises the file and the directory (fsync). It
-/// replaces an existing file or symbolic link at the path. Throws FileError.
+/// Writes a file atomically: every reader sees either the old content or the complete new content, even after the
+/// process has crashed. The function writes a temporary file with a unique name in the same directory and renames it.
+/// With Durability::synced, it also synchronises the file and the directory (fsync). It replaces an existing file or
+/// symbolic link at the path. Throws FileError.
 void write_atomically(const std::filesystem::path& path, std::string_view content,
                       Durability durability = Durability::synced);
 
 /// Writes a file atomically, but only if the path does not exist. Otherwise it changes nothing and returns false. If
-/// several processes call it for the same path at the same time, it succeeds in exactly one of them. Throws FileError.
+/// several processes call it for the same path at the same time, exactly one call succeeds. Throws FileError.
 bool write_exclusively(const std::filesystem::path& path, std::string_view content);
 
 /// Writes a file that the user named on the command line. The write is atomic. Unlike write_atomically(), the function
@@ -31,7 +32,7 @@ bool write_exclusively(const std::filesystem::path& path, std::string_view conte
 void write_output(const std::filesystem::path& path, std::string_view content);
 
 /// Writes like write_output(), but in several parts, for content that does not fit in the memory. A regular file
-/// appears only when finish() is called. Without this call, it does not change. All functions throw FileError.
+/// appears only when finish() is called; until then, an existing file does not change. All functions throw FileError.
 class OutputWriter {
  public:
   explicit OutputWriter(const std::filesystem::path& path);

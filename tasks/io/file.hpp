@@ -12,7 +12,7 @@ namespace isojam {
 class FileError : public std::runtime_error {
  public:
   enum class Reason : std::uint8_t {
-    refused,  ///< any other reason, such as permissions
+    refused,  ///< a reason other than those below, such as missing permissions
     missing,  ///< the path does not exist
     /// the path is a directory, a pipe, a device or a loop of symbolic links, where a regular file is needed
     no_file,

@@ -11,8 +11,8 @@
 #include "tasks/io/place.hpp"
 
 // Functions that read, write and describe the values of options in manifests and configurations. The functions that
-// read throw InputError, or collect the errors, see JsonPlace. If errors are collected, the entries with errors are
-// missing in a list.
+// read throw InputError. If errors are collected (see JsonPlace), a returned list does not contain the entries with
+// errors.
 
 namespace isojam {
 

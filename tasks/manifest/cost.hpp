@@ -14,10 +14,10 @@ struct Cost {
 };
 
 /// Estimates the cost of a replicate. The CPU time is a power of N, fitted for each named solid to replicates with the
-/// default protocol at N = 100 and 400, on two virtual cores of an AMD EPYC. Other solids and mixtures count as cubes.
-/// The time of compression is inversely proportional to consolidation_step. The CPU time is accurate to a factor of
-/// about two. On another machine or with another protocol, all CPU times change by about the same factor, see
-/// Survey::calibration.
+/// default protocol at N = 100 and 400, on two virtual cores of an AMD EPYC. Other solids and mixtures are treated as
+/// cubes. The time of compression is inversely proportional to consolidation_step. The CPU time is accurate to a factor
+/// of about two. On another machine or with another protocol, all CPU times change by about the same factor;
+/// Survey::calibration is this factor.
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path);
 
 /// Number of bytes that this process can still allocate: the free memory of the machine or of the control group of the

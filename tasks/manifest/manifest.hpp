@@ -21,7 +21,8 @@ struct SweptField {
   std::vector<Json> values;  ///< values as field_value() returns them, ascending and all different
 };
 
-/// Goal of a sweep point: a mean whose confidence interval is narrow enough. More replicates are then not needed.
+/// Goal of a sweep point: a mean with a narrow confidence interval. A point that has reached its goal needs no more
+/// replicates.
 struct Goal {
   std::string quantity;   ///< name of the quantity in tables
   double half_width = 0;  ///< largest allowed half width of the 95 % confidence interval of the mean over replicates
@@ -70,14 +71,14 @@ std::vector<OptionSet> option_sets(const Manifest& manifest);
 
 /// Parses a manifest and checks it in stages: first the JSON syntax and the checksum, then each value, then
 /// combinations of values, and last the files of /start. Throws one InputError with all errors of the first stage that
-/// finds any. `file` is the name of the manifest in error messages; paths in /start are relative to its folder.
+/// finds an error. `file` is the name of the manifest in error messages; paths in /start are relative to its folder.
 Manifest parse_manifest(std::string_view text, const std::string& file);
 /// Reads a manifest and passes it to parse_manifest(). The file name "-" means standard input. Throws FileError if the
 /// file cannot be read.
 Manifest read_manifest(const std::string& file);
 
 /// Canonical form of a manifest. It contains every value, including defaults, and lists whose order has no meaning are
-/// sorted. parse_manifest() converts it to the same manifest.
+/// sorted. parse_manifest() converts it back to the same manifest.
 Json to_json(const Manifest& manifest);
 
 /// The part of the canonical form that must be the same for all runs in a results directory. It does not contain the

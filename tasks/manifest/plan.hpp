@@ -61,7 +61,7 @@ class Plan {
   std::string digest_, sweep_digest_;
   std::vector<OptionSet> sets_;
   std::size_t points_;
-  /// index of each sweep point, by the beginning that the names of its replicates share
+  /// index of each sweep point; the key is the common beginning of the names of its replicates
   std::map<std::string, std::size_t, std::less<>> point_of_prefix_;
 };
 

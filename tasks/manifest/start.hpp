@@ -36,8 +36,8 @@ Json to_json(const Start& start);
 /// - The cell is so small that a particle could touch two images of another one.
 /// - An overlap is larger than half of the volume of the smaller particle.
 void load_start(const JsonPlace& place, Manifest& manifest);
-/// The same for a manifest without its document. Error messages contain the name of the manifest instead of its file.
-/// Does nothing if the manifest has no start.
+/// Reads the files of a manifest whose JSON document is not available. Error messages then contain the name of the
+/// manifest instead of its file. Does nothing if the manifest has no start.
 void load_start(Manifest& manifest);
 
 /// The initial configuration of a replicate, strained to `density` if it is given. load_start() must have been called.

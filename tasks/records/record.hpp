@@ -20,8 +20,8 @@ Json make_record(const Outcome& outcome);
 std::string result_digest(const Json& record);
 
 /// Makes a record to which measures were added. `record` is a record with all measures, and `before` is the record
-/// before the addition. The returned record has the provenance of `before` and the sum of both times. It also states
-/// which measures were added, which build added them, and the digests of `before`.
+/// before the addition. The returned record has the provenance of `before`, and the sum of the times of both. It also
+/// states which measures were added, which build added them, and the digests of `before`.
 Json with_added(Json record, const Json& before, const std::vector<Measure>& added);
 
 /// Makes the record of a replicate that failed before any measure. It is equal to `before`, except that it has the

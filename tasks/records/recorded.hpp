@@ -24,7 +24,8 @@ struct RecordedReplicate {
 /// InputError if it is damaged, if its result digest is wrong, or if it describes another replicate than its name.
 RecordedReplicate read_record(const std::filesystem::path& directory, const std::string& name);
 
-/// True if the record belongs to this manifest, apart from measures: identity() differs at most in the measures.
+/// True if the record belongs to this manifest, apart from measures. The identity() of the manifest of the record may
+/// differ only in the measures.
 bool is_of(const RecordedReplicate& replicate, const Manifest& manifest);
 /// The measures of a manifest that the record does not have, because they were added to the manifest later.
 std::vector<Measure> lacks(const RecordedReplicate& replicate, const Manifest& manifest);

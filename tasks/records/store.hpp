@@ -18,10 +18,10 @@ namespace isojam {
 using Warn = std::function<void(const std::string&)>;
 
 /// Checks whether results of this manifest may be written to a directory. It only reads files. Throws InputError if the
-/// directory has another manifest or records of another manifest; the error states the keys that differ. A damaged
-/// record of the plan is ignored, because it will be recomputed. For a damaged record that is not in the plan, `warn`
-/// is called. Throws FileError if a file cannot be read at the moment, or if one of the folders is a symbolic link,
-/// because results would then be written to another directory.
+/// directory has another manifest or records of another manifest; the error states what differs. A damaged record of
+/// the plan is ignored, because it will be recomputed. For a damaged record that is not in the plan, `warn` is called.
+/// Throws FileError if a file cannot be read at the moment, or if one of the folders is a symbolic link, because
+/// results would then be written to another directory.
 void check_directory(const std::filesystem::path& directory, const Manifest& manifest, const Warn& warn);
 
 /// A results directory. It contains manifest.json, tables.json, and the folders records/, packings/, paths/ and
@@ -37,11 +37,16 @@ class Store {
   /// cannot be written.
   Store(std::filesystem::path directory, const Manifest& manifest, Warn warn);
 
-  /// Summary of the record of this replicate; nullopt if there is no valid record, so that the replicate must be
-  /// computed. A record is not valid if the file is damaged, if it has not all measures of the manifest, or if it
-  /// records a resource failure. It is also not valid if its packing is damaged or missing, or, if the manifest keeps
-  /// paths, its path. For a record that is not valid, `warn` is called. Throws InputError if the record belongs to
-  /// another manifest. Throws FileError if a file cannot be read at the moment; such a file does not count as damaged.
+  /// Summary of the record of this replicate; nullopt if there is no valid record. The replicate must then be computed.
+  /// A record is not valid in these cases, in which `warn` is called:
+  /// - The file is damaged.
+  /// - It does not have all measures of the manifest.
+  /// - It records a resource failure.
+  /// - Its packing is damaged or missing.
+  /// - The manifest keeps paths, and the path of the replicate is damaged or missing.
+  ///
+  /// Throws InputError if the record belongs to another manifest. Throws FileError if a file cannot be read at the
+  /// moment; such a file does not count as damaged.
   std::optional<RecordSummary> recorded(const ReplicateSpec& spec) const;
   /// Reads the checkpoint of a replicate; nullopt if there is none. If the checkpoint is damaged or belongs to another
   /// build, returns nullopt after a warning. Throws FileError if it cannot be read at the moment.

@@ -11,8 +11,8 @@ namespace isojam {
 inline constexpr Range any_number{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
 inline constexpr Range count_range{0, 9007199254740992};
 
-// Counts of the work of a computation, and rearrangements, as JSON in records and checkpoints. The functions that read
-// throw InputError if the JSON does not have the form that to_json() writes.
+// Conversion of counters of a computation, and of rearrangements, to and from JSON in records and checkpoints. The
+// functions that read throw InputError if the JSON does not have the form that to_json() writes.
 
 Json to_json(const PairCounts& counts);
 PairCounts read_counts(const JsonPlace& place);

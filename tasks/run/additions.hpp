@@ -37,7 +37,8 @@ class Adder {
 
   /// The stages that add measures. They use this object, which must outlive them. `begin` restores the run from the
   /// record and the path. `jam` relaxes saddles to minima if a measure needs minima and no measure in the record did.
-  /// `measure` takes a measure that is in the record from there, unless a state has changed.
+  /// `measure` takes a measure from the record if the record has it and no state has changed. Otherwise it computes the
+  /// measure.
   Stages stages();
 
   /// Replaces the record by one with all measures. Returns nullopt, or the reason if this failed; the record is then
@@ -46,7 +47,7 @@ class Adder {
 
  private:
   const Store& store_;
-  // records of the replicates on which work has begun; nullopt for all others
+  // records of the replicates that are being processed; nullopt for all others
   std::map<std::string, std::optional<RecordedReplicate>> records_;
 };
 

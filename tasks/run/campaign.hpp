@@ -15,9 +15,9 @@ namespace isojam {
 /// The replicates of a study that a shard has to run, in rounds.
 ///
 /// Without a goal there is one round, and each shard gets single replicates of the plan. With a goal, a round contains
-/// the next batch of replicates of every sweep point that has not reached the goal. Only the recorded replicates of
-/// earlier batches of the same point decide this. Each shard then gets whole sweep points, because a shard cannot wait
-/// for results of another one.
+/// the next batch of replicates of every sweep point that has not reached the goal. This depends only on the recorded
+/// replicates of earlier batches of the same point. Each shard then gets whole sweep points, because a shard cannot
+/// wait for results of another one.
 ///
 /// The object stores a few numbers for each sweep point. With a goal, it also stores one value for each replicate.
 class Campaign {
@@ -37,7 +37,7 @@ class Campaign {
     double work = 0;  ///< estimated CPU seconds of the replicates that have no record file
   };
   Size round_size() const;
-  /// Estimated memory, in bytes, of the replicate of the plan that needs most.
+  /// Estimated memory, in bytes, of the replicate of the plan that needs the most memory.
   double largest_memory() const;
   /// Names of the replicates in all rounds so far for which `has` returns false.
   std::vector<std::string> without(const std::function<bool(const std::string&)>& has) const;

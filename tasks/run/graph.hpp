@@ -22,10 +22,10 @@ struct GraphOptions {
 using NextReplicate = std::function<std::optional<ReplicateSpec>()>;
 
 /// Runs all stages of every replicate, and passes one outcome for each replicate to `on_outcome`, one at a time, in any
-/// order. If a stage throws an exception, the replicate fails and the run continues. Two kinds of exceptions stop the
-/// run and are then thrown from here: a resource failure in a stage (see is_resource_failure()), and any exception of
-/// `next`, `on_outcome` or `on_step`. After a stop request, no further replicate starts, and the outcomes of running
-/// replicates are marked as interrupted.
+/// order. If a stage throws an exception, the replicate fails and the run continues. However, a resource failure (see
+/// is_resource_failure()) stops the run and is thrown from here. The same is true for an exception of `next`,
+/// `on_outcome` or `on_step`. After a stop request, no further replicate starts, and the outcomes of running replicates
+/// are marked as interrupted.
 void run_graph(const NextReplicate& next, const Stages& stages, const GraphOptions& options,
                const std::function<void(const Outcome&)>& on_outcome);
 

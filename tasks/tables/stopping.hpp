@@ -19,8 +19,8 @@ struct Advance {
   std::optional<double> half_width;  ///< half width of the confidence interval after the last complete batch
 };
 
-/// Number of replicates after the next batch. A batch has a quarter of `replicates`, but at least two replicates. The
-/// total is at most `max`.
+/// Number of replicates after the next batch. The size of a batch is a quarter of `replicates`, but at least two. The
+/// result is at most `max`.
 int next_batch_end(int replicates, int max);
 
 /// The stopping rule of a sweep point. It is checked after the first `min` replicates and after every batch. The point

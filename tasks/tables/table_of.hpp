@@ -18,9 +18,9 @@ struct TableChoices {
 
 /// Makes the table of all records in one or several results directories. The excluded flags and the base are those in
 /// `choices`. Where `choices` has none, they are those of the manifests; a directory without a manifest has
-/// usually_excluded() and no base. Warns if the records were made by different builds. Throws InputError if the
-/// manifests differ in the excluded flags or in the base. Also throws the exceptions of for_each_record() and
-/// Aggregation::add().
+/// usually_excluded() and no base. Warns like for_each_record(), and also if the records were made by different builds.
+/// Throws InputError if the manifests differ in the excluded flags or in the base. Also throws the exceptions of
+/// for_each_record() and Aggregation::add().
 Table table_of(const std::vector<std::string>& directories, const Warn& warn, const TableChoices& choices = {});
 
 /// Error message if the base of a table has a parameter or a value that no row has; nullopt otherwise.

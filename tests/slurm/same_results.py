@@ -2,7 +2,7 @@
 """Checks that two results directories have the same results. usage: same_results.py DIR OTHER
 
 The table and the packings must have the same bytes. Records may differ only in their time and in the checksum.
-Differences are printed, and the exit code is then 1.
+Differences are printed. The exit code is 1 if there are differences or no records.
 """
 import json
 import pathlib

@@ -26,8 +26,9 @@ struct ExportedFile {
 /// - xyz: the file `output`, and the shape of each solid as an .obj file in the same folder. If particles differ in
 ///   solid or size, the name of the solid is part of the name of its .obj file.
 /// - vtp without `collection`: the file `output`.
-/// - vtp with `collection`: files _0000.vtp, _0001.vtp, … for the frames, and a .pvd file. All names begin with
-///   `output` without the extension .vtp or .pvd. The time of a frame is its Δφ, or its index if a frame has no Δφ.
+/// - vtp with `collection`: one file for each frame, with names that end in _0000.vtp, _0001.vtp, …, and a .pvd file.
+///   The names begin with `output` without the extension .vtp or .pvd. The time of a frame is its Δφ; if some frame has
+///   no Δφ, it is the index of the frame.
 ///
 /// For vtp, frames with a contact network have a second set of files, whose names end in -contacts before the
 /// extension. Throws FileError if `output` for xyz has the extension .obj.

@@ -41,7 +41,7 @@ class RecordRows {
   std::string lines(const std::filesystem::path& directory, const RecordedReplicate& held) const;
 
  private:
-  /// The values of a row are taken from this; `state` is null for a failed replicate.
+  /// Sources of the values of a row; `state` is null for a failed replicate.
   struct Source {
     const RecordedReplicate& held;
     const Json* state;

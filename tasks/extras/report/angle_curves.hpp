@@ -8,8 +8,8 @@
 
 namespace isojam {
 
-/// Critical angles of a solid, and distributions of the alignment angles of random contacts, as in the paper's Figure
-/// 2. They do not depend on a run. Angles are in degrees; c is the fraction of angles up to θ:
+/// Critical angles of a solid, and distributions of the alignment angles of random contacts, as in Figure 2 of the
+/// paper. They do not depend on a run. Angles are in degrees, and c is the fraction of angles up to θ:
 /// {"critical": {"face_face": [{"topology", "angle"}], "edge_face": [...]},
 /// "random": [{"which", "face_face": [[θ, c], ...], "edge_face": [...]}]}.
 /// For a mixture, the critical angles are the smallest ones of its solids, and "random" is empty.

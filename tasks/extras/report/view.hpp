@@ -22,13 +22,14 @@ struct ViewOptions {
 /// A replicate whose packing is shown.
 struct ChosenView {
   std::size_t replicate = 0;  ///< index of the replicate in the results
-  /// true if the view has modes; false if their total number of particles would exceed `budget`
+  /// true if the view has modes; false if the total number of particles of views with modes would exceed `budget`
   bool with_modes = false;
 };
 
 /// Chooses the replicates whose packings are shown. First it chooses one replicate of each sweep point: the first one
 /// that did not fail and has no flag, or else the first one that did not fail. Then it repeatedly adds one more
-/// replicate of each sweep point, as long as ViewOptions allows. The result is sorted by replicate.
+/// replicate of each sweep point, as long as the limits in ViewOptions allow. The result is sorted by the index of the
+/// replicate.
 std::vector<ChosenView> choose_views(const Results& results, const ViewOptions& options = {});
 
 /// Data of a packing for the three-dimensional view.

@@ -37,8 +37,8 @@ struct AtlasRow {
 };
 
 /// Largest error of an overlap with the verdict `holds`. It is equal to the residual that is requested of minimisers.
-/// The relative errors of V and S may have this value. Alternatively, the error of the force may be this fraction of
-/// the mean contact force at Δφ = 5e-4.
+/// The verdict is `holds` if the relative errors of V and S are at most this value. It is also `holds` if the error of
+/// the force is at most this fraction of the mean contact force at Δφ = 5e-4.
 inline constexpr double atlas_overlap_tolerance = 1e-6;
 
 /// Tests of overlaps by three methods: the contact loop in double-double, which isojam uses near jamming; the contact

@@ -12,7 +12,8 @@ namespace isojam {
 /// A quaternion (w, x, y, z). It may have any length except 0.
 using QuadQuaternion = std::array<Quad, 4>;
 
-/// Rotation by `angle` about `axis`, which may have any length. The error is at most 1e-32, even for very small angles.
+/// Rotation by `angle` about `axis`, which may have any length. The relative error of the angle is about 1e-16, also
+/// for very small angles.
 QuadQuaternion small_turn(double angle, const Eigen::Vector3d& axis);
 /// Rotation by 45° about the coordinate axis 0, 1 or 2.
 QuadQuaternion eighth_turn(int axis);

@@ -4,8 +4,8 @@
 
 namespace isojam {
 
-/// The energy of all pairs of particles and images, including images of the same particle, by clipping in quadruple
-/// precision. It is correct for every cell in the atlas, however small.
+/// The energy of all pairs of particles and images, including pairs of a particle and its own image, by clipping in
+/// quadruple precision. It is correct for every cell in the atlas, however small.
 double energy_over_images(const Packing& packing);
 /// The energy of each pair of particles, with only the nearest image.
 double energy_of_nearest_images(const Packing& packing);
