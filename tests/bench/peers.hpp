@@ -10,7 +10,7 @@
 
 namespace isojam::bench {
 
-// Programs of others with which the contact loop and the block factorisation are compared.
+// Other libraries with which the contact loop and the block factorisation are compared.
 
 /// The library voro++. For each particle A, its cell is made once. For each pair, a copy of the cell is cut by the
 /// planes of B. This gives the volume, the centroid, the neighbours, and S_A from the areas of the faces.

@@ -7,17 +7,18 @@
   labels.
 - The table can be sorted by every column in both directions, by mouse and by keyboard. A copy of the table is the
   output of `isojam aggregate`.
-- The 3D view draws a packing. It can be rotated by mouse and keyboard, zoomed and coloured, show only the largest
-  cluster, and animate a mode. For 400 particles it leaves out outlines during a rotation. Without WebGL a sentence
-  replaces it.
+- The 3D view draws a packing. It can be rotated by mouse and keyboard, zoomed and coloured. It can show only the
+  largest cluster, and animate a mode. For 400 particles it leaves out outlines during a rotation. Without WebGL a
+  sentence replaces it.
 - If the reader prefers reduced motion, nothing moves.
 - The reader can choose one chart for all solids, which then differ in colour and symbol. Symbols of quantities are set
   as mathematics.
-- With 400 replicates, no replicate hides another one; there are boxes and swarms. Crystalline replicates extend an axis
-  only if the reader chooses this. Flagged replicates are listed by flag. The page states which packings it contains.
+- With 400 replicates, no replicate hides another one. Boxes and swarms of points are drawn. Crystalline replicates
+  extend an axis only if the reader chooses this. Flagged replicates are listed by flag. The page states which packings
+  it contains.
 - Contact forces are drawn. The view can be saved as PNG.
-- Pages are complete for failed replicates, for one replicate, without modes, with swept parameters, and for cubes. They
-  name the measure that would give the missing parts.
+- Pages are complete for failed replicates, for one replicate, without modes, with swept parameters, and for cubes. If
+  parts are missing, they name the measure that would give these parts.
 - Names and texts that are markup are shown as text.
 - No element is wider than its container, on screens of 1400 and of 390 pixels, and no page scrolls horizontally.
 """

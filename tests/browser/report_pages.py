@@ -204,8 +204,8 @@ class Pages:
         """Results with `replicates` replicates of every sweep point of `source`.
 
         They are shortened and modified copies of the real ones. Every tenth is crystalline with a much higher density.
-        All replicates of a sweep point in `solids` have that solid. At other sweep points, the first
-        copies have the packings of the real replicates."""
+        All replicates of a sweep point in `solids` have that solid. At other sweep points, the first copies have the
+        packings of the real replicates."""
         directory = self.root / name
         shutil.copytree(source, directory, ignore=lambda folder, names: [entry for entry in names if "-r" in entry])
         numbers, points = random.Random(5), {}

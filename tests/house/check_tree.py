@@ -8,7 +8,7 @@
 3. oneTBB (and <execution>, which uses it) is included only in engine/parallel/parallel.cpp and tasks/run/graph.cpp, CLI11
    only in tasks/commands/command_line.cpp, and METIS only in engine/solve/factor/ordering.cpp.
 4. No C++ source, shell script or CMake file in engine/, tasks/ or tests/ has more than 400 lines.
-5. The top folder has only the names in a list, and build directories and results, which git ignores.
+5. The top folder has only the names in TOP, and build directories and results, which git ignores.
 
 Prints one line for each breach of a rule: `file:line: why: text`. The exit code is 1 if a rule is broken, and 2 if
 nothing could be checked.
@@ -54,7 +54,7 @@ def sources(root):
 
 
 def rank(path):
-    """Position of the folder of a path in the order of its half; None if the folder is not in the order."""
+    """Position of the folder of a path in FOLDERS; None if FOLDERS does not contain it."""
     half, *folders = path.split("/")[:-1]
     for depth in (1, 2):
         folder = "/".join(folders[:depth])
@@ -64,7 +64,7 @@ def rank(path):
 
 
 def order_breach(file, header):
-    """The reason why a source may not include a header of its own half; None if it may."""
+    """The reason why a source may not include a header of its own half (engine/ or tasks/); None if it may."""
     if file == "tasks/main.cpp":
         return None
     own, theirs = rank(file), rank(header)

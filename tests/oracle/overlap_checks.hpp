@@ -10,7 +10,7 @@ namespace isojam::oracle {
 
 /// Deviations of an Overlap from the exact overlap. Each is relative to a scale.
 struct OverlapErrors {
-  double volume = 0;  ///< |ΔV|/V; infinite if V is 0 but the other value is not
+  double volume = 0;  ///< |ΔV|/V; infinite if the exact V is 0 and the measured V is not
   double area = 0;    ///< |ΔS|/|S|
   double moment = 0;  ///< |ΔM|/max(|M|, |S|·inradius of A); |M| alone can be 0 although its contributions are not
 };

@@ -17,7 +17,7 @@ struct ChartAtlas {
 
 /// CPU time of a part of a chart, including work that is not timed for points.
 struct PartCost {
-  std::string part;  ///< name of a comparison, or "packings" and "equilibria", which several comparisons use
+  std::string part;  ///< name of a comparison; or "packings" or "equilibria", which several comparisons use
   double cpu_seconds = 0;
 };
 

@@ -41,8 +41,9 @@ void compare_modes(std::span<const TaskEquilibria> tasks, const Measuring& measu
 /// relative error of V. Points of methods that compute S also contain its error.
 void compare_overlaps(const Measuring& measuring, ChartFamily& family);
 
-/// Compares settings of the protocol. The time is the CPU time of all replicates. The error is the difference between
-/// the mean φ_J and that of the first setting, plus half the width of the 95 % confidence interval of the mean.
+/// Compares settings of the protocol. The time is the CPU time of all replicates. The error is the absolute difference
+/// between the mean φ_J of the replicates and that of the first setting, plus half the width of the 95 % confidence
+/// interval of the mean.
 void compare_protocols(const Measuring& measuring, ChartFamily& family);
 
 /// Measures the CPU time of a replicate with the default protocol, of one equilibrium, and of one evaluation, for

@@ -11,7 +11,7 @@ namespace isojam {
 /// Result of a method: in how many tasks it reaches a residual, and how much time it needs.
 struct Standing {
   std::string method;
-  /// number of tasks in which the method reaches the residual in all packings with at least one setting, and number of
+  /// number of tasks in which at least one setting of the method reaches the residual in all packings, and number of
   /// tasks that were tried
   int reached = 0, tasks = 0;
   double seconds = 0;  ///< sum of the times of the reached tasks, each with the fastest of these settings

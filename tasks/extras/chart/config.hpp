@@ -66,7 +66,7 @@ struct ChartConfig {
   int pairs = 40;                                        ///< number of pairs for each solid and class of pairs
   int repetitions = 3;                                   ///< number of repetitions of each measurement of time
   long max_evaluations = 4000;                           ///< largest number of evaluations in one minimisation
-  /// The same for a minimisation with the paper's stopping rule, which needs more evaluations.
+  /// largest number of evaluations in one minimisation with the paper's stopping rule, which needs more of them
   long rule_evaluations = 20000;
   double point_seconds = 10;   ///< wall-clock time after which a minimisation is stopped
   double total_seconds = 280;  ///< wall-clock time after which the chart is stopped

@@ -23,8 +23,8 @@ inline Json crash_manifest() {
   return manifest;
 }
 
-/// Tests that interrupt runs. Once for all tests, it makes a reference: the results of a run that was not interrupted.
-/// Each test has its own directory.
+/// Base class of tests that interrupt runs. SetUpTestSuite() makes the results of an undisturbed run, with which the
+/// tests compare theirs. Each test has its own directory.
 class Crash : public testing::Test {
  protected:
   static void SetUpTestSuite() {

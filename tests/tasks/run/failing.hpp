@@ -6,7 +6,7 @@
 namespace isojam::test {
 
 #if defined(__SANITIZE_ADDRESS__)
-/// it replaces the same functions as the preloaded library, so the two cannot be combined
+/// the sanitizer replaces the same functions as the preloaded library, so the two cannot be combined
 inline constexpr bool with_sanitizer = true;
 #else
 inline constexpr bool with_sanitizer = false;

@@ -22,8 +22,7 @@ class AtlasStates {
   const std::vector<Packing>& all() const { return states_; }
   /// φ − φ_J of one of these states.
   double distance_of(const Packing& packing) const { return packing.density() - phi_j_; }
-  /// The state before a strain step to Δφ: the nearest one whose distance is above Δφ, or the first state if there is
-  /// none.
+  /// The state before a strain step to Δφ: the nearest one with φ − φ_J > Δφ, or the first state if there is none.
   const Packing& above(double delta_phi) const;
 
  private:

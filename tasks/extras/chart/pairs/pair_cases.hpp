@@ -12,7 +12,7 @@
 
 namespace isojam::oracle {
 
-/// Classes of pairs of solids. Each is difficult for an overlap algorithm for another reason.
+/// Classes of pairs of solids. Each is difficult for an overlap algorithm, for a different reason.
 enum class PairClass {
   random_contact,       ///< random orientation, displaced in a random direction
   near_parallel_faces,  ///< two faces in contact; the angle between them is 1e-10 to 1e-2

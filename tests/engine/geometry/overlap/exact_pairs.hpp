@@ -32,8 +32,8 @@ Overlap found(const PosedPair& pair);
 /// inradius of A.
 double error(const PosedPair& pair);
 
-/// Largest error of a column of ∂S_A/∂x_B in H_AB, relative to this block. The reference is differences of S in
-/// quadruple precision.
+/// Largest error of a column of ∂S_A/∂x_B in H_AB, relative to the norm of this block. The reference is differences of
+/// S in quadruple precision.
 double hessian_error(const PosedPair& pair);
 
 /// A pair in which a face of B is in contact with a face of A. The angle between the faces is `tilt`, and their depth

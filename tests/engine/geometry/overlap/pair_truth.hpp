@@ -9,8 +9,8 @@
 
 #include "tests/engine/geometry/overlap/exact_pairs.hpp"
 
-// Requirements on overlap() for each family of solids. A family is a function that calls another one for each of its
-// pairs.
+// Requirements on overlap() for each family of solids. A family is a function for_each_pair(use), which calls use(a, b)
+// for each of its pairs.
 
 namespace isojam::testing_pairs {
 
