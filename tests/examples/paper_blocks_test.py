@@ -9,7 +9,7 @@
   found. Fractions of random contacts agree with directions drawn at random.
 - The error of C from cut-offs uses the states of C. The error of Z_ff is half the difference between fits and gaps.
 - Intervals of solids are compared with both errors. Packings with more than three zero modes are counted. Deviates of
-  offsets contain the paper's interval and that of isojam. Solids are sorted in ascending order.
+  offsets use both the paper's interval and that of isojam. Solids are sorted in ascending order.
 """
 
 import math

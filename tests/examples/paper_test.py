@@ -6,7 +6,7 @@
   both. The comparison is undecided for fewer than three packings, and if the prediction interval is wider than ± half
   of the value.
 - Contacts are classified by cut-offs as in the program. Regions, emergence and the distribution of face-face contacts
-  agree with counts by hand. Contacts that are drawn at random are independent of each other.
+  agree with counts by hand. If face-face contacts are drawn at random, q and p of network.hindrance() are equal.
 - Shifts of φ_J are differences of paired replicates, without crystalline ones. Settings are ranked by χ², and a setting
   with the paper's values is the first. Confidence intervals agree with those computed by hand. Fit windows are chosen
   with the smaller N; one that is chosen with the larger N is marked. The base of the search is the protocol of the

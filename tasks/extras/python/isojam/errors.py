@@ -13,7 +13,7 @@ class InputError(ValueError):
     allowed  the allowed values, or an instruction; "" if `why` is sufficient"""
 
     def __init__(self, file: str | os.PathLike[str], place: str, why: str, allowed: str = "", remedy: str = "") -> None:
-        """`allowed` gives the allowed values, `remedy` an instruction. Only one of the two may be given."""
+        """`allowed` gives the allowed values, `remedy` an instruction. Give only one of the two."""
         self.file, self.place, self.why, self.allowed = str(file), place, why, allowed or remedy
         text = f"{self.file}: {place}: {why}" if place else f"{self.file}: {why}"
         super().__init__(text + (f"; expected {allowed}" if allowed else f"; {remedy}" if remedy else ""))

@@ -48,7 +48,7 @@ def find(program: Path | None = None) -> str:
 def _compare_versions(program: str) -> None:
     """Warns if the program and this module have different versions.
 
-    Raises ProgramError if the program writes files that the module cannot read."""
+    Raises ProgramError if the program does not write the schemas that the module reads."""
     ended = subprocess.run([program, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                            errors="replace", check=False)
     words = ended.stdout.split()
