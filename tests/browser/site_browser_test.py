@@ -1,10 +1,11 @@
-"""These tests prove, in Chromium, of the documentation site that MkDocs builds, opened from disk:
-- no page has a console error, and each file that a page loads or links to exists;
-- no page is wider than the window, at a width of 1400 pixels or of 390;
-- at both widths the menu leads to another page; at 390 pixels it opens and closes;
-- the search finds sections and leads to them.
-Doxygen is not run: empty files stand for its pages.
-usage: site_browser_test.py SOURCE
+"""Tests the documentation site that MkDocs builds, in Chromium and opened from disk. usage: site_browser_test.py SOURCE
+
+- No page has a console error. Each file that a page loads or links to exists.
+- No page is wider than the window, at widths of 1400 and of 390 pixels.
+- At both widths, the menu leads to another page. At 390 pixels, it opens and closes.
+- The search finds sections and leads to them.
+
+Doxygen does not run; empty files replace its pages.
 """
 
 import pathlib
@@ -24,7 +25,7 @@ SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE / "docs/site"))
 from gather import REFERENCE, gather  # noqa: E402
 
-# Addresses of all that a page loads or links to on this disk, and whatever else it loads.
+# Addresses of all files that a page loads or to which it links on this disk, and other addresses that it loads.
 ADDRESSES = """return [...document.querySelectorAll("[src], [href]")].map((item) => item.src || item.href)
   .filter((address) => !/^(https?|mailto):/.test(address))
   .concat([...document.querySelectorAll("[src], link")].map((item) => item.src || item.href))"""
@@ -55,7 +56,7 @@ class Site(unittest.TestCase):
         return self.browser.driver.find_element(By.CSS_SELECTOR, selector)
 
     def missing(self):
-        """Addresses of the page that are not files on this disk."""
+        """Addresses in the page that are not files on this disk."""
         parts = [(address, urllib.parse.urlsplit(address)) for address in self.browser.run(ADDRESSES)]
         return sorted({address for address, part in parts
                        if part.scheme != "file" or not pathlib.Path(urllib.parse.unquote(part.path)).is_file()})
@@ -75,7 +76,7 @@ class Site(unittest.TestCase):
         self.assertEqual(wrong, [], "\n".join(wrong))
 
     def follow(self, link, title):
-        """Clicks a link, which has to be inside the window, and waits for the page that it leads to."""
+        """Clicks a link, which must be inside the window, and waits for the page to which it leads."""
         self.assertTrue(self.browser.run("""const {left, right} = arguments[0].getBoundingClientRect();
             return left >= 0 && right <= innerWidth""", link))
         link.click()
