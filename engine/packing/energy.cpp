@@ -13,7 +13,7 @@ namespace isojam {
 
 namespace {
 
-/// Sums that an evaluation needs for its results.
+/// Sums over contacts from which the residual, residual_floor and energy_noise are computed.
 struct Accumulator {
   double force = 0;
   std::vector<double> stiffness;  ///< per particle, Σ ½ |∇V|² over its contacts
@@ -21,13 +21,13 @@ struct Accumulator {
   double energy_noise = 0;        ///< Σ ρ_c V²/2
 };
 
-/// ρ_c, see Evaluation::residual_floor.
+/// The relative error ρ_c, see Evaluation::residual_floor.
 double relative_error(const ConvexSolid& a, const ConvexSolid& b, const Eigen::Vector3d& r, const Overlap& overlap) {
   const double tolerance = gap_tolerance(a, b, r), area = overlap.area.norm();
   return tolerance / std::max(double_double_below(a, b), overlap.volume / area) + tolerance / std::sqrt(area);
 }
 
-/// Contribution of one contact to an evaluation, lab frame: ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
+/// Contributions of one contact, lab frame: ∂E/∂x_A = (V/2) S_A, ∂E/∂θ_A = (V/2) M_A.
 ContactTerms terms_of(const Packing& packing, const NeighbourPair& pair, const Overlap& overlap) {
   ContactTerms terms;
   const Eigen::Vector3d r = displacement(packing, pair);
@@ -72,7 +72,7 @@ void bound_rounding(const Packing& packing, Precision precision, const Accumulat
     result.energy_noise = sums.energy_noise;
     return;
   }
-  // H ≤ Σ ½ ∇V ∇Vᵀ: its largest eigenvalue is at most twice that of the stiffest diagonal block.
+  // The largest eigenvalue of Σ ½ ∇V ∇Vᵀ is at most twice the largest trace of a diagonal block of this matrix.
   const double lambda = 2 * *std::max_element(sums.stiffness.begin(), sums.stiffness.end());
   const double ulp = std::numeric_limits<double>::epsilon() * packing.cell.side();
   result.residual_floor = lambda * ulp / result.mean_force;
@@ -86,8 +86,8 @@ bool is_finite(const Packing& packing) {
   });
 }
 
-/// Calls visit(index in the list, overlap, overlap with the gap closed) in the order of the list; an overlap that does
-/// not exist is null.
+/// Calls visit(k, now, closed) for every pair k of the neighbour list that is in one of the two lists, in the order of
+/// k. `now` and `closed` are the overlaps of the pair in these lists, or null.
 template <class Visit>
 void for_each_of_either(const TouchingPairs& now, const TouchingPairs& closed, const Visit& visit) {
   for (std::size_t block = 0; block < now.blocks.size(); ++block) {
@@ -124,7 +124,7 @@ double deviator_of(const Evaluation& evaluation) {
 }
 
 void PackingEnergy::overlap_all(const Packing& packing, Precision precision) {
-  // Hessians and contacts are mostly requested for a state that has just been evaluated.
+  // Hessians and contacts are usually requested for a state that has just been evaluated.
   const bool known = evaluated_solids_ == packing.solids && evaluated_cell_ && *evaluated_cell_ == packing.cell &&
                      evaluated_poses_ == packing.poses && evaluated_precision_ == precision;
   if (known) return;

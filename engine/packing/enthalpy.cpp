@@ -16,7 +16,8 @@ namespace {
 /// Relative rounding error of p (V − V₀).
 constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
-/// Stress on the free strains divided by a pressure.
+/// Largest entry of a stress divided by a pressure. It is infinite if the stress is not 0 but the pressure is 0 or
+/// less.
 double imbalance(const Vector6d& stress, double pressure) {
   const double largest = strain_tensor(stress).cwiseAbs().maxCoeff();
   if (largest == 0) return 0;
@@ -41,13 +42,14 @@ double Enthalpy::work(const PeriodicCell& cell) const {
   return by_pressure - reference_.volume() * control_.deviator.cwiseProduct(change).sum();
 }
 
-/// V₀ F τ. Its symmetric part does work under strain, as the pressure does: a strain ε changes F to F + ε F + ½ ε² F.
+/// V₀ F τ. A strain ε changes F to F + ε F + ½ ε² F. The derivative of the work V₀ τ:(F − 1) with respect to ε is
+/// therefore the symmetric part of this matrix.
 Eigen::Matrix3d Enthalpy::load(const PeriodicCell& cell) const {
   if (!sheared_) return Eigen::Matrix3d::Zero();
   return reference_.volume() * cell.vectors().high * inverse(reference_) * control_.deviator;
 }
 
-/// Derivatives with respect to the free strains.
+/// Derivatives of the enthalpy with respect to the coordinates ℓ·ε of the free strains.
 Eigen::VectorXd Enthalpy::strain_gradient(const Eigen::Matrix3d& stress, const Packing& packing) const {
   Vector6d excess = strain_components(stress + pressure() * Eigen::Matrix3d::Identity());
   if (sheared_) excess -= strain_components(load(packing.cell)) / packing.cell.volume();
@@ -82,7 +84,7 @@ EnvelopeEvaluation Enthalpy::of(EnvelopeEvaluation evaluation, const Packing& pa
 
 void Enthalpy::add_to(BlockMatrix& hessian, const Packing& packing) const {
   if (!frees_volume(control_.cell)) return;
-  // Second order of V exp(tr ε).
+  // The second-order term of V exp(tr ε), the volume after a strain ε.
   const Eigen::VectorXd trace =
       basis_.transpose() * (std::sqrt(3.0) * trace_direction()) / strain_length(packing.size());
   hessian.corner += pressure() * packing.cell.volume() * trace * trace.transpose();

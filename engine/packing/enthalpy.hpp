@@ -6,10 +6,11 @@ namespace isojam {
 
 struct EnvelopeEvaluation;
 
-/// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing in a variable cell. Minimisers minimise this function. V₀ is the
-/// volume of the reference cell, and F is the deformation from the reference cell to the present cell. In a fixed cell
-/// the enthalpy equals the energy. The last term is the work of a dead load. This load corresponds to the stress τ only
-/// if F is near 1. After a large strain, make a new Enthalpy with the present cell as the reference.
+/// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing, the function that minimisers minimise. V is the volume of the
+/// cell, V₀ is the volume of the reference cell, and F is the deformation from the reference cell to the present cell.
+/// CellControl gives p and τ; terms that it does not list for the free strains are 0. The last term is the work of a
+/// dead load. At the minimum, the stress equals −p·1 + τ only if F is near 1. After a large strain, make a new Enthalpy
+/// with the present cell as the reference.
 class Enthalpy {
  public:
   /// Makes an enthalpy with the reference cell `reference`.
@@ -17,11 +18,11 @@ class Enthalpy {
 
   const CellControl& control() const { return control_; }  ///< free strains of the cell and load on the cell
 
-  /// Converts an evaluation of the energy to one of the enthalpy. It adds the load to the energy, and appends the
-  /// derivatives with respect to the free strains to the gradient. The residual of the stress is the largest entry of σ
-  /// + p·1 − τ, projected on the free strains and divided by p. If no pressure is prescribed, it is divided by the
-  /// pressure of the packing. If the residual of the stress is larger than the residual of the forces, it replaces the
-  /// latter.
+  /// Converts an evaluation of the energy to an evaluation of the enthalpy. It adds the energy of the load to the
+  /// energy, and appends the derivatives with respect to the free strains to the gradient. The new residual is the
+  /// larger of the residual of the forces and the residual of the stress. The residual of the stress is the largest
+  /// entry of σ + p·1 − (V₀/V) sym(F τ), projected on the free strains, divided by p. If the volume is not free, the
+  /// pressure of the packing replaces the p in the denominator.
   Evaluation of(Evaluation evaluation, const Packing& packing) const;
   /// Converts an evaluation of an envelope in the same way.
   EnvelopeEvaluation of(EnvelopeEvaluation evaluation, const Packing& packing) const;
@@ -30,7 +31,7 @@ class Enthalpy {
 
  private:
   double pressure() const { return frees_volume(control_.cell) ? control_.pressure : 0; }
-  /// The load energy p (V − V₀) − V₀ τ:(F − 1).
+  /// The energy of the load, p (V − V₀) − V₀ τ:(F − 1).
   double work(const PeriodicCell& cell) const;
   Eigen::Matrix3d load(const PeriodicCell& cell) const;
   Eigen::VectorXd strain_gradient(const Eigen::Matrix3d& stress, const Packing& packing) const;

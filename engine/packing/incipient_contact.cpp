@@ -9,9 +9,10 @@ namespace isojam {
 
 namespace {
 
-/// A flat contact of vector area S whose section line crosses its centre resists tilt about axes in its plane. There
-/// V_τ ≈ |S|^(3/2)/5, and ½ V_τ² = |S|³/50. Other kinds of contacts have such a small area that this term vanishes
-/// beside ½ |∇V|².
+/// Stiffness of a flat contact with the vector area S against rotations about axes in the plane of its faces. The line
+/// in which the face planes intersect is assumed to go through the centre of the contact. Then ∂V/∂τ ≈ |S|^(3/2)/5 for
+/// a rotation τ, and ½ (∂V/∂τ)² = |S|³/50. All other kinds of contacts have a small area S, so this term is negligible
+/// compared with ½ |∇V|².
 Eigen::Matrix3d tilt_stiffness(const Eigen::Vector3d& area, const GyrationRadii& radii) {
   const double square = area.squaredNorm();
   if (!(square > 0)) return Eigen::Matrix3d::Zero();
@@ -37,9 +38,9 @@ IncipientContact incipient_contact(int a, int b, const Overlap& now, const Overl
   if (now.touching()) pair.now = tangent(now, r, radii);
   if (closed.touching()) {
     pair.closed = tangent(closed, r - approach, radii);
-    pair.closed.at_rest -= closed.area.dot(approach);  // B moved by −approach, and ∂V/∂x_B = −S_A
+    pair.closed.at_rest -= closed.area.dot(approach);  // b moves by −approach, and ∂V/∂x_b = −S
   }
-  // Strain moves B by ε r, and ∂V/∂x_B = −S_A.
+  // A strain ε moves b by ε r, and ∂V/∂x_b = −S.
   if (strains.cols() > 0) {
     pair.now.slope_strains = -(strained(r) * strains).transpose() * now.area;
     pair.closed.slope_strains = -(strained(r) * strains).transpose() * closed.area;

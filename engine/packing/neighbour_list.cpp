@@ -10,11 +10,11 @@ namespace isojam {
 
 namespace {
 
-/// Skin of the neighbour list in circumradii: wide enough that a minimisation rarely rebuilds the list, narrow enough
-/// that few listed pairs are out of reach.
+/// Skin of the neighbour list, in units of the mean circumradius. It is so large that a minimisation rarely makes a new
+/// list, and so small that the circumscribed spheres of most listed pairs intersect.
 constexpr double skin_in_circumradii = 0.15;
 
-/// Axes of the pairs that remain.
+/// Separating axes of a new list: those of the old list for pairs that both lists contain, and none for other pairs.
 std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_pairs,
                                          const std::vector<SeparatingAxis>& old_axes,
                                          const std::vector<NeighbourPair>& pairs) {
@@ -28,9 +28,10 @@ std::vector<SeparatingAxis> carried_over(const std::vector<NeighbourPair>& old_p
 
 }  // namespace
 
-/// Centres have moved from x to F x + u, and displacements from r to F r + u_b − u_a. A pair that was farther apart
-/// than reach and skin now has at least the distance |F r| − 2 max |u|, with |F r| ≥ (1 − |F − 1|) |r|. The condition
-/// is strictest for pairs of the largest particles.
+/// Since the list was made, centres have moved from x to F x + u, and displacements from r to F r + u_b − u_a, where F
+/// is the deformation of the cell. A pair outside the list had |r| ≥ reach + skin. Its distance is now at least |F r| −
+/// 2 max |u|, and |F r| ≥ (1 − |F − 1|) |r|. The list is valid if this is larger than the reach. The condition is
+/// strictest for pairs of the largest particles.
 bool NeighbourList::is_valid(const Packing& packing) const {
   const std::size_t n = packing.poses.size();
   if (!(solids_ == packing.solids) || !cell_ || positions_.size() != n) return false;

@@ -9,17 +9,17 @@
 
 namespace isojam {
 
-/// Neighbour list: all pairs of particles whose circumscribed spheres intersect or have a gap smaller than a skin. Each
-/// pair has the separating axis that was found last. refresh() makes a new list only if particles or cell have moved so
-/// far that a pair outside the list could touch. The list is a cache: it changes the cost of a computation, but never
-/// the result.
+/// Neighbour list: all pairs of particles whose circumscribed spheres intersect, or have a gap smaller than a skin,
+/// when the list is made. For each pair, the list also stores the last separating axis that was found. refresh() makes
+/// a new list only if the particles or the cell have moved so far that a pair outside the list could touch. The list is
+/// a cache: it changes the cost of a computation, but never the result.
 class NeighbourList {
  public:
-  /// Updates the list for `packing`. Throws std::invalid_argument unless is_legal(cell, solids.widest()) is true.
+  /// Updates the list for `packing`. Throws std::invalid_argument if the cell is not legal for the particles
+  /// (is_legal() in cell/periodic_cell.hpp).
   void refresh(const Packing& packing);
 
-  /// Pairs sorted by (a, b, shift). The circumscribed spheres of some pairs do not intersect, because their gap is
-  /// smaller than the skin.
+  /// Pairs sorted by (a, b, shift). Some of them do not touch: their circumscribed spheres may have a gap.
   const std::vector<NeighbourPair>& pairs() const { return pairs_; }
   std::vector<SeparatingAxis>& axes() { return axes_; }  ///< separating axis of each pair, in the order of pairs()
 

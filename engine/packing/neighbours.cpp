@@ -13,14 +13,14 @@ namespace isojam {
 
 namespace {
 
-/// Appends every image of b within reach of a.
+/// Appends the pairs of a with all images of b whose centres are closer to a than `reach`.
 void append_images(const Packing& packing, int a, int b, double reach, std::vector<NeighbourPair>& pairs) {
   const Eigen::Vector3d d =
       packing.poses[static_cast<std::size_t>(b)].position - packing.poses[static_cast<std::size_t>(a)].position;
   const Eigen::Vector3i nearest = packing.cell.nearest_shift(d);
   const Eigen::Vector3d nearest_d = d + packing.cell.translation(nearest);
-  // The nearest image is within half a cell along each lattice vector. Farther images matter only if `reach` exceeds
-  // that.
+  // The fractional coordinates of the vector to the nearest image are between −½ and ½. Other images matter only if
+  // `reach` exceeds half a height of the cell.
   Eigen::Vector3i spread;
   for (int c = 0; c < 3; ++c) {
     const double height = packing.cell.heights()[c];
@@ -43,7 +43,7 @@ void sort_canonically(std::vector<NeighbourPair>& pairs, std::size_t first) {
             [](const auto& p, const auto& q) { return canonical_key(p) < canonical_key(q); });
 }
 
-/// A subset of the particles, sorted into a grid with `cells` ≥ 3 cells along each lattice vector.
+/// A subset of the particles, sorted into a grid. The grid has `cells` ≥ 3 cells along each lattice vector.
 class CellGrid {
  public:
   CellGrid(const Packing& packing, std::span<const int> particles, const Eigen::Vector3i& cells)
@@ -51,8 +51,8 @@ class CellGrid {
     for (const int i : particles) members_[index(home(i))].push_back(i);
   }
 
-  /// Visits the grid's particles in the cell of particle i and in the 26 cells around it. Particle i need not be in the
-  /// grid.
+  /// Calls visit(j) for all particles j of the grid that are in the cell of particle i or in one of the 26 cells around
+  /// it. Particle i may be outside the subset.
   template <class Visit>
   void for_each_near(int i, Visit&& visit) const {
     const Eigen::Vector3i here = home(i);
@@ -84,8 +84,8 @@ class CellGrid {
   std::vector<std::vector<int>> members_;
 };
 
-/// Numbers of grid cells for a number of particles, each at least `reach` from face to face; nullopt if they are too
-/// few.
+/// Numbers of grid cells along the lattice vectors. Opposite faces of a grid cell have at least the distance `reach`.
+/// The numbers are limited so that a grid for few particles is small. Returns nullopt if a number would be below 3.
 std::optional<Eigen::Vector3i> grid_cells(const PeriodicCell& cell, double reach, std::size_t particles) {
   Eigen::Vector3i cells;
   for (int c = 0; c < 3; ++c)
@@ -96,10 +96,10 @@ std::optional<Eigen::Vector3i> grid_cells(const PeriodicCell& cell, double reach
 
 double radius_of(const Packing& packing, int i) { return packing.solids[static_cast<std::size_t>(i)].circumradius(); }
 
-/// Particles of similar size.
+/// A size class: particles with similar circumradii.
 class SizeClass {
  public:
-  /// `members` must be sorted with the largest first.
+  /// `members` must be sorted by circumradius, the largest first.
   SizeClass(const Packing& packing, std::vector<int> members, double skin)
       : members_(std::move(members)),
         radius_(radius_of(packing, members_.front())),
@@ -110,7 +110,8 @@ class SizeClass {
 
   double radius() const { return radius_; }
   bool has(double radius) const { return least_radius_ <= radius && radius <= radius_; }
-  /// Visits all particles that may be in reach of particle i, which must not be larger than `radius`.
+  /// Visits all particles of this class that may be in reach of particle i. The circumradius of particle i must not be
+  /// larger than radius().
   template <class Visit>
   void for_each_near(int i, Visit&& visit) const {
     if (grid_) return grid_->for_each_near(i, visit);
@@ -123,7 +124,7 @@ class SizeClass {
   std::optional<CellGrid> grid_;
 };
 
-/// Size classes, largest first.
+/// Divides the particles into size classes, the class of the largest particles first.
 std::vector<SizeClass> size_classes(const Packing& packing, double skin) {
   std::vector<int> by_size(packing.poses.size());
   std::iota(by_size.begin(), by_size.end(), 0);
@@ -183,10 +184,12 @@ std::vector<NeighbourPair> find_in_reach(const Packing& packing, double skin) {
   for (int i = 0; i < packing.size(); ++i) {
     const double radius = radius_of(packing, i);
     for (const SizeClass& size_class : classes) {
-      // Each particle searches only its own class and classes of larger particles, whose grids are coarse enough.
+      // Each particle searches only its own class and the classes of larger particles, because their grid cells are
+      // large enough.
       if (size_class.radius() < radius) break;
       size_class.for_each_near(i, [&](int j) {
-        if (size_class.has(radius) && j <= i) return;  // in the same class each of both finds the other
+        // In its own class, each of the two particles finds the other one, so one of the two results is dropped.
+        if (size_class.has(radius) && j <= i) return;
         const double other = radius_of(packing, j);
         append_images(packing, std::min(i, j), std::max(i, j), radius + other + skin, pairs);
       });

@@ -13,7 +13,7 @@ namespace isojam {
 
 namespace {
 
-/// Four normal numbers, normalised, are uniform on the unit quaternions and hence on SO(3).
+/// A vector of four independent normal numbers has a uniform direction. As a unit quaternion it is uniform on SO(3).
 Eigen::Quaterniond random_orientation(RandomStream& random) {
   Eigen::Quaterniond q;
   do {
@@ -23,7 +23,7 @@ Eigen::Quaterniond random_orientation(RandomStream& random) {
   return q.normalized();
 }
 
-/// Index of a position along a Z-order curve through the cell, with 2^10 cells per side.
+/// Index of a position on a Z-order curve through the cell, with 2^10 grid cells per side.
 std::uint32_t place_on_curve(const Eigen::Vector3d& position, double side) {
   std::uint32_t place = 0;
   for (int bit = 9; bit >= 0; --bit) {
@@ -53,8 +53,8 @@ Packing random_packing(std::span<const Particle> particles, double density, Rand
     for (int c = 0; c < 3; ++c) pose.position[c] = side * random.uniform();
     pose.orientation = random_orientation(random);
   }
-  // Makes neighbours in space neighbours in memory. Otherwise the cost for thousands of particles would grow faster
-  // than linearly.
+  // Particles that are neighbours in space become neighbours in memory. Otherwise the cost for thousands of particles
+  // would grow faster than linearly.
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -93,13 +93,13 @@ Packing deformed(const Packing& packing, const DoubleDoubleMatrix& f) {
 
 namespace {
 
-/// The packing, strained by the entries of a step after those of the particles.
+/// The packing after the strain that the last entries of a step describe.
 Packing strained_by(const Packing& packing, const Eigen::VectorXd& step) {
   const Eigen::Index strains = step.size() - 6 * Eigen::Index{packing.size()};
   const Vector6d strain = strain_basis(freedom_of(strains)) * step.tail(strains) / strain_length(packing.size());
   if (strain.isZero(0)) return packing;
   if (strain.allFinite()) return deformed(packing, exponential(strain_tensor(strain)));
-  Packing lost = packing;  // a cell must be finite, but positions need not be
+  Packing lost = packing;  // PeriodicCell does not accept NaN, but positions do
   for (Pose& pose : lost.poses) pose.position.setConstant(std::numeric_limits<double>::quiet_NaN());
   return lost;
 }

@@ -12,10 +12,11 @@ namespace isojam {
 
 namespace {
 
-/// Pairs per task.
+/// Number of pairs in a block, which one task processes.
 constexpr std::size_t grain = small_calls_per_task;
 
-/// A pair that may touch. Stored as three scalars: a packed load of two doubles would stall on store forwarding.
+/// A pair that may touch. The vector is stored as three scalars: a packed load of two doubles would stall on store
+/// forwarding.
 struct NearPair {
   std::size_t pair;
   double x, y, z;  ///< x_B − x_A
@@ -24,8 +25,9 @@ struct NearPair {
 };
 using NearPairs = std::array<NearPair, grain>;
 
-/// Selects those of the pairs first … last − 1 whose circumspheres intersect. Selection is branch-free here and in the
-/// next pass, because a branch would be unpredictable: every pair is written, and `count` advances only for those kept.
+/// Selects the pairs from first to last − 1 whose circumscribed spheres intersect, and returns their number. A branch
+/// would be unpredictable here and in not_separated(). Both functions therefore write every pair, and increase the
+/// counter only for a pair that they keep.
 template <class Reach>
 std::size_t within_reach(const Packing& packing, std::span<const NeighbourPair> pairs, std::size_t first,
                          std::size_t last, const Reach& reach_of, NearPairs& near) {
@@ -54,7 +56,7 @@ std::size_t within_reach(const Packing& packing, std::span<const NeighbourPair> 
       packing, pairs, first, last, [reach](const NeighbourPair&) { return reach; }, near);
 }
 
-/// Keeps the pairs that their cached axes do not separate.
+/// Keeps only the pairs that their stored axes do not separate, and returns their number.
 std::size_t not_separated(const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
                           std::span<const SeparatingAxis> axes, std::size_t count, NearPairs& near) {
   std::size_t left = 0;
@@ -67,14 +69,15 @@ std::size_t not_separated(const PlacedSolids& placed, std::span<const NeighbourP
   return left;
 }
 
-/// The overlap of a pair that its cached axis does not separate; updates the axis.
+/// The overlap of a pair that its stored axis does not separate. The axis is updated.
 Overlap overlap_unseparated(const Packing& packing, Precision precision, const PlacedSolids& placed,
                             const NeighbourPair& pair, const Eigen::Vector3d& r, SeparatingAxis& axis) {
   const PlacedSolid a = placed[pair.a], b = placed[pair.b];
   const Overlap found = precision == Precision::double_double
                             ? overlap(a, b, displacement_double_double(packing, pair), axis)
                             : overlap(a, b, r, axis);
-  // If no face separates a pair that is apart, a product of edges does; a single search for it pays off.
+  // If the solids are separate but no face separates them, the product of two edges does. Later evaluations reuse this
+  // axis, so one search for it reduces the total time.
   if (!found.touching() && axis.kind == SeparatingAxis::Kind::none) axis = best_axis(a, b, r);
   return found;
 }

@@ -11,13 +11,13 @@
 
 namespace isojam {
 
-/// Numbers of pairs that one evaluation processed, by the step that decided whether they touch.
+/// Numbers of pairs in one evaluation. They are counted by the test that decided whether the pair touches.
 struct PairCounts {
   long listed = 0;        ///< pairs in the neighbour list
   long out_of_reach = 0;  ///< pairs whose circumscribed spheres do not intersect
-  long by_axis = 0;       ///< pairs that the separating axis from an earlier evaluation still separates
+  long by_axis = 0;       ///< pairs that the separating axis of an earlier evaluation separates
   long overlapped = 0;    ///< pairs whose overlap was computed
-  /// pairs of `overlapped` that needed clipped_overlap(), which is slower but works for degenerate pairs
+  /// pairs of `overlapped` that were computed by clipped_overlap(), which is slower but also works for degenerate pairs
   long clipped = 0;
   long touching = 0;  ///< pairs with V > 0
 
@@ -25,23 +25,23 @@ struct PairCounts {
   PairCounts& operator+=(const PairCounts& term);
 };
 
-/// Precision of the coordinates that an evaluation uses. A state stores each coordinate as the sum of two doubles.
+/// Precision of the coordinates in an evaluation. A Pose stores each coordinate as the sum of two doubles.
 enum class Precision {
-  /// only the first double of each coordinate: enough until the residual reaches Evaluation::residual_floor, which is
-  /// 1e-8 or more near jamming
+  /// Only the first double of each coordinate is used. This is sufficient for residuals above
+  /// Evaluation::residual_floor, which is 1e-8 or more near jamming.
   working,
-  double_double  ///< both doubles of each coordinate: enough for a residual of 1e-9 at any distance to jamming
+  double_double  ///< both doubles are used, which is sufficient for a residual of 1e-9 at any distance to jamming
 };
 
-/// Allocates memory in `placed` for the solid of every particle. If neither the solids nor the precision have changed,
-/// the previous content is kept.
+/// Allocates memory in `placed` for the solid of every particle. The previous content is kept if the solids and the
+/// precision have not changed.
 void make_room(const Packing& packing, Precision precision, PlacedSolids& placed);
-/// Computes, for every particle, the solid rotated into the lab frame. `placed` is overwritten; its elements are in the
-/// order of the particles.
+/// Rotates the solid of every particle into the lab frame. `placed` is overwritten and contains the solids in the order
+/// of the particles.
 void place_all(const Packing& packing, Precision precision, PlacedSolids& placed);
 
-/// Computes the overlap of a pair of the neighbour list with Precision::working. The result is an empty overlap if the
-/// circumscribed spheres do not intersect or if `axis` separates the pair. `axis` is updated.
+/// Computes the overlap of one pair of the neighbour list with Precision::working. The overlap is empty if the
+/// circumscribed spheres do not intersect or if `axis` separates the pair. Otherwise `axis` is updated.
 Overlap overlap_listed(const Packing& packing, const PlacedSolids& placed, const NeighbourPair& pair,
                        SeparatingAxis& axis);
 
@@ -51,19 +51,19 @@ struct PairOverlap {
   Overlap overlap;       ///< V > 0
 };
 
-/// The touching pairs of a neighbour list. They are divided into blocks, which are computed in parallel.
+/// The touching pairs of a neighbour list, divided into blocks that are computed in parallel.
 struct TouchingPairs {
-  std::vector<std::vector<PairOverlap>> blocks;  ///< blocks, and the pairs in each block, in the order of the list
+  std::vector<std::vector<PairOverlap>> blocks;  ///< in the order of the list
 };
 
-/// Finds the touching pairs of a list. Several threads compute the blocks if there are enough of them. `placed` must
-/// come from place_all() with the same precision. axes[k] is the separating axis of pair k from an earlier call; it is
-/// read and updated. It is a cache, which changes the cost but never the result. `touching` is overwritten.
+/// Finds the touching pairs of a list. `placed` must come from place_all() with the same precision. axes[k] is the
+/// separating axis of pair k from an earlier call, and is updated. It changes the cost, but never the result.
+/// `touching` is overwritten.
 PairCounts overlap_pairs(const Packing& packing, Precision precision, const PlacedSolids& placed,
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, TouchingPairs& touching);
 
-/// Finds the pairs of a list that touch if the centre of B is moved towards the centre of A by `probe_distance`
-/// (V_p^(1/3)). `axes` must come from overlap_pairs().
+/// Finds the pairs of a list that touch after the centre of B has moved towards the centre of A by `probe_distance`
+/// (V_p^(1/3)). The overlaps are those after this move. `axes` must come from overlap_pairs().
 TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
                           std::span<const SeparatingAxis> axes, double probe_distance);
 

@@ -8,9 +8,9 @@
 
 namespace isojam {
 
-/// Finds elements by their pair in a list that is sorted by canonical_key(). The pairs to find must come in the same
-/// order, so that all searches together pass over the list only once. `pair_of` is the member of an element that
-/// contains its pair.
+/// Finds the elements of a list that belong to given pairs. The list must be sorted by canonical_key(). Successive
+/// calls of find() must request pairs in the same order, so that all calls together pass over the list only once.
+/// `pair_of` gives the pair of an element. By default, the element itself is the pair.
 template <class Element, class PairOf = std::identity>
 class PairSearch {
  public:

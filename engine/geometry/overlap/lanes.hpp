@@ -11,8 +11,9 @@
 
 namespace isojam {
 
-/// Four doubles (lanes). If the build uses AVX2, they are in one vector register. The portable version gives the same
-/// bits, but it is much slower if std::fma is a function of the C library.
+/// Four doubles (lanes). If the build uses AVX2 and FMA, they are in one vector register. Otherwise the portable
+/// version below is used. It gives the same bits, but it is much slower if the compiler translates std::fma to a call
+/// of the C library.
 #ifdef ISOJAM_AVX2
 
 struct Lanes {
@@ -40,7 +41,8 @@ inline Lanes max(Lanes a, Lanes b) { return {_mm256_max_pd(a.v, b.v)}; }
 inline Lanes absolute(Lanes a) { return {_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v)}; }
 /// Selects for each lane: a if the sign bit of s is set, otherwise b.
 inline Lanes where_negative(Lanes s, Lanes a, Lanes b) { return {_mm256_blendv_pd(b.v, a.v, s.v)}; }
-/// Compares each lane: all bits are set if a = b, otherwise none.
+/// Compares each lane: the sign bit of the result is set if a = b, and clear otherwise. The other bits differ between
+/// the two versions; do not use them.
 inline Lanes equal(Lanes a, Lanes b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_EQ_OQ)}; }
 /// Joins lanes 0 and 1 of a with lanes 2 and 3 of b.
 inline Lanes halves(Lanes a, Lanes b) { return {_mm256_blend_pd(a.v, b.v, 0b1100)}; }
@@ -78,7 +80,9 @@ template <int k>
 Lanes lane(Lanes a) {
   return {_mm256_permute4x64_pd(a.v, 0b01010101 * k)};
 }
-/// Bit e, e < 16, of the result is set if byte tail[e] of `bytes` | byte head[e] of `bytes` equals `all`.
+/// Compares 16 pairs of bytes with `all`. If b_k is byte k of `bytes`, bit e of the result is set if b_t | b_h = `all`,
+/// where t = tail[e], h = head[e], and e = 0 … 15. All t and h must be below 8. `tail` and `head` must be aligned to 16
+/// bytes.
 inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail, const std::uint8_t* head,
                                   std::uint32_t all) {
   const __m128i table = _mm_cvtsi64_si128(static_cast<long long>(bytes));
@@ -191,8 +195,8 @@ inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail,
 
 #endif
 
-/// Functions that store an index in the last 6 of the 52 mantissa bits of a double. The minimum or maximum of such
-/// doubles then contains the index of the element where it was found.
+/// Mask of the last 6 of the 52 mantissa bits of a double. tagged() stores an index in these bits, and tag_of() reads
+/// it. The minimum or maximum of tagged doubles therefore contains the index of the element where it was found.
 inline constexpr std::uint64_t tag_bits = 63;
 struct Tags {
   alignas(32) std::uint64_t mask[4] = {~tag_bits, ~tag_bits, ~tag_bits, ~tag_bits};
@@ -203,11 +207,12 @@ struct Tags {
 };
 inline constexpr Tags tags;
 
-/// Stores the index first + k in lane k. `first` must be a multiple of 4 below 64.
+/// Stores the index first + k in lane k. `first` must be at most 60.
 inline Lanes tagged(Lanes a, int first) { return (a & Lanes::load(tags.mask)) | Lanes::load(tags.number + first); }
 inline std::uint32_t tag_of(double x) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(x) & tag_bits); }
 
-/// The minimum, maximum or sum of all lanes, copied to every lane.
+/// least(), greatest() and sum() compute the minimum, maximum or sum of all lanes. Every lane of the result contains
+/// it.
 inline Lanes least(Lanes a) {
   const Lanes pairs = min(a, swapped_pairs(a));
   return min(pairs, swapped_halves(pairs));

@@ -27,14 +27,14 @@ bool is_multiple_of_identity(const DoubleDoubleMatrix& m) {
 
 DoubleDoubleVector column(const DoubleDoubleMatrix& m, int c) { return {m.high.col(c), m.low.col(c)}; }
 
-/// v + k·w.
+/// v + k w.
 DoubleDoubleVector sum(const DoubleDoubleVector& v, double k, const DoubleDoubleVector& w) {
   DoubleDoubleVector result;
   for (int c = 0; c < 3; ++c) result.set(c, v[c] + w[c] * k);
   return result;
 }
 
-/// Vectors of a lattice during its reduction, sorted by length.
+/// Lattice vectors during the reduction, sorted by length.
 using Basis = std::array<DoubleDoubleVector, 3>;
 
 double length(const DoubleDoubleVector& v) { return v.high.norm(); }
@@ -43,12 +43,12 @@ void sort_by_length(Basis& basis) {
   std::stable_sort(basis.begin(), basis.end(), [](const auto& v, const auto& w) { return length(v) < length(w); });
 }
 
-/// Subtracts multiples of the first two vectors from the last one, to make it as short as possible. Returns true if it
-/// became shorter by more than rounding.
+/// Subtracts integer multiples of the first two vectors from the last vector to make it as short as possible. Returns
+/// true if it became shorter by more than rounding errors.
 bool shorten_last(Basis& basis) {
   const Eigen::Vector3d &a = basis[0].high, &b = basis[1].high, c = basis[2].high;
   // Coordinates of the projection of c on the plane of a and b. If a and b are reduced, the nearest lattice point is
-  // one of the four around the projection.
+  // one of the four lattice points around the projection.
   Eigen::Matrix2d gram;
   gram << a.dot(a), a.dot(b), a.dot(b), b.dot(b);
   const Eigen::Vector2d foot = gram.inverse() * Eigen::Vector2d(a.dot(c), b.dot(c));
@@ -66,7 +66,8 @@ bool shorten_last(Basis& basis) {
   return true;
 }
 
-/// The same for the second vector (Lagrange).
+/// Subtracts an integer multiple of the first vector from the second vector to make it as short as possible (Lagrange).
+/// Returns true if it became shorter by more than rounding errors.
 bool shorten_second(Basis& basis) {
   const Eigen::Vector3d &a = basis[0].high, &b = basis[1].high;
   const double k = std::round(a.dot(b) / a.dot(a));
@@ -75,8 +76,9 @@ bool shorten_second(Basis& basis) {
   return true;
 }
 
-/// Semaev's algorithm (2001). Three vectors are Minkowski-reduced if no combination with the earlier ones makes any
-/// vector shorter. Every change shortens a vector by more than rounding, so the loop ends.
+/// Semaev's algorithm (2001). Three vectors, sorted by length, are Minkowski-reduced if no vector becomes shorter by
+/// subtraction of integer multiples of the earlier vectors. Every change shortens a vector by more than rounding
+/// errors, so the loop ends. Returns true if a vector has changed.
 bool reduce(Basis& basis) {
   bool changed = false;
   while (true) {

@@ -7,11 +7,11 @@
 
 namespace isojam {
 
-/// Periodic cell, spanned by three lattice vectors in double-double. It can be a cube of side L or have any other
-/// shape. Lengths are in units of V_p^(1/3).
+/// Periodic cell: a parallelepiped that is spanned by three lattice vectors in double-double. Lengths are in units of
+/// V_p^(1/3).
 class PeriodicCell {
  public:
-  /// Makes a cube. Throws std::invalid_argument unless `side` is finite and positive.
+  /// Makes a cube of side L. Throws std::invalid_argument unless `side` is finite and positive.
   explicit PeriodicCell(double side);
   /// Makes a cell whose lattice vectors are the columns of `vectors`. Throws std::invalid_argument unless the vectors
   /// are finite and right-handed.
@@ -26,10 +26,10 @@ class PeriodicCell {
   double volume() const { return volume_; }                       ///< volume V_cell, in units of V_p
   DoubleDouble volume_double_double() const;                      ///< V_cell with a relative error of at most 1e-31
   const DoubleDoubleMatrix& vectors() const { return vectors_; }  ///< the lattice vectors, as columns
-  /// Distances between opposite faces of the cell, one for each lattice vector. Two points that are n cells apart along
-  /// a lattice vector have a distance of at least n times its height.
+  /// Heights of the cell: the distances between opposite faces, one for each lattice vector. If the coordinates
+  /// fractional() of two points differ by n along a lattice vector, their distance is at least n times the height.
   const Eigen::Vector3d& heights() const { return heights_; }
-  /// Coordinates of the vector d in the basis of the lattice vectors.
+  /// Coordinates of a vector d in the basis of the lattice vectors.
   Eigen::Vector3d fractional(const Eigen::Vector3d& d) const;
 
   /// The lattice translation Σ_c shift_c·(lattice vector c).
@@ -41,7 +41,7 @@ class PeriodicCell {
   /// One component of translation() in double-double.
   DoubleDouble translation_double_double(int component, const Eigen::Vector3i& shift) const;
 
-  /// The integers k for which fractional(d) + k is in [−½, ½) along each lattice vector.
+  /// The integers k for which every entry of fractional(d) + k is in [−½, ½).
   Eigen::Vector3i nearest_shift(const Eigen::Vector3d& d) const;
   /// The shortest vector among all periodic images of d.
   Eigen::Vector3d nearest_image(const Eigen::Vector3d& d) const;
@@ -51,8 +51,8 @@ class PeriodicCell {
   /// The cell whose lattice vectors are F times the lattice vectors of this cell. Throws std::invalid_argument unless
   /// the new vectors are finite and right-handed.
   PeriodicCell deformed(const DoubleDoubleMatrix& f) const;
-  /// The cell of the same lattice with the shortest lattice vectors (Minkowski reduction). This cell has the largest
-  /// heights and angles. If this cell is already reduced, it is returned unchanged.
+  /// The cell of the same lattice with the shortest lattice vectors (Minkowski reduction). It is much less skew than a
+  /// cell after a large shear. If the lattice vectors are already the shortest ones, the result is the unchanged cell.
   PeriodicCell reduced() const;
 
  private:
@@ -65,21 +65,22 @@ class PeriodicCell {
   bool is_cube_;
 };
 
-/// Length of two diameters of the solid. If every lattice translation is longer than this, no particle touches two
-/// images of another particle. Reason: the centres of all images of B that touch A lie in the Minkowski sum A ⊕ (−B),
-/// whose diameter is at most diameter(A) + diameter(B). Two images of B differ by a lattice translation. If it is
-/// longer than this diameter, at most one of the images touches A. The shortest lattice translation of a cube is its
-/// side.
+/// Two diameters of the solid. If every lattice translation is longer than this, no particle touches two images of
+/// another particle. Proof: the centres of all images of B that touch A lie in the Minkowski sum A ⊕ (−B). The diameter
+/// of this sum is at most diameter(A) + diameter(B). Two images of B differ by a lattice translation. If this
+/// translation is longer than the diameter of the sum, A touches at most one of the two images. The shortest lattice
+/// translation of a cube is its side.
 double least_side(const ConvexSolid& solid);
 
-/// True if the cell is so large that no particle can touch two images of another one: shortest_translation() >
-/// least_side(solid). In comments, such a cell is called legal.
+/// True if no particle can touch two images of another particle: shortest_translation() > least_side(solid). `solid` is
+/// the solid of the packing with the largest diameter. In comments, such a cell is called legal for the particles.
 bool is_legal(const PeriodicCell& cell, const ConvexSolid& solid);
 
-/// Side (n/φ)^(1/3) of the cubic cell with n particles of unit volume at density φ.
+/// Side (n/φ)^(1/3) of a cubic cell with n particles of unit volume at density φ.
 double side_at(int n, double density);
 
-/// Smallest number of particles of unit volume for which is_legal() is true for a cubic cell at density φ and below.
+/// Smallest number of particles of unit volume for which a cubic cell is legal at density φ. It is then also legal at
+/// all lower densities.
 int least_particles(const ConvexSolid& solid, double density);
 
 }  // namespace isojam

@@ -69,11 +69,11 @@ Vector6d trace_direction() {
 }
 
 DoubleDoubleMatrix exponential(const Eigen::Matrix3d& strain) {
-  DoubleDoubleMatrix base, result, term;  // term, result: 1
+  DoubleDoubleMatrix base, result, term;  // term = result = 1
   base.high = strain;
   const double size = strain.norm();
   double bound = 1;
-  // Stops when the next term is below the last bit of the smallest change that is kept, 1e-32 of ε.
+  // Stops when the next term is below 1e-33 |ε|, so that even for a small ε the change exp(ε) − 1 is accurate.
   for (int k = 1; bound > 1e-33 * size; ++k) {
     term = quotient(term * base, k);
     result = sum(result, term);

@@ -9,18 +9,19 @@ namespace isojam {
 
 // Strain is logarithmic: a symmetric strain ε changes every centre-to-centre vector r to exp(ε) r and does not change
 // orientations. With this definition, a traceless ε preserves the volume exactly. Symmetric tensors are written as six
-// components in an orthonormal basis:
-//   (ε_xx, ε_yy, ε_zz, √2 ε_yz, √2 ε_zx, √2 ε_xy)   (Mandel)
-// In this basis, rotations are orthogonal, and a 6×6 matrix has the same eigenvalues as the tensor of fourth rank.
+// components in an orthonormal basis (Mandel):
+//   (ε_xx, ε_yy, ε_zz, √2 ε_yz, √2 ε_zx, √2 ε_xy)
+// In this basis, a rotation of tensors is an orthogonal 6×6 matrix. A 6×6 matrix has the same eigenvalues as the
+// fourth-rank tensor that it represents.
 
-/// The symmetric tensor with these six components.
+/// The symmetric tensor with these components.
 Eigen::Matrix3d strain_tensor(const Vector6d& components);
-/// The six components of the symmetric part of a tensor.
+/// The components of the symmetric part of a tensor.
 Vector6d strain_components(const Eigen::Matrix3d& tensor);
 
-/// Matrix with 3 × 6 entries. Column I is the change of a vector r due to the I-th unit strain.
+/// Matrix with 3 × 6 entries. Column I is the change of a vector r in the unit strain I, to first order.
 using Strains = Eigen::Matrix<double, 3, 6>;
-/// The changes of the centre-to-centre vector r due to all unit strains.
+/// The changes of the centre-to-centre vector r in all unit strains.
 Strains strained(const Eigen::Vector3d& r);
 
 /// Orthonormal basis of the traceless symmetric tensors. Each column has the components of one tensor.

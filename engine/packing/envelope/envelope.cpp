@@ -13,7 +13,7 @@ namespace isojam {
 
 namespace {
 
-/// The multiplier of each listed pair; null if it has none.
+/// The multiplier of each pair of the neighbour list, or null if `forces` does not contain the pair.
 std::vector<const ContactMultiplier*> by_pair(const std::vector<NeighbourPair>& pairs,
                                               std::span<const ContactMultiplier> forces) {
   std::vector<const ContactMultiplier*> found;
@@ -37,7 +37,7 @@ void add(const EnvelopeContact& contact, EnvelopeEvaluation& sum) {
   ++sum.touching;
 }
 
-/// Sums over contacts that touch or have a multiplier; the others are dropped.
+/// The sum over all pairs that touch or have a multiplier. Other pairs are dropped.
 EnvelopeEvaluation summed(std::vector<EnvelopeContact> contacts, int particles) {
   EnvelopeEvaluation sum;
   sum.gradient = Eigen::VectorXd::Zero(6 * particles);
@@ -52,7 +52,7 @@ EnvelopeEvaluation summed(std::vector<EnvelopeContact> contacts, int particles) 
 
 }  // namespace
 
-/// Re-places only the particles that have moved.
+/// Updates placed_ for the particles that have moved.
 void EnvelopeEnergy::place(const Packing& packing) {
   list_.refresh(packing);
   const std::size_t n = packing.poses.size();
@@ -67,7 +67,8 @@ void EnvelopeEnergy::place(const Packing& packing) {
   });
 }
 
-/// Listed pairs that touch or have a multiplier.
+/// Indices of the pairs of the neighbour list that touch or have an element in `forces`. If `only` is not empty, pairs
+/// without a flagged particle are skipped.
 std::vector<std::size_t> EnvelopeEnergy::near_pairs(const Packing& packing,
                                                     const std::vector<const ContactMultiplier*>& force_of,
                                                     std::span<const char> only) {

@@ -11,49 +11,49 @@
 
 namespace isojam {
 
-/// Data of a contact from which its envelope is computed: its multiplier μ, and an estimate of its shift w.
-/// proximal_contact.hpp defines these terms.
+/// Data from which the envelope of a contact is computed. proximal_contact.hpp defines μ, w, ρ, e and the ghost.
 struct ContactMultiplier {
   NeighbourPair pair;                      ///< the particles, and the image of b
   Vector6d multiplier = Vector6d::Zero();  ///< multiplier μ, in the body frame of B
   Vector6d shift = Vector6d::Zero();       ///< estimate of the shift w, in the body frame of B
 };
 
-/// A contact of an envelope: a pair in which A touches the ghost of B, or which has a multiplier.
+/// A pair of particles in an envelope. A touches the ghost of B, or the multiplier of the pair is not 0.
 struct EnvelopeContact {
   NeighbourPair pair;                                      ///< the particles, and the image of b
-  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< x_b − x_a for the touching image, lab frame
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< displacement from a to the image of b, lab frame
   Vector6d multiplier = Vector6d::Zero();                  ///< multiplier μ, in the body frame of B
-  ProximalContact at;                                      ///< envelope of the contact in this state
+  ProximalContact at;                                      ///< envelope of this pair in the present state
 };
 
-/// Envelope of a packing, Φ(x; μ) = Σ_contacts min_w [ e(w) + ½ ρ |w|² − μ·w ]. It is a modified energy in which the
-/// stiffness of every contact is at most ρ. If all shifts w are 0, its value and gradient are equal to those of the
-/// energy.
+/// Envelope of a packing, Φ = Σ_pairs min_w [ e(w) + ½ ρ |w|² − μ·w ], as a function of the coordinates of the
+/// particles. It is a modified energy in which the stiffness of every contact is at most ρ. If all shifts w are 0, its
+/// value and gradient are equal to the value and gradient of the energy.
 struct EnvelopeEvaluation {
-  double value = 0;  ///< value Φ, in units of Y·V_p
-  double noise = 0;  ///< error of Φ that rounding can cause
-  /// gradient with 6N entries, as in Evaluation::gradient; Enthalpy appends the derivatives with respect to strains
+  double value = 0;  ///< Φ, in units of Y·V_p
+  double noise = 0;  ///< error of Φ that rounding can cause, in the same units
+  /// gradient with 6N entries, as in Evaluation::gradient; Enthalpy::of() appends the derivatives with respect to
+  /// strains
   Eigen::VectorXd gradient;
   std::vector<EnvelopeContact> contacts;  ///< sorted by (a, b, shift)
-  /// Virial Σ (∂Φ/∂r) rᵀ over all contacts, r = x_b − x_a. For the derivatives with respect to strains, it replaces
-  /// V_cell·stress of an Evaluation.
+  /// Virial Σ (∂Φ/∂r) rᵀ over all contacts, with r = x_b − x_a. It corresponds to V_cell·stress of an Evaluation.
   Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
-  double mean_force = 0;        ///< mean |F| over the contacts in which A touches the ghost of B
+  double mean_force = 0;        ///< mean contact force |F| over the pairs in which A touches the ghost of B
   double multiplier_error = 0;  ///< largest |∇e − μ| of all contacts
-  long touching = 0;            ///< number of contacts in which A touches the ghost of B
+  long touching = 0;            ///< number of pairs in which A touches the ghost of B
   long overlaps = 0;            ///< number of overlaps with Hessian that were computed to find the shifts
 };
 
-/// Computes envelopes of packings. Like PackingEnergy, an object contains only caches.
+/// Computes envelopes of packings. Like PackingEnergy, an object contains only caches: they never change a result.
 class EnvelopeEnergy {
  public:
-  /// Computes the envelope. `forces` must be sorted by (a, b, shift); pairs that are not in it have μ = 0. If `only` is
-  /// given, it has one flag per particle, and contacts without a flagged particle are skipped. Throws
-  /// std::invalid_argument unless is_legal(cell, solids.widest()) is true.
+  /// Computes the envelope for ρ = `stiffness`. `forces` contains the multipliers, sorted by (a, b, shift); pairs that
+  /// are not in it have μ = 0. If `only` is not empty, it has one flag per particle, and pairs without a flagged
+  /// particle are skipped. Throws std::invalid_argument if the cell is not legal for the particles (is_legal() in
+  /// cell/periodic_cell.hpp).
   EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactMultiplier> forces, double stiffness,
                               std::span<const char> only = {});
-  /// The contacts of a packing with the multipliers ∇e. With these multipliers all shifts are 0 and Φ = E.
+  /// Computes the envelope for the multipliers μ = ∇e. With these multipliers all shifts are 0 and Φ = E.
   EnvelopeEvaluation unshifted(const Packing& packing, double stiffness);
 
  private:
@@ -69,18 +69,19 @@ class EnvelopeEnergy {
   std::vector<Pose> poses_;  ///< poses from which placed_ was computed
 };
 
-/// The part of a full evaluation that evaluate() with `only` would compute: the contacts of flagged particles.
+/// The part of an evaluation without `only` that evaluate() with `only` would compute: the pairs with a flagged
+/// particle.
 EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only);
 
-/// The full evaluation of a packing in which only flagged particles have moved since the evaluation `before`. The
-/// contacts of flagged particles are taken from `part`, and all other contacts from `before`.
+/// The evaluation, without `only`, of a packing in which only flagged particles have moved since the evaluation
+/// `before`. Pairs with a flagged particle are taken from `part`, and all other pairs from `before`.
 EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEvaluation& part,
                              std::span<const char> only);
 
-/// Second derivatives of Φ with respect to the particles, with a border for the free strains.
+/// Second derivatives of Φ with respect to the coordinates of the particles, with a border for the free strains.
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellFreedom cell = CellFreedom::fixed);
 
-/// The multipliers and shifts of all contacts in this evaluation.
+/// The multipliers and shifts of all pairs in the evaluation.
 std::vector<ContactMultiplier> forces_of(const EnvelopeEvaluation& evaluation);
 
 }  // namespace isojam

@@ -7,24 +7,26 @@
 #include <cmath>
 #include <limits>
 
-// The minimand F(w) = e(w) + ½ ρ |w|² − μ·w is strictly convex, except where e is slightly non-convex. Newton's method
-// finds its minimum in three or four steps unless it meets a kink of ∇e: where a gap closes, or where the other body's
-// section line begins to cross a face. There it would jump back and forth between both sides of the kink. A line search
-// therefore ends each step where the slope is a fraction of its initial value.
+// The function F(w) = e(w) + ½ ρ |w|² − μ·w is strictly convex, except where e is slightly non-convex. Newton's method
+// finds its minimum in three or four steps unless it meets a kink of ∇e. ∇e has a kink where a gap closes, and where
+// the line in which two face planes intersect begins to cross a face. There Newton's method would jump back and forth
+// between both sides of the kink. A line search therefore ends each step where the slope of F is a fraction of its
+// initial value.
 
 namespace isojam {
 
 namespace {
 
-/// Required residual |∇F| / (|∇e| + |μ|), and the residual that is accepted if rounding prevents further progress.
+/// Required residual |∇F| / (|∇e| + |μ|), and the residual that is accepted if rounding errors prevent further
+/// progress.
 constexpr double goal = 1e-12, enough = 1e-9;
 constexpr int most_steps = 60, most_probes = 30;
 
-/// Fractions of the initial slope. A full step is accepted if the slope at its end is at most `overshoot`, a shorter
-/// step if the slope is at most `flat_enough`.
+/// Fractions of the initial slope. A full step is accepted if the slope at its end is at most `overshoot`. A shorter
+/// step is accepted if the magnitude of the slope at its end is at most `flat_enough`.
 constexpr double overshoot = 0.5, flat_enough = 0.3;
 
-/// Limit of the ghost's displacement in one step (inradii).
+/// Largest displacement of the ghost in one step, in units of the inradius.
 constexpr double longest_step = 0.2;
 
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
@@ -33,8 +35,8 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return m;
 }
 
-/// Cholesky factor L Lᵀ of a symmetric matrix plus as much of the identity as makes it positive definite; `scale` is
-/// the unit of this shift.
+/// Cholesky factor of a symmetric matrix. If the matrix is not positive definite, a multiple of the identity is added:
+/// first scale/4, then four times as much until the result is positive definite.
 Eigen::LLT<Matrix6d> factorised(const Matrix6d& matrix, double scale) {
   Eigen::LLT<Matrix6d> factor(matrix);
   double shift = scale / 4;
@@ -45,13 +47,13 @@ Eigen::LLT<Matrix6d> factorised(const Matrix6d& matrix, double scale) {
   return factor;
 }
 
-/// A trial position of the ghost; all quantities in the lab frame.
+/// A trial position of the ghost. All quantities are in the lab frame.
 struct Ghost {
   PairEnergy pair;                       ///< energy of A and the ghost
   Vector6d shift = Vector6d::Zero();     ///< w
   Vector6d gradient = Vector6d::Zero();  ///< gradient of F with respect to (x, R·θ) of the ghost
-  /// Derivative of the rotational part of w with respect to R·θ of the ghost; the translational part of w is the
-  /// ghost's.
+  /// Derivative of the rotational part of w with respect to R·θ of the ghost. The translational part of w is the
+  /// translation of the ghost itself.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double value = 0;  ///< F
 };
@@ -112,7 +114,7 @@ class Proximal {
     return now <= goal || (now <= enough && now >= before / 2);
   }
 
-  /// Second derivatives of F with respect to (x, R·θ) of the ghost, to first order in w.
+  /// Second derivatives of F with respect to (x, R·θ) of the ghost, exact to first order in w.
   Matrix6d matrix(const Ghost& ghost) const {
     Matrix6d m = ghost.pair.hessian.bb;
     m.diagonal().head<3>().array() += stiffness_;
@@ -120,7 +122,7 @@ class Proximal {
     return m;
   }
 
-  /// Newton step in (x, R·θ) of the ghost; a Levenberg–Marquardt step if the matrix is not positive definite.
+  /// Newton step in (x, R·θ) of the ghost, or a Levenberg–Marquardt step if the matrix is not positive definite.
   Vector6d newton(const Ghost& here) const {
     const Vector6d step = -factorised(matrix(here), stiffness_).solve(here.gradient);
     const double length = std::max(step.head<3>().norm(), step.tail<3>().norm());
@@ -133,7 +135,7 @@ class Proximal {
     return joined(gradient.head<3>(), ghost.rotation.transpose().inverse() * gradient.tail<3>());
   }
 
-  /// Slope of F along a change of w.
+  /// Slope of F for a change `along` of w.
   double slope(const Ghost& ghost, const Vector6d& along) const {
     return (wrench(ghost) + stiffness_ * ghost.shift - multiplier_).dot(along);
   }
@@ -143,7 +145,7 @@ class Proximal {
     Ghost next = at(here.shift + along);
     const double from = slope(here, along);
     double to = slope(next, along);
-    // A step from a gap first leads to an overlap that is far too deep, and the next step back to the solution.
+    // A step from a gap first leads to an overlap that is far too deep; the next step leads back to the solution.
     if (here.pair.energy == 0 || to <= -overshoot * from) return next;
     // Regula falsi; the slope at the end that does not move is halved (Illinois method).
     double low = 0, high = 1, slope_low = from, slope_high = to;
@@ -188,10 +190,10 @@ class Proximal {
   int iterations_ = 0;
 };
 
-/// Schur complement of L Lᵀ in the second derivatives with respect to A and the ghost. It subtracts squares of L⁻¹
-/// times these derivatives instead of using the inverse. For a flat contact the derivatives are of order 0.1 and ρ may
-/// be 1e-9. Products with the inverse would cancel with an error of 1e-16·0.1/ρ, which couples stiff and soft
-/// directions and appears as negative curvature.
+/// Schur complement of L Lᵀ in the second derivatives with respect to A and the ghost. It is computed as h − Xᵀ X,
+/// where X is L⁻¹ times these derivatives, because the inverse of L Lᵀ would cause rounding errors. For a flat contact
+/// the derivatives are of order 0.1, and ρ may be 1e-9. Products with the inverse would then have an error of
+/// 1e-16·0.1/ρ, which couples stiff and soft directions and appears as negative curvature.
 PairHessian complement(const PairHessian& h, const Matrix6d& root) {
   const auto lower = root.triangularView<Eigen::Lower>();
   const Matrix6d a = lower.solve(h.ab.transpose()), b = lower.solve(h.bb);

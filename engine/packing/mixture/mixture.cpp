@@ -13,7 +13,7 @@ namespace isojam {
 
 namespace {
 
-/// Text such as "octahedron_0.5+octahedronx1.4_0.5".
+/// Name of a mixture, such as "octahedron_0.5+octahedronx1.4_0.5".
 std::string text_of(const std::vector<MixtureKind>& kinds) {
   std::string text;
   for (const MixtureKind& kind : kinds) {
@@ -39,7 +39,7 @@ std::vector<int> Mixture::counts(int n) const {
   std::vector<double> rest;
   for (const MixtureKind& kind : kinds_) {
     const double share = kind.fraction * n;
-    // A share that is an integer within rounding counts as an integer.
+    // If the share is an integer within rounding errors, it is treated as this integer.
     counts.push_back(static_cast<int>(std::floor(share + 1e-9)));
     rest.push_back(share - counts.back());
   }
@@ -82,7 +82,7 @@ std::strong_ordering operator<=>(const Mixture& a, const Mixture& b) {
 
 int least_particles(const Mixture& mixture, double density) {
   if (mixture.is_one_solid()) return least_particles(*mixture.solid(), density);
-  // Sizes depend on the number of particles only through rounding and through the outermost quantiles.
+  // The sizes depend on n only through rounding and through the outermost quantiles.
   const auto is_legal_for = [&](int n) {
     double widest = 0;
     for (const Particle& particle : mixture.particles(n))

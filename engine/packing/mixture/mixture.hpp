@@ -11,10 +11,10 @@
 
 namespace isojam {
 
-/// One kind of particles in a mixture.
+/// One kind of particles in a mixture: particles with the same shape.
 struct MixtureKind {
   Solid solid = SolidKind::tetrahedron;  ///< shape of the particles
-  double fraction = 1;                   ///< fraction of all particles, by number
+  double fraction = 1;                   ///< fraction of all particles (by number) that are of this kind
   Sizes sizes{};                         ///< distribution of the sizes of this kind
 
   // NOLINTNEXTLINE(modernize-use-nullptr): the check mistakes the 0 of a defaulted comparison for a pointer
@@ -28,8 +28,7 @@ class Mixture {
   Mixture(Solid solid) : Mixture({{solid}}, "") {}  // NOLINT(google-explicit-constructor): the simplest mixture
   /// All particles have the same Platonic solid and size.
   Mixture(SolidKind kind) : Mixture(Solid(kind)) {}  // NOLINT(google-explicit-constructor)
-  /// Several kinds; their fractions must sum to 1. If the name is empty, the name of the mixture is made from its
-  /// kinds.
+  /// Several kinds; their fractions must sum to 1. If the name is empty, it is composed from the kinds.
   Mixture(std::vector<MixtureKind> kinds, std::string name);
 
   /// True if all particles are identical.
@@ -39,16 +38,16 @@ class Mixture {
   const std::vector<MixtureKind>& kinds() const { return kinds_; }  ///< kinds in the order in which they were given
   const std::string& name() const { return name_; }                 ///< name in files and messages
 
-  /// Makes a list of n particles, sorted by kind. The number of particles of a kind is its fraction times n, rounded by
-  /// the method of largest remainders. The sizes of the m particles of a kind are the quantiles (k + ½)/m of its
-  /// distribution. All sizes are scaled so that the mean volume is 1. If all particles are equal, every volume is
-  /// exactly 1.
+  /// Makes a list of n particles, sorted by kind. counts() gives the number m of particles of each kind. The sizes of
+  /// these particles are the quantiles (k + ½)/m of the distribution of sizes, k = 0 … m − 1. Then all sizes are scaled
+  /// so that the mean volume is 1. If all sizes are equal, every scaled size is exactly 1.
   std::vector<Particle> particles(int n) const;
-  /// Number of particles of each kind in a packing of n particles.
+  /// Number of particles of each kind in a packing of n particles: the fraction times n, rounded by the method of
+  /// largest remainders.
   std::vector<int> counts(int n) const;
 
   friend bool operator==(const Mixture&, const Mixture&) = default;
-  /// Order: first single solids in the order of Solid, then mixtures by their kinds.
+  /// Order: first single solids in the order of Solid, then mixtures in the order of their kinds and names.
   friend std::strong_ordering operator<=>(const Mixture& a, const Mixture& b);
 
  private:
@@ -56,11 +55,11 @@ class Mixture {
   std::string name_;
 };
 
-/// Name of the mixture.
+/// The name of the mixture.
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
-/// Smallest number of particles of a mixture for which is_legal() is true for a cubic cell at density φ and below. 2^17
-/// if more particles would be needed.
+/// Smallest number of particles of a mixture for which a cubic cell is legal (is_legal()) at density φ and at all lower
+/// densities. The result is at most 2^17, even if more particles would be needed.
 int least_particles(const Mixture& mixture, double density);
 
 }  // namespace isojam

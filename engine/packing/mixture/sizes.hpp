@@ -18,13 +18,14 @@ inline constexpr std::array enum_names<SizeLaw>{
 
 /// A size, and the fraction of particles that have this size.
 struct SizeShare {
-  double size = 1, fraction = 1;  ///< the size as a length, and the fraction by number
+  double size = 1, fraction = 1;  ///< size, as a length; fraction, by number
 
   // NOLINTNEXTLINE(modernize-use-nullptr): the check mistakes the 0 of a defaulted comparison for a pointer
   friend auto operator<=>(const SizeShare&, const SizeShare&) = default;
 };
 
-/// Distribution of the sizes of one kind of particles. A size is a length; all kinds of a mixture use the same unit.
+/// Distribution of the sizes of one kind of particles. A size is a length in any unit that is the same for all kinds of
+/// the mixture; Mixture::particles() scales all sizes.
 struct Sizes {
   SizeLaw law = SizeLaw::fixed;  ///< type of the distribution
   double from = 1;   ///< for `fixed`: the size; for `uniform`: the smallest size; for `log_normal`: the median
@@ -32,10 +33,10 @@ struct Sizes {
   double sigma = 0;  ///< for `log_normal`: standard deviation of ln V, where V is the volume
   std::vector<SizeShare> list{};  ///< for `discrete`: the sizes; their fractions sum to 1
 
-  /// Quantile of the distribution: a fraction `share` of the particles has at most this size. Requires 0 < share < 1.
+  /// Quantile of the distribution: the fraction `share` of the particles has at most this size. Requires 0 < share < 1.
   double quantile(double share) const;
-  /// Text for names of mixtures. It is "" for a fixed size of 1, and otherwise a text such as "1.4", "0.8to1.2" or
-  /// "1ln0.3".
+  /// Text that describes the sizes in the name of a mixture: "" for the fixed size 1, otherwise for example "1.4",
+  /// "0.8to1.2" or "1ln0.3".
   std::string text() const;
 
   // NOLINTNEXTLINE(modernize-use-nullptr): the check mistakes the 0 of a defaulted comparison for a pointer
