@@ -20,8 +20,8 @@ namespace {
 
 const Quad half_pi = 2 * atanq(1);
 
-/// Root of an ascending function of a positive x, by bisection down to adjacent doubles. The result therefore has the
-/// same bits on every processor.
+/// Root of a function that increases with x > 0, by bisection down to adjacent doubles. `above` is a first guess of a
+/// value above the root. The result has the same bits on every processor.
 template <class Ascending>
 double root_of(const Ascending& f, double above) {
   double low = 0, high = above;
@@ -46,8 +46,8 @@ Quad student_share(Quad t, long degrees) {
   return odd ? (atanq(ratio) + sine * sum) / half_pi : sine * sum;
 }
 
-/// Sum of a series that starts with `first` at index `from`, where the ratio of terms is `next(j)`. Stops when a term
-/// is negligible.
+/// Sum of the terms `from` … `last` of a series. `first` is the term `from`, and next(j) is the ratio of the term after
+/// term j to term j. The sum ends early if a term is negligible.
 template <class Next>
 Quad series(Quad first, long from, long last, int step, const Next& next) {
   Quad sum = first, term = first;
@@ -80,7 +80,8 @@ BinomialTails binomial_tails(long n, double p, long k) {
   if (p == 1) return {k == n ? 1.0 : 0.0, 1};
   const Quad q = 1 - Quad(p), odds = p / q;
   const Quad here = expq(lgammaq(n + 1) - lgammaq(k + 1) - lgammaq(n - k + 1) + k * logq(p) + (n - k) * logq(q));
-  // Sums the tail that decreases from k on; it may be far smaller than the rounding error of the other tail.
+  // Sums the tail whose terms decrease from k on. This tail may be far smaller than the rounding error of the other
+  // one.
   if (static_cast<double>(k) >= static_cast<double>(n) * p) {
     const Quad at_least = series(here, k, n, 1, [&](long j) { return (n - j) * odds / (j + 1); });
     return {static_cast<double>(1 - at_least + here), static_cast<double>(at_least)};

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-// Declared by hand: <quadmath.h> is among g++'s own headers, where clang does not look.
+// The functions are declared here because <quadmath.h> is among g++'s own headers, which clang does not find.
 __extension__ using Quad = __float128;
 extern "C" {
 Quad sinq(Quad) noexcept;

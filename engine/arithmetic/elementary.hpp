@@ -1,12 +1,12 @@
 #pragma once
 
-// The C library has two versions of each elementary function, one of them for processors with fused multiply-adds, and
-// selects one at run time. The last bits of the two versions differ, so the results of a replicate would depend on the
-// processor.
+// The C library has two versions of each elementary function. One of them uses fused multiply-adds, and the library
+// selects the version for the processor at run time. The last bits of the two versions differ, so the results of a
+// replicate would depend on the processor.
 
-/// Elementary functions with the same bits on every processor. They are computed in software in quadruple precision and
-/// rounded once to the nearest double. For infinities and NaN, the results are those of the standard library. Each call
-/// takes about a microsecond, so do not use these functions in innermost loops.
+/// Elementary functions with the same bits on every processor. They are computed in software in quadruple precision,
+/// and rounded once to the nearest double. For infinities and NaN, the results are those of the standard library. Each
+/// call takes about a microsecond, so do not use these functions in innermost loops.
 namespace isojam::nearest {
 
 /// The functions of the standard library with the same names. @{
@@ -29,8 +29,8 @@ double hypot(double x, double y);
 
 namespace isojam {
 
-/// The function sin x / x, which is 1 at x = 0, with a relative error of at most 2 ε. For |x| ≤ 1 it uses the power
-/// series and takes only nanoseconds, so it can be used for rotations in innermost loops.
+/// The function sin x / x, which is 1 at x = 0, with a relative error of at most 2 ε, where ε = 2⁻⁵². For |x| ≤ 1 it
+/// uses the power series and takes only nanoseconds, so it can be used for rotations in innermost loops.
 double sinc(double x);
 
 inline double squared(double x) { return x * x; }    ///< x²

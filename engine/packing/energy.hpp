@@ -24,8 +24,8 @@ struct Evaluation {
   double pressure = 0;                               ///< −dE/dV_cell = −tr(stress)/3
   double mean_force = 0;  ///< mean of the contact force |F| over all touching pairs; 0 without contacts
   /// Largest value of |F_i| and |T_i|/R over all particles i, divided by mean_force. F_i is the net force and T_i the
-  /// net torque. The residual is 0 if all of them are 0, and infinite if only mean_force is 0. Enthalpy::of() also
-  /// takes the stress into account.
+  /// net torque on a particle. The residual is 0 if all F_i and T_i are 0. It is infinite if mean_force is 0 but an F_i
+  /// or T_i is not. Enthalpy::of() also takes the stress into account.
   double residual = 0;
   /// Residual that rounding errors alone can cause. A minimisation cannot reach a smaller residual. Precision::working
   /// rounds the coordinates. The floor is λ·ulp(L)/mean_force. L is the side of the cell, ulp(L) = 2⁻⁵² L, and λ is

@@ -55,7 +55,7 @@ struct IncipientContact {
 
 /// Radii of gyration of the two particles of a pair, in units of V_p^(1/3).
 struct GyrationRadii {
-  double a, b;
+  double a, b;  ///< radius of the particle
 };
 
 /// Computes the tangent of V in the state of the overlap, without slope_strains. Vectors of `overlap` must be in the

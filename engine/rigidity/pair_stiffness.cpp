@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The six rigid motions of a pair, as columns: translations, and rotations about A's centre.
+/// The six rigid motions of a pair, as columns: three translations, and three rotations about the centre of A.
 Eigen::Matrix<double, 12, 6> rigid_motions(const Vector3d& r, double radius_a, double radius_b) {
   Eigen::Matrix<double, 12, 6> motions = Eigen::Matrix<double, 12, 6>::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -26,7 +26,7 @@ Eigen::Matrix<double, 12, 6> rigid_motions(const Vector3d& r, double radius_a, d
   return motions;
 }
 
-/// Relative motions of the pair perpendicular to the normal.
+/// Orthonormal basis of the relative motions of the pair that are perpendicular to the normal.
 Eigen::Matrix<double, 12, 5> relative_motions(const Eigen::Matrix<double, 12, 6>& rigid, const Vector12d& normal) {
   Eigen::Matrix<double, 12, 7> others;
   others << rigid, normal;
@@ -68,7 +68,7 @@ PairStiffness pair_stiffness(const Packing& packing, const PlacedSolids& placed,
   return result;
 }
 
-/// Adds a vector of motions of a pair as a row of a matrix for all particles.
+/// Adds the motion of a pair as a row of the rigidity matrix.
 void add_row(const Contact& contact, const Vector12d& motion, int row, std::vector<Eigen::Triplet<double>>& entries) {
   for (int k = 0; k < 6; ++k) {
     entries.emplace_back(row, 6 * contact.pair.a + k, motion[k]);

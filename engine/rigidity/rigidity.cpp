@@ -17,21 +17,23 @@ using Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Number of directions beyond those that must be soft, and minimum number of them that must turn out not to be. More
-/// directions make the smallest nonzero singular value more accurate.
+/// `spare` directions are computed in addition to the states of self-stress that must exist for this number of rows. At
+/// least `least_beyond` of all directions must have a nonzero singular value; otherwise the number of directions is
+/// doubled. More directions make the smallest nonzero singular value more accurate.
 constexpr Index spare = 12, least_beyond = 6;
-/// Rounds of damping. One round divides the part with singular value σ by σ²/τ², 1e6 and more in packings. After three
-/// only rounding is left, and the singular values nearest to zero are resolved.
+/// Rounds of damping. One round multiplies a part with the singular value σ > 0 by about τ²/σ², which is 1e-6 or less
+/// in packings. After three rounds only rounding errors of such parts remain, and the singular values nearest to zero
+/// are resolved.
 constexpr int rounds = 3;
 
-/// Orthonormal combinations of the rows, softest last, and their singular values, which are those of
-/// rowsᵀ·combinations.
+/// Orthonormal combinations of the rows. Their singular values are those of rowsᵀ·combinations, in descending order.
 struct SoftSpace {
   MatrixXd combinations;  ///< constraints × k
   VectorXd sigma;         ///< k, descending
 };
 
-/// Rayleigh–Ritz by the singular values of rowsᵀ·Q. The eigenvalues of rows·rowsᵀ would not resolve small ones.
+/// Rayleigh–Ritz method with the singular values of rowsᵀ·Q. The eigenvalues of rows·rowsᵀ would not resolve small
+/// singular values.
 SoftSpace diagonalised(const RigidityMatrix& matrix, const MatrixXd& q) {
   const MatrixXd image = matrix.rows.transpose() * q;
   const Index k = q.cols();
@@ -49,7 +51,7 @@ SoftSpace diagonalised(const RigidityMatrix& matrix, const MatrixXd& q) {
   return space;
 }
 
-/// The k softest combinations, or all if there are at most k.
+/// The k combinations with the smallest singular values, or all combinations if there are at most k.
 SoftSpace softest(const RigidityMatrix& matrix, const SoftRows& soft, Index k) {
   const Index constraints = matrix.rows.rows();
   if (k >= constraints) return diagonalised(matrix, MatrixXd::Identity(constraints, constraints));

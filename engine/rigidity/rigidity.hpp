@@ -6,43 +6,43 @@
 
 namespace isojam {
 
-/// Rank of the constraints, and the numbers that follow from it. The relation 6N − constraints = floppy − self_stress
+/// Rank of a rigidity matrix, and the numbers that follow from it. The relation 6N − constraints = floppy − self_stress
 /// is exact (Maxwell 1864, Calladine 1978).
 struct Rigidity {
-  /// number of constraints, the rows of the matrix: Z·N/2 for normal_constraints(), C·N/2 for class_constraints()
+  /// number of rows of the matrix: Z·N/2 for normal_constraints(), C·N/2 for class_constraints()
   int constraints = 0;
   int rank = 0;          ///< rank of the matrix
   int self_stress = 0;   ///< number of states of self-stress, constraints − rank
-  int floppy = 0;        ///< number of motions that no constraint opposes, 6N − rank, including 3 translations
-  double tolerance = 0;  ///< a singular value counts as zero if it is at most this value
+  int floppy = 0;        ///< number of floppy motions, 6N − rank, including 3 translations
+  double tolerance = 0;  ///< a singular value counts as zero if it is at most this large
   /// The smallest singular value that counts as nonzero (an upper limit, accurate to a few per cent), and the largest
   /// one that counts as zero. Rows have unit length. The rank is reliable if there is a large gap between the two
-  /// values. 0 if there is no such value.
+  /// values. A value is 0 if no singular value counts in this way.
   double least_kept = 0, largest_dropped = 0;
-  /// Orthonormal basis of the states of self-stress, constraints × self_stress. Empty unless requested.
+  /// Orthonormal basis of the states of self-stress, constraints × self_stress. Empty unless RigidityOptions::stresses.
   Eigen::MatrixXd stresses;
 
   bool full_rank() const { return floppy == 3; }  ///< true if the rank is 6N − 3
 };
 
-/// Options: requested results, and limits below which singular values count as zero.
+/// Options of analyse_rigidity().
 struct RigidityOptions {
   bool stresses = false;  ///< true to compute a basis of the states of self-stress
-  /// Factor by which the relative force residual (see RigidityMatrix) is multiplied in the tolerance. In a
-  /// nearby state whose forces balance, the contact forces are a state of self-stress. The corresponding singular value
-  /// is therefore of the order of this residual, or smaller.
+  /// The tolerance divided by the relative force residual (see RigidityMatrix). Reason: in a nearby state whose forces
+  /// balance, the contact forces are a state of self-stress. In the present state, the corresponding singular value is
+  /// of the order of the relative force residual, or smaller.
   double margin = 100;
-  /// Largest relative force residual for which the tolerance is computed from the forces. In an equilibrium, the
-  /// residual is at most a tenth of this value.
+  /// Largest relative force residual for which the tolerance depends on `margin`. In an equilibrium, the residual is at
+  /// most a tenth of this value.
   double balanced = 1e-6;
 };
 
-/// Computes the rank and the states of self-stress, by inverse subspace iteration with SoftRows and the Rayleigh–Ritz
-/// method for the left singular vectors. The start is random (Halko, Martinsson & Tropp 2011), but the same for every
-/// matrix of the same size. A singular value counts as zero if it is at most max(rows, 6N)·ε times an upper bound of
-/// the largest singular value. If the forces balance, it also counts as zero if it is at most `margin` times the
-/// relative force residual. Throws std::invalid_argument if the rows contain NaN or infinity. N = 400 takes about a
-/// second.
+/// Computes the rank and the states of self-stress. The method is inverse subspace iteration with SoftRows, and the
+/// Rayleigh–Ritz method for the left singular vectors. The start is random (Halko, Martinsson & Tropp 2011), but the
+/// same for every matrix of the same size. A singular value counts as zero if it is at most max(rows, 6N)·ε times an
+/// upper bound of the largest singular value, where ε = 2⁻⁵². If the relative force residual is at most `balanced`, a
+/// singular value also counts as zero if it is at most `margin` times this residual. Throws std::invalid_argument if
+/// the rows contain NaN or infinity. The time is about a second for N = 400.
 Rigidity analyse_rigidity(const RigidityMatrix& matrix, const RigidityOptions& options = {});
 
 }  // namespace isojam

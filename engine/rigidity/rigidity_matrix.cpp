@@ -27,7 +27,7 @@ class Rows {
     forces_.push_back(contact.overlap.volume / 2 * length);
   }
 
-  /// Adds the rotation of A relative to B about `axis`, a unit vector in the frame of A.
+  /// Adds a rotation of A relative to B about `axis`, a unit vector in the frame of A.
   void add_tilt(const Contact& contact, const Vector3d& axis) {
     // θ_A − θ_B = R·θ_A/R_A − R·θ_B/R_B; the row has unit length.
     const double ratio = radius(contact.pair.a) / radius(contact.pair.b);

@@ -14,10 +14,10 @@ namespace isojam {
 /// balance if rowsᵀ·f = 0.
 struct RigidityMatrix {
   Eigen::SparseMatrix<double> rows;  ///< matrix with constraints × 6N entries; every row has unit length
-  /// Generalised force (V/2)|∇V| of the contact along each row, 0 for tilts. They satisfy rowsᵀ·forces = ∇E.
+  /// Force of the contact along each row: (V/2)|∇V| for a normal, 0 for a tilt. It satisfies rowsᵀ·forces = ∇E.
   Eigen::VectorXd forces;
-  /// Relative force residual |∇E| / |forces|. It is 0 if the forces are a state of self-stress, and also if there are
-  /// no forces.
+  /// Relative force residual |∇E| / |forces|. It is 0 if the forces are a state of self-stress, or if there are no
+  /// forces.
   double imbalance = 0;
 };
 
@@ -26,14 +26,14 @@ RigidityMatrix normal_constraints(const Packing& packing, std::span<const Contac
 
 /// Makes the rigidity matrix with the normal of each contact, followed by 0, 1 or 2 tilts according to the class of the
 /// contact:
-///   lower order   no tilt.
-///   edge-face     one tilt: a relative rotation about e×n (edge × normal of the face) lifts one end of the edge off
-///                 the face. Rotations about the edge or the normal do not.
-///   face-face     two tilts: a relative rotation about any axis in the plane of the faces lifts one side. A
-///                 rotation about the normal does not.
-/// The number of rows is C·N/2, where C = 3 Z_ff + 2 Z_ef + Z_l is the paper's constraint number. `alignments` and
-/// `classes` must have one element per contact. Throws std::invalid_argument if their sizes differ, or if an alignment
-/// lacks the features that the class of its contact requires.
+///   lower order   no tilt
+///   edge-face     one tilt: a relative rotation about e×n (edge × normal of the face). It lifts one end of the edge
+///                 off the face. Rotations about the edge or the normal do not lift it.
+///   face-face     two tilts: relative rotations about two perpendicular axes in the plane of the faces. They lift one
+///                 side of a face. A rotation about the normal does not lift it.
+/// The number of rows is C·N/2, where C = 3 Z_ff + 2 Z_ef + Z_l is the paper's constraint number. Throws
+/// std::invalid_argument unless `alignments` and `classes` have one element per contact. It also throws this exception
+/// if an alignment does not contain the faces or the edge that the class of its contact requires.
 RigidityMatrix class_constraints(const Packing& packing, std::span<const Contact> contacts,
                                  std::span<const Alignment> alignments, std::span<const ContactClass> classes);
 

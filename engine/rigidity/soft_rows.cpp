@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Coupling of a constraint row to each particle.
+/// The entries of a row, six for each of its particles.
 std::map<int, Vector6d> by_particle(const RowMajor& rows, Index row) {
   std::map<int, Vector6d> parts;
   for (RowMajor::InnerIterator entry(rows, row); entry; ++entry) {
@@ -58,7 +58,8 @@ SoftRows::SoftRows(const Eigen::SparseMatrix<double>& rows) : rows_(rows) {
   const BlockMatrix matrix = gram(rows);
   const double scale = largest_row_sum(matrix);
   stiffest_ = std::sqrt(scale);
-  // Rounding is 1e-16 of the scale. It can make a singular matrix indefinite by a few times that, but not by 1e-12.
+  // Rounding errors are 1e-16 of the scale. They can make a singular matrix indefinite by a few times this, but not by
+  // 1e-12.
   if (!std::isfinite(scale) || !factor_.factorise(matrix, 1e-12 * scale))
     throw std::invalid_argument("constraints that are not finite have no rank");
 }

@@ -9,17 +9,18 @@
 namespace isojam {
 
 /// Inverse iteration with rows·rowsᵀ, which finds the combinations of constraints with the smallest singular values. It
-/// uses a sparse factorisation of rowsᵀrows + τ² in 6×6 blocks on the graph of particles. For N = 400 this takes
-/// milliseconds, and a dense factorisation would take half a minute.
+/// uses a sparse factorisation of rowsᵀrows + τ² in 6×6 blocks, one block row per particle. For N = 400 this takes
+/// milliseconds, while a dense factorisation would take half a minute.
 class SoftRows {
  public:
   /// Stores a reference to `rows`, constraints × 6N, which must outlive this object. Throws std::invalid_argument if
   /// `rows` contains NaN or infinity.
   explicit SoftRows(const Eigen::SparseMatrix<double>& rows);
 
-  /// One step of the iteration for each column of x: τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x
-  /// (Sherman, Morrison, Woodbury). It multiplies a combination with singular value σ by τ²/(σ² + τ²), so states of
-  /// self-stress do not change and all others are damped. τ is 1e-6 times stiffest().
+  /// One step of the iteration for each column of x (Sherman, Morrison, Woodbury):
+  ///   τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x
+  /// It multiplies a combination with the singular value σ by τ²/(σ² + τ²). States of self-stress therefore do not
+  /// change, and all other combinations are damped. τ is 1e-6 times stiffest().
   Eigen::MatrixXd damped(const Eigen::MatrixXd& x) const;
 
   /// An upper bound of the largest singular value: the square root of the largest row sum of |rowsᵀrows|.
