@@ -19,7 +19,7 @@ void assess_rest(Backbone& rest, const ModeOptions& options, Precision precision
   rest.stability = assess(matrix, rest.ends, torque);
 }
 
-/// Indices of the whole packing that are not in `kept`.
+/// Indices of the particles of the whole packing that are not in `kept`.
 std::vector<int> others(std::span<const int> kept, int particles) {
   std::vector<int> result;
   auto next = kept.begin();

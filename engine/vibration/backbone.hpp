@@ -12,40 +12,41 @@
 
 namespace isojam {
 
-/// The backbone: a packing from which near-rattlers were removed. assess() finds the near-rattlers of the packing. They
-/// are removed, and assess() finds the near-rattlers of the remaining particles, until there are none. The remaining
-/// particles keep their poses in the same cell; they are not minimised again. `here` contains their residual. It is the
-/// same as before if the removed particles carried no force.
+/// The backbone: a packing from which near-rattlers were removed. assess() finds the near-rattlers of the packing, and
+/// they are removed. This is repeated with the remaining particles until assess() finds no near-rattler. The remaining
+/// particles keep their poses in the same cell; they are not minimised again. `here` contains their residual, which is
+/// the same as before if the removed particles carried no force.
 struct Backbone {
-  /// the remaining particles in their original order; if none remains, `packing` has no poses, and all other members
-  /// are empty
+  /// the remaining particles in their original order. If none remains, it has no poses, and the members below `rounds`
+  /// are empty.
   Packing packing;
   std::vector<int> kept{};     ///< indices of the remaining particles in the whole packing, ascending
   std::vector<int> removed{};  ///< indices of the removed particles, ascending
   int rounds = 0;              ///< number of rounds in which particles were removed
   Evaluation here{};           ///< evaluation of the remaining packing
   BlockMatrix hessian{};       ///< Hessian of the remaining packing
-  SpectrumEnds ends{};         ///< modes of the remaining packing
-  Stability stability{};       ///< numbers of modes of the remaining packing; it has no near-rattler
+  SpectrumEnds ends{};         ///< lowest and highest modes of the remaining packing
+  Stability stability{};       ///< stability of the remaining packing; it contains no near-rattler
 };
 
 /// Computes the backbone of a packing.
 Backbone backbone_of(const Packing& packing, const ModeOptions& options = {},
                      Precision precision = Precision::double_double);
 
-/// The packing of some of the particles in the same cell. `kept` contains their indices, ascending.
+/// The packing that consists of some of the particles, in the same cell. `kept` contains their indices, ascending.
 Packing part_of(const Packing& packing, std::span<const int> kept);
 
-/// The contacts between the particles of a part of a packing.
+/// The contacts between the particles of a part of a packing, see part_of().
 struct PartContacts {
-  std::vector<Contact> contacts;    ///< contacts, with the indices of the particles in the part
-  std::vector<std::size_t> places;  ///< index of each contact in the full list
+  std::vector<Contact> contacts;    ///< the contacts; their particles have the indices that they have in the part
+  std::vector<std::size_t> places;  ///< index of each contact in the list of the whole packing
 };
-/// Finds the contacts within the part `kept` of a packing with this number of particles.
+/// Finds the contacts in which both particles are in `kept`. `particles` is the number of particles of the whole
+/// packing.
 PartContacts contacts_within(std::span<const Contact> contacts, std::span<const int> kept, int particles);
 
-/// Elastic tensor of the remaining packing at its own stress, divided by the volume of the whole cell; see
-/// elastic_tensor(). nullopt in the same cases, and if no particle is left.
+/// The elastic tensor of the backbone at its own stress: elastic_tensor() with the remaining particles and the volume
+/// of the whole cell. nullopt if elastic_tensor() returns nullopt, or if no particle remains.
 std::optional<ElasticTensor> elastic_tensor(const Backbone& backbone);
 
 }  // namespace isojam

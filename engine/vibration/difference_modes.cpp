@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// The three translations in the coordinates of D, M^(1/2)·shift: equal displacements of all particles; orthonormal.
+/// The three translations in the coordinates of D: M^(1/2) times an equal displacement of all particles, orthonormal.
 MatrixXd translations_of(const Packing& packing) {
   BlockMatrix nothing;
   nothing.diagonal.assign(packing.poses.size(), Matrix6d::Zero());
@@ -21,7 +21,7 @@ MatrixXd translations_of(const Packing& packing) {
 }  // namespace
 
 Eigen::VectorXd difference_modes(const Packing& packing, double h, Precision precision) {
-  // Multiplies by M^(-1/2) from both sides; the matrix between is symmetric.
+  // Multiplies by M^(-1/2) from both sides; the Hessian is symmetric.
   MatrixXd matrix = mode_displacements(packing, difference_hessian(packing, h, precision));
   matrix = mode_displacements(packing, matrix.transpose());
   const MatrixXd moves = translations_of(packing);

@@ -7,11 +7,11 @@
 
 namespace isojam {
 
-/// Computes all 6N eigenvalues, in ascending order, of the matrix D from central differences (difference_hessian). This
-/// is the result that a program without analytic second derivatives would obtain. h is the step of x and of R·θ, in
-/// units of V_p^(1/3). Translations are null vectors of this matrix except for rounding errors; they are excluded by
-/// projection. Three of the eigenvalues are therefore 0 with the same accuracy as for the analytic D. Throws the same
-/// exceptions as difference_hessian().
+/// Computes all 6N eigenvalues of D from the difference_hessian(), in ascending order. A program without analytic
+/// second derivatives would obtain this result. h is the step of x and of R·θ, in units of V_p^(1/3). Rounding errors
+/// of the differences would give the translations small nonzero eigenvalues. The translations are therefore removed by
+/// projection: three of the eigenvalues are 0, as accurately as for the analytic D. Throws std::invalid_argument unless
+/// h > 0.
 Eigen::VectorXd difference_modes(const Packing& packing, double h, Precision precision);
 
 }  // namespace isojam

@@ -6,8 +6,8 @@
 
 namespace isojam {
 
-/// A symmetric operator with the interface that Spectra needs. All operators have this one type, so that the solvers of
-/// Spectra are compiled only once.
+/// A symmetric operator with the interface that the library Spectra requires. All operators have this one type, so that
+/// the solvers of Spectra are compiled only once.
 class LanczosOperation {
  public:
   using Scalar = double;
@@ -33,14 +33,15 @@ class LanczosOperation {
 enum class LanczosWanted { least, greatest };
 
 struct LanczosRequest {
-  /// end of the spectrum from which eigenvalues are computed; not used if there is a shift
+  /// the end of the spectrum at which eigenvalues are computed; not used if there is a shift
   LanczosWanted wanted = LanczosWanted::greatest;
   Eigen::Index modes = 1, subspace = 20;  ///< number of eigenpairs, and dimension of the Krylov space
-  /// If there is a shift σ, the operation is (A − σ)⁻¹, and the eigenvalues nearest to σ are computed.
+  /// If there is a shift σ, the operation is (A − σ)⁻¹, and the eigenvalues of A nearest to σ are computed. Otherwise
+  /// the operation is A.
   std::optional<double> shift = std::nullopt;
   double tolerance = 1e-10;  ///< relative accuracy of an eigenvalue, or of 1/(λ − σ) if there is a shift
   int restarts = 300;
-  Eigen::VectorXd start{};  ///< start vector with rows() entries; if it is empty, Spectra uses its own random vector
+  Eigen::VectorXd start{};  ///< start vector with rows() entries; if it is empty, Spectra makes a random vector
 };
 
 enum class LanczosEnd {
@@ -51,13 +52,14 @@ enum class LanczosEnd {
 
 struct LanczosModes {
   LanczosEnd ended = LanczosEnd::restarts_spent;
-  Eigen::VectorXd eigenvalues;  ///< eigenvalues of A in the order of Spectra; empty unless the method converged
-  Eigen::MatrixXd vectors;      ///< eigenvectors as columns, in the same order
-  long products = 0;            ///< number of operations
+  /// eigenvalues of A in the order in which Spectra returns them; empty unless the method converged
+  Eigen::VectorXd eigenvalues;
+  Eigen::MatrixXd vectors;  ///< eigenvectors as columns, in the same order
+  long products = 0;        ///< number of times that the operation was applied
 };
 
-/// Computes eigenpairs by the implicitly restarted Lanczos method (Spectra). If the operation throws an exception, for
-/// example because the shift is an eigenvalue, the exception leaves this function.
+/// Computes eigenpairs by the implicitly restarted Lanczos method (Spectra). If the shift is an eigenvalue and the
+/// operation throws std::domain_error, this exception leaves the function.
 LanczosModes lanczos(LanczosOperation operation, const LanczosRequest& request);
 
 }  // namespace isojam

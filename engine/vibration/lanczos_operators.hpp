@@ -6,8 +6,8 @@
 
 namespace isojam {
 
-/// Subtracts the components along the three translations of the whole packing from a vector of 6N entries.
-/// `root_masses` is as in BlockMatrix.
+/// Subtracts from a vector of 6N entries its components along the three translations of the whole packing.
+/// `root_masses` is BlockMatrix::root_masses.
 inline void remove_translations(const Eigen::VectorXd& root_masses, Eigen::Ref<Eigen::VectorXd> u) {
   if (root_masses.size() > 0) {
     Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
@@ -23,12 +23,13 @@ inline void remove_translations(const Eigen::VectorXd& root_masses, Eigen::Ref<E
   for (Eigen::Index k = 0; k < u.size(); k += 6) u.segment<3>(k) -= mean;
 }
 
-/// Start vector of the Lanczos method. It is the same for every matrix with 6N rows. It has no symmetry, because modes
-/// with another symmetry would not be found.
+/// Start vector of the Lanczos method, without components along the translations. It is the same for all matrices with
+/// equal N and masses. It is random, because the Lanczos method finds only modes that have the symmetry of the start
+/// vector.
 Eigen::VectorXd lanczos_start(const BlockMatrix& matrix);
 
-/// The operator P op P with the interface that Spectra needs, where P is the projection that removes translations.
-/// `operation` and `matrix` must outlive it.
+/// The operator P A P, where A is `operation` and P is the projection that removes translations. It has the interface
+/// that Spectra requires. `operation` and `matrix` must outlive it.
 template <class Operation>
 class Deflated {
  public:
@@ -51,7 +52,7 @@ class Deflated {
   const Eigen::VectorXd& root_masses_;
 };
 
-/// The operator x ↦ D x. D must outlive it.
+/// The operator x ↦ D x. `matrix` is D and must outlive it.
 class Product {
  public:
   explicit Product(const BlockMatrix& matrix) : matrix_(matrix) {}

@@ -19,7 +19,8 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// x_b − x_a of every off-diagonal block, by merging two lists that are sorted by pair.
+/// Displacement x_b − x_a of every off-diagonal block. The blocks and the contacts are sorted by pair, so one pass over
+/// both is enough.
 std::vector<Vector3d> displacements(const Packing& packing, const BlockMatrix& hessian,
                                     std::span<const Contact> contacts) {
   std::vector<Vector3d> result;
@@ -37,15 +38,16 @@ std::vector<Vector3d> displacements(const Packing& packing, const BlockMatrix& h
   return result;
 }
 
-/// Affine (Born) part of the response.
+/// Affine (Born) part of the elastic response.
 struct Affine {
   Matrix6d stiffness = Matrix6d::Zero();  ///< d²E/dε², not divided by V
   Eigen::MatrixXd forces;                 ///< Ξ = ∂²E/∂r∂ε, 6N × 6
 };
 
-/// A pair's energy depends on positions only through r = x_b − x_a. Its derivatives with respect to r are those with
-/// respect to x_b, and, up to sign, those with respect to x_a, which the block H_ab of the Hessian contains. The
-/// second-order term ½ ε² r of exp(ε) r adds the work of the stress: V σ:ε².
+/// The energy of a pair depends on positions only through r = x_b − x_a. Its derivatives with respect to r equal the
+/// derivatives with respect to x_b, and the negative derivatives with respect to x_a. Second derivatives therefore
+/// follow from the block H_ab of the Hessian. The second-order term ½ ε² r of exp(ε) r adds the work of the stress, V
+/// σ:ε².
 Affine affine_response(const Packing& packing, const BlockMatrix& hessian, std::span<const Contact> contacts,
                        const Evaluation& evaluation) {
   Affine response;
@@ -63,7 +65,7 @@ Affine affine_response(const Packing& packing, const BlockMatrix& hessian, std::
   return response;
 }
 
-/// From d²E/ds² for r → e^s r, which is 9V(K − p).
+/// Bulk modulus K. For the motion r → e^s r, d²E/ds² = 9V(K − p).
 double bulk(const Matrix6d& tensor, double pressure) { return tensor.topLeftCorner<3, 3>().sum() / 9 + pressure; }
 
 }  // namespace

@@ -9,10 +9,11 @@ enum class Pinning {
   translations_and_untouched,  ///< also all coordinates of particles without contacts, which have no stiffness
 };
 
-/// D with some coordinates pinned: their rows and columns are 0, except for `pinned_diagonal` on the diagonal.
-/// Translations are null vectors of D. The matrix is therefore positive definite if and only if D is positive definite
-/// apart from translations. If the sum of the forces f on all particles is 0, the solution u with this matrix also
-/// solves D u = f, up to a translation.
+/// D with some coordinates pinned: their rows and columns are 0, except for `pinned_diagonal` > 0 on the diagonal.
+/// Pinning particle 0 excludes the translations, which are null vectors of D. With Pinning::translations, the matrix is
+/// therefore positive definite if and only if D is positive definite for all other motions. Let f be forces on the
+/// particles that sum to 0. If the pinned entries of f are set to 0, the solution u with this matrix solves D u = f for
+/// the original f.
 BlockMatrix pinned_matrix(const BlockMatrix& matrix, double pinned_diagonal, Pinning pinning);
 
 }  // namespace isojam

@@ -13,12 +13,12 @@ namespace isojam {
 
 namespace {
 
-/// Number of halvings of a trial step: down to 1e-12 of the first, which is less than the depth of any relevant
-/// contact.
+/// Largest number of halvings of a trial step. The last step is 1e-12 of the first step, less than the depth of any
+/// relevant contact.
 constexpr int max_halvings = 40;
 
-/// The packing displaced along +mode or −mode, whichever has the lower enthalpy. Uses the longest trial step that
-/// lowers the enthalpy by more than its noise.
+/// The packing after a displacement along +mode or −mode, whichever has the lower enthalpy. The length is the largest
+/// trial step that decreases the enthalpy by more than its rounding errors. nullopt if no trial step does.
 std::optional<Packing> step_down(const Packing& packing, const Eigen::VectorXd& mode, double first_step,
                                  Precision precision, const Enthalpy& enthalpy, PackingEnergy& energy) {
   const auto evaluate = [&](const Packing& there) { return enthalpy.of(energy.evaluate(there, precision), there); };
@@ -71,8 +71,8 @@ class Follower {
     result_.summary = minimise(result_.packing, energy_, options_.minimise, stop_);
   }
 
-  /// Sets the stability. If it is unstable, returns the direction of descent: the lowest mode of the particles, or, if
-  /// the particles alone are stable, the softest strain.
+  /// Assesses the state, and returns the direction of descent if it is a saddle. The direction is the lowest mode of
+  /// the particles. If the particles alone have no negative mode, it is the softest strain.
   std::optional<Eigen::VectorXd> assess_state() {
     const Precision precision = result_.summary.precision;
     const Evaluation here = energy_.evaluate(result_.packing, precision);

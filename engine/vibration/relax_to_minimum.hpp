@@ -11,14 +11,15 @@
 
 namespace isojam {
 
-/// Reason for the end of the search for a minimum.
+/// Reason for the end of relax_to_minimum().
 enum class MinimumSearchEnd {
   not_called,
-  was_minimum,      ///< there was no negative mode: the packing is unchanged
+  was_minimum,      ///< the start had no negative mode
   reached_minimum,  ///< a minimum was found after at least one saddle
   lost_balance,     ///< a minimisation found no equilibrium
-  still_unstable,   ///< negative modes remain: max_descents is reached, or no lower energy was found along the mode
-  undetermined      ///< the stability could not be determined, or no modes were found
+  /// negative modes remain: `max_descents` is reached, or the energy does not decrease along the mode
+  still_unstable,
+  undetermined  ///< the zero and negative modes could not be counted, or the lowest mode was not found
 };
 template <>
 inline constexpr std::array enum_names<MinimumSearchEnd>{EnumName{MinimumSearchEnd::not_called, "not_called"},
@@ -28,31 +29,33 @@ inline constexpr std::array enum_names<MinimumSearchEnd>{EnumName{MinimumSearchE
                                                          EnumName{MinimumSearchEnd::still_unstable, "still_unstable"},
                                                          EnumName{MinimumSearchEnd::undetermined, "undetermined"}};
 
-/// Limits and methods of the search for a minimum.
+/// Options of relax_to_minimum().
 struct MinimumSearchOptions {
-  /// largest number of saddles that are relaxed. Relaxing a saddle rarely leads to another saddle; three saddles in
-  /// succession were never observed
+  /// largest number of saddles that are relaxed. A relaxed saddle rarely leads to another saddle; three saddles in
+  /// succession were never observed.
   int max_descents = 5;
   /// Largest displacement of a particle in the first trial step along the mode, in units of the inradius. It is halved
   /// until the energy decreases.
   double first_step = 0.1;
-  MinimiseOptions minimise;         ///< options of the minimisations
-  ModeOptions modes{.highest = 1};  ///< only the lowest mode is used; λ_max sets the tolerance
+  MinimiseOptions minimise;  ///< options of all minimisations
+  /// options for the modes: of the lowest modes, only the first is used; the highest mode gives λ_max for the tolerance
+  ModeOptions modes{.highest = 1};
 };
 
-/// Result of the search for a minimum.
+/// Result of relax_to_minimum().
 struct MinimumSearchResult {
   MinimumSearchEnd ended = MinimumSearchEnd::not_called;  ///< reason for the end of the search
   Packing packing;                                        ///< final state
   MinimiseSummary summary{};                              ///< summary of the last minimisation
-  Stability stability{};  ///< stability of `packing`; not called if no equilibrium was found last
-  int descents = 0;       ///< number of saddles that were relaxed
+  /// stability of `packing`; Verdict::not_called if the last minimisation found no equilibrium
+  Stability stability{};
+  int descents = 0;  ///< number of saddles that were relaxed
 };
 
-/// Relaxes a saddle to a minimum. The packing is displaced along its lowest mode, in the direction in which the energy
-/// decreases more, and minimised. If the result is a saddle again, this is repeated, up to max_descents times. At the
-/// beginning the packing is minimised, which does not change an equilibrium. For a variable cell
-/// (options.minimise.control), minima and saddles are those of particles and cell together.
+/// Relaxes a saddle to a minimum. First the packing is minimised, which does not change an equilibrium. If it is a
+/// saddle, it is displaced along its lowest mode, in the direction in which the energy decreases more, and minimised
+/// again. This is repeated until a minimum is found, up to `max_descents` times. If the cell is variable
+/// (options.minimise.control), the negative modes are those of particles and cell together.
 MinimumSearchResult relax_to_minimum(const Packing& packing, const MinimumSearchOptions& options = {},
                                      std::stop_token stop = {});
 

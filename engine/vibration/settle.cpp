@@ -33,7 +33,7 @@ void settle(JamResult& result, const JamOptions& options, std::stop_token stop) 
   bool changed = false;
   for (std::size_t k = 0; k < result.states.size() && !stop.stop_requested(); ++k) {
     JamStep& step = result.path[static_cast<std::size_t>(result.state_steps[k])];
-    // The first state of an expansion has a given density.
+    // In a decompression under pressure control, the first state still has a given density.
     search.minimise.control = options.decompression.control == Control::pressure && k > 0
                                   ? control_at_pressure(options, step.pressure)
                                   : control_at_density(options);

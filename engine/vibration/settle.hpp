@@ -6,9 +6,9 @@
 
 namespace isojam {
 
-/// Relaxes every state of a decompression that is a saddle to a minimum with relax_to_minimum(), and fits φ_J again.
-/// JamStep::descents is positive for the states that were changed. A state that is already a minimum keeps its bits. If
-/// no stable equilibrium is found for a state, the original state is kept.
+/// Relaxes every state of a decompression that is a saddle to a minimum with relax_to_minimum(), and fits φ_J again if
+/// a state has changed. JamStep::descents is positive for the changed states. A state that is already a minimum keeps
+/// its bits. If no minimum is found for a state, the original state is kept.
 void settle(JamResult& result, const JamOptions& options, std::stop_token stop = {});
 
 }  // namespace isojam

@@ -36,13 +36,13 @@ void judge(ModeSet& modes, const BlockMatrix& matrix, double lambda_max) {
   }
 }
 
-/// The modes of an operation, ascending. Returns false without modes if the Lanczos method did not converge.
+/// Computes modes of an operation, in ascending order. Returns false if the Lanczos method does not converge.
 bool take_modes(const BlockMatrix& matrix, LanczosOperation operation, LanczosRequest request, ModeSet& modes) {
   ++modes.attempts;
   request.start = lanczos_start(matrix);
   LanczosModes found = lanczos(std::move(operation), request);
   if (found.ended != LanczosEnd::converged) return false;
-  // Spectra returns the requested order, but descending for any rule.
+  // Spectra may return the eigenvalues in ascending or in descending order.
   modes.eigenvalues = found.eigenvalues.reverse();
   modes.vectors = found.vectors.rowwise().reverse();
   if (modes.eigenvalues.size() > 1 && modes.eigenvalues[0] > modes.eigenvalues[modes.size() - 1]) {
@@ -52,7 +52,7 @@ bool take_modes(const BlockMatrix& matrix, LanczosOperation operation, LanczosRe
   return modes.eigenvalues.allFinite();
 }
 
-/// Dimension of the Krylov space for `wanted` modes of a spectrum of `all`.
+/// Dimension of the Krylov space for `wanted` of `all` modes. The second attempt uses a larger space.
 Index subspace(Index wanted, Index all, int attempt) {
   const Index spacious = attempt == 0 ? 2 * wanted + 20 : 4 * wanted + 60;
   return std::min(all, spacious);
@@ -81,7 +81,7 @@ class Ends {
   }
 
  private:
-  /// The Lanczos method needs space for about twice as many vectors.
+  /// True if the Lanczos method can compute this number of modes. It needs a space with about twice as many vectors.
   bool serves(Index wanted) const { return wanted > 0 && 2 * wanted + 20 <= all_; }
 
   bool find_highest(Index wanted, SpectrumEnds& ends) const {
@@ -104,12 +104,14 @@ class Ends {
 
   bool find_lowest(Index wanted, SpectrumEnds& ends) const {
     ModeSet& modes = ends.lowest;
-    // The first shift is slightly below 0, the second is below the whole spectrum, for a Hessian with negative modes.
+    // The first shift is slightly below 0. The second shift is below the whole spectrum, in case there are negative
+    // modes.
     for (int attempt = 0; attempt < 2; ++attempt) {
       const double shift = attempt == 0 ? -options_.shift * ends.lambda_max : below_all(ends.lambda_max);
       if (!invert(wanted, attempt, shift, modes)) continue;
       judge(modes, matrix_, ends.lambda_max);
-      // ‖Du − λu‖ ≤ ‖D − σ‖ times the residual of the inverse's eigenpair, plus rounding.
+      // The residual ‖Du − λu‖ is at most ‖D − σ‖ times the residual of the eigenpair of the inverse, plus rounding
+      // errors.
       const double from_tolerance = options_.lowest_tolerance * (ends.lambda_max - shift);
       if (modes.residual * ends.lambda_max > rounding_bound(matrix_, ends.lambda_max) + from_tolerance) continue;
       modes.ended = attempt == 0 ? ModeEnd::converged : ModeEnd::retried;
@@ -134,8 +136,8 @@ class Ends {
     return (modes.eigenvalues.array() < shift).count() == inverse.negative_pivots();
   }
 
-  /// A shift below the lowest mode by a fraction of its distance from 0, or a multiple of the usual shift if that is
-  /// lower.
+  /// A shift below the whole spectrum: below the lowest eigenvalue λ by 2 % of |λ|, or 100 times the shift of the first
+  /// attempt if that is lower.
   double below_all(double lambda_max) const {
     Product product(matrix_);
     Deflated<Product> operation(product, matrix_);

@@ -15,7 +15,7 @@ namespace isojam {
 
 namespace {
 
-/// Number of eigenvalues of D below σ; nullopt if σ is an eigenvalue, or D is not finite.
+/// Number of eigenvalues of D below σ. nullopt if σ is an eigenvalue or D is not finite.
 std::optional<int> count_below(const BlockMatrix& matrix, double sigma) {
   ShiftInvert inverse(matrix);
   try {
@@ -31,8 +31,8 @@ bool all_above(const BlockMatrix& matrix, double sigma) { return BlockCholesky()
 void count_modes(const BlockMatrix& matrix, double lambda_max, Stability& stability) {
   const auto all = static_cast<int>(matrix.rows());
   const double tolerance = stability.tolerance;
-  // Pinning one particle removes three dimensions. The smallest eigenvalue of the rest is at most the fourth one of D;
-  // the first three belong to the translations.
+  // Pinning one particle removes three dimensions. The smallest eigenvalue of the rest is at most the fourth eigenvalue
+  // of D. The first three eigenvalues of D belong to the translations.
   if (all_above(pinned_matrix(matrix, lambda_max, Pinning::translations), tolerance)) {
     stability.zero = 3;
     stability.positive = all - 3;
@@ -59,7 +59,7 @@ std::vector<int> contacts_of(const BlockMatrix& matrix) {
   return contacts;
 }
 
-/// Particles with more than half of the amplitude of a mode that is not positive.
+/// Marks the particles with more than half of the squared amplitude of a mode with λ at or below the tolerance.
 std::vector<char> carriers(const ModeSet& modes, double tolerance, int particles) {
   std::vector<char> carries(static_cast<std::size_t>(particles), 0);
   for (Eigen::Index k = 0; k < modes.size() && modes.eigenvalues[k] <= tolerance; ++k) {
@@ -104,7 +104,7 @@ Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unb
     stability.verdict = Verdict::undetermined;
     return stability;
   }
-  // Without the highest modes their upper bound is used.
+  // If the highest modes are unknown, λ_max is replaced by an upper bound.
   const double lambda_max = ends.lambda_max > 0 ? ends.lambda_max : bound;
   if (lambda_max == 0) {
     stability.zero = static_cast<int>(matrix.rows());

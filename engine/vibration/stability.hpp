@@ -11,7 +11,7 @@
 
 namespace isojam {
 
-/// Stability according to the numbers of zero and negative modes.
+/// Stability of a state, from the numbers of its zero and negative modes.
 enum class Verdict {
   not_called,
   stable,       ///< three zero modes and no negative mode: a strict minimum apart from translations
@@ -30,8 +30,8 @@ struct NearRattler {
   /// Reason for the classification.
   enum class Reason {
     few_contacts,  ///< the particle has fewer than four contacts
-    /// the diagonal block of D of the particle has an eigenvalue that is not positive, or there is such a mode in which
-    /// mainly this particle moves
+    /// the diagonal block of D of the particle has an eigenvalue at or below the tolerance, or the particle carries
+    /// more than half of the amplitude of a mode with λ at or below the tolerance
     vanishing_stiffness
   };
   int particle = 0;                      ///< index of the particle
@@ -44,30 +44,32 @@ inline constexpr std::array enum_names<NearRattler::Reason>{
     EnumName{NearRattler::Reason::few_contacts, "few_contacts"},
     EnumName{NearRattler::Reason::vanishing_stiffness, "vanishing_stiffness"}};
 
-/// Numbers of zero, negative and positive modes, and the near-rattlers.
+/// Numbers of zero, negative and positive modes, and the near-rattlers of a state.
 struct Stability {
-  Verdict verdict = Verdict::not_called;  ///< stability according to these numbers
-  /// numbers of modes among all coordinates of particles and strains; exact by Sylvester's law of inertia
+  Verdict verdict = Verdict::not_called;  ///< stability that follows from the numbers of modes
+  /// Numbers of modes, exact by Sylvester's law of inertia. If the matrix has a border, they include the modes of the
+  /// cell.
   int zero = 0, negative = 0, positive = 0;
-  double tolerance = 0;                    ///< an eigenvalue counts as zero if |λ| is at most this value
-  double translation_error = 0;            ///< largest ‖D t‖ of the three translations t; it is below `tolerance`
+  double tolerance = 0;  ///< an eigenvalue counts as zero if |λ| is at most this large
+  /// largest ‖D t‖ of the three translations t, a check: it should be below `tolerance`
+  double translation_error = 0;
   std::vector<NearRattler> near_rattlers;  ///< near-rattlers, sorted by particle; at most one entry per particle
 };
 
-/// Tolerance below which an eigenvalue counts as zero: rounding_bound(D, λ_max) plus the largest |T_i|/R² of a net
-/// torque T_i. The second term is needed because rotations do not commute. If a net torque T acts on a particle, the
-/// Hessian depends by up to T/2 on the parametrisation of small rotations.
+/// Tolerance below which an eigenvalue counts as zero: rounding_bound(D, λ_max) + `unbalanced_torque`. The second term
+/// is needed because rotations do not commute: if a net torque T acts on a particle, the Hessian depends by up to T/2
+/// on the parametrisation of small rotations.
 double zero_tolerance(const BlockMatrix& matrix, double lambda_max, double unbalanced_torque = 0);
 
-/// The largest |T_i|/R² of a net torque in an evaluation, for the second term of zero_tolerance().
+/// The largest |T_i|/R² of all particles i, where T_i is the net torque: the second term of zero_tolerance().
 double unbalanced_torque(const Evaluation& evaluation, const Composition& solids);
 
-/// Counts the modes of D, that is, the eigenvalues below −tolerance, above +tolerance and between them, and finds the
-/// near-rattlers. If all eigenvalues of D with one pinned particle are above the tolerance, which a Cholesky
-/// factorisation shows, then 6N − 3 modes are positive, because eigenvalues interlace. Otherwise the modes are counted
-/// with an LDLᵀ factorisation. If the matrix has a border, the modes are those of particles and cell together. A
-/// particle with fewer than four contacts is a near-rattler, because the forces of fewer contacts balance only in a
-/// plane, and nothing opposes a motion out of this plane to first order.
+/// Counts the modes of D: eigenvalues below −tolerance are negative, eigenvalues above +tolerance are positive, and all
+/// others are zero modes. If the matrix has a border, the modes are those of particles and cell together. Also finds
+/// the near-rattlers. A particle with fewer than four contacts is a near-rattler: the forces of three contacts can
+/// balance only in a plane, and nothing opposes a motion out of this plane to first order. Method: if D with one pinned
+/// particle minus the tolerance has a Cholesky factorisation, all its eigenvalues are above the tolerance. Because
+/// eigenvalues interlace, 6N − 3 modes of D are then positive. Otherwise an LDLᵀ factorisation counts the modes.
 Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque = 0);
 
 }  // namespace isojam
