@@ -8,21 +8,21 @@ namespace isojam {
 
 namespace {
 
-/// Multiplications of a front, a third of a millisecond, above which threads share its rows.
+/// Number of multiplications for a front (a third of a millisecond) above which threads share its rows.
 constexpr double work_of_shared_front = 5e6;
 
 using Block6 = Eigen::Map<Matrix6d, Eigen::Unaligned, Eigen::OuterStride<panels::height>>;
 
 /// Makes room for `size` entries with arbitrary values, and for some more, so that small changes of the pattern need no
-/// new memory. The vector is emptied first: otherwise Eigen frees its memory before the allocation, and frees it again
-/// if the allocation fails.
+/// new memory. The vector is emptied first. Otherwise Eigen would free its memory before the allocation, and again if
+/// the allocation fails.
 void reserve(Eigen::VectorXd& vector, std::ptrdiff_t size) {
   if (vector.size() >= size) return;
   vector = Eigen::VectorXd();
   vector.resize(size + size / 8);
 }
 
-/// to += from, for 6 rows and `columns` columns of panels.
+/// Computes to += from, for 6 rows and `columns` columns of panels.
 void add_columns(const double* from, int columns, double* to) {
   for (int c = 0; c < columns; ++c, from += panels::height, to += panels::height) {
     for (int i = 0; i < 6; ++i) to[i] += from[i];
@@ -73,7 +73,7 @@ void BlockCholesky::assemble(const Front& front, const BlockMatrix& matrix, doub
   }
 }
 
-/// Adds runs first … last − 1 of a row of a child's update to the front.
+/// Adds the runs first … last − 1 of one row of the update of a child to the front.
 void BlockCholesky::take_over(const Front& front, const Handover& handover, int row, int first, int last) {
   const int columns = front.node.columns, count = static_cast<int>(handover.places.size());
   const int runs = static_cast<int>(handover.runs.size());
@@ -88,7 +88,8 @@ void BlockCholesky::take_over(const Front& front, const Handover& handover, int 
   }
 }
 
-/// Adds one child after another, so that the order of additions does not depend on the threads.
+/// Adds the columns of all children. One child is added after another, so that the order does not depend on the
+/// threads.
 void BlockCholesky::gather_columns(const Front& front, panels::Threads threads) {
   for (const Handover& handover : front.handovers) {
     panels::for_each(static_cast<int>(handover.places.size()), threads,
@@ -116,7 +117,7 @@ bool BlockCholesky::eliminate(const Front& front, const BlockMatrix& matrix, dou
                          reciprocals_.data() + std::ptrdiff_t{6} * front.node.first, below, front.panels, threads)) {
     return false;
   }
-  // After the product, which can then overwrite the memory instead of being added.
+  // The children are added after the product, so that the product can overwrite the memory.
   panels::minus_square(below, front.width(), front.panels, updates_.data() + front.update, threads);
   gather_update(front, threads);
   return true;
@@ -126,8 +127,9 @@ bool BlockCholesky::factorise(const BlockMatrix& matrix, double shift) {
   return factorise_blocks(matrix, shift) && factorise_border(matrix, shift);
 }
 
-/// The Schur complement of H' = H + shift in C' = C + shift is stationary in the response X. In the form C' + BᵀX + XᵀB
-/// + XᵀH'X its error is of second order in that of X; the form C' − Bᵀ H'⁻¹ B would lose most digits to cancellation.
+/// Factorises the Schur complement C' − Bᵀ H'⁻¹ B. B is the border, C is the corner, H' = H + shift·1 and C' = C +
+/// shift·1. It is computed from the response X = −H'⁻¹ B as C' + BᵀX + XᵀB + XᵀH'X. This form is stationary in X, so
+/// its error is of second order in the error of X. The form C' − Bᵀ H'⁻¹ B would lose most digits to cancellation.
 bool BlockCholesky::factorise_border(const BlockMatrix& matrix, double shift) {
   const Eigen::Index n = 6 * Eigen::Index{matrix.size()}, strains = matrix.strains();
   response_.resize(n, strains);

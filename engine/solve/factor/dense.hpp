@@ -5,8 +5,7 @@
 
 namespace isojam {
 
-// Dense decompositions of Eigen. They are compiled only here, because including them takes half a minute of
-// compilation.
+// Dense decompositions of Eigen. Only dense.cpp includes their headers, because these take half a minute to compile.
 
 /// Computes the eigenvalues of a symmetric matrix in ascending order. Reads only the lower half of the matrix.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
@@ -17,11 +16,11 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
-/// Computes an orthonormal basis of the space that independent columns span, by Householder reflections. It has the
-/// same number of columns.
+/// Computes an orthonormal basis of the space that independent columns span, by Householder reflections. The basis has
+/// the same number of columns.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
-/// An orthogonal basis of the whole space whose first vectors span the given independent columns.
+/// An orthonormal basis Q of the whole space. Its first vectors span the given independent columns.
 class CompletedBasis {
  public:
   explicit CompletedBasis(const Eigen::MatrixXd& columns);
@@ -29,7 +28,7 @@ class CompletedBasis {
   CompletedBasis(const CompletedBasis&) = delete;
   CompletedBasis& operator=(const CompletedBasis&) = delete;
 
-  /// Transforms A into this basis: QᵀAQ.
+  /// Transforms a matrix A into this basis: QᵀAQ.
   void enter(Eigen::MatrixXd& matrix) const;
   /// Transforms columns back from this basis: Q·columns.
   void leave(Eigen::MatrixXd& columns) const;

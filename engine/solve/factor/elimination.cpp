@@ -12,8 +12,7 @@ std::vector<int> inverse(const std::vector<int>& permutation) {
   return result;
 }
 
-/// A step of the elimination during its construction: its own positions, and the later positions it couples to,
-/// ascending.
+/// A supernode during the construction: its own positions, and the later positions to which it couples, ascending.
 struct Step {
   std::vector<int> own, rows;
   std::vector<int> children;
@@ -35,17 +34,17 @@ std::vector<Step> single_steps(const BlockMatrix& matrix, const std::vector<int>
     if (rows.empty()) continue;
     steps[k].parent = rows.front();
     steps[rows.front()].children.push_back(static_cast<int>(k));
-    // All other particles that this one couples to fill in its parent.
+    // By fill-in, the parent couples to all other positions to which this particle couples.
     steps[rows.front()].rows.insert(steps[rows.front()].rows.end(), rows.begin() + 1, rows.end());
   }
   return steps;
 }
 
-/// Number of ways to choose three of n.
+/// Number of ways to choose three of n objects.
 double choose_three(double n) { return n * (n - 1) * (n - 2) / 6; }
 
-/// Time for eliminating `columns` particles that couple to `rows` later ones, in units of products of two 6×6 blocks: a
-/// column with h rows takes (h + 1)(h + 2)/2.
+/// Time to eliminate `columns` particles that couple to `rows` later particles, in units of a product of two 6×6
+/// blocks. A column with h rows takes (h + 1)(h + 2)/2.
 double cost(std::size_t columns, std::size_t rows) {
   const auto c = static_cast<double>(columns), r = static_cast<double>(rows);
   constexpr double hand_up = 1.5;  // cost of passing a block to the parent
@@ -53,7 +52,7 @@ double cost(std::size_t columns, std::size_t rows) {
   return choose_three(r + c + 2) - choose_three(r + 2) + hand_up * r * (r + 1) / 2 + overhead;
 }
 
-/// Merges steps into their parents if that takes less time than the separate steps.
+/// Merges steps with their parents where one merged step takes less time than two separate steps.
 void merge(std::vector<Step>& steps) {
   for (std::size_t k = 0; k < steps.size(); ++k) {
     Step& step = steps[k];
@@ -78,7 +77,7 @@ void merge(std::vector<Step>& steps) {
   }
 }
 
-/// The remaining steps, children before parents and adjacent to them.
+/// The steps that remain after merge(). Children come directly before their parents.
 std::vector<int> postorder(const std::vector<Step>& steps) {
   std::vector<int> order, stack;
   std::vector<char> is_child(steps.size(), 0);

@@ -6,22 +6,22 @@
 
 namespace isojam {
 
-/// A supernode: particles that are eliminated together. They have the positions first … first + columns − 1 in the
-/// elimination order.
+/// A supernode: particles that are eliminated together. `columns` is their number, and they have the positions first …
+/// first + columns − 1 in the elimination order.
 struct Supernode {
   int first = 0, columns = 0;
-  std::vector<int> rows;      ///< later positions to which these particles couple, directly or by fill-in; ascending
-  std::vector<int> children;  ///< indices of the supernodes whose first row is one of these columns; ascending
+  std::vector<int> rows;      ///< later positions to which the supernode couples, directly or by fill-in; ascending
+  std::vector<int> children;  ///< indices of the supernodes whose first row is one of these positions; ascending
 };
 
-/// The order in which a Cholesky factorisation eliminates the particles, and the supernodes.
+/// The order in which a Cholesky factorisation eliminates the particles, and their supernodes.
 struct Elimination {
   std::vector<int> node_of;           ///< index of the particle at each position
   std::vector<Supernode> supernodes;  ///< children before parents, sorted by `first`
 };
 
-/// Plans the elimination for the pattern of `matrix`, close to the given order of its particles. The result depends
-/// only on the pattern and the order.
+/// Plans the elimination for the pattern of `matrix`. The order of the particles is close to `order`. The result
+/// depends only on the pattern and `order`.
 Elimination plan_elimination(const BlockMatrix& matrix, const std::vector<int>& order);
 
 }  // namespace isojam

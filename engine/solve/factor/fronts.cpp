@@ -9,23 +9,23 @@ namespace isojam {
 
 namespace {
 
-/// With fewer multiplications than this, 3 ms, one thread does the whole factorisation.
+/// Number of multiplications (3 ms) below which one thread does the whole factorisation.
 constexpr double work_to_share = 5e7;
 
-/// A subtree with less than this fraction of all work is done by one thread: small enough to keep several threads busy
-/// until the end.
+/// Fraction of all work below which one thread does a whole subtree. It is so small that several threads are busy until
+/// the end.
 constexpr double part_of_one = 1.0 / 32;
 
 constexpr int per_panel = panels::height / 6;  ///< particles per panel
 
 int panels_of(int particles) { return (particles + per_panel - 1) / per_panel; }
 
-/// Index of the 6×6 block at a row and a column in panels of `width` columns.
+/// Index of the 6×6 block at a row and a column of particles in panels of `width` columns.
 std::ptrdiff_t block_at(int row, int column, int width) {
   return panels::size(row / per_panel, width) + std::ptrdiff_t{6} * panels::height * column + 6 * (row % per_panel);
 }
 
-/// Index of position k of the elimination order in a supernode: its columns, then its rows.
+/// Index of position k of the elimination order in the list of the columns of a supernode, followed by its rows.
 int place_in(const Supernode& node, int k) {
   if (k < node.first + node.columns) return k - node.first;
   return node.columns + static_cast<int>(std::lower_bound(node.rows.begin(), node.rows.end(), k) - node.rows.begin());
@@ -123,15 +123,15 @@ void divide(FrontPlan& plan) {
   }
 }
 
-/// Memory of the update of a front, from its beginning to its end.
+/// Memory of the update of one front.
 struct Span {
   std::ptrdiff_t begin = 0, end = 0;
   int front = 0;
 };
 
-/// Places the updates of a range in memory. `live` are the updates left by its children, ascending. Returns the end of
-/// the highest one. An update is needed from its own front to its parent's. Each takes the lowest gap that is large
-/// enough, so that active memory stays together in the cache.
+/// Places the updates of the fronts of a range in memory. `live` contains the updates of the child ranges, sorted by
+/// memory. Returns the size of the used memory. An update is needed until its parent front is processed. Each update is
+/// placed in the lowest gap that is large enough, so that active memory stays together in the cache.
 std::ptrdiff_t lay_out_range(const FrontRange& range, std::vector<Span> live, std::vector<Front>& fronts) {
   std::ptrdiff_t size = 0;
   for (int f = range.first; f < range.last; ++f) {
@@ -149,8 +149,8 @@ std::ptrdiff_t lay_out_range(const FrontRange& range, std::vector<Span> live, st
   return size;
 }
 
-/// Every range has a part of its parent's memory for itself and all ranges below it. Memory that it reuses there has
-/// already been consumed by a front below it.
+/// Each range has a part of the memory of its parent range, for itself and all ranges below it. In this memory it
+/// overwrites only updates that a front below it has already used.
 void lay_out_updates(FrontPlan& plan) {
   const std::size_t n = plan.ranges.size();
   std::vector<std::ptrdiff_t> size(n, 0), begin(n, 0);

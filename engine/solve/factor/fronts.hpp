@@ -9,17 +9,20 @@
 
 namespace isojam {
 
-/// Describes how the update matrix of a child front is added to its parent front.
+/// Describes how the update matrix of a child front is added to its parent front. A place is an index in the list of
+/// the columns of the parent, followed by its rows.
 struct Handover {
   int child = 0;
-  /// positions of the rows of the child in the list of columns, followed by rows, of the parent; ascending
+  /// places of the rows of the child; ascending
   std::vector<int> places;
-  std::vector<int> runs;    ///< first elements of runs of consecutive positions; no run crosses the end of the columns
-  int runs_of_columns = 0;  ///< number of runs in the columns; these runs come first
+  /// indices in `places` at which runs of consecutive places begin; a run contains only columns or only rows of the
+  /// parent
+  std::vector<int> runs;
+  int runs_of_columns = 0;  ///< number of runs that contain columns; these runs come first
 };
 
-/// A front: the dense factor [L11; L21] of one supernode, stored in the panels of panels.hpp. L21 begins with a new
-/// panel.
+/// A front: the dense factor [L11; L21] of one supernode. L11 belongs to its columns and L21 to its rows. Both are
+/// stored in the panels of panels.hpp, and L21 begins with a new panel.
 struct Front {
   Supernode node;
   std::vector<Handover> handovers;
@@ -34,10 +37,11 @@ struct Front {
   int rows() const { return static_cast<int>(node.rows.size()); }
   std::ptrdiff_t factor_end() const;
   std::ptrdiff_t update_size() const;
-  double work() const;  ///< number of multiplications
-  /// Index in the array of all factors of the block at a position (columns, then rows) and a column.
+  double work() const;  ///< number of multiplications for the front
+  /// Index, in the array of all factors, of the 6×6 block at a place and a column. Places are columns, followed by
+  /// rows.
   std::ptrdiff_t at(int place, int column) const;
-  /// Index in the array of all updates of the block of two rows.
+  /// Index, in the array of all updates, of the 6×6 block at two rows of the supernode.
   std::ptrdiff_t update_at(int row, int column) const;
 };
 
@@ -48,7 +52,7 @@ struct BlockPlace {
   bool transposed = false;
 };
 
-/// The fronts first … last − 1, which one thread processes in this order.
+/// A range of fronts, first … last − 1. One thread processes them in this order.
 struct FrontRange {
   int first = 0, last = 0;
 };
@@ -57,12 +61,12 @@ struct FrontRange {
 struct FrontPlan {
   std::vector<int> node_of;        ///< particle at each position of the elimination order
   std::vector<Front> fronts;       ///< children before parents
-  std::vector<BlockPlace> blocks;  ///< front by front
-  /// Units of work for threads: subtrees with little work, and the single fronts above them. There is only one unit if
-  /// the total work is too small for several threads. If two ranges are in different branches of the tree, their
-  /// updates do not overlap in memory.
+  std::vector<BlockPlace> blocks;  ///< sorted by their front
+  /// Units of work for threads: subtrees with little work, and the single fronts above these subtrees. There is only
+  /// one range if the total work is too small for several threads. Ranges in different branches of the tree do not
+  /// share memory for their updates.
   std::vector<FrontRange> ranges;
-  std::vector<int> parents;  ///< index of the parent of each range, −1 if it has none
+  std::vector<int> parents;  ///< index of the parent range of each range, or −1 if it has none
   std::ptrdiff_t factor_size = 0, updates_size = 0;
 };
 

@@ -12,15 +12,15 @@ namespace isojam {
 
 namespace {
 
-/// Number of particles from which nested dissection is used. Ratio of operations, minimum degree to dissection, for
-/// octahedra with 8.4 contacts each:
+/// Number of particles from which nested dissection is used. The table gives the ratio of the numbers of operations of
+/// a factorisation, minimum degree to dissection, for octahedra with 8.4 contacts each:
 ///   N       100   150   200   300   400   800   1000  2000  4000
 ///   ratio   0.89  0.88  1.09  1.30  1.39  1.47  1.78  2.1   2.8
-/// Dissection itself takes 3 to 9 times as long as minimum degree, 1 ms for N = 300. There both take the same total
-/// time if nothing is kept from one matrix to the next. From N = 400 on dissection is faster (9.9 against 12.6 ms).
+/// Dissection itself takes 3 to 9 times as long as minimum degree, 1 ms for N = 300. If the order is used for only one
+/// factorisation, both methods take the same total time for N = 300, and dissection is faster from N = 400 on.
 constexpr int dissected_from = 300;
 
-/// Neighbours of every particle in the format of METIS.
+/// The neighbours of every particle, in the format of METIS.
 struct Graph {
   std::vector<idx_t> begin, neighbours;
 };

@@ -6,16 +6,16 @@
 
 namespace isojam {
 
-// Elimination orders of the particles that cause little fill-in in a Cholesky factorisation. A result has the index of
-// the particle at each position. It depends only on the pattern of the matrix.
+// Elimination orders of the particles that cause little fill-in in a Cholesky factorisation. The result contains, for
+// each position in the order, the index of the particle. It depends only on the pattern of the matrix.
 
 /// The order by approximate minimum degree (Amestoy, Davis & Duff 1996).
 std::vector<int> minimum_degree_order(const BlockMatrix& matrix);
 
-/// The order by nested dissection (METIS, Karypis & Kumar 1998). Throws std::bad_alloc.
+/// The order by nested dissection (METIS, Karypis & Kumar 1998). Throws std::bad_alloc if METIS runs out of memory.
 std::vector<int> dissection_order(const BlockMatrix& matrix);
 
-/// The order by the method that is better for this number of particles.
+/// The order by the method that is faster in total for this number of particles.
 std::vector<int> fill_reducing_order(const BlockMatrix& matrix);
 
 }  // namespace isojam

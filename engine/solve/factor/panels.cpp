@@ -13,15 +13,17 @@ namespace isojam::panels {
 
 namespace {
 
-// Four lanes even without such vectors, where the compiler splits them in two: sums over lanes have the same order.
+// Vectors have four lanes even if the processor has only shorter ones. Sums over lanes then have the same order
+// everywhere.
 constexpr int lanes = 4;
 constexpr int vectors = height / lanes;
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 
-/// Columns processed together: with twelve rows each they leave registers for the factors.
+/// Number of columns that are processed together. They have twelve rows each, which leaves registers for the factors.
 constexpr int step = 3;
 
-/// Columns of the factor used in one pass: a panel of them stays in the first-level cache.
+/// Number of columns of the factor that are used in one pass. A panel with so many columns stays in the first-level
+/// cache.
 constexpr int depth_at_once = 144;
 
 struct Tile {
@@ -57,7 +59,8 @@ inline void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) {
 inline void keep(Lanes& /*value*/) {}
 #endif
 
-/// tile −= A Bᵀ; A is the first `depth` columns of a panel, B the same columns of `step` rows of a panel.
+/// Computes tile −= A Bᵀ. A is the first `depth` columns of a panel, and B is the same columns of `step` rows of a
+/// panel.
 inline void subtract_product(const double* a, const double* b, int depth, Tile& tile) {
   for (int k = 0; k < depth; ++k, a += height, b += height) {
     Lanes column[vectors];
@@ -84,12 +87,12 @@ inline void store(const Tile& tile, double* to) {
   for (int j = 0; j < step; ++j) store(tile.of[j], to + height * j);
 }
 
-/// Beginning of rows k … k + step − 1.
+/// Pointer to rows k … k + step − 1 in column 0.
 inline const double* rows_at(const double* matrix, int width, int k) {
   return matrix + size(k / height, width) + k % height;
 }
 
-/// X L⁻ᵀ for `step` columns; `l` points to the corresponding square of L.
+/// Computes X L⁻ᵀ for `step` columns X. `l` points to the corresponding square of L.
 inline void solve_step(const double* l, const double* reciprocals, Tile& x) {
 #pragma GCC unroll 3
   for (int k = 0; k < step; ++k) {
@@ -103,7 +106,8 @@ inline void solve_step(const double* l, const double* reciprocals, Tile& x) {
   }
 }
 
-/// Columns first … last − 1 of one panel of B L⁻ᵀ. The columns before `first` must already have been subtracted.
+/// Computes columns first … last − 1 of one panel of B L⁻ᵀ. The parts due to columns before `first` must already be
+/// subtracted.
 void solve_panel(const double* l, int width, const double* reciprocals, int first, int last, double* panel) {
   for (int k = first; k < last; k += step) {
     const double* rows = rows_at(l, width, k);
@@ -115,7 +119,7 @@ void solve_panel(const double* l, int width, const double* reciprocals, int firs
   }
 }
 
-/// Subtracts the contribution of columns first … last − 1 from columns last … end − 1 of a panel.
+/// Subtracts the parts due to columns first … last − 1 from columns last … end − 1 of a panel.
 void update_panel(const double* l, int width, int first, int last, int end, double* panel) {
   for (int k = last; k < end; k += step) {
     Tile tile;
@@ -125,8 +129,8 @@ void update_panel(const double* l, int width, int first, int last, int end, doub
   }
 }
 
-/// Adds the contribution of `depth` columns of X from `first` on to panel p of −X Xᵀ; first = 0 overwrites the panel.
-/// It is a separate function because g++ 12 keeps fewer tiles in registers if it is part of a lambda.
+/// Adds the part due to `depth` columns of X, from `first` on, to panel p of −X Xᵀ. If first = 0, it overwrites the
+/// panel. It is a separate function because g++ 12 keeps fewer tiles in registers if it is part of a lambda.
 [[gnu::noinline]] void square_panel(const double* x, int width, int first, int depth, int p, double* c) {
   const double* rows = x + size(p, width) + height * first;
   double* to = c + packed_size(p);
@@ -138,7 +142,8 @@ void update_panel(const double* l, int width, int first, int last, int end, doub
   }
 }
 
-/// Computes L of the square of `step` rows and columns at `a`, and its reciprocals.
+/// Replaces the square of `step` rows and columns at `a` by its factor L. Returns false if a pivot is not a positive
+/// number.
 bool factorise_step(double* a, double* reciprocals) {
   for (int k = 0; k < step; ++k) {
     const double pivot = a[height * k + k];
@@ -154,7 +159,8 @@ bool factorise_step(double* a, double* reciprocals) {
   return true;
 }
 
-/// Columns k … k + step − 1 of the panel that contains their diagonal, like solve_panel for the panels below.
+/// Computes columns k … k + step − 1 of the panel that contains their diagonal. solve_panel() does this for the panels
+/// below. Returns false if a pivot is not a positive number.
 bool factorise_diagonal(double* panel, int first, int k, double* reciprocals) {
   const int row = k % height;
   double* columns = panel + height * k;
@@ -173,7 +179,7 @@ bool factorise_diagonal(double* panel, int first, int k, double* reciprocals) {
   return true;
 }
 
-/// column −= panel · z; z has `depth` entries.
+/// Computes column −= panel · z, where z has `depth` entries.
 inline void subtract_columns(const double* panel, int depth, const double* z, Lanes (&column)[vectors]) {
   for (int k = 0; k < depth; ++k, panel += height) {
     Lanes term[vectors];
@@ -194,8 +200,8 @@ bool factorise(double* a, int width, double* reciprocals, double* b, int count, 
         if (!factorise_diagonal(panel, first, k, reciprocals + k)) return false;
       }
     }
-    // The remaining panels of A, then those of B. A panel is updated by the panels above it, which must be solved
-    // before.
+    // The remaining panels of A come first, then those of B. A panel is updated by the panels above it, which must be
+    // solved before.
     const int next = (last + height - 1) / height, below = (width + height - 1) / height - next;
     const auto panel_at = [&](int p) { return p < below ? a + size(next + p, width) : b + size(p - below, width); };
     const auto solve = [&](int p) { solve_panel(a, width, reciprocals, first, last, panel_at(p)); };

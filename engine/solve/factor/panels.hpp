@@ -4,13 +4,13 @@
 
 #include "engine/parallel/parallel.hpp"
 
-// Dense matrix operations of the multifrontal factorisation. A matrix is stored in panels of 12 rows, that is, of two
-// particles. Each operation then reads its matrices sequentially. Entry (i, j) of a matrix with c columns is at the
+// Dense matrix operations of the multifrontal factorisation. A matrix is stored in panels of 12 rows, which belong to
+// two particles. Each operation then reads its matrices sequentially. Entry (i, j) of a matrix with c columns is at the
 // index
-//   12·c·(i / 12) + 12·j + i mod 12.
+//   12·c·⌊i/12⌋ + 12·j + i mod 12.
 // A symmetric matrix is stored as its lower half, panel by panel; panel p has 12·(p + 1) columns. If the number of
-// particles is odd, the second half of the last panel is unused; it must be zero, and remains zero. Sizes are numbers
-// of doubles, except `count`, which is a number of panels.
+// particles is odd, the second half of the last panel is unused. It must be zero, and remains zero. `count` is a number
+// of panels. All other sizes are numbers of doubles.
 
 namespace isojam::panels {
 
@@ -19,20 +19,20 @@ inline constexpr int height = 12;
 constexpr std::ptrdiff_t size(int count, int columns) { return std::ptrdiff_t{height} * count * columns; }
 constexpr std::ptrdiff_t packed_size(int count) { return std::ptrdiff_t{height} * height * count * (count + 1) / 2; }
 
-/// Threads that process the panels of a front: only the calling thread, or all threads of for_each_in_forest(). In the
-/// second case the caller must be a call of for_each_in_forest(). Both give the same bits.
+/// Threads that process the panels of a front: only the calling thread, or all threads of for_each_in_forest(). If
+/// `all` is used, the caller must be a call of for_each_in_forest(). Both give the same bits.
 enum class Threads { one, all };
 
-/// Calls run(k) for every k < count, in this order on the calling thread, or on all threads.
+/// Calls run(k) for every k < count, either in this order on the calling thread, or on all threads.
 template <class Run>
 void for_each(int count, Threads threads, const Run& run) {
   if (threads == Threads::all) return for_each_index_within(count, [&run](std::size_t k) { run(static_cast<int>(k)); });
   for (int k = 0; k < count; ++k) run(k);
 }
 
-/// Computes the Cholesky factorisation A = L Lᵀ. It replaces the lower half of A by L and the upper half by zero; A has
-/// `width` rows and columns, a multiple of 6. It writes 1/L_kk to `reciprocals`. It also replaces B, which has `count`
-/// panels, by B L⁻ᵀ. Returns false if a pivot is not a positive number.
+/// Computes the Cholesky factorisation A = L Lᵀ of a matrix with `width` rows and columns, a multiple of 6. It replaces
+/// the lower half of A by L and the upper half by zero, and writes 1/L_kk to `reciprocals`. It replaces B, which has
+/// `count` panels, by B L⁻ᵀ. Returns false if a pivot is not a positive number.
 bool factorise(double* a, int width, double* reciprocals, double* b, int count, Threads threads);
 
 /// Computes the symmetric matrix C = −X Xᵀ, stored as its lower half. X has `count` panels of `width` columns.
@@ -41,13 +41,13 @@ void minus_square(const double* x, int width, int count, double* c, Threads thre
 /// Replaces y, which has `width` entries, by L⁻¹ y.
 void solve_forward(const double* l, int width, const double* reciprocals, double* y);
 
-/// Replaces y by L⁻ᵀ y.
+/// Replaces y, which has `width` entries, by L⁻ᵀ y.
 void solve_backward(const double* l, int width, const double* reciprocals, double* y);
 
-/// Subtracts X z from y. z has `width` entries, y has 12·count.
+/// Subtracts X z from y, where z has `width` entries and y has 12·count entries.
 void subtract_product(const double* x, int width, int count, const double* z, double* y);
 
-/// Subtracts Xᵀ y from z.
+/// Subtracts Xᵀ y from z, where y has 12·count entries and z has `width` entries.
 void subtract_transposed(const double* x, int width, int count, const double* y, double* z);
 
 }  // namespace isojam::panels

@@ -8,9 +8,9 @@
 
 namespace isojam {
 
-/// The operator (H − σ·1)⁻¹ for any σ that is not an eigenvalue of H. It uses BlockCholesky if the shifted matrix is
-/// positive definite, and otherwise SimplicialLDLT of Eigen. It has the interface that the shift-invert solvers of
-/// Spectra require. H must outlive the operator.
+/// The operator (H − σ·1)⁻¹ for any σ that is not an eigenvalue of H. It uses BlockCholesky if H − σ·1 is positive
+/// definite, and SimplicialLDLT of Eigen otherwise. It has the interface that the shift-invert solvers of Spectra
+/// require. H must outlive the operator.
 ///
 ///   ShiftInvert operation(hessian);
 ///   Spectra::SymEigsShiftSolver<ShiftInvert> solver(operation, 53, 120, -1e-9 * lambda_max);
@@ -22,14 +22,14 @@ class ShiftInvert {
 
   Eigen::Index rows() const { return matrix_.rows(); }
   Eigen::Index cols() const { return rows(); }
-  /// Factorises H − σ·1. Throws std::domain_error if a pivot is zero or not finite. This happens if σ is an eigenvalue
-  /// of H, or of a leading part of H, in double precision, or if H contains NaN.
+  /// Factorises H − σ·1. Throws std::domain_error if a pivot is zero or not finite. This happens if H contains NaN, or
+  /// if σ is within rounding errors an eigenvalue of H or of a leading part of H.
   void set_shift(double sigma);
   /// Computes y = (H − σ·1)⁻¹ x. x and y have rows() entries.
   void perform_op(const double* x, double* y) const;
 
   bool positive_definite() const { return positive_definite_; }  ///< true if H − σ·1 is positive definite
-  /// Number of eigenvalues of H below σ, by Sylvester's law of inertia.
+  /// Number of eigenvalues of H below σ, from the number of negative pivots (Sylvester's law of inertia).
   int negative_pivots() const { return negative_pivots_; }
 
  private:

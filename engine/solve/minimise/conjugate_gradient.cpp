@@ -6,15 +6,16 @@ namespace isojam {
 
 namespace {
 
-/// CG needs a nearly exact line search; otherwise its directions lose conjugacy.
+/// The method needs a nearly exact line search; otherwise its directions are no longer conjugate.
 constexpr double curvature = 0.1;
 
-/// Displacement of the farthest particle in the first trial. Any small length works, since later steps adapt.
+/// Largest displacement of a particle in the first trial step. Any small length works, because later steps adapt.
 constexpr double first_displacement = 1e-3;
 
 }  // namespace
 
-/// Nonlinear conjugate gradients, β = max(0, g·(g − g_old)/g_old·g_old) (Polak, Ribière; restarted when negative).
+/// Nonlinear conjugate gradients with β = max(0, g·(g − g_old)/g_old·g_old) (Polak, Ribière). They restart when β is
+/// negative.
 MinimiseSummary minimise_conjugate_gradient(Descent& descent) {
   Eigen::VectorXd gradient, direction;
   double slope_before = 0;

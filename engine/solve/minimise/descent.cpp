@@ -9,11 +9,11 @@ namespace isojam {
 
 namespace {
 
-/// Upper limit of every particle's displacement in one trial, in inradii: the energy's model of a step does not include
-/// pairs that are farther apart.
+/// Upper limit of the displacement of a particle in one trial step, in units of the inradius. In a longer step,
+/// particles would touch that the model of the energy ignores.
 constexpr double trust_in_inradii = 0.4;
 
-/// If the residual is below this many times its floor, rounding errors begin to mislead.
+/// Double-double is used if the residual is below this many times its floor, because rounding errors then matter.
 constexpr double floors_before_refining = 10;
 
 }  // namespace
@@ -35,8 +35,8 @@ Descent::Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions&
       previous_energy_(std::numeric_limits<double>::infinity()),
       evaluations_(1) {}
 
-/// Double precision is enough until the residual is near its floor. Then only double-double can decide whether the goal
-/// is reached.
+/// Double precision is enough until the residual is near its floor. Then only double-double can decide whether the
+/// requested residual is reached.
 void Descent::raise_precision() {
   const bool near_floor = here_.residual <= std::max(options_.residual, floors_before_refining * here_.residual_floor);
   if (precision_ == Precision::double_double || !near_floor || here_.residual_floor <= options_.residual) return;
@@ -65,7 +65,7 @@ void Descent::count_factorisations(long factorisations, long updates) {
 std::optional<StopReason> Descent::verdict() {
   if (!std::isfinite(here_.energy) || !here_.gradient.allFinite()) return StopReason::not_finite;
   if (cell_limit_) return StopReason::cell_limit;
-  // Under a pressure a packing is always jammed.
+  // Under pressure a packing is always jammed.
   const bool loaded = frees_volume(options_.control.cell);
   if (here_.contacts == 0 && !loaded) return StopReason::unjammed;
   raise_precision();

@@ -11,7 +11,8 @@
 namespace isojam {
 
 /// State of a minimisation, which all minimisers use: the current packing, the number of evaluations, and the stopping
-/// criteria. Only steps to a lower energy are accepted, so the current packing is always the best one found.
+/// criteria. The current packing is always the best one found, because minimisers accept only steps that lower the
+/// energy or reach an equilibrium.
 class Descent {
  public:
   Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop);
@@ -21,24 +22,25 @@ class Descent {
   const MinimiseOptions& options() const { return options_; }
   long evaluations() const { return evaluations_; }
 
-  /// The reason to stop in the current state, or nullopt if there is none. Changes to Precision::double_double if the
-  /// decision requires it.
+  /// The reason to stop in the current state, or nullopt if there is none. If the residual is near its floor, this
+  /// function changes to Precision::double_double first.
   std::optional<StopReason> verdict();
-  /// Moves along `direction` (a descent direction) by a line search that starts with the step `first_step`·direction.
-  /// Returns false if no lower energy was found. last_step() is the step taken, as a multiple of `direction`.
+  /// Moves along `direction` (a descent direction) by a line search. The first trial step is first_step·direction, and
+  /// `curvature` is LineSearchOptions::curvature. Returns false, and does not move, if no lower energy was found.
   bool advance(const Eigen::VectorXd& direction, double first_step, double curvature);
   double last_step() const { return last_step_; }
-  /// Upper limit of the displacement of a particle in one trial step (V_p^(1/3)).
+  /// Upper limit of the displacement of a particle in one trial step, in units of V_p^(1/3).
   double longest_displacement() const;
-  /// Computes the second derivatives of any state, and its incipient contacts within `probe_distance` (V_p^(1/3)).
+  /// Computes the second derivatives of any state, and its incipient contacts for a probe distance (V_p^(1/3)).
   SecondOrder second_order(const Packing& packing, double probe_distance);
-  /// Evaluates the state `there` that is reached from `from` by `step`, without moving the current state. If the cell
-  /// of this state would be too small, returns an infinite energy; the minimisation then stops with cell_limit.
+  /// Computes the state `there`, which `step` reaches from `from`, and evaluates it. The current state does not change.
+  /// If the cell of the new state would be too small or too skew (is_legal()), the energy is infinite, and the
+  /// minimisation stops with cell_limit.
   Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
   /// Moves the current state to a state that probe() has evaluated.
   void accept(Packing there, Evaluation value);
 
-  /// Adds factorisations and updates of a factorisation to the summary.
+  /// Adds numbers of factorisations and of updates of a factorisation to the summary.
   void count_factorisations(long factorisations, long updates);
 
   MinimiseSummary finish(StopReason reason) const;
@@ -61,7 +63,7 @@ class Descent {
   MinimiseWork work_;
 };
 
-/// Largest displacement |dx| or R|dθ| of a particle in a step. Strains ℓ·ε count as displacements.
+/// Largest displacement |dx| or R|dθ| of a particle in a step. Free strains ℓ·ε count as displacements.
 double largest_displacement(const Eigen::VectorXd& step);
 
 MinimiseSummary minimise_conjugate_gradient(Descent& descent);

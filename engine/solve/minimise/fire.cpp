@@ -3,8 +3,8 @@
 
 #include "engine/solve/minimise/descent.hpp"
 
-// FIRE: damped dynamics that stops whenever it moves uphill (Bitzek, Koskinen, Gähler, Moseler & Gumbsch 2006), with
-// unit masses in (x, R·θ) and the constants of that paper.
+// FIRE: damped dynamics. It sets the velocity to zero when the motion is uphill (Bitzek, Koskinen, Gähler, Moseler &
+// Gumbsch 2006). All masses in the coordinates (x, R·θ) are 1, and the constants are those of that paper.
 
 namespace isojam {
 
@@ -13,7 +13,7 @@ namespace {
 constexpr double grow = 1.1, shrink = 0.5, first_mixing = 0.1, mixing_decay = 0.99;
 constexpr int downhill_before_growth = 5;
 
-/// Time steps in units of 1/√λ, the time scale of the stiffest particle.
+/// Time steps in units of 1/√λ, where λ is the largest diagonal entry of the Hessian.
 constexpr double first_time = 0.1, longest_time = 100;
 
 struct Motion {
@@ -22,7 +22,7 @@ struct Motion {
   int downhill = 0;
 };
 
-/// Rotates the velocity towards the force, or stops it if it points uphill.
+/// Rotates the velocity towards the force. If the velocity points uphill, sets it to zero instead.
 void steer(const Eigen::VectorXd& force, double longest, Motion& motion) {
   if (force.dot(motion.velocity) > 0) {
     motion.velocity =
@@ -61,7 +61,7 @@ MinimiseSummary minimise_fire(Descent& descent) {
     Packing next = current;
     value = descent.probe(current, step, next);
     current = std::move(next);
-    // The dynamics may move uphill for a while; the best state found is kept.
+    // The dynamics may move uphill for a while. Only a better state is kept.
     if (value.energy < descent.here().energy || value.residual <= descent.options().residual)
       descent.accept(current, value);
   }

@@ -9,13 +9,13 @@ namespace {
 constexpr double curvature = 0.9;
 constexpr double first_displacement = 1e-3;
 
-/// A step and the change of the gradient along it.
+/// A step and the change of the gradient in this step.
 struct Correction {
   Eigen::VectorXd step, change;
   double inverse_product = 0;
 };
 
-/// −H g, where H is the limited-memory inverse Hessian, by the two-loop recursion.
+/// Computes −H g by the two-loop recursion, where H is the limited-memory inverse Hessian and g is the gradient.
 Eigen::VectorXd descent_direction(const std::deque<Correction>& memory, const Eigen::VectorXd& gradient) {
   Eigen::VectorXd q = -gradient;
   std::vector<double> alpha(memory.size());
@@ -34,7 +34,7 @@ Eigen::VectorXd descent_direction(const std::deque<Correction>& memory, const Ei
 
 }  // namespace
 
-/// Limited-memory BFGS. Orientations enter through their tangent (R·dθ): each step ends at the origin of the next one.
+/// Limited-memory BFGS. The coordinates R·dθ of a step are relative to the orientations at its start.
 MinimiseSummary minimise_lbfgs(Descent& descent) {
   std::deque<Correction> memory;
   while (true) {
@@ -49,7 +49,8 @@ MinimiseSummary minimise_lbfgs(Descent& descent) {
     }
     Correction correction{descent.last_step() * direction, descent.here().gradient - gradient, 0};
     const double product = correction.step.dot(correction.change);
-    if (!(product > 0)) continue;  // a strong Wolfe step has positive curvature; a truncated one may not
+    // a step that satisfies the strong Wolfe conditions has a positive product, but a truncated step may not
+    if (!(product > 0)) continue;
     correction.inverse_product = 1 / product;
     memory.push_back(std::move(correction));
     if (memory.size() > static_cast<std::size_t>(descent.options().history)) memory.pop_front();

@@ -9,8 +9,8 @@ namespace isojam {
 
 namespace {
 
-/// Minimum of the cubic through two points with slopes, kept away from the ends of the interval so that the interval
-/// shrinks.
+/// Minimum of the cubic through two points with their slopes. It is kept away from the ends of the interval, so that
+/// the interval shrinks.
 double cubic_minimum(const LinePoint& p, const LinePoint& q) {
   const double width = q.step - p.step;
   const double d1 = p.slope + q.slope - 3 * (q.value - p.value) / width;
@@ -40,12 +40,13 @@ class Search {
     return p.value <= start_.value + noise_ && p.slope <= (2 * options_.decrease - 1) * start_.slope;
   }
   bool flat_enough(const LinePoint& p) const { return std::abs(p.slope) <= -options_.curvature * start_.slope; }
-  /// True if p is lower, or flatter if rounding leaves the order open.
+  /// True if p has a lower value than `best`. If the values differ only by rounding errors: true if p has a smaller
+  /// slope.
   bool better(const LinePoint& p, const LinePoint& best) const {
     if (std::abs(p.value - best.value) > noise_) return p.value < best.value;
     return std::abs(p.slope) < std::abs(best.slope);
   }
-  /// True if p is higher than the best point by more than rounding.
+  /// True if the value at p is higher than the value at `best` by more than rounding errors.
   bool higher(const LinePoint& p, const LinePoint& best) const { return p.value > best.value + noise_; }
 
  private:
@@ -54,7 +55,7 @@ class Search {
   double noise_;
 };
 
-/// Next trial step: farther than `p` until the minimum is bracketed, then within the bracket.
+/// The next trial step: farther than `p` if the minimum is not bracketed, otherwise within the bracket.
 double next_step(const LinePoint& p, const LinePoint& low, const LinePoint& high, bool bracketed, double longest) {
   if (!bracketed) return std::min({3 * p.step, longest});
   return std::isfinite(high.value) ? cubic_minimum(low, high) : (low.step + high.step) / 2;

@@ -12,8 +12,8 @@
 namespace isojam {
 
 /// Method of minimisation. With `multipliers`, jam() follows an equilibrium through each strain step near jamming
-/// (solve/multipliers/). If there is no equilibrium to follow, and in minimise(), `multipliers` is the same as
-/// `newton`. The other methods exist for comparison; near jamming they do not converge.
+/// (solve/multipliers/). In all other cases `multipliers` is the same as `newton`. The methods conjugate_gradient, fire
+/// and lbfgs do not converge near jamming; they exist for comparison.
 enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
 inline constexpr std::array enum_names<Method>{
@@ -23,22 +23,22 @@ inline constexpr std::array enum_names<Method>{
 /// Method of minimisation, and criteria to stop it.
 struct MinimiseOptions {
   Method method = Method::multipliers;  ///< method of minimisation
-  /// Largest residual of an equilibrium: the minimisation stops when Evaluation::residual is at most this value.
+  /// Largest residual of an equilibrium: the minimisation stops when Evaluation::residual is at most this large.
   double residual = 1e-6;
-  /// Stopping rule of the paper, which uses 1e-12: the minimisation stops when an iteration changes the energy by less
-  /// than this fraction. 0 switches the rule off. Near jamming, a state that satisfies the rule is not necessarily an
-  /// equilibrium, but jam() accepts it.
+  /// Stopping rule of the paper, which uses 1e-12: the minimisation stops when an iteration decreases the energy by
+  /// less than this fraction. 0 switches the rule off. Near jamming, a state that satisfies the rule is not necessarily
+  /// an equilibrium, but jam() accepts it.
   double energy_change = 0;
-  /// Energy per particle (Y·V_p) below which a state counts as unjammed, if its energy still decreases. A state whose
-  /// forces balance never counts as unjammed, for any energy.
+  /// Energy per particle (Y·V_p) below which a state that is not yet an equilibrium counts as unjammed. An equilibrium
+  /// with contacts never counts as unjammed. Not used if the volume is free.
   double unjammed_energy = 1e-20;
   long max_evaluations = 20000;  ///< largest number of evaluations of energy and forces in one minimisation
   int history = 20;              ///< number of pairs of steps and gradient changes that L-BFGS stores
   CellControl control{};         ///< free strains of the cell and load on the cell; by default the cell is fixed
 };
 
-/// Moves `packing` towards a local minimum of the energy, or of the enthalpy for a variable cell. On return, `packing`
-/// is the state with the lowest energy that was found.
+/// Minimises the energy of `packing`, or the enthalpy for a variable cell. On return, `packing` is the best state that
+/// was found.
 MinimiseSummary minimise(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options,
                          std::stop_token stop = {});
 

@@ -7,31 +7,34 @@
 #include "engine/solve/minimise/descent.hpp"
 #include "engine/solve/minimise/step_model.hpp"
 
-// Near jamming the stiffnesses of a packing span ten orders of magnitude. For first-order methods this is the condition
-// number; Newton's method is not affected. Its limit is the range in which its model holds, so it does three things.
-// The model anticipates pairs that close and contacts that tilt (step_model.hpp). A step that raises the energy is
-// continued before it is rejected (Chamberlain's watchdog technique). Rotating particles together moves flat contacts
-// out of their planes by the square of the angle, far more than their depth; one Newton step from there corrects this.
-// The shift μ shortens steps that still fail (Levenberg, Marquardt).
+// Near jamming the stiffnesses of a packing span ten orders of magnitude. Their ratio is the condition number for
+// first-order methods, but does not affect Newton's method. Newton's method is limited by the range in which its model
+// of the energy holds. Three measures extend this range. First, the model anticipates pairs that close and contacts
+// that tilt (step_model.hpp). Second, a step that raises the energy is continued before it is rejected (Chamberlain's
+// watchdog technique): if particles rotate together, flat contacts move out of their planes by the square of the angle,
+// far more than their depth, and one more Newton step corrects this. Third, the shift μ shortens steps that still fail
+// (Levenberg, Marquardt).
 
 namespace isojam {
 
 namespace {
 
-/// Number of steps from a trial state of higher energy before the trial is rejected.
+/// Largest number of steps from a trial state with a higher energy. If they do not lead to a lower energy, the trial is
+/// rejected.
 constexpr int follow_ups = 3;
 
-/// A trial that raises the energy by more than this factor is hopeless.
+/// A trial is rejected at once if it raises the energy by more than this factor.
 constexpr double hopeless = 1e6;
 
-/// Failures in one state after which the model no longer anticipates pairs: the anticipation may be
-/// incorrect, and then no shift helps.
+/// Number of failures in one state after which the model no longer anticipates pairs. If the anticipation is incorrect,
+/// no shift helps.
 constexpr int patience = 4;
 
-/// Probe distance for incipient contacts as a fraction of the last step, and its bounds in inradii.
+/// Probe distance for incipient contacts: fraction of the last step, and lower and upper bounds in units of the
+/// inradius.
 constexpr double probe_per_step = 0.05, least_probe = 2e-8, most_probe = 2e-3;
 
-/// The shift μ, adapted to the quality of the model's last prediction.
+/// The shift μ. It is adapted to the quality of the last prediction of the model.
 class Shift {
  public:
   void set_scale(double largest_diagonal) {
@@ -45,22 +48,22 @@ class Shift {
   }
   double value() const { return value_; }
   bool exhausted() const { return value_ > most_; }
-  /// After a failed step; the factor grows each time.
+  /// To be called after a failed step. The factor increases with each call.
   void raise() {
     value_ *= growth_;
     growth_ *= 2;
   }
-  /// After an accepted step, from the ratio of its actual to its predicted decrease (Nielsen's rule).
+  /// To be called after an accepted step with the ratio of its actual to its predicted decrease (Nielsen's rule).
   void adapt(double ratio) {
     value_ = std::max(value_ * std::max(0.2, 1 - cubed(2 * ratio - 1)), least_);
     growth_ = 2;
   }
-  /// After a step that needed follow-up steps.
+  /// To be called after a step that needed follow-up steps.
   void ease() {
     value_ = std::max(value_ / 2, least_);
     growth_ = 2;
   }
-  /// For another model in the same state.
+  /// To be called before another model is used in the same state.
   void restart() {
     value_ = std::min(value_, 1e-2 * scale_);
     growth_ = 2;
@@ -105,8 +108,8 @@ class Newton {
     return StepModel(descent_.second_order(packing, probe_distance), value.gradient, descent_.longest_displacement());
   }
 
-  /// True if a state with energy `value` is an improvement when the decrease `predicted` was expected. If energies do
-  /// not resolve the step, the forces decide.
+  /// True if a state with the evaluation `value` is an improvement. `predicted` is the decrease that the model
+  /// predicts. If energies do not resolve the step, the forces decide.
   bool acceptable(const Evaluation& value, double predicted) const {
     const Evaluation& here = descent_.here();
     const double actual = here.energy - value.energy;
@@ -114,7 +117,7 @@ class Newton {
     return actual > -here.energy_noise && value.gradient.norm() < here.gradient.norm();
   }
 
-  /// Tries one step with the present shift. Returns true if it was accepted, with or without follow-up steps.
+  /// Tries one step with the present shift. Returns true if it was accepted, possibly after follow-up steps.
   bool advance(StepModel& model) {
     const auto step = model.minimise(shift_.value(), factor_, active_);
     if (!step) {
@@ -138,8 +141,8 @@ class Newton {
     return true;
   }
 
-  /// Continues from a trial state that was not acceptable, at distance `length` from the present one. Returns true if
-  /// `there` ends in an acceptable state.
+  /// Continues from the trial state `there`, which was not acceptable. `length` is its distance from the present state.
+  /// Returns true if `there` is an acceptable state at the end.
   bool follow_up(Packing& there, Evaluation& value, double predicted, double length) {
     ActivePairs active = active_;
     for (int k = 0; k < follow_ups; ++k) {

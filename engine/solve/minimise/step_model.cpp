@@ -8,14 +8,16 @@
 #include "engine/solve/factor/low_rank_update.hpp"
 #include "engine/solve/minimise/descent.hpp"
 
-// Near jamming the series E + g·s + ½ s·H s holds only for steps up to the depth of a flat contact, 1e-10 or less. Two
-// effects occur earlier: pairs close, and flat contacts tilt until their section line crosses the face. The model of a
-// pair has a spring for each. V of a touching corner whose face is about to become coplanar with the other body's face:
+// Near jamming the series E + g·s + ½ s·H s is valid only for steps up to the depth of a flat contact, 1e-10 or less.
+// Two effects occur in longer steps: pairs close, and flat contacts tilt. The model of a pair has a spring for each
+// effect.
+//
+// Closing. The sketch shows V of a vertex on a face. In the step, two faces of the particles become coplanar.
 //
 //    V |                                 *
-//      |                                * closed: tangent with the gap closed
+//      |                                * closed: tangent in the closed state
 //      |                               *
-//      |                              *   . . . . now: present tangent
+//      |                              *   . . . . now: tangent in the present state
 //      |                          * *.
 //      |                  * * * *   .
 //      |          * * * *          .
@@ -24,21 +26,30 @@
 //      |                        .
 //
 // The model is V = max(0, now, closed), drawn with *. It is a lower bound, because V of a flat contact is convex. If
-// the pair does not touch, now = 0.
+// the pair has a gap, now = 0.
 //
-//   incipient contact    A pair that touches, or would touch with centres closer by the probe distance, a fraction of
-//                        the last step (incipient_contact.hpp). The model ignores pairs that are farther apart.
-//   linearised overlap   V to first order in s, at_rest + slope·s. A pair has two: now and closed.
-//   tilt term            ½ τ·Tτ, τ the relative rotation: the stiffness of a flat contact after its section line
-//                        crosses the face. Before that V is linear in the rotation, so that H lacks this stiffness.
-//   active set           Pairs that the step closes, closed > max(0, now): they have the spring ¼ closed², which adds
-//                        ½ ∇V ∇Vᵀ to H. And pairs that it tilts too far for their energy: they have a fraction w of T.
-//   shift The Levenberg–Marquardt μ, the same for every coordinate. For larger μ more contacts have their
-//                        tilt term, and pairs whose spring is softer than μ need not close in the model.
+// Tilting. The faces of a flat contact rotate relative to each other, until the line in which the two face planes
+// intersect crosses the faces. Before that, V is linear in the rotation, so H does not contain a stiffness against it.
 //
-// The step is the zero of the gradient of g·s + ½ s·(H + μ)s + Σ_closing ¼ closed² + Σ ½ w τ·Tτ, which is a linear
-// system. The active set and s depend on each other, so the two are alternated for a few iterations. In the predicted
-// decrease each spring costs ¼ (closed² − now²). Tilt terms and shift are a precaution and are not counted.
+// Terms of the model:
+//
+//   incipient contact    A pair that touches, or that would touch if the centres were closer by the probe distance
+//                        (incipient_contact.hpp). The probe distance is a fraction of the last step. The model ignores
+//                        all other pairs.
+//   linearised overlap   V to first order in s, at_rest + slope·s. A pair has two of them: now and closed.
+//   tilt term            The energy ½ τ·Tτ, where τ is the relative rotation of the pair and T is
+//                        IncipientContact::tilt.
+//   active set           The pairs that close or tilt in the step. A pair closes if closed > max(0, now). It then has
+//                        the energy ¼ closed², which adds ½ ∇V ∇Vᵀ to H. A pair tilts if its tilt term is large
+//                        compared with its energy. It then has a fraction w of its tilt term.
+//   shift                The Levenberg–Marquardt parameter μ, the same for every coordinate. The larger μ is, the
+//                        larger is the fraction w of the tilt term of all contacts. A pair whose spring is softer than
+//                        μ does not close in the model.
+//
+// The step is the zero of the gradient of g·s + ½ s·(H + μ)s + Σ_closing ¼ closed² + Σ ½ w τ·Tτ. This is a linear
+// system. The active set depends on s, and s on the active set. They are therefore determined alternately in a few
+// rounds. In the predicted decrease, each closing pair costs ¼ (closed² − now²). Tilt terms and the shift only shorten
+// the step as a precaution; they do not count in the predicted decrease.
 //
 // The constants below were measured for packings of 100 octahedra and tetrahedra at φ − φ_J = 0.02 … 0.004 after an
 // affine strain step. Changing any of them by a factor of three changes the number of evaluations to equilibrium by
@@ -48,26 +59,27 @@ namespace isojam {
 
 namespace {
 
-/// Rounds of the active-set iteration that may release pairs. Later rounds only add pairs, so that the iteration ends.
+/// Number of rounds that may remove pairs from the active set. Later rounds only add pairs, so that the rounds end.
 constexpr int releasing_rounds = 2;
 
-/// Tilt term of a contact that the step tilts, in units of its stiffness when the section line crosses its centre.
-/// Elsewhere the resistance is smaller.
+/// Fraction w of the tilt term of a tilted contact. T is the stiffness for a line of intersection through the centre of
+/// the contact; elsewhere the stiffness is smaller.
 constexpr double tilted = 0.1;
 
-/// A contact counts as tilted if the step would store at least the fraction `tilt_onset` of its energy in tilt. Below
-/// `tilt_release` it is not in the next initial estimate.
+/// A contact counts as tilted if τ·Tτ in the step is more than the fraction `tilt_onset` of its energy. If it is not
+/// more than the fraction `tilt_release`, the contact is not in the initial estimate of the next step.
 constexpr double tilt_onset = 0.5, tilt_release = 0.05;
 
-/// If the shift is at least this fraction of the largest diagonal entry of H, all contacts have the full tilt term;
-/// below it, a part.
+/// If the shift is at least this fraction of the largest diagonal entry of H, all contacts have their full tilt term, w
+/// = 1. If it is smaller, w is proportional to the shift.
 constexpr double stiffened_at = 1e-6;
 
-/// Later rounds update the factors of the first round by up to this many terms per particle. A factorisation costs as
-/// much as that many solves (17 for N = 100, 55 for N = 400).
+/// Largest number of terms per particle with which later rounds update the factorisation of an earlier round. A
+/// factorisation costs as much as that many solutions of the linear system (17 for N = 100, 55 for N = 400).
 constexpr double updates_per_particle = 1.0 / 6;
 
-/// The tangent with the gap closed matters only if its squared slope is this many times that of the present one.
+/// The tangent in the closed state is used only if its squared slope is at least this many times the squared slope of
+/// the tangent in the present state.
 constexpr double steeper = 2;
 
 double tilt_energy(const IncipientContact& pair, const Eigen::VectorXd& step) {
@@ -94,7 +106,7 @@ void add_tilt(double weight, const IncipientContact& pair, BlockMatrix& matrix, 
   block.value.bottomRightCorner<3, 3>() -= pair.rotation_scale_a * pair.rotation_scale_b * stiffness;
 }
 
-/// The vectors v of S = Σ v vᵀ.
+/// Vectors v with Σ v vᵀ = `stiffness`.
 std::vector<Eigen::Vector3d> roots(const Eigen::Matrix3d& stiffness) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(stiffness);
   std::vector<Eigen::Vector3d> list;
@@ -139,13 +151,14 @@ ActivePairs StepModel::active_pairs(const Eigen::VectorXd& step) const {
   return active;
 }
 
-/// True if the tangent with the gap closed can matter. It cannot if the shift is stiffer than the pair.
+/// True if the pair can close in the model: its closed tangent is steep enough, and its spring is stiffer than the
+/// shift.
 bool StepModel::may_close(const IncipientContact& pair, double shift) const {
   const double closed = squared_norm(pair.closed);
   return closed > 2 * shift && closed >= steeper * squared_norm(pair.now);
 }
 
-/// Returns true if some pair changed its state.
+/// Updates the active set for a step. Returns true if it has changed.
 bool StepModel::revise(const Eigen::VectorXd& step, double shift, bool may_release) {
   bool changed = false;
   for (std::size_t k = 0; k < states_.size(); ++k) {
@@ -161,14 +174,14 @@ bool StepModel::revise(const Eigen::VectorXd& step, double shift, bool may_relea
   return changed;
 }
 
-/// Fraction of its tilt term that a pair has.
+/// The fraction w of the tilt term of a pair.
 double StepModel::tilt_weight(const IncipientContact& pair, const State& state, double shift) const {
   if (!touching(pair) && !state.closing) return 0;
   const double everywhere = std::min(1.0, shift / (stiffened_at * largest_diagonal_));
   return std::max(everywhere, state.tilted ? tilted : 0.0);
 }
 
-/// H with the springs ½ ∇V ∇Vᵀ of closing pairs, and the tilt terms.
+/// H plus the terms ½ ∇V ∇Vᵀ of closing pairs and the tilt terms.
 BlockMatrix StepModel::assembled(double shift) const {
   const std::vector<BlockMatrix::Block>& present = second_.hessian.off_diagonal;
   BlockMatrix sum;
@@ -205,8 +218,8 @@ BlockMatrix StepModel::assembled(double shift) const {
   return sum;
 }
 
-/// The vectors u of the terms u uᵀ that were added to the matrix since the pairs were in the states `before`, as
-/// columns. Returns nullopt if a term was removed or too many were added.
+/// The matrix has gained terms u uᵀ since the pairs were in the states `before`. Returns the vectors u as columns, or
+/// nullopt if a term was removed or too many terms were added.
 std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& before, double shift) const {
   std::vector<Eigen::VectorXd> terms;
   const auto most = static_cast<std::size_t>(updates_per_particle * second_.hessian.size());
@@ -228,7 +241,7 @@ std::optional<Eigen::MatrixXd> StepModel::gained(const std::vector<State>& befor
   return u;
 }
 
-/// Slopes with respect to all coordinates.
+/// Slopes of a linearised overlap with respect to all coordinates.
 Eigen::VectorXd StepModel::column(const IncipientContact& pair, const LinearisedOverlap& volume) const {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(gradient_.size());
   u.segment<6>(6 * pair.a) = volume.slope_a;
@@ -237,7 +250,7 @@ Eigen::VectorXd StepModel::column(const IncipientContact& pair, const Linearised
   return u;
 }
 
-/// Gradient of the model at s = 0, with the springs of closing pairs.
+/// Gradient of the model at s = 0, including the energies ¼ closed² of closing pairs.
 Eigen::VectorXd StepModel::gradient() const {
   Eigen::VectorXd sum = gradient_;
   for (std::size_t k = 0; k < states_.size(); ++k) {
@@ -251,7 +264,8 @@ Eigen::VectorXd StepModel::gradient() const {
   return sum;
 }
 
-/// Tilt terms are a precaution: they shorten the step and are not counted.
+/// The decrease of the energy that the model predicts. Tilt terms only shorten the step as a precaution; they do not
+/// count.
 double StepModel::decrease(const Eigen::VectorXd& step) const {
   double sum = -gradient_.dot(step) - step.dot(second_.hessian * step) / 2;
   for (std::size_t k = 0; k < states_.size(); ++k) {

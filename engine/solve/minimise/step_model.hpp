@@ -10,46 +10,48 @@
 
 namespace isojam {
 
-/// Sorted pairs of particles that will touch in a step, or whose flat contact will tilt, according to the model of the
-/// step. They are the initial estimate for the next model.
+/// The active set of a step, see StepModel: pairs of particles that are closing in the step, and pairs that are tilted.
+/// Both lists are sorted. They are the initial estimate for the next step.
 struct ActivePairs {
   std::vector<std::pair<int, int>> closing, tilted;
 };
 
-/// The factorisation that all models of one minimisation share, so that its symbolic part is computed once, and numbers
-/// of its uses.
+/// The factorisation that all models of one minimisation share, so that its symbolic part is computed once. Also the
+/// numbers of times that it was used.
 struct StepFactor {
   BlockCholesky cholesky;
   long factorisations = 0;
-  long updates = 0;  ///< linear systems that were solved by a low-rank update of a factorisation
+  long updates = 0;  ///< number of linear systems that were solved by a low-rank update of a factorisation
 };
 
-/// A step in the format of moved(), and the decrease of the energy (Y·V_p) that the model predicts for it.
+/// A step (packing.hpp), and the decrease of the energy (Y·V_p) that the model predicts for it.
 struct ModelStep {
   Eigen::VectorXd displacement;
   double decrease = 0;
 };
 
 /// Model of the energy for a step s: the series E + g·s + ½ s·H s, and two effects that this series does not contain.
-/// First, pairs can begin to touch. Their overlap volume is V = max(0, now, closed), with the two tangents of an
-/// incipient contact. Second, a flat contact can tilt until the line in which its face planes intersect crosses the
-/// face. It then has a stiffness against the tilt. The pairs with one of these effects, the active set, are determined
-/// together with the step. step_model.cpp explains the terms with a sketch.
+///   1. Closing: a pair can begin to touch, or a vertex contact can become flat. The model of the overlap volume is
+///      V = max(0, now, closed), with the two tangents of IncipientContact.
+///   2. Tilting: the faces of a flat contact can rotate relative to each other until the line in which their planes
+///      intersect crosses the faces. From then on, the contact has a stiffness against this rotation.
+/// The pairs that close or tilt in a step form its active set. The active set and the step are computed together.
+/// step_model.cpp explains the terms with a sketch.
 class StepModel {
  public:
   /// Largest number of linear systems that one call of minimise() solves, each by a factorisation or an update.
   static constexpr int most_rounds = 4;
 
-  /// Makes the model of a state with this gradient and these second derivatives. Steps that would move a particle
-  /// farther than `longest` (V_p^(1/3)) are shortened.
+  /// Makes the model of a state from its gradient and its second derivatives. Steps that would move a particle farther
+  /// than `longest` (V_p^(1/3)) are shortened.
   StepModel(SecondOrder second, Eigen::VectorXd gradient, double longest);
 
-  /// Largest diagonal entry of the Hessian: the spring constant of the stiffest coordinate.
+  /// Largest diagonal entry of the Hessian: the stiffness of the stiffest coordinate.
   double largest_diagonal() const { return largest_diagonal_; }
-  /// Removes the pairs that can begin to touch from the model. The series and the tilt of flat contacts remain.
+  /// Removes the first effect from the model. The series and the second effect remain.
   void forget_closing_pairs();
-  /// Minimises the model plus ½ shift·s². `active` is an estimate of the active set on entry, and the active set on
-  /// return. Returns nullopt if the shifted matrix is not positive definite.
+  /// Minimises the model plus ½ shift·s². On entry, `active` is an estimate of the active set; on return, it is the
+  /// active set of the step. Returns nullopt if the shifted matrix is not positive definite.
   std::optional<ModelStep> minimise(double shift, StepFactor& factor, ActivePairs& active);
 
  private:

@@ -12,13 +12,13 @@ namespace isojam {
 enum class StopReason {
   not_called,        ///< nothing was minimised
   residual_reached,  ///< the residual is at most the requested one
-  /// The relative change of the energy was below the requested limit (the stopping rule of the paper). The state is not
-  /// necessarily an equilibrium.
+  /// An iteration changed the energy by less than MinimiseOptions::energy_change. The state is not necessarily an
+  /// equilibrium.
   energy_change,
-  unjammed,            ///< the packing is unjammed: energy and forces are below the limits
-  precision_floor,     ///< the residual is as small as the precision of double-double allows
+  unjammed,            ///< the packing has no contacts, or its energy is below MinimiseOptions::unjammed_energy
+  precision_floor,     ///< the residual is at most the residual floor in double-double
   budget,              ///< the largest number of evaluations was reached
-  line_search_failed,  ///< no state with a lower energy was found in any direction
+  line_search_failed,  ///< no step that lowers the energy was found
   cell_limit,          ///< the cell became so small or skew that a particle could touch two images of another particle
   not_finite,          ///< the energy or the gradient is not finite
   interrupted          ///< the caller requested a stop
@@ -37,35 +37,36 @@ inline constexpr std::array enum_names<StopReason>{EnumName{StopReason::not_call
 
 /// Numbers of operations of a minimisation in addition to its evaluations.
 struct MinimiseWork {
-  long double_double_evaluations = 0;  ///< evaluations in double-double; MinimiseSummary::evaluations includes them
-  long hessians = 0;                   ///< computations of the second derivatives of the whole packing
-  long factorisations = 0;             ///< factorisations of a shifted Hessian, including failed ones
-  long factor_updates = 0;             ///< linear systems that were solved by updating a factorisation
-  long envelopes = 0;             ///< evaluations of the envelope in the method of multipliers (EnvelopeEvaluation)
-  long envelope_overlaps = 0;     ///< overlaps with Hessian that these evaluations computed
-  long local_factorisations = 0;  ///< factorisations of the Hessian of a few particles
+  /// evaluations in double-double; they are also counted in MinimiseSummary::evaluations
+  long double_double_evaluations = 0;
+  long hessians = 0;              ///< computations of the second derivatives of the whole packing
+  long factorisations = 0;        ///< factorisations of a shifted Hessian, including failed ones
+  long factor_updates = 0;        ///< linear systems that were solved by updating a factorisation
+  long envelopes = 0;             ///< evaluations of the envelope (EnvelopeEvaluation) in the method of multipliers
+  long envelope_overlaps = 0;     ///< overlaps with Hessian that the evaluations of the envelope computed
+  long local_factorisations = 0;  ///< factorisations of the Hessian of a few particles only (local relaxation)
 
   /// Adds the work of another minimisation.
   MinimiseWork& operator+=(const MinimiseWork& term);
   bool operator==(const MinimiseWork&) const = default;
 };
 
-/// Result of one minimisation. A default-constructed object describes that nothing was minimised.
+/// Result of one minimisation. In a default-constructed object, nothing was minimised.
 struct MinimiseSummary {
   StopReason reason = StopReason::not_called;  ///< reason for the end of the minimisation
   double energy = 0;                           ///< energy E, without the load energy of a variable cell
-  double residual = 0;                         ///< residual, as Evaluation::residual
-  double residual_floor = 0;  ///< smallest residual that rounding allows in this state, as Evaluation::residual_floor
-  Precision precision = Precision::working;  ///< precision of the last evaluation
-  long evaluations = 0;                      ///< number of evaluations of energy and forces
-  long iterations = 0;                       ///< number of iterations of the minimiser
-  MinimiseWork work;                         ///< numbers of operations in addition to the evaluations
+  double residual = 0;                         ///< Evaluation::residual in the final state
+  double residual_floor = 0;                   ///< Evaluation::residual_floor in the final state
+  Precision precision = Precision::working;    ///< precision of the last evaluation
+  long evaluations = 0;                        ///< number of evaluations of energy and forces
+  long iterations = 0;                         ///< number of iterations of the minimiser
+  MinimiseWork work;                           ///< numbers of operations in addition to the evaluations
 
   /// true if the requested residual was reached
   bool converged() const { return reason == StopReason::residual_reached; }
 };
 
-/// True if the residual is at most the requested one, or as small as the precision of double-double allows.
+/// True if the final residual is at most the requested residual, or at most the residual floor in double-double.
 inline bool is_equilibrium(const MinimiseSummary& summary) {
   return summary.converged() || summary.reason == StopReason::precision_floor;
 }
