@@ -15,11 +15,11 @@ namespace isojam {
 
 namespace {
 
-/// A dead load equals the requested stress only before the strain that it causes. It is therefore applied again from
-/// the resulting state, up to this many times, until the stress agrees.
+/// Largest number of times that a load is applied again. A dead load equals the requested stress only before the strain
+/// that it causes. It is therefore applied again, with the new state as the reference, until the stress agrees.
 constexpr int most_renewals = 8;
 
-/// γ of a deformation without its rotation: from FᵀF = exp(2 ε) to first order in ε.
+/// γ of a deformation without its rotation, from FᵀF = exp(2 ε) to first order in ε.
 double strain_of_deformation(const Eigen::Matrix3d& f, ShearMode mode) {
   const Eigen::Matrix3d green = (f.transpose() * f - Eigen::Matrix3d::Identity()) / 2;
   return mode == ShearMode::pure ? green(0, 0) - green(1, 1) : 2 * green(0, 1);
@@ -49,7 +49,7 @@ class Shear {
  private:
   const ShearState& here() const { return result_.states.back(); }
 
-  /// φ − φ_J from E ∝ Δφ⁶, used for scales.
+  /// Estimate of φ − φ_J from E ∝ Δφ⁶. It is used for scales.
   double distance() const {
     const double phi = here().packing.density();
     return 6 * here().energy / here().packing.size() * phi * phi / here().pressure;
@@ -137,8 +137,7 @@ class Shear {
     return state;
   }
 
-  /// True if the stress equals the requested one for the present cell as reference, and not only for the cell where the
-  /// load was applied.
+  /// True if the stress equals the requested stress, computed with the present cell as the reference of the load.
   bool balanced(const Packing& packing, const CellControl& control) {
     const Evaluation value = energy_.evaluate(packing, Precision::double_double);
     return Enthalpy(control, packing.cell).of(value, packing).residual <= options_.minimise.residual;

@@ -14,17 +14,17 @@ namespace isojam {
 
 namespace {
 
-/// Number of times that a failed expansion step is repeated at half its length.
+/// Largest number of steps in a decompression that may fail or end a solution branch.
 constexpr int max_halvings = 4;
 
-/// Evaluations of a compression step in hasty consolidation.
+/// Largest number of evaluations in a step of hasty compression.
 constexpr long hasty_evaluations = 50;
 
 /// Equilibria are followed if φ − φ_J is below this. Farther away all contacts are soft, and Newton's method converges
-/// without help.
+/// by itself.
 constexpr double followed_within = 1;
 
-/// Mean contact force at a pressure, from 3 p V_cell = Σ r·F with about 4.5 contacts per particle at distance 1.
+/// Mean contact force F at a pressure p, from 3 p V_cell = Σ r·F. Assumes 4.5 contacts per particle, with r = 1.
 double mean_force_at(double pressure, double density) { return 3 * pressure / (4.5 * density); }
 
 /// One strain step of a run.
@@ -81,7 +81,7 @@ class StrainStep {
     return result_.path.back();
   }
 
-  /// True if the run must end here; sets the status.
+  /// Returns true and sets the status if the run must end after this step.
   bool must_end(const JamStep& step) {
     if (step.summary.reason == StopReason::interrupted || stop_.stop_requested()) {
       result_.status = JamStatus::interrupted;
@@ -103,7 +103,7 @@ class StrainStep {
     return step.energy_per_particle >= options_.compression.target_energy;
   }
 
-  /// A strain step after which the unrelaxed energy is below the target, at most `consolidation_step`.
+  /// A strain step after which the energy before relaxation is below the target. It is at most Compression::step.
   double gentle_step() {
     const Packing& packing = progress_.packing;
     double step = options_.compression.step;
@@ -116,7 +116,7 @@ class StrainStep {
     return step;
   }
 
-  /// Compresses towards the target energy; the first step only minimises.
+  /// A step of compression. The first one only minimises.
   void consolidate() {
     Packing& packing = progress_.packing;
     packing.cell = packing.cell.reduced();
@@ -137,19 +137,19 @@ class StrainStep {
   /// Estimated φ − φ_J of the last equilibrium.
   double distance() const { return distance_to_jamming(last_state()); }
 
-  /// Upper limit of an expansion step, besides the fraction: states nearer than requested cost more than they are
-  /// worth.
+  /// Upper limit of a step of decompression, in addition to the fraction. States nearer than final_distance would be
+  /// expensive and are not needed.
   double step_bound() const {
     return std::min(options_.decompression.longest_step, distance() - 0.95 * options_.decompression.final_distance);
   }
 
-  /// If there is only one state, the next one may be nearer than requested.
+  /// Length of a step of decompression. If there is only one state, the next one may be nearer than final_distance.
   double expansion_step() const {
     const double step = progress_.step_fraction * distance(), bound = step_bound();
     return bound > 0 ? std::min(step, bound) : step;
   }
 
-  /// Decompresses towards φ_J from the last equilibrium; the first step only minimises.
+  /// A step of decompression from the last equilibrium. The first one only minimises.
   void expand() {
     if (progress_.lost >= 0) return recompress();
     // Reduced before the step, so that the pairs at both of its ends refer to the same lattice vectors.
@@ -186,7 +186,7 @@ class StrainStep {
       end_expansion(JamStatus::jammed);
   }
 
-  /// True if the last compression state was not yet in equilibrium and lost most of its energy on further minimisation.
+  /// True if the last state of compression was not in equilibrium, and lost most of its energy in the minimisation.
   bool relaxed_below_target(const JamStep& step) const {
     return !options_.compression.target_before_relaxation &&
            step.energy_per_particle < options_.compression.target_energy / 2 &&
@@ -204,7 +204,7 @@ class StrainStep {
     result_.state_steps.push_back(static_cast<int>(result_.path.size()) - 1);
   }
 
-  /// True if the next state is computed from the last equilibrium and not only from the strained packing.
+  /// True if the next state is computed from the last equilibrium, and not only from the strained packing.
   bool follows() const {
     return options_.minimise.method == Method::multipliers && !result_.states.empty() &&
            distance() <= followed_within && is_equilibrium(last_state().summary);
@@ -228,8 +228,8 @@ class StrainStep {
     return append(next, follow_equilibrium(next, density, distance(), energy_, minimiser(), stop_));
   }
 
-  /// True if the last step unjammed the packing, or if the last two steps, the second one half as long, spent their
-  /// budget because the packing slides too far.
+  /// True if the last step unjammed the packing. Also true if the last two steps spent their budget because the packing
+  /// slides too far; the second of them was half as long.
   bool lost_equilibrium() const {
     const auto ended = [&](std::size_t back, StopReason reason) {
       return result_.path.size() >= back && result_.path[result_.path.size() - back].summary.reason == reason;
@@ -237,7 +237,7 @@ class StrainStep {
     return ended(1, StopReason::unjammed) || (ended(1, StopReason::budget) && ended(2, StopReason::budget));
   }
 
-  /// The branch has ended: the packing is unjammed at a density where it was expected to be jammed, or is far from
+  /// Ends a solution branch: the packing is unjammed at a density where it was expected to be jammed, or it is far from
   /// equilibrium.
   void lose_branch(Packing packing) {
     result_.path.back().lost = true;
@@ -247,8 +247,8 @@ class StrainStep {
     progress_.step_fraction /= 2;  // smaller steps from here on, because the same may happen again
   }
 
-  /// Compresses the remaining packing to an equilibrium from which the expansion can continue. Energies of the ended
-  /// branch contain no information about φ_J of the new one.
+  /// Compresses the packing to an equilibrium from which decompression can continue. The energies of the ended branch
+  /// contain no information about φ_J of the new branch.
   void recompress() {
     const JamStep& before = result_.path[static_cast<std::size_t>(progress_.lost)];
     const double distance = distance_to_jamming(before), strain = progress_.step_fraction * distance;
@@ -269,14 +269,14 @@ class StrainStep {
     keep(std::move(next));
   }
 
-  /// True for an equilibrium, or a state that ended by the energy rule if that was requested, as in other published
+  /// True for an equilibrium, and for a state that satisfies the rule minimise.energy_change, as in other published
   /// protocols.
   bool is_state(const MinimiseSummary& summary) const {
     return is_equilibrium(summary) || summary.reason == StopReason::energy_change;
   }
 
-  /// An expansion step led to no state. The next one is half as long, whichever limit determined this one. Halving only
-  /// the fraction might not change the step, which would then fail again with the same bits.
+  /// Handles a step of decompression that led to no state. The next step is half as long, whichever limit determined
+  /// this step. Half the fraction alone might give the same step again, which would fail again with the same bits.
   void failed(bool first) {
     if (first || ++progress_.halvings > max_halvings) return end_expansion(JamStatus::goal_not_reached);
     progress_.step_fraction = std::min(progress_.step_fraction, step_bound() / distance()) / 2;

@@ -14,19 +14,19 @@
 
 namespace isojam {
 
-/// Relaxation of the states during compression (consolidation). The φ_J of tetrahedra depends on this choice, see
-/// docs/protocol.md.
+/// Relaxation of the states during compression (`consolidation` in manifests). φ_J of tetrahedra depends on this
+/// choice, see docs/protocol.md.
 enum class Consolidation {
-  /// each state is relaxed until its forces balance or Compression::evaluations is reached; φ_J is close to the limit
-  /// of complete relaxation
+  /// Relaxed compression: each state is relaxed until its residual is Compression::residual, or until
+  /// Compression::evaluations is reached. φ_J is close to the limit of complete relaxation.
   relaxed,
-  hasty  ///< at most 50 evaluations per strain step; with this choice φ_J of tetrahedra agrees with the paper
+  hasty  ///< hasty compression: at most 50 evaluations per strain step; φ_J of tetrahedra agrees with the paper
 };
 template <>
 inline constexpr std::array enum_names<Consolidation>{EnumName{Consolidation::relaxed, "relaxed"},
                                                       EnumName{Consolidation::hasty, "hasty"}};
 
-/// Quantity that is prescribed for each state of the decompression.
+/// Quantity that is prescribed for each state of a decompression.
 enum class Control { density, pressure };
 template <>
 inline constexpr std::array enum_names<Control>{EnumName{Control::density, "density"},
@@ -35,90 +35,89 @@ inline constexpr std::array enum_names<Control>{EnumName{Control::density, "dens
 /// Relaxation of the shape of the cell.
 enum class CellShape {
   isotropic,  ///< the cell remains a cube
-  free        ///< the cell shape relaxes in compression and decompression, so that every state has a hydrostatic stress
+  free        ///< the cell shape relaxes in compression and decompression, so every state has a hydrostatic stress
 };
 template <>
 inline constexpr std::array enum_names<CellShape>{EnumName{CellShape::isotropic, "isotropic"},
                                                   EnumName{CellShape::free, "free"}};
 
-/// Options of compression, the first stage of the jamming protocol. Compression consists of isotropic strain steps,
-/// each followed by a minimisation, until the target energy is reached. Energies are in units of Y·V_p.
+/// Options of compression, the first stage of the protocol. Compression consists of isotropic strain steps, each
+/// followed by a minimisation, until the target energy is reached. Energies are in units of Y·V_p.
 struct Compression {
   double initial_density = 0.05;  ///< density φ of the random packing
-  /// Increase of φ in a step. For 16 packings of 100 particles, steps of 0.005, 0.01 and 0.02 gave the same φ_J, for
-  /// octahedra 0.684, with similar standard deviations (0.004, 0.005, 0.003). The longest of these steps is the
-  /// default, because it costs least.
+  /// Increase of φ in a strain step. In a test with 16 packings of 100 particles, steps of 0.005, 0.01 and 0.02 gave
+  /// the same φ_J with similar standard deviations. The longest of these steps is the default, because it costs least.
   double step = 0.02;
   double target_energy = 3.2e-5;  ///< E/N at which compression ends; the value of the paper
-  /// Two interpretations of the target energy of the paper. false: compression ends at the first relaxed state with E/N
-  /// ≥ target_energy. This state is then minimised completely. If less than half of its energy remains, compression
-  /// continues. true: each strain step is so short that E/N before relaxation stays below target_energy. Compression
-  /// ends when relaxation no longer removes the energy.
+  /// The paper's target energy can be interpreted in two ways. false: compression ends at the first relaxed state with
+  /// E/N ≥ target_energy. This state is then minimised until it is an equilibrium. If less than half of its energy
+  /// remains, compression continues. true: each strain step is so short that E/N before relaxation stays below
+  /// target_energy. Compression ends when a relaxed state still has contacts and reaches `residual`.
   bool target_before_relaxation = false;
-  /// Upper limit of φ. is_legal() must be true for the cell up to this density. Crystals can exceed 0.9 before they
-  /// reach the target energy.
+  /// Upper limit of φ. The cell must be legal up to this density (is_legal() in packing/cell/periodic_cell.hpp).
+  /// Crystals can exceed φ = 0.9 before they reach the target energy.
   double max_density = 0.93;
-  /// Residual at which L-BFGS stops relaxing a state. It also stops if E/N falls below unjammed_energy, or after
-  /// `evaluations` evaluations. Only the state that reaches the target energy is minimised completely.
+  /// Residual at which L-BFGS ends the relaxation of a state. It also ends if E/N is below unjammed_energy, or after
+  /// `evaluations` evaluations. Only the state that reaches the target energy is minimised further, until it is an
+  /// equilibrium.
   double residual = 1e-3;
   double unjammed_energy = 1e-14;                     ///< E/N below which a state counts as unjammed
-  int evaluations = 2000;                             ///< largest number of evaluations for each state
+  int evaluations = 2000;                             ///< largest number of evaluations for a state
   Consolidation relaxation = Consolidation::relaxed;  ///< relaxation of the states
 };
 
-/// Options of decompression, the second stage: steps of decreasing density, or decreasing pressure, towards φ_J.
+/// Options of decompression, the second stage: steps to lower densities, or to lower pressures, towards φ_J.
 struct Decompression {
-  /// Length of a step, as a fraction of φ − φ_J, which is estimated from the last state. A step is shorter if it would
-  /// exceed longest_step or go far beyond final_distance. A failed step is repeated at half its length. The fraction
-  /// stays reduced after this, and successful steps increase it again.
+  /// Length of a step as a fraction of φ − φ_J, which is estimated from the last state. A step is shorter if it would
+  /// exceed longest_step or go far beyond final_distance. After a failed step, the next step is half as long. Each
+  /// successful step increases the fraction again, up to this value.
   double step_fraction = 0.35;
   double longest_step = 0.05;  ///< largest decrease of φ in a step
-  /// Resolution of the density at which an event occurs, as a fraction of φ − φ_J. An event is a rearrangement
-  /// (rearrangement.hpp) or the loss of jamming. A step with an event is repeated at half its length until it is
-  /// shorter than this fraction. 0: steps are not repeated.
+  /// An event is a rearrangement (rearrangement.hpp) or the end of a solution branch. A step with an event is repeated
+  /// at half its length, until it is shorter than this fraction of φ − φ_J. The density of the event is then known with
+  /// this resolution. 0: steps are not repeated.
   double event_resolution = 0;
   double final_distance = 0.004;  ///< decompression ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this are used to fit φ_J
-  /// Prescribed quantity. With Control::pressure, each state has a lower pressure than the last one, and particles and
-  /// volume are in equilibrium. In a step that would reduce Δφ by some fraction, the pressure is multiplied by (1 −
-  /// fraction)⁵.
+  /// Prescribed quantity. With Control::pressure, each state has a lower pressure than the last state, and particles
+  /// and volume are in equilibrium at this pressure. In a step that would reduce Δφ by the fraction f, the pressure is
+  /// multiplied by (1 − f)⁵.
   Control control = Control::density;
 };
 
-/// Options of the jamming protocol of Smith, Fisher, Alam 2011 (and 2010): compression, then decompression towards φ_J.
-/// The keys of manifests and records call these stages consolidation and expansion.
+/// Options of the protocol of Smith, Fisher, Alam 2011 (and 2010): compression, then decompression towards φ_J. The
+/// keys of manifests and records call these stages consolidation and expansion.
 struct JamOptions {
   Compression compression;
   Decompression decompression;
   int max_steps = 400;                    ///< largest number of strain steps of both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
-  MinimiseOptions minimise;               ///< options for the states of the decompression
+  MinimiseOptions minimise;  ///< options of the minimisations; compression changes some of them, see Compression
 };
 
-/// Stages of the protocol: compression and decompression.
+/// Stages of the protocol. `consolidation` is compression, and `expansion` is decompression.
 enum class JamStage { consolidation, expansion };
 template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "consolidation"},
                                                  EnumName{JamStage::expansion, "expansion"}};
 
-/// Difference between two successive states of the decompression. On a smooth solution branch the energy is
-/// proportional to Δφ⁶, and all particles move by similar distances. In a rearrangement the packing loses energy, and a
-/// few particles move much farther than the others.
+/// Difference between two successive states of a decompression. On a smooth solution branch, the energy is proportional
+/// to Δφ⁶, and all particles move by similar distances. In a rearrangement, the packing loses energy, and a few
+/// particles move much farther than the others.
 struct Rearrangement {
-  /// E divided by the expected value (Δφ₁/Δφ₀)⁶ E₀. The index 0 is the first state, 1 the second; Δφ is estimated from
-  /// the first state
+  /// E₁ divided by its expected value (Δφ₁/Δφ₀)⁶ E₀. The index 0 is the first state, 1 the second. Δφ₀ and Δφ₁ are
+  /// estimated from the first state.
   double energy_ratio = 0;
   /// numbers of pairs that touch only in the first state, and only in the second state
   int contacts_lost = 0, contacts_gained = 0;
-  /// Number of particles that moved: the participation number (Σu²)²/Σu⁴, where u is the length of the non-affine
-  /// displacement of a particle, including translation and R·rotation.
+  /// Number of particles that moved: the participation number (Σu²)²/Σu⁴ with sums over all particles. u² = |dx|² +
+  /// R²|dθ|² for the non-affine displacement dx and the rotation dθ of a particle.
   double particles_moved = 0;
 };
 
-/// Free strains of the cell at a prescribed density, that is, during compression, and during decompression with
-/// Control::density.
+/// The control of the cell at a prescribed density: in compression, and in decompression with Control::density.
 CellControl control_at_density(const JamOptions& options);
-/// Free strains of the cell at a prescribed pressure (Y), during decompression with Control::pressure.
+/// The control of the cell at a prescribed pressure (Y): in decompression with Control::pressure.
 CellControl control_at_pressure(const JamOptions& options, double pressure);
 
 /// A strain step and the minimised state after it. Energies are in units of Y·V_p, the pressure in Y.
@@ -127,22 +126,22 @@ struct JamStep {
   double density = 0;                        ///< density φ of the state
   double energy_per_particle = 0;            ///< energy per particle E/N
   double pressure = 0;                       ///< pressure p
-  double deviator = 0;      ///< largest entry of stress + p·1, divided by p; 0 if there is no pressure
-  MinimiseSummary summary;  ///< result of the minimisation of the state
-  int descents = 0;         ///< number of saddles that were relaxed along a negative mode before this state was reached
-  /// difference from the state before, if it is on the same solution branch
+  double deviator = 0;                       ///< deviation from hydrostatic stress, see deviator_of()
+  MinimiseSummary summary;                   ///< result of the minimisation of the state
+  int descents = 0;  ///< number of saddles that were relaxed along a negative mode before this state was reached
+  /// difference from the state before; nullopt in compression and at the beginning of a solution branch
   std::optional<Rearrangement> rearrangement;
-  /// True if the solution branch ended in this step of the decompression: the packing lost all contact forces, or slid
-  /// without finding an equilibrium.
+  /// True if the solution branch ended in this step of the decompression: the packing lost its contact forces, or it
+  /// slid so far that two successive steps found no equilibrium.
   bool lost = false;
 };
 
 /// Reason for the end of a run.
 enum class JamStatus {
   not_called,
-  jammed,            ///< states down to final_distance were found, and φ_J was computed
-  goal_not_reached,  ///< φ_J was computed, but there are fewer states than requested, or they are farther from φ_J
-  not_jammed,        ///< fewer than two jammed states were found
+  jammed,            ///< states were found down to final_distance, and φ_J was fitted
+  goal_not_reached,  ///< φ_J was fitted, but decompression ended before final_distance
+  not_jammed,        ///< fewer than two states of the decompression were found
   density_limit,     ///< compression reached max_density before the target energy
   step_limit,        ///< max_steps was reached
   cell_limit,        ///< the cell became so small or skew that a particle could touch two images of another particle
@@ -163,49 +162,52 @@ inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called
 /// Result of a run of the protocol.
 struct JamResult {
   JamStatus status = JamStatus::not_called;  ///< reason for the end of the run
-  std::vector<JamStep> path;                 ///< all strain steps with their minimised states
-  std::vector<Packing> states;  ///< minimised packings of the last solution branch of the decompression, in order
-  /// index in `path` of each element of `states`. These states are equilibria, or their minimisation ended because of
-  /// minimise.energy_change
+  std::vector<JamStep> path;                 ///< all strain steps, with their minimised states
+  /// minimised packings of the last solution branch of the decompression, in the order of the steps
+  std::vector<Packing> states;
+  /// index in `path` of each element of `states`. The states are equilibria, or satisfy the rule
+  /// minimise.energy_change.
   std::vector<int> state_steps;
-  std::optional<JammingPoint> phi_j;  ///< jamming point; nullopt if there are fewer than two states
+  std::optional<JammingPoint> phi_j;  ///< jamming density; nullopt if there are fewer than two states
   long evaluations = 0;               ///< number of evaluations of energy and forces in all steps
-  PairCounts counts;                  ///< numbers of pairs that the pair loop processed, summed over all evaluations
-  MinimiseWork work;                  ///< work of the minimisers in all steps
+  PairCounts counts;                  ///< numbers of pairs that were processed in all evaluations
+  MinimiseWork work;                  ///< numbers of operations of all minimisations
 };
 
-/// Energies of the states, for fit_jamming_point().
+/// The data of `states` for fit_jamming_point().
 std::vector<EnergyPoint> energy_points(const JamResult& result);
 
-/// State of a run between two strain steps. It is a value type. A run that continues from this state, in any process,
-/// gives the same bits as an uninterrupted run.
+/// State of a run between two strain steps. It is a value type. A run that continues from it, in any process, gives the
+/// same bits as an uninterrupted run.
 struct JamProgress {
-  Packing packing;  ///< state from which the next step starts: the last minimised state, or the initial configuration
+  /// packing from which the next step starts: the last minimised state, or the initial configuration
+  Packing packing;
   JamStage stage = JamStage::consolidation;  ///< stage of the next step
-  /// present fraction of φ − φ_J for the next step of the decompression; see Decompression::step_fraction
+  /// present value of Decompression::step_fraction, which failed steps reduce
   double step_fraction = 0;
-  int halvings = 0;  ///< number of steps of the decompression that failed
-  /// If a solution branch has just ended: index in the path of the last equilibrium on this branch. `packing` is then
-  /// the state after the branch ended, without contact forces or without equilibrium, and the next steps compress it
-  /// again. Otherwise −1.
+  int halvings = 0;  ///< number of steps of the decompression that failed or in which a solution branch ended
+  /// Index in the path of the last equilibrium of a solution branch that has just ended, otherwise −1. `packing` is
+  /// then the state after the end of the branch, without contact forces or without equilibrium. The next steps compress
+  /// it again.
   int lost = -1;
   JamResult result;  ///< result so far; its status is not_called until the run has ended
-  /// True before the first step of begin_expansion(): the packing is treated as jammed, for any energy, so the first
-  /// step is a step of the decompression.
+  /// True if the run began with begin_expansion(). The packing then counts as jammed at any energy, so decompression
+  /// never returns to compression.
   bool jammed = false;
 
   bool ended() const { return result.status != JamStatus::not_called; }  ///< true if the run has ended
 };
 
-/// Progress of a run before its first strain step, with compression and decompression.
+/// Progress of a run before its first step, for compression and decompression.
 JamProgress begin_jam(Packing start, const JamOptions& options);
-/// Progress of a run before its first strain step, with only decompression of a jammed packing.
+/// Progress of a run before its first step, for decompression of a jammed packing only.
 JamProgress begin_expansion(Packing jammed, const JamOptions& options);
 
-/// Makes the next strain step of a run that has not ended, minimises the packing, and appends the step to the path. The
-/// state of a decompression step is added to `states` if it is an equilibrium, or if its minimisation ended because of
-/// minimise.energy_change. After a stop request, the run ends with the status interrupted and an unfinished step. To
-/// continue the run, start from the progress before this call.
+/// Makes the next step of a run that has not ended: changes the density or pressure, minimises the packing, and appends
+/// the step to the path. The first step of each stage only minimises. After a step of the decompression, the packing is
+/// appended to `states` if it is an equilibrium or satisfies the rule minimise.energy_change. After a stop request, the
+/// run ends with the status `interrupted`, and the last step is unfinished. To continue the run, start from the
+/// progress before this call.
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop = {});
 
 /// Function that jam() calls after every step that was not interrupted.

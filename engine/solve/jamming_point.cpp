@@ -15,7 +15,7 @@ namespace {
 
 double sixth_root(double energy) { return nearest::cbrt(std::sqrt(energy)); }
 
-/// φ against (E/N)^(1/6): φ_J is the intercept.
+/// Line of φ as a function of (E/N)^(1/6). Its intercept is φ_J.
 Line fit_asymptote(std::span<const EnergyPoint> states, std::span<const int> chosen) {
   std::vector<double> root, density;
   for (const int k : chosen) {
@@ -25,7 +25,8 @@ Line fit_asymptote(std::span<const EnergyPoint> states, std::span<const int> cho
   return fit_line(root, density);
 }
 
-/// x of E ∝ (φ − φ_J)^x with both x and φ_J free: a line in logarithms for each φ_J.
+/// The exponent x of E ∝ (φ − φ_J)^x, where both x and φ_J are fitted. For each φ_J, x is the slope of a line through
+/// the logarithms.
 double free_exponent(std::span<const EnergyPoint> states, std::span<const int> chosen, double window) {
   if (chosen.size() < 4) return 0;
   const double nearest = states[static_cast<std::size_t>(chosen.front())].density;

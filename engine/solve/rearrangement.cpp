@@ -21,13 +21,13 @@ auto touching_pairs(const Packing& packing) {
   return keys;
 }
 
-/// F such that h₁ = F h₀ for the lattice vectors of two cells.
+/// The deformation F with h₁ = F h₀, where h₀ and h₁ are the matrices of the lattice vectors of two cells.
 Eigen::Matrix3d deformation(const PeriodicCell& before, const PeriodicCell& after) {
   if (before.is_cube() && after.is_cube()) return after.side() / before.side() * Eigen::Matrix3d::Identity();
   return after.vectors().high * before.vectors().high.inverse();
 }
 
-/// |dx|² + R²|dθ|² of a particle after subtracting the affine strain.
+/// |dx|² + R²|dθ|² of a particle, without the affine strain F.
 double squared_displacement(const Pose& before, const Pose& after, const Eigen::Matrix3d& f, double radius) {
   const Eigen::Vector3d dx = after.position - f * before.position;
   const Eigen::Quaterniond rotation = after.orientation * before.orientation.conjugate();

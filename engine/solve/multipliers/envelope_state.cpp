@@ -13,10 +13,10 @@ namespace isojam {
 
 namespace {
 
-/// Differences of Φ below this many times its rounding error are not significant.
+/// Differences of Φ are significant if they are larger than this many times the rounding error of Φ.
 constexpr double resolved = 10;
 
-/// Smallest factor by which a success multiplies the shift.
+/// Smallest factor by which adapted_shift() multiplies the shift.
 constexpr double least_change = 0.2;
 
 }  // namespace

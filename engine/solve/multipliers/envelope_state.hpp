@@ -17,24 +17,25 @@ struct EnvelopeState {
   EnvelopeEvaluation value;
 };
 
-/// Evaluates envelopes with one stiffness ρ (Y·V_p^(1/3)), including the load on the cell, and counts the work.
+/// Evaluates envelopes with one stiffness ρ (Y·V_p^(1/3)), adds the load on the cell, and counts the work.
 class EnvelopeEvaluator {
  public:
   EnvelopeEvaluator(Enthalpy load, MinimiseWork& work) : load_(std::move(load)), work_(work) {}
 
   const Enthalpy& load() const { return load_; }
-  /// True if the cell of a requested state was so small that a particle could touch two images of another one. The Φ of
-  /// such a state is infinite.
+  /// True if the cell of a requested state was not legal (is_legal() in packing/cell/periodic_cell.hpp). Φ of such a
+  /// state is infinite.
   bool cell_limit() const { return cell_limit_; }
 
   double stiffness() const { return stiffness_; }
   void set_stiffness(double value) { stiffness_ = value; }
 
-  /// Evaluates the envelope. `only` is as in EnvelopeEnergy::evaluate(); if it is given, the load is not included.
+  /// Evaluates the envelope with the multipliers `forces`. If `only` is not empty, only contacts of the flagged
+  /// particles are included, and the load is not.
   EnvelopeState at(Packing packing, const std::vector<ContactMultiplier>& forces, const std::vector<char>& only = {});
   EnvelopeState unshifted(Packing packing);
 
-  /// Second derivatives of Φ, including those of the load.
+  /// Second derivatives of Φ, including the second derivatives of the load.
   BlockMatrix curvature(const EnvelopeState& state) const;
 
  private:
@@ -45,23 +46,23 @@ class EnvelopeEvaluator {
   bool cell_limit_ = false;
 };
 
-/// The strain ε of the cell in a step of a packing with this number of particles.
+/// The strain ε of the cell in a step (packing.hpp). `particles` is N.
 Eigen::Matrix3d strain_of(const Eigen::VectorXd& step, int particles);
-/// The step (x, R·θ) of B relative to the frame of A, including the motion of the image of B due to the strain ε.
+/// The step (x, R·θ) of B in a contact, including the motion of its image relative to A due to the strain ε.
 Vector6d step_of_b(const EnvelopeContact& contact, const Eigen::VectorXd& step, const Eigen::Matrix3d& strain);
 
-/// Multipliers and estimates of the shifts for the state after `step`, which is in the format of moved(). The
-/// multipliers do not change; the changes of the shifts are computed to first order.
+/// Multipliers and estimates of the shifts for the state after a step (packing.hpp). The multipliers do not change; the
+/// shifts change to first order in the step.
 std::vector<ContactMultiplier> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step);
 
-/// True if the decrease of Φ from one state to the other is large enough, compared with the predicted decrease. If
-/// rounding errors of Φ are larger than the decrease, the forces of both states are compared instead.
+/// True if the decrease of Φ between two states is large enough compared with the predicted decrease. If the predicted
+/// decrease is not larger than the rounding errors of Φ, the gradients of both states are compared instead.
 bool acceptable(const EnvelopeEvaluation& from, const EnvelopeEvaluation& to, double predicted_decrease);
 
-/// The Levenberg–Marquardt shift λ after a step, from the ratio of the actual to the predicted decrease (Nielsen).
+/// The Levenberg–Marquardt shift after a step, from the ratio of the actual to the predicted decrease (Nielsen's rule).
 double adapted_shift(double shift, double ratio);
 
-/// The step, multiplied by a factor of at most 1 so that no particle moves farther than `longest`.
+/// The step, multiplied by a factor of at most 1, so that no particle moves farther than `longest`.
 Eigen::VectorXd limited(const Eigen::VectorXd& step, double longest);
 
 }  // namespace isojam

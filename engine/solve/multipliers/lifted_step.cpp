@@ -10,7 +10,7 @@ namespace isojam {
 
 namespace {
 
-/// Size of an eigenvalue that rounding can cause in place of zero.
+/// Size that an eigenvalue can have due to rounding errors if its exact value is zero.
 double resolved(const BlockMatrix& matrix) {
   double largest = 0;
   for (const Matrix6d& block : matrix.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());

@@ -11,17 +11,18 @@ namespace isojam {
 
 namespace {
 
-/// A contact is mispredicted if the error of its Φ exceeds this fraction of the total predicted decrease.
+/// A contact is predicted wrongly if the error of its Φ is more than this fraction of the predicted decrease of the
+/// packing.
 constexpr double misprediction_tolerance = 0.05;
 
 constexpr int most_steps = 12;
 
-/// The relaxation ends when the predicted decrease of a step is below this fraction of the total one; the second value
-/// applies after a failed step.
+/// The relaxation ends when the predicted decrease of a step is below this fraction of the predicted decrease of the
+/// whole packing. The second value applies after a failed step.
 constexpr double end_fraction = 0.01, end_fraction_after_failure = 0.001;
 
 constexpr double growth = 4;
-constexpr double longest_step = 0.1;  ///< inradii
+constexpr double longest_step = 0.1;  ///< in units of the inradius
 
 std::vector<NeighbourPair> mispredictions(const EnvelopeState& here, const EnvelopeState& there,
                                           const Eigen::VectorXd& step, double tolerance) {
@@ -38,7 +39,7 @@ std::vector<NeighbourPair> mispredictions(const EnvelopeState& here, const Envel
   return found;
 }
 
-/// The part of a packing that moves.
+/// The flagged particles of a packing.
 class Part {
  public:
   explicit Part(const std::vector<char>& flags) : place_(flags.size(), -1) {

@@ -16,28 +16,33 @@
 #include "engine/solve/multipliers/local_relaxation.hpp"
 #include "engine/solve/multipliers/tangent.hpp"
 
-// Near jamming all contact forces have similar magnitude, f ~ Δφ⁵, so the depth of a contact depends on its kind: ~ Δφ
-// for corners and crossed edges, ~ Δφ⁵ for flat faces. A flat contact is a spring of stiffness 0.1 with a range of
-// 1e-10, beside springs of stiffness Δφ⁴ with a range of Δφ. Newton's method on the energy itself must find the flat
-// contacts again in every step. As a constraint with its own force a flat contact is harmless. So the energy of every
-// contact is replaced by its Moreau envelope Φ about a force μ (proximal_contact.hpp), with the stiffness limited to
+// Near jamming all contact forces have similar magnitude, f ~ Δφ⁵. The depth of a contact therefore depends on its
+// kind: it is ~ Δφ for corners and crossed edges, and ~ Δφ⁵ for flat contacts of two faces. A flat contact is a spring
+// of stiffness 0.1 Y·V_p^(1/3) with a range of 1e-10. Corners and crossed edges are springs of stiffness ~ Δφ⁴ with a
+// range of Δφ. Newton's method for the energy itself must find the flat contacts again in every step. In the method of
+// multipliers, the energy of each contact is replaced by its Moreau envelope with the multiplier μ
+// (proximal_contact.hpp). μ is an estimate of the force of the contact. The envelope limits the stiffness of the
+// contact to
 //
 //   ρ = stiffening · k₀,   k₀ = f/Δφ,
 //
-// a multiple of the stiffness of the soft contacts; f is the mean contact force. There are three nested loops:
+// where k₀ is the stiffness of soft contacts and f is the mean contact force. Φ is the sum of all envelopes. The method
+// consists of
 //
-//   start       From the equilibrium at φ₀, with μ₀ = ∇e. For φ₁ positions are strained and follow the tangent, one
-//               linear solve; forces are scaled by r⁵, r = Δφ₁/Δφ₀.
-//   multipliers Φ is minimised until the force residual is below the error of μ, |∇Φ| < ½ max |∇e − μ|. Then μ ← ∇e, so
-//               that finally all shifts are 0 and Φ is the energy (Hestenes 1969, Powell 1969).
-//   descent     Levenberg–Marquardt steps on Φ. If contacts open or close, the model of a step fails for a few pairs.
-//               Their particles are then relaxed separately before the state is judged (local_relaxation.hpp). This is
-//               cheap and leaves few steps to be rejected.
-//   finish      Once forces and multipliers agree to about 3 %, lifted steps (lifted_step.hpp), which converge
-//               quadratically. The residual of the energy itself, in double-double, decides.
+//   start        The start is the equilibrium at φ₀ with μ₀ = ∇e. Let r = Δφ₁/Δφ₀ for the new density φ₁. The packing
+//                is strained and follows the tangent, which needs one linear solution. The multipliers are scaled by
+//                r⁵.
+//   multipliers  Outer iteration: Φ is minimised until its gradient is below the error of μ, |∇Φ| < ½ max |∇e − μ|.
+//                Then μ is renewed, μ ← ∇e. At the end all shifts are 0, and Φ is the energy (Hestenes 1969, Powell
+//                1969).
+//   descent      Inner iteration: Levenberg–Marquardt steps for Φ. If contacts form or break, the model of a step is
+//                wrong for a few pairs. The particles of these pairs are relaxed separately before the step is accepted
+//                or rejected (local_relaxation.hpp). This costs little, and few steps are then rejected.
+//   finish       When forces and multipliers agree to about 3 %, lifted steps (lifted_step.hpp) follow, which converge
+//                quadratically. They end when the residual of the energy itself is small enough in double-double.
 //
-// The path of equilibria is smooth between folds. At a fold a packing rearranges and its energy falls, occasionally by
-// orders of magnitude. The scales then follow the forces.
+// A solution branch is smooth until it ends at a fold. There a packing rearranges and its energy decreases,
+// occasionally by orders of magnitude. The scales f and Δφ are then set again from the present forces.
 //
 // docs/equilibria.md has the figures printed by `make equilibria`.
 
@@ -45,57 +50,60 @@ namespace isojam {
 
 namespace {
 
-/// ρ/k₀: far above the stiffness k₀ of corners and crossed edges, and far below the 0.1 Y·V_p^(1/3) of faces.
+/// ρ/k₀. ρ is far above the stiffness k₀ of corners and crossed edges, and far below the stiffness 0.1 Y·V_p^(1/3) of
+/// faces.
 constexpr double stiffening = 300;
 
-constexpr double first_shift = 1, least_shift = 1e-7, most_shift = 1e12;  ///< λ/k₀
-constexpr double tangent_shift = 0.01;                                    ///< λ/k₀ of the initial equilibrium
+/// λ/k₀, where λ is the Levenberg–Marquardt shift
+constexpr double first_shift = 1, least_shift = 1e-7, most_shift = 1e12;
+constexpr double tangent_shift = 0.01;  ///< λ/k₀ for the tangent at the initial equilibrium
 
-/// Growth of λ after a model that was not positive definite; factor by which λ stays above that value; decay of this
-/// memory per step.
+/// growth_if_indefinite: factor of λ after a matrix that was not positive definite. above_indefinite: λ stays this many
+/// times above the λ of that matrix. forgotten: in each later step, that λ is multiplied by this factor.
 constexpr double growth_if_indefinite = 8, above_indefinite = 1.5, forgotten = 0.5;
 
-/// If the decrease is less than the first fraction of the prediction, local relaxation follows. λ is adapted after it
-/// only if the ratio is then above the second.
+/// relaxed_below: local relaxation follows if the decrease of Φ is less than this fraction of the predicted decrease.
+/// trusted_above: after a local relaxation, λ is adapted only if the decrease is more than this fraction.
 constexpr double relaxed_below = 0.9, trusted_above = 0.8;
 
-/// μ is renewed once ∇Φ is below this fraction of the error of μ.
+/// μ is renewed when |∇Φ| is below this fraction of the error of μ.
 constexpr double balance_before_renewal = 0.5;
 
-/// Lifted steps begin when ∇Φ and the error of μ are below the first fraction of the mean force; each failed attempt
-/// divides it by ten. Below the second, Newton's method on the energy takes over, with `last_evaluations` evaluations.
+/// finish_from: lifted steps begin when |∇Φ| and the error of μ are below this fraction of the mean force. Each failed
+/// attempt divides the fraction by ten. finish_to: below this fraction, Newton's method for the energy replaces the
+/// method of multipliers, with at most `last_evaluations` evaluations.
 constexpr double finish_from = 0.03, finish_to = 1e-7;
-constexpr double lifted_stiffening = 1e8, lifted_shift = 1e-7;  ///< ρ/k₀, λ/k₀
+constexpr double lifted_stiffening = 1e8, lifted_shift = 1e-7;  ///< ρ/k₀ and λ/k₀ in lifted steps
 constexpr long last_evaluations = 500;
 
-/// The energy's own residual is evaluated below this residual of the envelope.
+/// The residual of the energy itself is computed only if the residual of the envelope is below this.
 constexpr double nearly_balanced = 1e-3;
 
-constexpr double longest_step = 0.1, longest_tangent = 0.4;  ///< inradii
+constexpr double longest_step = 0.1, longest_tangent = 0.4;  ///< in units of the inradius
 
-/// Limits of renewals of the multipliers that neither halve the error nor lower Φ by `least_fall`. After the first,
-/// renewals are damped, since they can alternate between the two sides of a kink. After the second, Newton's method
-/// takes over.
+/// Limits for the number of successive renewals of the multipliers that neither halve the error nor lower Φ by the
+/// fraction `least_fall`. After `damped_after` renewals, they are damped, since they can alternate between the two
+/// sides of a kink. After `most_renewals`, Newton's method replaces the method of multipliers.
 constexpr int damped_after = 3, most_renewals = 15;
 constexpr double damped_part = 0.5;
 constexpr double least_fall = 1e-4;
 
-/// If the mean force differs from the scale by more than the first factor, scales are set again. If it falls to the
-/// second fraction of the expected one, the packing is unjammed.
+/// off_scale: scales are set again if the mean force differs from their force by more than this factor. unjammed_force:
+/// the packing is unjammed if the mean force is below this fraction of the expected force.
 constexpr double off_scale = 3, unjammed_force = 1e-9;
-/// Energy per particle of an unjammed packing, divided by force times φ − φ_J. This relative limit is needed because
-/// close to jamming the energy of a jammed packing can be below any fixed limit in Y·V_p.
+/// A packing is unjammed if its energy per particle is below this fraction of force · (φ − φ_J). A limit in Y·V_p would
+/// not work: close to jamming the energy of a jammed packing is below any fixed limit.
 constexpr double unjammed_energy = 1e-6;
 
-/// Number of consecutive states with too few contacts for rigidity after which the packing counts as unjammed. Newton's
-/// method then decides.
+/// If so many consecutive states have too few contacts for rigidity, the packing is assumed to be unjammed, and
+/// Newton's method decides.
 constexpr int most_nonrigid_states = 10;
 
-/// Limits far above the need of all states, except those at the end of their branch, which slide a long way.
+/// Limits far above the need of all states except those at the end of their solution branch, which slide a long way.
 constexpr long most_factorisations = 600, most_envelopes = 3000;
 
-/// Maxwell's count: even with three constraints for every contact, as for two faces, there are fewer constraints than
-/// degrees of freedom of the particles that have contacts.
+/// True if the packing cannot be rigid (Maxwell): even with three constraints for every contact, as for two faces,
+/// there are fewer constraints than degrees of freedom of the particles that have contacts.
 bool cannot_be_rigid(const EnvelopeEvaluation& value) {
   std::vector<char> touched(static_cast<std::size_t>(value.gradient.size() / 6), 0);
   for (const EnvelopeContact& contact : value.contacts) {
@@ -130,7 +138,7 @@ class Multipliers {
     return run();
   }
 
-  /// Follows the equilibrium under the load of the options: p ∝ Δφ⁵.
+  /// Follows the equilibrium to the load of the options. The expected Δφ follows from p ∝ Δφ⁵.
   MinimiseSummary follow_load() {
     const double now = energy_.evaluate(packing_, Precision::double_double).pressure;
     follow_tangent(packing_, Eigen::Matrix3d::Zero(), distance_ * nearest::pow(options_.control.pressure / now, 0.2));
@@ -160,7 +168,7 @@ class Multipliers {
     return summary_;
   }
 
-  /// Sets the scales for a mean force.
+  /// Sets the scales from a mean force and Δφ.
   void set_scales(double force, double distance) {
     force_ = force;
     const double k = force / distance;
@@ -169,8 +177,8 @@ class Multipliers {
     evaluator_.set_stiffness(stiffening * k0_);
   }
 
-  /// Predicts the state after a change to Δφ = `distance` from the equilibrium `packing_`. `strained` is that packing
-  /// after the strain `imposed`.
+  /// Predicts the state for Δφ = `distance` from the equilibrium `packing_`. `strained` is packing_ after the strain
+  /// `imposed`.
   void follow_tangent(const Packing& strained, const Eigen::Matrix3d& imposed, double distance) {
     k0_ = 1;
     set_scales(1, 1);
@@ -226,7 +234,7 @@ class Multipliers {
     }
   }
 
-  /// True if the last renewals of the multipliers made no progress: near a saddle they can continue for ever.
+  /// True if the last renewals of the multipliers made no progress. Near a saddle they would otherwise never end.
   bool stalled(double wrong) {
     const double value = here_.value.value;
     const bool lower = !std::isfinite(lowest_) || lowest_ - value > least_fall * std::abs(lowest_);
@@ -246,7 +254,7 @@ class Multipliers {
     here_ = evaluator_.at(std::move(here_.packing), forces);
   }
 
-  /// One step, with repeated shifts until it succeeds or there is a reason to stop.
+  /// Makes one step. Increases the shift until the step succeeds or there is a reason to stop.
   void advance() {
     const BlockMatrix matrix = evaluator_.curvature(here_);
     ++summary_.work.hessians;
@@ -289,8 +297,8 @@ class Multipliers {
     ++summary_.iterations;
   }
 
-  /// Lifted steps as long as each halves the error, and then the residual. Returns the reason to stop if the state is
-  /// then an equilibrium.
+  /// Makes lifted steps while each of them halves the error, and later the residual. Returns the reason to stop if the
+  /// result is an equilibrium.
   std::optional<StopReason> finish() {
     const auto wrong = [](const EnvelopeEvaluation& value) {
       return std::max(largest_displacement(value.gradient), value.multiplier_error);
@@ -329,7 +337,7 @@ class Multipliers {
     summary_.precision = Precision::double_double;
   }
 
-  /// Newton's method on the energy for the residual that lifted steps leave.
+  /// Newton's method for the energy, which reduces the residual that the method of multipliers leaves.
   void polish() {
     MinimiseOptions options = options_;
     options.method = Method::newton;
@@ -337,7 +345,7 @@ class Multipliers {
     options.unjammed_energy = std::min(options_.unjammed_energy, unjammed_energy * expected_force_ * distance_);
     const MinimiseSummary rest = minimise(packing_, energy_, options, stop_);
     MinimiseSummary sum = rest;
-    // If Newton's method does not reach balance either, the earlier verdict remains.
+    // If Newton's method finds no equilibrium either, the earlier reason is kept.
     if (summary_.reason == StopReason::unjammed && rest.reason == StopReason::budget) sum.reason = summary_.reason;
     sum.evaluations += summary_.evaluations;
     sum.iterations += summary_.iterations;
@@ -354,14 +362,14 @@ class Multipliers {
   MinimiseSummary summary_;
   EnvelopeEvaluator evaluator_;
   EnvelopeState here_;
-  double first_force_ = 0;                                 ///< mean force of the initial equilibrium
-  double expected_force_ = 0;                              ///< mean force without a rearrangement
-  double force_ = 0, k0_ = 0;                              ///< scales
-  double shift_ = 0;                                       ///< λ
-  double indefinite_ = 0;                                  ///< a λ that was too small
-  double best_ = std::numeric_limits<double>::infinity();  ///< smallest error over mean force that counted as progress
-  double lowest_ = std::numeric_limits<double>::infinity();  ///< Φ then
-  int renewals_ = 0;                                         ///< renewals of multipliers since then
+  double first_force_ = 0;     ///< mean force of the initial equilibrium
+  double expected_force_ = 0;  ///< mean force that is expected if there is no rearrangement
+  double force_ = 0, k0_ = 0;  ///< mean force and stiffness that set the scales
+  double shift_ = 0;           ///< λ
+  double indefinite_ = 0;      ///< largest recent λ for which the matrix was not positive definite
+  double best_ = std::numeric_limits<double>::infinity();    ///< error/mean force at the last renewal with progress
+  double lowest_ = std::numeric_limits<double>::infinity();  ///< Φ at the last renewal with progress
+  int renewals_ = 0;                                         ///< number of renewals since then
   int nonrigid_states_ = 0;                                  ///< consecutive states that cannot be rigid
 };
 

@@ -10,8 +10,8 @@ Vector6d stretched(const EnvelopeContact& contact, const Eigen::Matrix3d& impose
   return joined(imposed * contact.displacement, Eigen::Vector3d::Zero());
 }
 
-/// Change of the gradient due to the strain. The term of second order in the free strains is that of a hydrostatic
-/// stress, to which they do not couple.
+/// Change of the gradient due to the strain `imposed`. The term of second order in the free strains is neglected: it is
+/// a hydrostatic stress, to which these strains do not couple.
 Eigen::VectorXd change_of_gradient(const EnvelopeState& from, const Eigen::Matrix3d& imposed, CellFreedom cell) {
   BlockMatrix unused;
   const StrainBorder border(cell, from.packing.size(), unused);

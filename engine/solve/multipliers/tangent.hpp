@@ -8,17 +8,17 @@
 
 namespace isojam {
 
-/// Response of an equilibrium to a change of density or pressure, to first order.
+/// First-order response of an equilibrium to a change of density, cell shape or load.
 struct Tangent {
-  Eigen::VectorXd step;                   ///< step in the format of moved(), in addition to the prescribed strain
+  Eigen::VectorXd step;                   ///< step (packing.hpp) after the strain `imposed`
   std::vector<ContactMultiplier> forces;  ///< the unchanged multipliers, and the shifts after the change
 };
 
-/// Computes the response −M⁻¹ ∂g of the equilibrium `from`. M is the matrix of second derivatives of Φ plus `shift`·1.
-/// ∂g is the change of the gradient due to the strain `imposed` of the cell and all centres. If the volume is free, ∂g
-/// is instead due to the load of `evaluator`, which differs from the load in the equilibrium `from`, and `imposed` is
-/// not used. The step is scaled so that no particle moves farther than `longest`. If M is not positive definite, the
-/// step is zero.
+/// Computes the response −M⁻¹ ∂g of the equilibrium `from`. M is the matrix of second derivatives of Φ plus `shift`·1,
+/// and ∂g is a change of the gradient. If the volume is fixed, the strain `imposed` of the cell and all centres causes
+/// ∂g. If the volume is free, the difference between the load of `evaluator` and the load at the equilibrium causes ∂g,
+/// and `imposed` is not used. The step is shortened so that no particle moves farther than `longest`. It is zero if M
+/// is not positive definite.
 Tangent tangent(const EnvelopeState& from, const Eigen::Matrix3d& imposed, double shift, double longest,
                 EnvelopeEvaluator& evaluator, BlockCholesky& factor, MinimiseWork& work);
 
