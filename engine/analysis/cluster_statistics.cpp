@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A cluster that does not wind, unwrapped along its bonds.
+/// A cluster that does not wind, with centres that are unwrapped along its bonds.
 struct Network {
   std::vector<Vector3d> centres;
   std::vector<std::vector<int>> neighbours;
@@ -41,7 +41,7 @@ Network unwrapped(const Packing& packing, const Cluster& cluster, std::span<cons
   return network;
 }
 
-/// Members sorted by their distance in bonds from one of them, and the number of members within ℓ = 0, 1, ... bonds.
+/// Members, sorted by their distance in bonds from one of them, and the numbers of members within ℓ = 0, 1, … bonds.
 struct Growth {
   std::vector<int> order;
   std::vector<std::size_t> within;
@@ -74,13 +74,14 @@ double square_gyration_radius(const Network& network, std::span<const int> piece
   return sum / static_cast<double>(piece.size());
 }
 
-/// Sums of log ρ and log s over the pieces of one ℓ.
+/// Means of log ρ and log s over the pieces with one ℓ.
 struct Point {
   double log_radius = 0, log_size = 0;
   int pieces = 0;
 };
 
-/// [ℓ − 1]: pieces of radius ℓ around every member, for each member up to the first that is the whole cluster.
+/// Element ℓ − 1 of the result belongs to the pieces of radius ℓ around every member. For each member, the last piece
+/// is the first that is the whole cluster.
 std::vector<Point> piece_sizes(const Network& network) {
   std::vector<Point> points;
   for (std::size_t from = 0; from < network.centres.size(); ++from) {
@@ -101,7 +102,7 @@ std::vector<Point> piece_sizes(const Network& network) {
   return points;
 }
 
-/// Least-squares slope of log_size against log_radius; too_small if the radii are equal or 0.
+/// Least-squares slope of log_size as a function of log_radius. The verdict is too_small if all radii are equal or 0.
 FractalDimension fit_line(std::span<const Point> points) {
   const auto n = static_cast<double>(points.size());
   double x = 0, y = 0;

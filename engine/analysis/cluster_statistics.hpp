@@ -14,48 +14,49 @@ namespace isojam {
 enum class DimensionVerdict {
   not_called,
   fitted,
-  winds,     ///< the cluster is connected to its own periodic image, so it has no size
-  too_small  ///< the pieces have fewer than three radii, or no extent, so the fit has no error
+  winds,     ///< the cluster winds: it is connected to its own periodic image, so it has no size
+  too_small  ///< there are fewer than three radii ℓ, or all centres coincide
 };
 template <>
 inline constexpr std::array enum_names<DimensionVerdict>{
     EnumName{DimensionVerdict::not_called, "not_called"}, EnumName{DimensionVerdict::fitted, "fitted"},
     EnumName{DimensionVerdict::winds, "winds"}, EnumName{DimensionVerdict::too_small, "too_small"}};
 
-/// Fractal dimension D, s ∝ ρ^D, of connected pieces with s particles and size ρ.
+/// Fractal dimension D of connected pieces of a cluster: s ∝ ρ^D for pieces of s particles with the size ρ.
 struct FractalDimension {
   DimensionVerdict verdict = DimensionVerdict::not_called;  ///< result of the fit
-  double D = 0;      ///< fractal dimension, the slope of the fit; 0 unless the verdict is fitted
-  double error = 0;  ///< standard error of the slope, from the scatter about the line
+  double D = 0;      ///< fractal dimension, the slope of the fitted line; 0 unless the verdict is fitted
+  double error = 0;  ///< standard error of the slope, from the scatter of the points about the line
   int points = 0;    ///< number of radii ℓ in the fit
 };
 
-/// Fits D to pieces of one cluster. A piece consists of all particles that are at most ℓ bonds away from a member, for
-/// ℓ = 1, 2, ... until a piece is the whole cluster. For each ℓ, the means of log ρ and log s over all members are one
-/// point of the fit; all points have equal weights. The size ρ of a piece is defined by ρ² = R_g² + a²/12, where R_g is
-/// the radius of gyration of the centres and a² the mean square length of the bonds. The second term replaces each
-/// particle by a rod with the length of a bond, so that straight chains of any length have exactly D = 1. The pieces
-/// overlap. The error is therefore the error of the fitted line, and not the spread of D between similar clusters.
-/// `bonds` may contain bonds of other clusters. The time is O(s²·bonds per particle).
+/// Fits D to pieces of one cluster. A piece consists of all particles that are at most ℓ bonds away from a given
+/// member. For each member, ℓ = 1, 2, … is increased until the piece is the whole cluster. For each ℓ, the means of log
+/// ρ and log s over all members are one point of the fit; all points have equal weights. The size ρ of a piece is
+/// defined by ρ² = R_g² + a²/12, where R_g is the radius of gyration of the centres and a² is the mean square length of
+/// a bond. The second term replaces each particle by a rod with the length of a bond. Straight chains of any length
+/// then have exactly D = 1. The pieces overlap, so the error describes only the fitted line, and not the spread of D
+/// between similar clusters. `bonds` may contain bonds of other clusters. The time is O(s²·bonds per particle).
 FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluster,
                                    std::span<const NeighbourPair> bonds);
 
-/// Sizes and extents of clusters of face-face contacts, as in the paper's Table IV. Lengths are divided by the side L
-/// of the cell.
+/// Sizes and extents of the clusters of a packing, as in the paper's Table IV. L is the side of the cell
+/// (PeriodicCell::side()).
 struct ClusterStatistics {
   double S = 0;          ///< mean size Σs²/Σs, with sums over all clusters, including single particles
   int largest = 0;       ///< number of particles in the largest cluster
-  int winding_rank = 0;  ///< largest winding rank of a cluster; 0 if no cluster percolates
-  bool spans = false;    ///< true if a cluster is at least as long as the cell, or winds
-  int longest = -1;      ///< index of the cluster with the largest extent, or of the first cluster that winds
-  /// Largest extent of a cluster along a Cartesian axis divided by L, between centres (l_max) and between vertices
+  int winding_rank = 0;  ///< largest winding_rank() of a cluster; 0 if no cluster percolates
+  bool spans = false;    ///< true if Cluster::spans() is true for a cluster
+  /// index of the cluster with the largest extent; if a cluster winds, index of the first cluster that winds
+  int longest = -1;
+  /// Largest extent of a cluster along an axis, divided by L, between centres (l_max) and between vertices
   /// (body_l_max). nullopt if a cluster winds.
   std::optional<double> l_max, body_l_max;
   FractalDimension D_max;  ///< fractal dimension of the cluster `longest`
 };
 
 /// Computes the statistics. `clusters` must be the result of find_clusters(packing, bonds). Throws
-/// std::invalid_argument if there is no cluster.
+/// std::invalid_argument if `clusters` is empty.
 ClusterStatistics cluster_statistics(const Packing& packing, std::span<const NeighbourPair> bonds,
                                      std::span<const Cluster> clusters);
 

@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 using Vector3l = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Exact in integers, because windings are at most N cells long.
+/// True if `candidate` is linearly independent of `basis`. Integers are exact, because windings are at most N cells
+/// long.
 bool independent(const std::vector<Vector3i>& basis, const Vector3i& candidate) {
   const Vector3l v = candidate.cast<std::int64_t>();
   if (basis.empty()) return !v.isZero();
@@ -28,7 +29,7 @@ void add_winding(std::vector<Vector3i>& basis, const Vector3i& winding) {
   if (independent(basis, winding)) basis.push_back(winding);
 }
 
-/// Union-find whose links carry periodic images: `image` is the position of a particle in cells relative to its root.
+/// Union-find with periodic images. Each link stores the image of a particle relative to its parent, in cells.
 class ImageUnion {
  public:
   struct Placed {
@@ -49,7 +50,7 @@ class ImageUnion {
 
   void join(const NeighbourPair& bond) {
     Placed a = find(bond.a), b = find(bond.b);
-    // Cells from b's image relative to its own root to its image next to a.
+    // Displacement, in cells, from the image of b that belongs to the root of b to the image of b next to a.
     Vector3i offset = a.image + bond.shift - b.image;
     if (a.root == b.root) {
       add_winding(windings_[a.root], offset);
@@ -74,7 +75,7 @@ class ImageUnion {
   std::vector<std::vector<Vector3i>> windings_;
 };
 
-/// Distances of the vertices below and above the centre along the axes.
+/// Distances of the outermost vertices from the centre, below and above it along each axis.
 struct Reach {
   Vector3d below, above;
 };

@@ -16,7 +16,7 @@ Quad3 normal_of(const ConvexSolid& a, const ConvexSolid& b, const QuadPose& pose
   return face.of_a ? a.arrays().normal(face.face) : pose.rotation * b.arrays().normal(face.face);
 }
 
-/// Centroid of a convex polyhedron, from tetrahedra that share one of its corners.
+/// Centroid of a convex polyhedron, computed from tetrahedra that share one of its corners.
 Quad3 centroid(const QuadIntersection& intersection) {
   const auto point = [&](int k) { return intersection.points[static_cast<std::size_t>(k)]; };
   const Quad3 origin = point(intersection.faces.front().loop.front());
@@ -34,8 +34,8 @@ Quad3 centroid(const QuadIntersection& intersection) {
   return origin + (1 / volume) * moment;
 }
 
-/// Number of corners of one polygon that are not corners of the other. If a solid is given in double, planes that meet
-/// in one of its vertices meet in several points within rounding; these count as one corner.
+/// Number of corners of `polygon` that are not corners of `other`. If a solid is given in double precision, the planes
+/// that meet in one of its vertices meet in several points within rounding errors. These points count as one corner.
 int own_corners(const QuadIntersection& intersection, const Polygon& polygon, const Polygon& other, Quad rounding) {
   std::vector<Quad3> corners;
   for (const int corner : polygon.loop) {
@@ -48,7 +48,7 @@ int own_corners(const QuadIntersection& intersection, const Polygon& polygon, co
   return static_cast<int>(corners.size());
 }
 
-/// True if some corner is a vertex of A or B, that is, lies only on faces of one of them.
+/// True if a corner of the intersection is a vertex of A or B, that is, if it lies only on faces of one solid.
 bool has_vertex(const QuadIntersection& intersection) {
   std::vector<int> owners(intersection.points.size(), 0);
   for (const Polygon& face : intersection.faces) {

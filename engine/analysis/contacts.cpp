@@ -70,7 +70,7 @@ std::optional<double> ContactAnalysis::disagreement() const {
 
 namespace {
 
-/// Cut-offs from the combined contacts of several packings.
+/// Cut-offs from the contacts of several packings together.
 ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vector<Alignment>> packings) {
   std::vector<double> face_face, edge_face;
   for (const std::vector<Alignment>& alignments : packings) {
@@ -88,7 +88,7 @@ ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vec
   return cutoffs;
 }
 
-/// Mean numbers over the particles of each kind: a contact counts for the kinds of both particles.
+/// Numbers per particle for each kind. A contact counts for the kinds of both of its particles.
 std::vector<ContactNumbers> numbers_of_kinds(const Composition& solids, int particles,
                                              std::span<const Contact> contacts, std::span<const ContactClass> classes) {
   struct Counts {
@@ -117,7 +117,7 @@ std::vector<ContactNumbers> numbers_of_kinds(const Composition& solids, int part
   return numbers;
 }
 
-/// True if a is less conclusive than b.
+/// True if the fit a is less conclusive than the fit b.
 bool is_vaguer(const CdfFit& a, const CdfFit& b) {
   if (a.has_cutoff() != b.has_cutoff()) return b.has_cutoff();
   return a.verdict == FitVerdict::bimodal && b.verdict == FitVerdict::fitted;
@@ -130,7 +130,7 @@ struct Group {
   std::vector<Alignment> alignments;
 };
 
-/// Groups sorted by the names of their shapes.
+/// The groups, sorted by the names of their shapes.
 std::vector<Group> groups_of(const Composition& solids, std::span<const Contact> contacts,
                              std::span<const Alignment> alignments) {
   std::vector<Group> groups;
@@ -151,7 +151,7 @@ std::vector<Group> groups_of(const Composition& solids, std::span<const Contact>
   return groups;
 }
 
-/// Replaces results in `all` by less conclusive ones of `pair`.
+/// Replaces results in `all` by the less conclusive results of `pair`.
 void take_vaguer(const ShapePair& pair, ContactAnalysis& all) {
   const ClassCutoffs& cutoffs = pair.cutoffs;
   if (is_vaguer(cutoffs.face_face, all.face_face)) all.face_face = cutoffs.face_face;

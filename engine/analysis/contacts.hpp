@@ -14,79 +14,85 @@
 
 namespace isojam {
 
-/// Class of a contact by its alignment angles. A face_face contact counts as 3 constraints, an edge_face contact as 2,
-/// and a lower_order contact as 1.
+/// Class of a contact, from its alignment angles. A face_face contact counts as 3 constraints, an edge_face contact as
+/// 2, and a lower_order contact as 1.
 enum class ContactClass { face_face, edge_face, lower_order };
 template <>
 inline constexpr std::array enum_names<ContactClass>{EnumName{ContactClass::face_face, "face_face"},
                                                      EnumName{ContactClass::edge_face, "edge_face"},
                                                      EnumName{ContactClass::lower_order, "lower_order"}};
 
-/// Contact numbers Z and constraint number C per particle, C = 3 Z_ff + 2 Z_ef + Z_l (the paper's Table III).
+/// Contact numbers Z and constraint number C = 3 Z_ff + 2 Z_ef + Z_l, per particle (the paper's Table III).
 struct ContactNumbers {
-  double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;  ///< all contacts, the contacts of each class, and constraints
+  /// of all contacts, of face-face, edge-face and lower-order contacts, and of constraints
+  double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;
 };
 
 /// Cut-offs between the contact classes, for the contacts between solids of two shapes.
 struct ClassCutoffs {
-  CdfFit face_face, edge_face;  ///< fits of the distributions of θ_ff and θ_ef
-  /// cut-offs by another method, a gap between the angles, from the same windows of angles
+  CdfFit face_face, edge_face;  ///< fits of the distributions of θ_ff and of θ_ef
+  /// cut-offs by another method: gaps in the same angles
   GapSplit face_face_gap, edge_face_gap;
-  CriticalAngles critical;  ///< critical angles; a window of angles ends at half of the smallest of them
+  /// critical angles; angles above half of the smallest critical angle are not used for the cut-offs
+  CriticalAngles critical;
 };
 
-/// Cut-offs for the contacts between two shapes in a mixture.
+/// Cut-offs for the contacts between solids of two shapes in a mixture.
 struct ShapePair {
-  const ConvexSolid *a = nullptr, *b = nullptr;  ///< the two shapes, solids with unit volume
+  const ConvexSolid *a = nullptr, *b = nullptr;  ///< the two shapes, as solids of unit volume
   long contacts = 0;                             ///< number of contacts between solids of these shapes
   ClassCutoffs cutoffs;                          ///< cut-offs from these contacts
 };
 
-/// Result of analyse_contacts(). If particles have several shapes, each pair of shapes has its own cut-offs in `pairs`.
-/// The base class then has, for each method, the result of the least conclusive pair of shapes: a pair without a
-/// cut-off if there is one, else a pair with a doubtful cut-off if there is one, else any pair.
+/// Result of analyse_contacts(). If particles have several shapes, `pairs` contains the cut-offs of each pair of
+/// shapes. The base class then contains the smallest critical angles. For each fit and each gap, it contains the result
+/// of the least conclusive pair of shapes: a pair without a cut-off if there is one, otherwise a pair with a doubtful
+/// fit if there is one, otherwise any pair.
 struct ContactAnalysis : ClassCutoffs {
   std::vector<ShapePair> pairs;  ///< pairs of shapes that have contacts; empty if there is only one shape
-  /// Number of packings whose angles were combined to find the fits, the gaps and the cut-offs. 1: only this packing.
+  /// Number of packings whose angles were combined for the fits and gaps; 1 if the angles are those of this packing
+  /// only.
   int pooled_over = 1;
-  std::vector<ContactClass> classes;  ///< class of each contact by the fitted cut-offs, in the order of the contacts
-  ContactNumbers numbers;             ///< contact and constraint numbers by the fitted cut-offs
-  /// Z_ff with the cut-off in the gap between the angles θ_ff; nullopt if there is no gap
+  /// class of each contact from the fitted cut-offs, in the order of the contacts
+  std::vector<ContactClass> classes;
+  ContactNumbers numbers;  ///< contact and constraint numbers from the fitted cut-offs
+  /// Z_ff with the cut-off of face_face_gap instead of the fitted one; nullopt if there is no such cut-off
   std::optional<double> Z_ff_gap;
   ContactNumbers fixed_cutoffs;  ///< result of fixed_cutoff_numbers()
-  /// numbers for the particles of each kind of a mixture; empty if all particles are identical
+  /// contact and constraint numbers for the particles of each kind of a mixture; empty if all particles are identical
   std::vector<ContactNumbers> of_kinds;
   /// Difference Z_ff_gap − Z_ff; nullopt unless both methods give a cut-off.
   std::optional<double> disagreement() const;
-  /// The cut-offs for contacts between solids with the shapes of a and b.
+  /// The cut-offs for contacts between the shapes `a` and `b`, as Composition::unit() returns them.
   const ClassCutoffs& cutoffs_of(const ConvexSolid& a, const ConvexSolid& b) const;
-  /// Steinhardt's Q6 of the contacts; set only by functions that receive the contacts, not only their angles
+  /// Steinhardt's Q6 of the contacts. The functions below do not set it; the caller can set it to contact_q6().
   double Q6 = 0;
 };
 
-/// Fits the distributions of both angles on [0, θ_c,min/2], and classifies the contacts by the cut-offs. A contact is
-/// face-face if θ_ff is below its cut-off. Otherwise it is edge-face if θ_ef is below its cut-off. All other contacts
-/// are of lower order. A collapsed fit has the cut-off 0.
+/// Classifies the contacts of a packing of equal solids. The cut-offs are fitted to the distributions of both angles,
+/// from 0 to half of the smallest critical angle. A contact is face-face if θ_ff is below its cut-off. Otherwise it is
+/// edge-face if θ_ef is below its cut-off, and of lower order if not. If a fit finds no cut-off, its cut-off is 0, so
+/// no contact is in this class.
 ContactAnalysis analyse_contacts(const ConvexSolid& solid, int particles, std::span<const Alignment> alignments);
 
-/// Classifies the contacts of a packing with any solids. Each pair of shapes has its own cut-offs, fitted to the
-/// contacts between these two shapes.
+/// Classifies the contacts of a packing with any solids. Each pair of shapes has its own cut-offs, which are fitted to
+/// the contacts between these two shapes.
 ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::span<const Contact> contacts,
                                  std::span<const Alignment> alignments);
 
-/// Analyses several packings with the same number of particles together, for example the replicates of a sweep point.
-/// The fits and gaps use the angles of all packings. The contacts of each packing are classified by these common
-/// cut-offs. The results are in the order of `packings`.
+/// Classifies the contacts of several packings with the same number of particles, for example of the replicates of a
+/// sweep point. The fits and gaps use the angles of all packings together. The contacts of each packing are then
+/// classified by these common cut-offs. The results are in the order of `packings`.
 std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
                                             std::span<const std::vector<Alignment>> packings);
 
-/// Numbers with fixed cut-offs instead of fitted ones: the means over the cut-offs 5°, 15°, ..., 55°, each used for
-/// both angles. This is column 2 of the paper's Table III.
+/// Numbers with fixed cut-offs instead of fitted ones. They are means over the cut-offs 5°, 15°, …, 55°, each used for
+/// both angles, as in column 2 of the paper's Table III.
 ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> alignments);
 
 /// Classes of the contacts for given cut-offs (radians).
 std::vector<ContactClass> classify(std::span<const Alignment> alignments, double ff_cutoff, double ef_cutoff);
-/// Contact and constraint numbers of a packing with contacts of these classes. Each contact counts for two particles.
+/// Contact and constraint numbers per particle for contacts of these classes. Each contact belongs to two particles.
 /// Throws std::invalid_argument if particles < 1.
 ContactNumbers contact_numbers(int particles, std::span<const ContactClass> classes);
 

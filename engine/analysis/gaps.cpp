@@ -10,8 +10,8 @@ namespace isojam {
 
 namespace {
 
-/// True if planes parallel to a face are as far apart, within rounding, as those of the best axis. A product of edges
-/// in such planes is not better.
+/// True if planes parallel to a face are as far apart as those of the best axis, within rounding errors. A product of
+/// two edges can then have the same planes, but no better ones.
 bool is_of_faces(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, double width) {
   const double enough = width - gap_tolerance(a, b, pose);
   const auto apart = [&](SeparatingAxis::Kind kind, std::size_t face) {

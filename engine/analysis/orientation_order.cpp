@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 
 constexpr unsigned greatest_rank = 10;
 
-/// Normalised associated Legendre function of order m and degree l, divided by sinᵐ. It is computed from that of degree
-/// m by recurrence in the degree (forward column method of Holmes and Featherstone 2002).
+/// Normalised associated Legendre function of order m and degree l, divided by sinᵐ. `top` is the function of degree m,
+/// from which it is computed by recurrence in the degree (forward column method of Holmes and Featherstone 2002).
 double raised(double top, unsigned m, unsigned l, double z) {
   double before = 0, here = top;
   const double m2 = squared(m);
@@ -32,7 +32,7 @@ double raised(double top, unsigned m, unsigned l, double z) {
   return here;
 }
 
-/// Real Y_lm(direction), m = −l..l.
+/// Real harmonics Y_lm of a direction, for m = −l to l.
 VectorXd real_harmonics(const Vector3d& direction, unsigned l) {
   const Vector3d unit = direction.normalized();
   const double x = unit.x(), y = unit.y(), z = unit.z();
@@ -52,8 +52,8 @@ VectorXd real_harmonics(const Vector3d& direction, unsigned l) {
   return values;
 }
 
-/// Mean of P_l over all pairs of vertex directions. By the addition theorem it is the squared length of their mean in
-/// rank l, hence not negative. Where it vanishes, rounding leaves about 1e-15.
+/// Mean of P_l over all pairs of vertex directions. By the addition theorem, it is the squared norm of the mean of the
+/// harmonics of rank l, so it is not negative. If the exact value is 0, the result is about 1e-15 due to rounding.
 double strength(const ConvexSolid& solid, unsigned l) {
   double sum = 0;
   for (const Vector3d& v : solid.vertices()) {

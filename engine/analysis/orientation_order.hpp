@@ -9,67 +9,69 @@
 
 namespace isojam {
 
-/// The smallest rank l, 1..10, for which the mean of the spherical harmonics over the vertex directions of the solid
-/// does not vanish. It is 3 for tetrahedra, 4 (cubatic) for cubes and octahedra, 6 for dodecahedra and icosahedra, and
-/// 2 (nematic) for most other solids. An order parameter of lower rank would not depend on the orientation of a
-/// particle. Throws std::invalid_argument if the mean vanishes for all ranks up to 10.
+/// The smallest rank l from 1 to 10 for which the mean of the spherical harmonics over the vertex directions of the
+/// solid does not vanish. It is 3 for tetrahedra, 4 (cubatic) for cubes and octahedra, and 6 for dodecahedra and
+/// icosahedra. For most other solids it is 2 (nematic). An order parameter of lower rank would not depend on the
+/// orientations of the particles. Throws std::invalid_argument if the mean vanishes for all ranks up to 10.
 unsigned orientation_rank(const ConvexSolid& solid);
 
-/// Spherical harmonics of all particles, a matrix with (2l + 1) × N entries. All particles must have the same shape. A
-/// column has the components Σ_v Y_lm(v) of one particle, with real harmonics and the sum over its vertex directions in
-/// the lab frame; it is scaled to norm 1. Orientations that differ by a symmetry of the solid have equal columns. The
-/// product of two columns is q_ij = Σ_vw P_l(v·w)/Σ_vv' P_l(v·v'). It is 1 if particles i and j are aligned, and 0 on
-/// average if their orientations are independent.
+/// Spherical harmonics of all particles, a matrix with (2l + 1) × N entries. All particles must have the same shape.
+/// The column of a particle has the components Σ_v Y_lm(v) with real harmonics Y_lm. The sum is over the vertex
+/// directions v of the particle in the lab frame, and the column is scaled to norm 1. Orientations that differ by a
+/// symmetry of the solid have equal columns. The product of the columns of particles i and j is q_ij = Σ_vw
+/// P_l(v·w)/Σ_vv' P_l(v·v'). It is 1 if the particles are aligned, and 0 on average if their orientations are
+/// independent.
 Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l);
 
-/// Orientational order S_l, the norm of the mean column: S_l² = (1/N²) Σ_ij q_ij. It is 1 if all particles are aligned,
-/// and about 1/√N if their orientations are independent.
+/// Orientational order S_l, computed from orientation_harmonics(). S_l is the norm of the mean column, S_l² = (1/N²)
+/// Σ_ij q_ij. It is 1 if all particles are aligned, and about 1/√N if their orientations are independent.
 double orientation_order(const Eigen::MatrixXd& harmonics);
 
-/// Steinhardt's Q_l of each particle, computed from the contacts of this particle; nullopt for particles without
-/// contacts.
+/// Steinhardt's Q_l of each particle, computed from the contacts of this particle only; nullopt if it has no contacts.
 std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contact> contacts, int particles, unsigned l);
 
-/// Order of a packing: of the directions of its contacts (Q), and of the orientations of its particles (S). Values of S
-/// near jamming for N = 64 and 100:
-///   tetrahedra                       0.03 to 0.05
-///   octahedra                        0.14 to 0.18
-///   dodecahedra and icosahedra       0.16 to 0.41
-///   icosahedra with Q6 above crystalline_q6   0.41 to 0.71
+/// Order of a packing: Q of the directions of its contacts, and S of the orientations of its particles. Typical values
+/// of S near jamming, for N = 64 and 100:
+///   tetrahedra                                           0.03 to 0.05
+///   octahedra                                            0.14 to 0.18
+///   dodecahedra and icosahedra, Q6 ≤ crystalline_q6      0.16 to 0.41
+///   icosahedra, Q6 > crystalline_q6                      0.41 to 0.71
 struct Order {
   double Q4 = 0, Q6 = 0;  ///< Steinhardt's Q4 and Q6 of all contacts; 0 without contacts
-  /// means of Q4 and Q6 over the particles with contacts; nullopt without contacts
+  /// means of the local Q4 and Q6 of all particles with contacts; nullopt without contacts
   std::optional<double> local_Q4, local_Q6;
   unsigned rank = 0;        ///< rank l of S, see orientation_rank(); 0 if particles have several shapes
   std::optional<double> S;  ///< orientational order S_l; nullopt if the rank is 0
-  double random_S = 0;      ///< 1/√N, the value for independent orientations
+  double random_S = 0;      ///< 1/√N, the order of magnitude of S for independent orientations
 };
-/// Computes the order of a packing. `contacts` are all contacts, as from PackingEnergy::contacts().
+/// Computes the order of a packing from all its contacts (PackingEnergy::contacts()).
 Order order_of(const Packing& packing, std::span<const Contact> contacts);
 
-/// Mean q_ij of pairs of particles as a function of the distance of their centres. Bin k contains the distances from
-/// k·width to (k + 1)·width.
+/// Mean q_ij of pairs of particles as a function of the distance between their centres. Bin k contains the distances
+/// from k·width to (k + 1)·width.
 struct OrientationCorrelation {
-  /// Pairs at one distance.
+  /// The pairs of one bin.
   struct Bin {
     long pairs = 0;              ///< number of pairs in the bin
-    std::optional<double> mean;  ///< mean q_ij of these pairs; nullopt without pairs
+    std::optional<double> mean;  ///< mean q_ij of these pairs; nullopt if there are none
   };
   double width = 0;       ///< width of a bin, in units of V_p^(1/3)
   std::vector<Bin> bins;  ///< bins in the order of increasing distance
 };
 
-/// Bins of a correlation. Lengths are in units of V_p^(1/3).
+/// Options of orientation_correlation(). Lengths are in units of V_p^(1/3).
 struct OrientationCorrelationOptions {
-  /// width of a bin; the default is a quarter of the smallest inradius, so that a shell of neighbours has several bins
+  /// width of a bin; the default is about a quarter of the inradius of a tetrahedron, so that a shell of neighbours has
+  /// several bins
   double width = 0.1;
-  /// Largest distance. The default is half of the side of the cell, because at larger distances images are counted
-  /// repeatedly.
+  /// Largest distance. The default is half of the smallest height of the cell, because at larger distances several
+  /// images of a particle are counted.
   std::optional<double> reach = std::nullopt;
 };
 
-/// Computes the correlation from all pairs of particles and periodic images whose distance is at most `reach`. Only
-/// complete bins are returned. Throws std::invalid_argument unless `width` and `reach` are positive.
+/// Computes the correlation from all pairs of particles, including periodic images, whose distance is at most `reach`.
+/// Only complete bins are returned, but at least one bin. Throws std::invalid_argument unless `width` and `reach` are
+/// positive.
 OrientationCorrelation orientation_correlation(const Packing& packing, const Eigen::MatrixXd& harmonics,
                                                const OrientationCorrelationOptions& options = {});
 

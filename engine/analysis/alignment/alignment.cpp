@@ -17,7 +17,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A feature of a body in the contact; direction in the body frame of A.
+/// A face normal or an edge of a body in a contact, with its direction in the body frame of A.
 struct Direction {
   int index = 0;
   Vector3d unit;
@@ -52,8 +52,8 @@ std::vector<Direction> edge_directions(const ConvexSolid& solid, std::uint64_t m
   });
 }
 
-// Both angles use atan2 of sine and cosine, which is accurate where arccos (at 0) and arcsin (at π/2) lose half of the
-// digits.
+// Both angles are computed by atan2 from sine and cosine. This is accurate also where arccos (at 0) and arcsin (at π/2)
+// would lose half of the digits.
 double opposing_angle(const Vector3d& n, const Vector3d& m) { return nearest::atan2(n.cross(m).norm(), -n.dot(m)); }
 double elevation(const Vector3d& e, const Vector3d& n) { return nearest::atan2(std::abs(e.dot(n)), e.cross(n).norm()); }
 

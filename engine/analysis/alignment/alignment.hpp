@@ -7,23 +7,23 @@
 
 namespace isojam {
 
-/// Alignment angles θ_ff and θ_ef of a contact as defined in the paper, in radians, and the features between which they
-/// are measured.
+/// Alignment angles θ_ff and θ_ef of a contact as in the paper, in radians, and the features for which they are found.
 struct Alignment {
-  /// θ_ff = π − arccos(min n_i·n_j), over the faces i of A and j of B that bound the intersection; computed with cross
-  /// products
+  /// θ_ff = π − arccos(min n_i·n_j), over the faces i of A and j of B that bound the intersection, with outward normals
+  /// n
   double face_face = 0;
-  /// θ_ef = arcsin(min |e·n|), the smaller value of the edges of A on faces of B and the edges of B on faces of A
+  /// θ_ef = arcsin(min |e·n|), over edges e of one body inside the other body, and the faces with normal n of the other
+  /// body
   double edge_face = 0;
-  int face_a = -1, face_b = -1;  ///< indices of the two faces of θ_ff; −1 if there are none
-  /// indices of the edge and the face of θ_ef; −1 if no edge has a segment inside the other body
+  int face_a = -1, face_b = -1;  ///< indices of the two faces of θ_ff; −1 if there is no such face
+  /// indices of the edge and of the face of θ_ef; −1 if no edge has a segment inside the other body
   int edge = -1, face = -1;
   /// true if the edge belongs to A and the face to B; false if the edge belongs to B and the face to A
   bool edge_of_a = true;
 };
 
-/// Computes the angles of one contact. If no edge of A or B has a segment inside the other body, θ_ef is π/2. If no
-/// face of A or no face of B bounds the intersection, because one body is inside the other, θ_ff is π.
+/// Computes the angles of one contact. θ_ef is π/2 if no edge of A or B has a segment inside the other body. θ_ff is π
+/// if no face of A or no face of B bounds the intersection, because one body is inside the other.
 Alignment alignment(const ConvexSolid& a, const ConvexSolid& b, const Contact& contact);
 /// Computes the angles of a contact of two particles with the same solid.
 inline Alignment alignment(const ConvexSolid& solid, const Contact& contact) {

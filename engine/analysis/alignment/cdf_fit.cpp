@@ -6,12 +6,12 @@
 #include <cmath>
 #include <stdexcept>
 
-// With y = (upper − θ)/(upper − α), which decreases from 1 at α to 0 at upper, the cubic is written in the Legendre
-// polynomials P_j shifted to [0, 1], ∫ P_i P_j dy = δ_ij/(2j + 1). The least-squares coefficients are then β_j = (2j +
-// 1) ∫ c P_j dy. Since c is a step function, they are sums of the antiderivatives of P_j at the angles: polynomials of
-// degree ≤ 4 in y. Sums of powers of upper − θ, which are all positive, serve every α. The error of the best cubic,
-// E(α), has the slope dE/dα = c² − (a_0 − c)² = a_0 (2c − a_0), because only the lower limit of the integral depends on
-// α; the space of cubics does not.
+// Method. Let y = (upper − θ)/(upper − α), which decreases from 1 at α to 0 at upper. The cubic is written in the
+// Legendre polynomials P_j shifted to [0, 1], ∫ P_i P_j dy = δ_ij/(2j + 1). The least-squares coefficients are then β_j
+// = (2j + 1) ∫ c P_j dy. Because c is a step function, β_j are sums over the angles of antiderivatives of P_j, which
+// are polynomials in y of degree 4 or less. They are computed for every α from the same sums of powers of upper − θ.
+// All terms of these sums are positive. E(α) is the error of the best cubic. Its slope is dE/dα = c² − (a_0 − c)² = a_0
+// (2c − a_0), because only the lower limit of the integral depends on α. The space of cubics does not depend on α.
 
 namespace isojam {
 
@@ -21,7 +21,7 @@ using Vector4d = Eigen::Vector4d;
 
 constexpr int free_parameters = 5;  // α and a_0..a_3
 
-/// The empirical CDF c of all angles on [0, upper].
+/// The empirical distribution c of all angles, on [0, upper].
 class Window {
  public:
   Window(std::span<const double> angles, double upper) : total_(static_cast<double>(angles.size())), upper_(upper) {
@@ -38,17 +38,17 @@ class Window {
     }
   }
 
-  long inside() const { return inside_; }  ///< number of angles below upper
+  long inside() const { return inside_; }  ///< number of angles below `upper`
   double upper() const { return upper_; }
   double angle(long k) const { return sorted_[k]; }  ///< ascending, from index 0
   double height(long count) const { return static_cast<double>(count) / total_; }
 
-  /// Number of angles inside the window that are ≤ α.
+  /// Number of angles below `upper` that are at most α.
   long count_at(double alpha) const {
     return std::upper_bound(sorted_.begin(), sorted_.begin() + inside_, alpha) - sorted_.begin();
   }
 
-  /// End of the step of c whose height is nearest to `height`, at most upper.
+  /// End of the step of c whose height is nearest to `height`. It is at most `upper`.
   double end_of_step(double height) const {
     double end = 0, nearest = height;  // the step of height 0 ends at the first angle
     for (long k = 0; k <= inside_;) {
@@ -63,7 +63,7 @@ class Window {
     return end;
   }
 
-  /// β of the cubic on [α, upper] that fits c best.
+  /// Coefficients β of the cubic on [α, upper] that fits c best.
   Vector4d legendre_coefficients(double alpha) const {
     const long below = count_at(alpha);
     const double width = upper_ - alpha;
@@ -77,26 +77,26 @@ class Window {
   }
 
  private:
-  using Powers = std::array<double, 5>;  ///< Σ (upper − θ_k)^j, j = 0..4
+  using Powers = std::array<double, 5>;  ///< Σ (upper − θ_k)^j for j = 0 to 4
   double total_, upper_;
   long inside_ = 0;
   std::vector<double> sorted_;
-  std::vector<Powers> power_sums_;  ///< [k]: sums over the angles k, k + 1, ... of the window
+  std::vector<Powers> power_sums_;  ///< element k: sums over the angles k, k + 1, ... below `upper`
 };
 
-/// ∫_0^upper c² dθ − E(α): the part that the best cubic from α on explains.
+/// ∫_0^upper c² dθ − E(α): the part of c² that the best cubic on [α, upper] explains.
 double explained(const Window& window, double alpha) {
   const Vector4d beta = window.legendre_coefficients(alpha);
   return (window.upper() - alpha) * beta.cwiseAbs2().dot(Vector4d(1, 1. / 3, 1. / 5, 1. / 7));
 }
 
-/// Sign of dE/dα where c has the height of `count` angles.
+/// A number with the sign of dE/dα at α, where c has the height of `count` angles.
 double error_slope(const Window& window, double alpha, long count) {
   const double a0 = window.legendre_coefficients(alpha).sum();
   return a0 * (2 * window.height(count) - a0);
 }
 
-/// Point between `low` and `high` where E stops decreasing; no angle may lie between these two.
+/// The point between `low` and `high` where E stops decreasing. No angle may lie between `low` and `high`.
 double descend(const Window& window, double low, double high, long count) {
   while (true) {
     const double middle = low + (high - low) / 2;
@@ -105,7 +105,8 @@ double descend(const Window& window, double low, double high, long count) {
   }
 }
 
-/// E is continuous, and smooth between angles: its minimum is at an angle, or where its slope changes sign.
+/// The α with the smallest E. E is continuous, and smooth between angles. Its minimum is therefore at an angle, or
+/// where its slope changes sign.
 double best_alpha(const Window& window) {
   constexpr int subdivisions = 64;  // resolves wide gaps, where E may have several minima
   std::vector<double> points;
@@ -135,9 +136,9 @@ double best_alpha(const Window& window) {
   return best;
 }
 
-/// a_0 = Σ β_j = c(α) + (1/n) Σ K(y_k) over the angles above α. The angles of the jump, up to c = a_0, have K ≈ 1 as if
-/// they were below α, and contribute no noise. If the others are independent, the variance of their sum is Σ K²/n².
-/// Since K ≤ 1, a_0 never exceeds c(upper).
+/// Standard error of a_0. The fit gives a_0 = Σ β_j = c(α) + (1/n) Σ K(y_k), with the sum over the angles above α. The
+/// angles of the jump, up to c = a_0, have K ≈ 1. They contribute as if they were below α, and cause no noise. If all
+/// other angles are independent, the variance of their sum is Σ K²/n². Because K ≤ 1, a_0 never exceeds c(upper).
 double standard_error(const Window& window, const CdfFit& fit) {
   double sum = 0;
   for (long k = window.count_at(fit.alpha); k < window.inside(); ++k) {
@@ -149,8 +150,8 @@ double standard_error(const Window& window, const CdfFit& fit) {
   return std::sqrt(sum) * window.height(1);
 }
 
-/// Exact ∫ (c_f − c)² dθ over an interval of constant c: a sextic, by four Gauss points. Unlike ∫c² − explained, it is
-/// no difference of large numbers.
+/// ∫ (c_f − c)² dθ over an interval in which c is constant. The integrand is a polynomial of degree 6, so four Gauss
+/// points are exact. Compared with ∫ c² − explained(), it is not a difference of large numbers.
 double stretch_error(const CdfFit& fit, double from, double to, double height) {
   static constexpr double node[2] = {0.33998104358485626, 0.86113631159405258};
   static constexpr double weight[2] = {0.65214515486254614, 0.34785484513745386};
@@ -178,8 +179,9 @@ double fit_error(const CdfFit& fit, const Window& window) {
   return error;
 }
 
-/// The curve may deviate on both sides of a step, and a cubic has at most two extremes between angles. 16 points per
-/// interval are enough to find deviations above the noise of a step.
+/// The largest deviation above the jump. The curve may deviate on both sides of a step, and a cubic has at most two
+/// extremes between two angles. 16 points per interval are enough to find deviations that are larger than the noise of
+/// a step.
 double largest_deviation(const CdfFit& fit, const Window& window) {
   double largest = 0, from = std::max(fit.alpha, window.end_of_step(fit.a[0]));
   for (long k = window.count_at(from); k <= window.inside(); ++k) {

@@ -20,7 +20,7 @@ constexpr double right_angle = std::numbers::pi / 2;
 
 double angle_between(const Vector3d& u, const Vector3d& v) { return nearest::atan2(u.cross(v).norm(), u.dot(v)); }
 
-/// The vertex figure: angles of the edges and of the face normals at a vertex with the axis through it.
+/// The vertex figure: angles that the edges and the face normals at a vertex form with the axis through the vertex.
 struct VertexFigure {
   std::vector<double> edges, normals;
 };
@@ -49,8 +49,8 @@ std::vector<double> dihedral_angles(const ConvexSolid& solid) {
   return angles;
 }
 
-/// The common value of all angles; nullopt if they differ. Vertices are rounded, so that equal angles agree within a
-/// few ulp of a length divided by an edge length.
+/// The common value of all angles; nullopt if they differ. The coordinates of vertices are rounded, so equal angles
+/// differ by a few units in the last place of a length, divided by the length of an edge.
 std::optional<double> common(const ConvexSolid& solid, const std::vector<double>& angles) {
   double shortest_edge = solid.diameter();
   for (const Edge& edge : solid.edges()) {
@@ -62,7 +62,7 @@ std::optional<double> common(const ConvexSolid& solid, const std::vector<double>
   return angles.front();
 }
 
-/// Common angles of all vertices and edges.
+/// Angles that all vertices and all edges of a solid have in common.
 struct SharedAngles {
   double dihedral, edge, normal;  ///< edge and normal as in VertexFigure
 };
@@ -88,8 +88,9 @@ void set_edge_angles(double half_dihedral, CriticalAngles& critical) {
   critical.ff_edge_face = right_angle - half_dihedral;
 }
 
-/// The cone of outward normals of a vertex: a polygon on the sphere. Its corners are the normals of the faces that meet
-/// in the vertex, its sides are perpendicular to the edges. If a plane touches only the vertex, its normal is inside.
+/// The normal cone of a vertex: the outward normals of all planes that touch the solid only at this vertex. On the unit
+/// sphere it is a polygon. Its corners are the normals of the faces that meet in the vertex, and its sides are
+/// perpendicular to the edges.
 struct NormalCone {
   std::vector<Vector3d> corners, sides;  ///< unit vectors; directions d of the cone have d·side ≥ 0
 };
@@ -119,7 +120,7 @@ double greatest_product(const std::vector<Vector3d>& list, const Vector3d& direc
   return greatest;
 }
 
-/// Calls look(d) for every unit vector that has the same product with three vectors of a list, with both signs.
+/// Calls look(d) for every unit vector d that has the same product with three vectors of a list, and for −d.
 template <class Look>
 void for_each_centre(const std::vector<Vector3d>& list, const Look& look) {
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -134,8 +135,8 @@ void for_each_centre(const std::vector<Vector3d>& list, const Look& look) {
   }
 }
 
-/// The largest angle to the sides among the directions of the cone: the radius of its inscribed circle. The circle
-/// touches three sides, or two of them where the great circles are farthest apart.
+/// The largest angle of a direction in the cone to the nearest side: the radius of the inscribed circle. The circle
+/// touches three sides, or two sides where their great circles are farthest apart.
 double inscribed_radius(const NormalCone& cone) {
   double best = 0;
   const auto look = [&](const Vector3d& d) { best = std::max(best, least_product(cone.sides, d)); };
@@ -146,8 +147,8 @@ double inscribed_radius(const NormalCone& cone) {
   return nearest::asin(std::min(1.0, best));
 }
 
-/// The largest angle to the nearest corner among the directions of the cone. It occurs at a point inside that is
-/// equally far from three corners, or on a side, at its intersection with the plane between two corners.
+/// The largest angle of a direction in the cone to the nearest corner. This direction has the same angle to three
+/// corners, or it is on a side and has the same angle to two corners.
 double farthest_from_corners(const NormalCone& cone, double tolerance) {
   double best = 1;
   const auto look = [&](const Vector3d& d) {

@@ -5,39 +5,39 @@
 
 namespace isojam {
 
-/// Critical alignment angles (radians): the largest angles that each contact topology allows, for two equal solids in
+/// Critical angles (radians): the largest alignment angles that each contact topology allows, for two equal solids in
 /// the orientation of highest symmetry (the paper's Table II). If the vertices or edges of a solid are not equivalent,
-/// the largest angle is computed for each vertex or edge in its best orientation, and the critical angle is the
-/// smallest of these. All vertices and edges of the solid then allow every angle below the critical angle.
+/// the largest angle is computed for each vertex or edge in its best orientation. The critical angle is the smallest of
+/// these. All vertices and edges of the solid then allow every angle below the critical angle.
 struct CriticalAngles {
   double ef_vertex_face = 0, ef_edge_edge = 0;  ///< θ_ef of a vertex on a face, and of two crossed edges
   /// θ_ff of a vertex on a face, of two crossed edges, and of an edge in a face
   double ff_vertex_face = 0, ff_edge_edge = 0, ff_edge_face = 0;
 
-  double ef_min() const;                          ///< the smallest critical angle θ_ef
-  double ff_min() const;                          ///< the smallest critical angle θ_ff
-  void take_lesser(const CriticalAngles& other);  ///< replaces each angle by the smaller value of both objects
+  double ef_min() const;  ///< smallest critical angle θ_ef
+  double ff_min() const;  ///< smallest critical angle θ_ff
+  /// replaces each angle by the smaller of its values in both objects
+  void take_lesser(const CriticalAngles& other);
 };
 
 /// Computes the critical angles of two equal solids. If all edges and all vertices are equivalent, the angles have a
-/// closed form with the dihedral angle and the vertex figure. Otherwise they are computed from the largest dihedral
-/// angle and the normal cones of all vertices.
+/// closed form. Otherwise they are computed by critical_angles_of_cones().
 CriticalAngles critical_angles(const ConvexSolid& solid);
 
-/// Computes the critical angles of two different solids. For contacts with a face, it is the smaller value of the two
-/// solids. For crossed edges, θ_ff = arccos(cos α_A cos α_B), and θ_ef is the smaller of α_A and α_B. Here α = π/2 −
-/// δ/2, where δ is the largest dihedral angle of the solid.
+/// Computes the critical angles of two different solids. Let α = π/2 − δ/2 for each solid, where δ is its largest
+/// dihedral angle. For crossed edges, θ_ff = arccos(cos α_A cos α_B). All other angles are the smaller of the values of
+/// both solids.
 CriticalAngles critical_angles(const ConvexSolid& a, const ConvexSolid& b);
 
 /// Computes the smallest value of each critical angle over all pairs of solids in a mixture.
 CriticalAngles critical_angles(const Mixture& mixture);
 
-/// True for a regular solid. The test is whether all vertices, edges and faces have the same angles and numbers of
-/// sides.
+/// True if the solid is regular. The test is that all vertices and edges have the same angles, and that all faces have
+/// the same number of sides.
 bool has_like_features(const ConvexSolid& solid);
 
-/// Computes the critical angles with the method of normal cones, which applies to any solid. Tests use it as the
-/// reference for the closed form.
+/// Computes the critical angles from the largest dihedral angle and the normal cones of all vertices. This applies to
+/// any solid. Tests use it as the reference for the closed form.
 CriticalAngles critical_angles_of_cones(const ConvexSolid& solid);
 
 }  // namespace isojam

@@ -12,9 +12,9 @@ namespace isojam {
 
 namespace {
 
-constexpr std::size_t least_angles = 10;  // fewer angles may be separated by chance, for any η
+constexpr std::size_t least_angles = 10;  // fewer angles may be separated by chance
 
-/// log θ of the angles below upper, ascending.
+/// log θ of the angles below `upper`, ascending.
 std::vector<double> logarithms(std::span<const double> angles, double upper, double resolution) {
   std::vector<double> result;
   for (const double angle : angles) {
@@ -30,7 +30,7 @@ struct Split {
   double separation = 0;
 };
 
-/// Never splits equal values. No separation if all are equal.
+/// The division with the largest η. It never separates equal values; η is 0 if all values are equal.
 Split best_split(const std::vector<double>& x) {
   const auto n = static_cast<double>(x.size());
   const double mean = std::accumulate(x.begin(), x.end(), 0.0) / n;
@@ -41,7 +41,7 @@ Split best_split(const std::vector<double>& x) {
   for (std::size_t k = 1; k < x.size(); ++k) {
     sum += x[k - 1] - mean;
     if (x[k] == x[k - 1]) continue;
-    // w_0 w_1 (μ_1 − μ_0)², with both means relative to the common one
+    // w_0 w_1 (μ_1 − μ_0)², with both means relative to the mean of all values
     const auto below = static_cast<double>(k);
     const double separation = sum * sum / (below * (n - below) * variance);
     if (separation > best.separation) best = {k, separation};

@@ -20,7 +20,8 @@ using std::numbers::pi;
 
 double angle_between(const Vector3d& u, const Vector3d& v) { return nearest::atan2(u.cross(v).norm(), u.dot(v)); }
 
-/// A stratified sample has this many cells of equal area along both cylindrical coordinates of the sphere.
+/// Number of intervals of both cylindrical coordinates of the sphere. The sample has one direction in each of bands²
+/// cells of equal area.
 constexpr int bands = 256;
 
 Vector3d direction_at(double z, double azimuth) {
@@ -28,7 +29,7 @@ Vector3d direction_at(double z, double azimuth) {
   return {r * nearest::cos(azimuth), r * nearest::sin(azimuth), z};
 }
 
-/// Fraction of ascending values below x, linear between them and starting from 0 at 0.
+/// Fraction of ascending values below x, interpolated linearly between the values; 0 at x = 0.
 double share_below(const std::vector<double>& values, double x) {
   const auto above = std::lower_bound(values.begin(), values.end(), x);
   if (above == values.end()) return 1;
@@ -38,7 +39,7 @@ double share_below(const std::vector<double>& values, double x) {
   return std::min(1.0, (below + part) / static_cast<double>(values.size()));
 }
 
-/// Position of the largest value; the first one if there are several.
+/// Position of the element with the largest value; the first of them if there are several.
 template <class Range, class Value>
 auto greatest(const Range& range, const Value& value) {
   auto best = range.begin();
@@ -52,7 +53,7 @@ auto greatest(const Range& range, const Value& value) {
   return best;
 }
 
-/// The directions of a solid's features, computed once for a whole sample.
+/// Directions of the features of a solid, which are computed once for all directions of a sample.
 class Features {
  public:
   explicit Features(const ConvexSolid& solid) : solid_(solid) {
@@ -60,8 +61,8 @@ class Features {
       edges_.push_back((solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized());
   }
 
-  /// The direction at the fraction `part` of the rotation from one face normal at the edge to the other. An edge in a
-  /// face can rotate only within this range.
+  /// The direction that is reached from one face normal at an edge by the fraction `part` of the rotation to the other
+  /// face normal. If the edge lies in a face, it can rotate only in this range.
   Vector3d turned_about(std::size_t e, double part) const {
     const Edge& edge = solid_.edges()[e];
     const Vector3d& left = solid_.faces()[static_cast<std::size_t>(edge.left)].normal;
@@ -77,7 +78,7 @@ class Features {
     return angle_between(nearest.normal, direction);
   }
 
-  /// Smallest elevation of the edges that meet in the outermost vertex.
+  /// Smallest elevation, above a plane with the normal `direction`, of the edges that meet in the outermost vertex.
   double least_elevation(const Vector3d& direction) const {
     const auto outermost = greatest(solid_.vertices(), [&](const Vector3d& vertex) { return vertex.dot(direction); });
     double least = 1;
@@ -99,7 +100,8 @@ RandomAlignment::RandomAlignment(const ConvexSolid& solid, Way way)
   if (way == Way::sampled || !set_regular(solid)) sample(solid);
 }
 
-/// Requires that all faces, edges and vertices have the same angles. Then 2E/V edges meet in a vertex.
+/// Sets the closed form. Returns false if the faces, edges and vertices do not all have the same angles. Otherwise 2E/V
+/// edges meet in each vertex.
 bool RandomAlignment::set_regular(const ConvexSolid& solid) {
   if (!has_like_features(solid)) return false;
   const CriticalAngles critical = critical_angles(solid);
@@ -155,10 +157,11 @@ double RandomAlignment::face_face(double theta) const {
   return std::min(1.0, faces_ * face_sides_ / (2 * pi) * (inside + cap));
 }
 
-// With the vertex's axis along z, the sides of the polygon are perpendicular to the edges, unit vectors e_k = (cos β
-// cos 2πk/q, cos β sin 2πk/q, sin β) from the other end to the vertex, β = ef_max. Points farther than θ from every
-// side have n·e_k > sin θ. The region of these points is bounded by q arcs of circles about e_k, of geodesic curvature
-// tan θ and length φ cos θ, which meet at the exterior angle ε. Its area is 2π − q(φ sin θ + ε).
+// Area of the polygon of a normal cone that is farther than θ from all sides. With the axis of the vertex along z, the
+// sides of the polygon are perpendicular to the edges. The edges have unit vectors e_k = (cos β cos 2πk/q, cos β sin
+// 2πk/q, sin β) towards the vertex, with β = ef_max. Points n that are farther than θ from every side satisfy n·e_k >
+// sin θ. The region of these points is bounded by q arcs of circles about e_k. An arc has the geodesic curvature tan θ
+// and the length φ cos θ, and two arcs meet at the exterior angle ε. The area is 2π − q(φ sin θ + ε).
 double RandomAlignment::cone_beyond(double theta) const {
   const double half = pi / valence_, sine = nearest::sin(ef_max_), cosine = nearest::cos(ef_max_);
   const Vector3d first(cosine, 0, sine);

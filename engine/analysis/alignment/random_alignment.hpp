@@ -12,16 +12,16 @@
 
 namespace isojam {
 
-/// Distributions of the alignment angles for ideal random contacts, as a reference (the paper's Figure 2). In these
-/// contacts, a solid touches the face of another one. Angles are in radians; each function is a cumulative
-/// distribution. There are two cases:
-///   Unconstrained: all orientations are equally likely, and a vertex touches. Then p(θ_ff) ∝ sin θ_ff up to the angle
-///   where the regions of two faces meet, and p(θ_ef) → const at 0.
-///   Edge-face constrained: an edge lies in the face; all edges and all rotations about the edge are equally likely.
-///   For a regular solid θ_ff is then uniform on [0, π/2 − δ/2], δ the dihedral angle, and θ_ef = 0.
+/// Cumulative distributions of the alignment angles of ideal random contacts, as a reference (the paper's Figure 2). In
+/// these contacts, a solid touches a face of another solid. Angles are in radians. p is the density of a distribution.
+/// There are two models:
+///   unconstrained          All orientations are equally likely, so a vertex touches the face. p(θ_ff) ∝ sin θ_ff below
+///                          half of the smallest angle between two face normals. p(θ_ef) is finite for θ_ef → 0.
+///   edge-face constrained  An edge lies in the face. All edges and all rotations about the edge are equally likely,
+///                          and θ_ef = 0. For a regular solid with dihedral angle δ, θ_ff is uniform on [0, π/2 − δ/2].
 /// If all faces, edges and vertices of the solid are equivalent, the distributions have a closed form. Otherwise they
-/// are computed from a stratified sample. For any solid, θ_ff has a closed form below half of the smallest angle
-/// between two face normals.
+/// are computed from a stratified sample, except that θ_ff has a closed form below half of the smallest angle between
+/// two face normals.
 class RandomAlignment {
  public:
   /// Method to compute the distributions.
@@ -30,25 +30,26 @@ class RandomAlignment {
   explicit RandomAlignment(const ConvexSolid& solid, Way way = Way::closed_where_regular);
 
   /// Distribution of θ_ff, the angle between a random direction and the nearest face normal. It is the fraction of the
-  /// sphere that is within θ of a normal. This area consists of spherical caps that are clipped by the spherical
-  /// polygons of the faces.
+  /// unit sphere that is within θ of a normal. This area consists of spherical caps around the normals. Each cap is
+  /// clipped by the spherical polygon that its face subtends.
   double face_face(double theta) const;
-  /// Distribution of θ_ef, the smallest angle from a random direction to the sides of the polygon that the normal cone
-  /// of the vertex forms on the sphere: 1 − the fraction of that polygon farther than θ from all sides, by the
-  /// Gauss–Bonnet theorem.
+  /// Distribution of θ_ef. The normal cone of a vertex forms a polygon on the unit sphere. θ_ef is the smallest angle
+  /// from a random direction to the sides of the polygon that contains it. The distribution is 1 minus the fraction of
+  /// the polygon that is farther than θ from all sides (Gauss–Bonnet theorem).
   double edge_face(double theta) const;
-  /// Distribution of θ_ff for the case that an edge lies in the face.
+  /// Distribution of θ_ff in the edge-face constrained model.
   double constrained_face_face(double theta) const;
-  /// Distribution of θ_ef for the case that an edge lies in the face; θ_ef is then always 0.
+  /// Distribution of θ_ef in the edge-face constrained model, where θ_ef is always 0.
   double constrained_edge_face(double theta) const { return theta < 0 ? 0 : 1; }
 
-  double ff_max() const { return ff_max_; }                          ///< angle where face_face reaches 1
-  double ef_max() const { return ef_max_; }                          ///< angle where edge_face reaches 1
-  double constrained_ff_max() const { return constrained_ff_max_; }  ///< angle where constrained_face_face reaches 1
+  double ff_max() const { return ff_max_; }  ///< angle where face_face() reaches 1
+  double ef_max() const { return ef_max_; }  ///< angle where edge_face() reaches 1
+  /// angle where constrained_face_face() reaches 1
+  double constrained_ff_max() const { return constrained_ff_max_; }
 
-  /// True if the solid is not regular, so that the distributions are computed from a sample. The sample consists of n =
-  /// 65 536 directions, one in each of n cells of the sphere. The standard deviation of a distribution is then
-  /// n^(-3/4), times a factor near 1.
+  /// True if the distributions are computed from a sample, because the solid is not regular. The sample consists of n =
+  /// 65 536 directions, one in each of n cells of the sphere. The standard deviation of a distribution is then about
+  /// n^(-3/4).
   bool is_sampled() const { return !face_face_.empty(); }
 
  private:
@@ -58,17 +59,18 @@ class RandomAlignment {
 
   double faces_ = 0, vertices_ = 0, face_sides_ = 0, valence_ = 0;
   double ff_max_ = 0, ef_max_ = 0, constrained_ff_max_ = 0;
-  double caps_apart_ = 0;                                    ///< half the smallest angle between two face normals
-  std::vector<double> face_face_, edge_face_, constrained_;  ///< ascending; empty in closed form
+  double caps_apart_ = 0;  ///< half of the smallest angle between two face normals
+  /// sampled angles, ascending; empty if the distributions have a closed form
+  std::vector<double> face_face_, edge_face_, constrained_;
 };
 
-/// Result of a comparison of angles with those of random contacts.
+/// Result of a comparison of alignment angles with the angles of random contacts.
 enum class RandomnessVerdict {
   not_called,
   hyper_random,  ///< there are significantly more angles near 0 than for random contacts
   random,        ///< there is no significant difference
   sub_random,    ///< there are significantly fewer angles near 0 than for random contacts
-  too_few        ///< there are so few contacts that no result would be significant
+  too_few        ///< there are so few contacts that no number of angles near 0 would be significant
 };
 template <>
 inline constexpr std::array enum_names<RandomnessVerdict>{
@@ -76,23 +78,24 @@ inline constexpr std::array enum_names<RandomnessVerdict>{
     EnumName{RandomnessVerdict::random, "random"}, EnumName{RandomnessVerdict::sub_random, "sub_random"},
     EnumName{RandomnessVerdict::too_few, "too_few"}};
 
-/// Parameters: the definition of angles near 0, and the level of significance.
+/// Options of compare_with_random().
 struct RandomnessOptions {
-  double fraction = 0.1;  ///< angles are near 0 where the random distribution is below this; there it is almost linear
-  double level = 0.01;    ///< significance level of each side of the test
+  /// angles are near 0 where the distribution for random contacts is below this value; it is almost linear there
+  double fraction = 0.1;
+  double level = 0.01;  ///< significance level for each side of the test
 };
 
-/// Comparison of the number of angles near 0 with the expected number for random contacts.
+/// Comparison of the number of angles near 0 with the number that is expected for random contacts.
 struct Randomness {
   RandomnessVerdict verdict = RandomnessVerdict::not_called;  ///< result of the test
-  double angle = 0;                                           ///< upper end of the range near 0, radians
+  double angle = 0;                                           ///< upper end of the range of angles near 0, in radians
   long below = 0;                                             ///< number of angles in this range
-  double expected = 0;                                        ///< expected number for random contacts
-  /// binomial probability of at least this number, or of at most this number of angles; the smaller of both
+  double expected = 0;  ///< number of angles that random contacts would have in this range
+  /// the smaller of two binomial probabilities for random contacts: of at least this number, and of at most this number
   double probability = 1;
 };
 
-/// Compares angles (radians) with a distribution of RandomAlignment, which reaches 1 at `largest`. Throws
+/// Compares angles (radians) with a distribution for random contacts, which reaches 1 at `largest`. Throws
 /// std::invalid_argument unless `fraction` and `level` are between 0 and 1.
 Randomness compare_with_random(std::span<const double> angles, const std::function<double(double)>& distribution,
                                double largest, const RandomnessOptions& options = {});

@@ -26,7 +26,7 @@ double exterior_angle(const ConvexSolid& solid, const Edge& edge) {
   return nearest::atan2(left.cross(right).norm(), left.dot(right));
 }
 
-/// The edges of a solid, each with a probability proportional to ℓ α.
+/// The edges of a solid. at() selects an edge with a probability proportional to ℓ α.
 struct Edges {
   explicit Edges(const ConvexSolid& solid) {
     double sum = 0;
@@ -62,9 +62,9 @@ struct Edges {
   std::vector<Angle> angles;
 };
 
-/// Directions from the common normal to the normals of both faces at an edge, as sine and cosine: the angle s ∈ [0,
-/// α/2] on one side, and α − s on the other side. x ∈ [0, 1] determines tan(s/2), so that no elementary function is
-/// needed.
+/// Angles from the common normal to the normals of the two faces at an edge, as sines and cosines. They are s on one
+/// side and α − s on the other side, with s in [0, α/2]. tan(s/2) is proportional to x in [0, 1], so that no elementary
+/// function is needed.
 struct Tilts {
   Tilts(const Edges::Angle& angle, double x) {
     const double t = angle.tangent * x, square = 1 + squared(t);
@@ -80,7 +80,7 @@ struct Tilts {
   std::array<double, 2> sines{}, cosines{};
 };
 
-/// The angle ψ ∈ [0, π] between the edges, from tan(ψ/2) = y/(1 − y).
+/// The angle ψ in [0, π] between the edges, from tan(ψ/2) = y/(1 − y).
 struct Crossing {
   explicit Crossing(double y) {
     const double square = squared(y) + squared(1 - y);
@@ -91,7 +91,7 @@ struct Crossing {
   double sine = 0, cosine = 0, weight = 0;
 };
 
-/// Smallest chord of the four pairs of faces.
+/// Smallest chord between a normal of A and the negative of a normal of B.
 double least_chord(const Tilts& a, const Tilts& b, const Crossing& crossing) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 2; ++i) {
@@ -107,8 +107,8 @@ double least_chord(const Tilts& a, const Tilts& b, const Crossing& crossing) {
 constexpr int points = 131072;
 constexpr std::size_t dimensions = 5;
 
-/// Point k of two sequences that fill a unit cube and a unit square evenly: k times the powers of 1/g, g⁴ = g + 1 and
-/// g³ = g + 1 (Roberts 2018).
+/// Point k of two sequences that fill a unit cube and a unit square evenly (Roberts 2018). The coordinates are k times
+/// the powers of 1/g, with g⁴ = g + 1 for the cube and g³ = g + 1 for the square.
 std::array<double, dimensions> even_point(int k) {
   constexpr double of_cube = 1.2207440846057594, of_square = 1.3247179572447460;
   std::array<double, dimensions> x{};
@@ -121,8 +121,8 @@ std::array<double, dimensions> even_point(int k) {
   return x;
 }
 
-/// Half of the points are even in x and y, for the bulk of the distributions. The other half are fourth powers of even
-/// points, for small angles.
+/// Half of the points are even in x and y, for the bulk of the distributions. The coordinates of the other half are
+/// fourth powers of even coordinates, for small angles.
 struct Place {
   Place(double u, double v, bool small)
       : x(small ? fourth(u) : u), y(small ? fourth(v) : v), weight(2 / (1 + density(x) * density(y))) {}
@@ -130,10 +130,10 @@ struct Place {
   static double density(double x) { return 1 / (4 * std::sqrt(x) * std::sqrt(std::sqrt(x))); }
 
   double x, y;
-  double weight;  ///< inverse density of points
+  double weight;  ///< inverse of the density of points
 };
 
-/// Weighted mean over both kinds of contact.
+/// Mean over all kinds of contacts, weighted by their fractions.
 template <class Vertices, class EdgeParts, class Function>
 double mean(const Vertices& vertices, const EdgeParts& edges, const Function& of) {
   double sum = 0;
@@ -176,7 +176,8 @@ RandomEdgeContact::RandomEdgeContact(const ConvexSolid& a, const ConvexSolid& b)
   const Edges edges_a(a), edges_b(b);
   const double cut = std::min(edges_a.least_half(), edges_b.least_half()) / 100;
   const double half_a = edges_a.greatest_half(), half_b = edges_b.greatest_half();
-  // Angles at the middle of either edge, crossed at a right angle.
+  // The largest angles occur if both contact normals are in the middle of their ranges and the edges cross at a right
+  // angle.
   face_face_ = {Curve::By::chord, 2, cut, nearest::acos(nearest::cos(half_a) * nearest::cos(half_b))};
   edge_face_ = {Curve::By::sine, 1, cut, std::min(half_a, half_b)};
   std::vector<Weighted> chords, sines;

@@ -9,56 +9,59 @@
 namespace isojam {
 
 // Model of random contacts of two convex solids A and B with random orientations: all positions in which B touches A
-// are equally likely. These positions form the surface of the Minkowski sum of A and −B. This surface consists of two
-// kinds of faces: faces of A or B, on which a vertex of the other solid lies, and parallelograms, which an edge of A
-// and an edge of B span. The mean area of the surface, over all rotations of B, is S_A + S_B + M_A M_B/2π (principal
-// kinematic formula). S is the surface area of a solid. M = ½ Σ ℓ α is its integral of the mean curvature, with the sum
-// over the edges of length ℓ and exterior angle α. In RandomAlignment, in contrast, a vertex always touches a face.
+// are equally likely. These positions form the surface of the Minkowski sum of A and −B. The surface has two kinds of
+// faces. The first kind are faces of A or B; there, a vertex of the other solid lies on the face. The second kind are
+// parallelograms that an edge of A and an edge of B span. The mean area of the surface, over all rotations of B, is S_A
+// + S_B + M_A M_B/2π (principal kinematic formula). S is the surface area of a solid, and M = ½ Σ ℓ α is its integrated
+// mean curvature. The sum is over the edges of the solid with length ℓ and exterior angle α. In the model of
+// RandomAlignment, in contrast, a vertex always touches a face.
 
-/// Quantities of a solid that determine how often it has contacts of each type.
+/// Quantities of a solid that determine the frequency of each type of contact.
 struct ContactSize {
-  double surface = 0;         ///< S
-  double mean_curvature = 0;  ///< M
+  double surface = 0;         ///< surface area S
+  double mean_curvature = 0;  ///< integrated mean curvature M
 };
-/// Computes the quantities of a solid.
+/// Computes S and M of a solid.
 ContactSize contact_size(const ConvexSolid& solid);
 
-/// Fractions of the types of contacts of two solids. Their sum is 1.
+/// Fractions of the types of contacts between solids A and B. Their sum is 1.
 struct ContactShares {
-  double vertex_of_a = 0;  ///< vertex of A on a face of B
-  double vertex_of_b = 0;  ///< vertex of B on a face of A
+  double vertex_of_a = 0;  ///< a vertex of A is on a face of B
+  double vertex_of_b = 0;  ///< a vertex of B is on a face of A
   double edge_edge = 0;    ///< an edge of A crosses an edge of B
 };
-/// Computes the fractions from the mean area of the Minkowski sum.
+/// Computes the fractions from the mean areas of the faces of the Minkowski sum.
 ContactShares contact_shares(const ContactSize& a, const ContactSize& b);
 
-/// Distributions of alignment angles if an edge of A touches an edge of B. The probability of an edge is proportional
-/// to ℓ α. The common normal is uniform between the normals of the two faces at either edge. The angle ψ between the
-/// edges has the density sin²ψ: one factor for the area of the parallelogram, one for the rotations in which two arcs
-/// of normals cross (Poincaré).
-///   θ_ff: the smallest angle between a normal of A at its edge and an opposite one of B; c → 4 ⟨1/(α_A α_B)⟩ θ² at 0.
-///   θ_ef: sin θ_ef = sin ψ · the smallest sine of the angles from the common normal to those four.
-/// Computed from 131072 fixed points with an error of 2e-3; below a hundredth of the smallest α/2 the limiting law at 0
-/// is used. Applies to any convex solids, independent of their sizes.
+/// Distributions of alignment angles of contacts in which an edge of A crosses an edge of B. The probability of an edge
+/// is proportional to ℓ α. Four normals belong to such a contact: the normals of the two faces at the edge of A, and of
+/// the two faces at the edge of B. The direction of the common normal of both edges is uniformly distributed between
+/// the two normals at the edge of A, and between those at the edge of B. The angle ψ between the edges has the density
+/// sin²ψ: one factor sin ψ for the area of the parallelogram, and one for the rotations in which the two arcs of
+/// normals cross (Poincaré).
+///   θ_ff   smallest angle between a normal of A and the negative of a normal of B; c → 4 ⟨1/(α_A α_B)⟩ θ² for θ → 0
+///   θ_ef   sin θ_ef = sin ψ · (smallest sine of the angles between the common normal and the four normals)
+/// The distributions are computed from 131072 fixed points with an error of 2e-3. Below a hundredth of the smallest
+/// α/2, the limiting law for θ → 0 is used. They apply to any convex solids, and do not depend on their sizes.
 class RandomEdgeContact {
  public:
-  /// Distributions for edges of these two solids.
+  /// Computes the distributions for an edge of `a` and an edge of `b`.
   RandomEdgeContact(const ConvexSolid& a, const ConvexSolid& b);
 
-  double face_face(double theta) const { return face_face_(theta); }  ///< distribution of θ_ff
-  double edge_face(double theta) const { return edge_face_(theta); }  ///< distribution of θ_ef
-  double ff_max() const { return face_face_.largest; }                ///< angle where face_face reaches 1
-  double ef_max() const { return edge_face_.largest; }                ///< angle where edge_face reaches 1
+  double face_face(double theta) const { return face_face_(theta); }  ///< cumulative distribution of θ_ff
+  double edge_face(double theta) const { return edge_face_(theta); }  ///< cumulative distribution of θ_ef
+  double ff_max() const { return face_face_.largest; }                ///< angle where face_face() reaches 1
+  double ef_max() const { return edge_face_.largest; }                ///< angle where edge_face() reaches 1
 
  private:
-  /// A distribution stored as a function of a quantity that increases with the angle and needs no inverse function: the
-  /// sine, or the chord 2 sin(θ/2).
+  /// A distribution, stored as a function of a quantity that increases with the angle and needs no inverse function:
+  /// the sine, or the chord 2 sin(θ/2).
   struct Curve {
     enum class By { sine, chord };
     By by = By::sine;
-    int power = 1;                       ///< power of θ near 0
-    double cut = 0, largest = 0;         ///< below `cut` the law at 0 applies; from `largest` on the fraction is 1
-    std::vector<double> at{}, shares{};  ///< ascending
+    int power = 1;                ///< power of θ in the law for θ → 0
+    double cut = 0, largest = 0;  ///< the law for θ → 0 applies below `cut`; the distribution is 1 from `largest` on
+    std::vector<double> at{}, shares{};  ///< values of the quantity, ascending, and of the distribution
     double share_at_cut = 0;
 
     double measure(double theta) const;
@@ -73,22 +76,23 @@ class RandomEdgeContact {
   Curve face_face_, edge_face_;
 };
 
-/// Distributions of the angles of all contacts: the sum of both kinds, weighted by their fractions.
+/// Distributions of the alignment angles of all contacts: the sum over all kinds of contacts, weighted by their
+/// fractions.
 class RandomContact {
  public:
   RandomContact() = default;
-  /// Contacts of identical solids.
+  /// Contacts between identical solids.
   explicit RandomContact(const ConvexSolid& solid);
 
-  /// Add a kind of contact with its fraction of all contacts; the fractions must sum to 1.
+  /// Adds a kind of contact. `share` is its fraction of all contacts; all fractions must sum to 1.
   void add(double share, RandomAlignment vertices) { vertices_.push_back({share, std::move(vertices)}); }
   void add(double share, RandomEdgeContact edges) { edges_.push_back({share, std::move(edges)}); }
 
-  double face_face(double theta) const;  ///< distribution of θ_ff
-  double edge_face(double theta) const;  ///< distribution of θ_ef
-  double ff_max() const;                 ///< angle where face_face reaches 1
-  double ef_max() const;                 ///< angle where edge_face reaches 1
-  double edge_edge_share() const;        ///< fraction of contacts between two edges
+  double face_face(double theta) const;  ///< cumulative distribution of θ_ff
+  double edge_face(double theta) const;  ///< cumulative distribution of θ_ef
+  double ff_max() const;                 ///< angle where face_face() reaches 1
+  double ef_max() const;                 ///< angle where edge_face() reaches 1
+  double edge_edge_share() const;        ///< fraction of contacts in which two edges cross
 
  private:
   template <class Angles>
