@@ -24,7 +24,7 @@ inline constexpr std::array enum_names<ContactClass>{EnumName{ContactClass::face
 
 /// Contact numbers Z and constraint number C = 3 Z_ff + 2 Z_ef + Z_l, per particle (the paper's Table III).
 struct ContactNumbers {
-  /// of all contacts, of face-face, edge-face and lower-order contacts, and of constraints
+  /// numbers of all contacts, of each class, and of constraints
   double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;
 };
 

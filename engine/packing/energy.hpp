@@ -27,15 +27,16 @@ struct Evaluation {
   /// net torque on a particle. The residual is 0 if all F_i and T_i are 0. It is infinite if mean_force is 0 but an F_i
   /// or T_i is not. Enthalpy::of() also takes the stress into account.
   double residual = 0;
-  /// Residual that rounding errors alone can cause. A minimisation cannot reach a smaller residual. Precision::working
-  /// rounds the coordinates. The floor is λ·ulp(L)/mean_force. L is the side of the cell, ulp(L) = 2⁻⁵² L, and λ is
-  /// twice the largest sum Σ_c ½ |∇V|² of a particle over its contacts c, an estimate of the largest eigenvalue of the
-  /// Hessian. Precision::double_double rounds the values of the contacts. The floor is a·max Σ_c ρ_c |F_c|/mean_force,
-  /// with the maximum over all particles. The factor a is the largest ratio of circumradius to radius of gyration: it
-  /// covers the longest lever arm of a force. ρ_c is the relative error of V and S of a contact, ρ_c = τ/max(d, V/|S|)
-  /// + τ/√|S|. Here d = double_double_below(). The distance of a vertex from a plane has the error τ = gap_tolerance()
-  /// if it is larger than d; smaller distances are correct to their last bits. The second term of ρ_c is the error of
-  /// the corners of the intersection, whose coordinates are doubles.
+  /// Residual that rounding errors alone can cause. A minimisation cannot reach a smaller residual.
+  /// With Precision::working, the coordinates are rounded, and the floor is λ·ulp(L)/mean_force. L is the side of the
+  /// cell, and ulp(L) = 2⁻⁵² L. λ is an estimate of the largest eigenvalue of the Hessian: twice the largest sum Σ_c ½
+  /// |∇V|² of a particle over its contacts c.
+  /// With Precision::double_double, the values of the contacts have rounding errors. The floor is b·max Σ_c ρ_c
+  /// |F_c|/mean_force, with the maximum over all particles. The factor b is the largest ratio of circumradius to radius
+  /// of gyration, because the circumradius is the longest lever arm of a force. ρ_c = τ/max(d, V/|S|) + τ/√|S| is the
+  /// relative error of V and S of a contact. The distance of a vertex from a plane has the error τ = gap_tolerance() if
+  /// it is larger than d = double_double_below(). Smaller distances are correct to their last bits. The second term of
+  /// ρ_c is due to the corners of the intersection, whose coordinates are doubles.
   double residual_floor = 0;
   /// Error of the energy that the same rounding can cause, as a sum over contacts: Σ |F|·ulp(L) with
   /// Precision::working, and Σ ρ_c V²/2 with Precision::double_double. Smaller differences of energies are not

@@ -88,8 +88,8 @@ struct Decompression {
 /// Options of the protocol of Smith, Fisher, Alam 2011 (and 2010): compression, then decompression towards φ_J. The
 /// keys of manifests and records call these stages consolidation and expansion.
 struct JamOptions {
-  Compression compression;
-  Decompression decompression;
+  Compression compression;                ///< options of the first stage
+  Decompression decompression;            ///< options of the second stage
   int max_steps = 400;                    ///< largest number of strain steps of both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
   MinimiseOptions minimise;  ///< options of the minimisations; compression changes some of them, see Compression

@@ -9,11 +9,12 @@
 
 // Near jamming the stiffnesses of a packing span ten orders of magnitude. Their ratio is the condition number for
 // first-order methods, but does not affect Newton's method. Newton's method is limited by the range in which its model
-// of the energy holds. Three measures extend this range. First, the model anticipates pairs that close and contacts
-// that tilt (step_model.hpp). Second, a step that raises the energy is continued before it is rejected (Chamberlain's
-// watchdog technique): if particles rotate together, flat contacts move out of their planes by the square of the angle,
-// far more than their depth, and one more Newton step corrects this. Third, the shift μ shortens steps that still fail
-// (Levenberg, Marquardt).
+// of the energy holds. Three measures extend this range.
+// First, the model anticipates pairs that close and contacts that tilt (step_model.hpp).
+// Second, a step that raises the energy is continued before it is rejected (Chamberlain's watchdog technique). Reason:
+// if particles rotate together, flat contacts move out of their planes by the square of the angle. This is far more
+// than their depth, but one more Newton step corrects it.
+// Third, the shift μ shortens steps that still fail (Levenberg, Marquardt).
 
 namespace isojam {
 
