@@ -22,8 +22,8 @@ struct BlockMatrix {
   /// `border` has the rows of the particles and the columns of the strains, 6N × strains. `corner` has the rows and
   /// columns of the strains, strains × strains. Both are empty if no strain is a coordinate.
   Eigen::MatrixXd border, corner;
-  /// √m of each particle, if the coordinates are multiplied by √m and the masses differ; otherwise empty. In these
-  /// coordinates, the entries of a uniform translation are proportional to √m.
+  /// √m of each particle with the mass m, if the coordinates are multiplied by √m and the masses differ; otherwise
+  /// empty. In these coordinates, the entries of a uniform translation are proportional to √m.
   Eigen::VectorXd root_masses{};
 
   int size() const { return static_cast<int>(diagonal.size()); }   ///< number of diagonal blocks

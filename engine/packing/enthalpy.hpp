@@ -8,7 +8,7 @@ struct EnvelopeEvaluation;
 
 /// Enthalpy E + p (V − V₀) − V₀ τ:(F − 1) of a packing, the function that minimisers minimise. V is the volume of the
 /// cell, V₀ is the volume of the reference cell, and F is the deformation from the reference cell to the present cell.
-/// CellControl gives p and τ; terms that it does not list for the free strains are 0. The last term is the work of a
+/// CellControl defines p and τ, and lists which terms are used for each CellFreedom. The last term is the work of a
 /// dead load. At the minimum, the stress equals −p·1 + τ only if F is near 1. After a large strain, make a new Enthalpy
 /// with the present cell as the reference.
 class Enthalpy {
@@ -21,8 +21,8 @@ class Enthalpy {
   /// Converts an evaluation of the energy to an evaluation of the enthalpy. It adds the energy of the load to the
   /// energy, and appends the derivatives with respect to the free strains to the gradient. The new residual is the
   /// larger of the residual of the forces and the residual of the stress. The residual of the stress is the largest
-  /// entry of σ + p·1 − (V₀/V) sym(F τ), projected on the free strains, divided by p. If the volume is not free, the
-  /// pressure of the packing replaces the p in the denominator.
+  /// entry of σ + p·1 − (V₀/V) sym(F τ), projected on the free strains, divided by p. σ is Evaluation::stress. If the
+  /// volume is not free, p = 0 in the numerator, and p in the denominator is the pressure of the packing.
   Evaluation of(Evaluation evaluation, const Packing& packing) const;
   /// Converts an evaluation of an envelope in the same way.
   EnvelopeEvaluation of(EnvelopeEvaluation evaluation, const Packing& packing) const;

@@ -10,8 +10,8 @@ namespace isojam {
 
 /// Two particles a < b that may touch, and the periodic image of b that may touch a. The displacement from a to this
 /// image is x_b − x_a + h·shift, where the columns of h are the lattice vectors. A list of pairs may contain the same a
-/// and b with several shifts. It never contains a = b. Reason: all functions that use such lists require a cell in
-/// which no particle can touch its own image (is_legal() in cell/periodic_cell.hpp).
+/// and b with several shifts. The functions below never return a = b, because no particle can touch its own image in a
+/// legal cell (is_legal() in cell/periodic_cell.hpp).
 struct NeighbourPair {
   int a = 0, b = 0;  ///< indices of the particles, a < b
   /// image of b: multiples of the lattice vectors by which it is displaced from b
