@@ -31,7 +31,7 @@ struct NearRattler {
   enum class Reason {
     few_contacts,  ///< the particle has fewer than four contacts
     /// the diagonal block of D of the particle has an eigenvalue at or below the tolerance, or the particle carries
-    /// more than half of the amplitude of a mode with λ at or below the tolerance
+    /// more than half of Σ|u_i|² of a mode with λ at or below the tolerance
     vanishing_stiffness
   };
   int particle = 0;                      ///< index of the particle
