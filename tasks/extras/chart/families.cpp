@@ -9,10 +9,11 @@ ChartFamily equilibrium_family() {
   return {
       "equilibrium",
       "residual",
-      "Minimisers are compared from the same states: states of a decompression, strained by one of its steps. The "
-      "residual is the largest imbalance of force on a particle, divided by the mean contact force. Bars show the "
-      "spread over packings, for times also over repetitions. The bias is the median difference from the reference, "
-      "which is the default method with residual 1e-9.",
+      "All minimisers start from the same states: states of a decompression, strained by one of its steps. The "
+      "residual is the largest net force on a particle, or its net torque divided by its radius of gyration, in units "
+      "of the mean contact force. Bars show the spread over packings, for times also over repetitions. The bias is the "
+      "median difference from a reference with residual 1e-9. The reference is the method of multipliers for this "
+      "method, and Newton's method for all others.",
       FamilyEnd::complete,
       {}};
 }

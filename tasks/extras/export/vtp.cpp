@@ -7,10 +7,10 @@ namespace isojam {
 namespace {
 
 constexpr auto explanation =
-    "<!-- particle: number from 0. Z: contacts of the particle. cluster: least number of a particle in the same "
+    "<!-- particle: number from 0. Z: contacts of the particle. cluster: smallest number of a particle in the same "
     "cluster of face-face contacts; -1: no face-face contact, -2: classes of contacts undecided. contact_class: the "
-    "strongest contact that the face takes part in; 3: face-face, 2: edge-face, 1: of lower order, 0: none, "
-    "-1: touched, classes undecided. Lengths in the cube root of a particle's volume. -->\n";
+    "highest class of a contact of this face; 3: face-face, 2: edge-face, 1: lower-order, 0: no contact, -1: contacts "
+    "with undecided classes. Lengths are in units of V_p^(1/3). -->\n";
 
 std::vector<double> world_vertices(const Packing& packing) {
   std::vector<double> coordinates;

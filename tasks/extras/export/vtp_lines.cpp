@@ -7,10 +7,10 @@ namespace isojam {
 namespace {
 
 constexpr auto lines_explanation =
-    "<!-- A line for each contact: centre of a, point of attack, centre of the touching image of b. contact_class: 3: "
-    "face-face, 2: edge-face, 1: of lower order by the fits, -1: undecided. kind, by what the intersection is: 0: "
-    "vertex-face, 1: edge-edge, 2: edge-face, 3: face-face, 4: none of these. force: on a. Lengths in the cube root of "
-    "a particle's volume, forces in Y times its square. -->\n";
+    "<!-- A line for each contact: centre of a, point of application of the force, centre of the touching image of b. "
+    "contact_class, by the fitted cut-offs: 3: face-face, 2: edge-face, 1: lower-order, -1: undecided. kind, by the "
+    "shape of the intersection: 0: vertex-face, 1: edge-edge, 2: edge-face, 3: face-face, 4: none of these. force: on "
+    "a. Lengths are in units of V_p^(1/3), forces in units of Y V_p^(2/3). -->\n";
 
 /// Three points of each contact: a centre, the point of application, and the other centre.
 std::vector<double> points_of(const Packing& packing, const std::vector<NetworkContact>& network) {
