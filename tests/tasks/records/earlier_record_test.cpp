@@ -110,7 +110,7 @@ TEST(EarlierRecord, IsReadFromADirectoryAndNotAddedTo) {
   const auto name = replicate_name(outcome.spec);
   const auto held = read_record(here.path(), name);
   EXPECT_TRUE(held.is_earlier);
-  EXPECT_EQ(held.summary.result_digest, earlier.at("result_digest"));
+  EXPECT_EQ(held.summary.result_digest, earlier.at("result_digest").get<std::string>());
   EXPECT_EQ(held.record.at("schema"), record_schema);
   EXPECT_FALSE(held.record.at("states").at(0).at("contacts").empty());
 
