@@ -62,7 +62,7 @@ def own_tables(schema, parts):
     lines = []
     for path, forms in paths.items():
         for row in rows[path].values():
-            row[2] = "one of these" if len(forms) > 1 else row[2]
+            row[2] = "one of these keys is required" if len(forms) > 1 else row[2]
         lines += [heading("Key", path), "", *table(KEY_HEAD, list(rows[path].values())), ""]
     return lines
 
@@ -79,8 +79,8 @@ def manifest_block(schema):
         what = "names, or [mixtures](#key-mixture)" if name == "solid" else kinds(schema, item)
         rows.append([f"`{name}`", f"list of {what}", "required", cell(item["description"])])
     lines += [heading("Key", "sweep"), "", *table(KEY_HEAD, rows), "",
-              "You can also sweep " + ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
-              ". Give a list of values for each. The key of the same name below has its meaning.", ""]
+              "You can also sweep these keys: " + ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +
+              ". Give a list of values for each key. The tables of `protocol` and `minimiser` below explain these keys.", ""]
     for name in OBJECTS[1:6]:
         lines += own_tables(schema, list(schema.objects(top[name], name)))
     own = schema.resolved(top["solids"]["additionalProperties"])
@@ -109,6 +109,7 @@ def result_rows(schema, kind, fields, units, path):
         else:
             what = cell(kinds(schema, field)) or "any"
         unit = units.get((kind, where))
+        unit = None if unit in ("per particle", "particles") else unit  # the description contains these
         meaning = inner.get("description", "") + (f" Unit: {unit}." if unit else "")
         rows.append([f"`{name}`", what, cell(meaning)])
     return rows

@@ -100,27 +100,52 @@ def number(x):
     return "2^53" if x == 2**53 else f"{x:g}" if isinstance(x, float) else str(x)
 
 
+def alternatives(parts):
+    """Parts with "or" before the last one."""
+    return " or ".join(filter(None, (", ".join(parts[:-1]), parts[-1])))
+
+
+PLURALS = {"number": "numbers", "integer": "integers", "object": "objects", "text": "texts", "list": "lists"}
+
+
+def elements(schema, node):
+    """Allowed kinds of the elements of a list, as text."""
+    inner = schema.resolved(node.get("items", {}))
+    text = kinds(schema, inner) or "values"
+    if "enum" in inner:
+        return f"any of {text}"
+    if " or " in text:
+        return f"values, each {text}"
+    word = text.split(" ")[0]
+    return PLURALS.get(word, word) + text[len(word):]
+
+
 def kinds(schema, node):
     """Allowed types of a value, as text."""
     node = schema.resolved(node)
     if "const" in node:
         return code(node["const"])
     if "enum" in node:
-        return ", ".join(code(value) for value in node["enum"])
+        return alternatives([code(value) for value in node["enum"]])
     names = node.get("type", [])
     names = [names] if isinstance(names, str) else list(names)
     if not names:
         parts = [kinds(schema, part) for part in node.get("oneOf", []) + node.get("anyOf", [])]
-        return " or ".join(dict.fromkeys(part for part in parts if part))
+        return either(dict.fromkeys(part for part in parts if part))
     words = []
     for name in names:
         if name == "array":
-            inner = schema.resolved(node.get("items", {}))
             least, most = node.get("minItems"), node.get("maxItems")
             many = f"{least} " if least and least == most else f"up to {most} " if most else ""
-            words.append(f"list of {many}{kinds(schema, inner) or 'values'}")
+            words.append(f"list of {many}{elements(schema, node)}")
         elif name in ("number", "integer"):
             words.append(" ".join(filter(None, (name, bounds(node)))))
         else:
-            words.append({"string": "text", "boolean": "`true`, `false`"}.get(name, name))
-    return " or ".join(words)
+            words.append({"string": "text", "boolean": "`true` or `false`"}.get(name, name))
+    return either(words)
+
+
+def either(words):
+    """Alternatives. A comma ends a list, so that its elements and the list itself are not confused."""
+    words = list(words)
+    return (", or " if any(word.startswith("list of ") for word in words) else " or ").join(words)
