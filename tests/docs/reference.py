@@ -109,7 +109,7 @@ def result_rows(schema, kind, fields, units, path):
         else:
             what = cell(kinds(schema, field)) or "any"
         unit = units.get((kind, where))
-        unit = None if unit in ("per particle", "particles") else unit  # the description contains these
+        unit = None if unit in ("per particle", "particles", "L") else unit  # the description contains these
         meaning = inner.get("description", "") + (f" Unit: {unit}." if unit else "")
         rows.append([f"`{name}`", what, cell(meaning)])
     return rows

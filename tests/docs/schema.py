@@ -115,7 +115,7 @@ def elements(schema, node):
     if "enum" in inner:
         return f"any of {text}"
     if " or " in text:
-        return f"values, each {text}"
+        return f"values ({text})"
     word = text.split(" ")[0]
     return PLURALS.get(word, word) + text[len(word):]
 
