@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-from schema import Schema, cell, code, fields_of, kinds
+from schema import Schema, cell, code, elements, fields_of, kinds
 
 # Keys of the manifest that have tables of their own.
 KEY_HEAD = ("key", "value", "default", "meaning")
@@ -76,7 +76,7 @@ def manifest_block(schema):
     rows = []
     for name, field in own.items():
         item = schema.resolved(schema.resolved(field["items"]).get("anyOf", [field["items"]])[0])
-        what = "names, or [mixtures](#key-mixture)" if name == "solid" else kinds(schema, item)
+        what = "names, or [mixtures](#key-mixture)" if name == "solid" else elements(schema, {"items": item})
         rows.append([f"`{name}`", f"list of {what}", "required", cell(item["description"])])
     lines += [heading("Key", "sweep"), "", *table(KEY_HEAD, rows), "",
               "You can also sweep these keys: " + ", ".join(f"`{name}`" for name in sweep["properties"] if name not in own) +

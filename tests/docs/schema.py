@@ -146,6 +146,6 @@ def kinds(schema, node):
 
 
 def either(words):
-    """Alternatives. A comma ends a list, so that its elements and the list itself are not confused."""
+    """Alternatives. A comma ends a list, which may contain "or" itself."""
     words = list(words)
-    return (", or " if any(word.startswith("list of ") for word in words) else " or ").join(words)
+    return (", or " if any(word.startswith("list of ") or " or " in word for word in words) else " or ").join(words)
