@@ -16,7 +16,7 @@ namespace isojam {
 // after each step. The strain γ and the shear stress s are conjugate, dE = V_cell s dγ. In the linear regime, s = G γ
 // with the shear modulus G. p is the pressure, and σ is the stress.
 
-/// Kind of shear.
+/// Geometry of the shear.
 enum class ShearMode {
   pure,   ///< ε = γ/2 (x̂x̂ − ŷŷ), s = (σ_xx − σ_yy)/2
   simple  ///< x → x + γ y, s = σ_xy
@@ -25,10 +25,10 @@ template <>
 inline constexpr std::array enum_names<ShearMode>{EnumName{ShearMode::pure, "pure"},
                                                   EnumName{ShearMode::simple, "simple"}};
 
-/// Quantity that is prescribed in a shear.
+/// Quantity that is prescribed in each step of the shear.
 enum class ShearControl {
   strain,  ///< γ is prescribed, at constant volume
-  stress   ///< s is prescribed, at constant pressure; all strains are free
+  stress   ///< s is prescribed, at constant pressure; all six strains of the cell are free
 };
 template <>
 inline constexpr std::array enum_names<ShearControl>{EnumName{ShearControl::strain, "strain"},
@@ -38,10 +38,11 @@ inline constexpr std::array enum_names<ShearControl>{EnumName{ShearControl::stra
 struct ShearOptions {
   ShearMode mode = ShearMode::pure;             ///< kind of shear
   ShearControl control = ShearControl::strain;  ///< prescribed quantity
-  /// change of γ in a step; with stress control, change of s/p₀, where p₀ is the initial pressure
+  /// change of γ in a step; with stress control, change of s/p₀ in a step, where p₀ is the pressure of the initial
+  /// packing
   double step = 1e-3;
   double until = 0.02;       ///< final value of γ; with stress control, final value of s/p₀
-  bool back = false;         ///< true if γ or s then returns to zero in the same steps
+  bool back = false;         ///< true: from `until`, γ or s/p₀ goes back to 0 in the same steps
   MinimiseOptions minimise;  ///< options of the minimisations
 };
 
@@ -55,26 +56,28 @@ struct ShearState {
   Eigen::Matrix3d full_stress = Eigen::Matrix3d::Zero();  ///< σ
   double pressure = 0, energy = 0;                        ///< p, and E
   long contacts = 0;                                      ///< number of touching pairs
-  /// Work of the shear stress and of the pressure in the step, minus the increase of the energy E. It is positive if
-  /// the packing loses energy in a rearrangement.
+  /// Work of the shear stress and of the pressure in the step, minus the increase of the energy E. In a rearrangement,
+  /// it is positive: the packing loses energy.
   double dissipated = 0;
-  /// True if the step is a drop: the equilibrium that it reached was a saddle, which was relaxed to a minimum, or the
-  /// step dissipated more than the fraction drop_part of the energy.
+  /// True if the step is a drop. A step is a drop if it reached a saddle, which was then relaxed to a minimum. It is
+  /// also a drop if it dissipated more than the fraction drop_part of the energy.
   bool dropped = false;
   int descents = 0;           ///< number of saddles that were relaxed
   MinimiseSummary summary{};  ///< summary of the last minimisation
 };
 
-/// Fraction of the energy that a step must dissipate to count as a drop.
+/// A step is a drop if it dissipates more than this fraction of the energy before the step.
 inline constexpr double drop_part = 0.01;
 
 /// Reason for the end of shear().
 enum class ShearEnd {
   not_called,
   completed,       ///< all requested steps were made
-  no_equilibrium,  ///< a step found no equilibrium, for example because the packing slides too far
+  no_equilibrium,  ///< the minimisation after a step found no equilibrium
   unjammed,        ///< the packing lost its contact forces
-  cell_limit,      ///< the cell became too skew or too small; this happens if the stress exceeds the yield stress
+  /// The cell became so small or skew that a particle could touch two images of another particle. This happens if the
+  /// prescribed stress exceeds the yield stress.
+  cell_limit,
   interrupted
 };
 template <>
@@ -89,16 +92,17 @@ struct ShearResult {
   std::vector<ShearState> states;         ///< equilibria, beginning with the initial packing
 };
 
-/// Shears an equilibrium. With strain control, the volume is constant. With stress control, the pressure is constant,
-/// and the prescribed stress has the shear stress s. Throws std::invalid_argument in two cases: the pressure of the
-/// packing is not positive, or 0 < step ≤ until is not satisfied.
+/// Shears an equilibrium in steps. With strain control, the volume is constant. With stress control, the prescribed
+/// stress is −p₀·1 + deviator_with(s), where p₀ is the pressure of the initial packing. Throws std::invalid_argument if
+/// the pressure of the packing is not positive. Throws the same exception unless 0 < step ≤ until.
 ShearResult shear(const Packing& start, const ShearOptions& options, std::stop_token stop = {});
 
 /// Shear stress s of a stress tensor.
 double shear_stress(const Eigen::Matrix3d& stress, ShearMode mode);
-/// The traceless symmetric stress tensor that has only this shear stress.
+/// The traceless symmetric stress tensor with the shear stress s. Its only entries that are not 0 are xx = s and yy =
+/// −s for pure shear, and xy = yx = s for simple shear.
 Eigen::Matrix3d deviator_with(double shear_stress, ShearMode mode);
-/// The deformation F of the cell for a strain γ.
+/// The deformation F of the cell that produces the strain γ.
 DoubleDoubleMatrix shear_deformation(double strain, ShearMode mode);
 
 }  // namespace isojam
