@@ -14,13 +14,15 @@
 
 namespace isojam {
 
-/// Relaxation of the states during compression (`consolidation` in manifests). φ_J of tetrahedra depends on this
-/// choice, see docs/protocol.md.
+/// Relaxation of the states during compression: the values of the key `consolidation` in manifests. φ_J of tetrahedra
+/// depends on the choice, see docs/protocol.md.
 enum class Consolidation {
-  /// Relaxed compression: each state is relaxed until its residual is Compression::residual, or until
-  /// Compression::evaluations is reached. φ_J is close to the limit of complete relaxation.
+  /// Relaxed compression: L-BFGS relaxes each state with at most Compression::evaluations evaluations. The mean φ_J
+  /// differs by at most 0.003 from the mean φ_J after the most complete relaxation that was tried.
   relaxed,
-  hasty  ///< hasty compression: at most 50 evaluations per strain step; φ_J of tetrahedra agrees with the paper
+  /// Hasty compression: L-BFGS relaxes each state with at most 50 evaluations. φ_J of tetrahedra then agrees with the
+  /// paper.
+  hasty
 };
 template <>
 inline constexpr std::array enum_names<Consolidation>{EnumName{Consolidation::relaxed, "relaxed"},
@@ -35,7 +37,7 @@ inline constexpr std::array enum_names<Control>{EnumName{Control::density, "dens
 /// Relaxation of the shape of the cell.
 enum class CellShape {
   isotropic,  ///< the cell remains a cube
-  free        ///< the cell shape relaxes in compression and decompression, so every state has a hydrostatic stress
+  free  ///< the cell shape relaxes in compression and decompression, so the stress of an equilibrium is hydrostatic
 };
 template <>
 inline constexpr std::array enum_names<CellShape>{EnumName{CellShape::isotropic, "isotropic"},
@@ -46,20 +48,22 @@ inline constexpr std::array enum_names<CellShape>{EnumName{CellShape::isotropic,
 struct Compression {
   double initial_density = 0.05;  ///< density φ of the random packing
   /// Increase of φ in a strain step. In a test with 16 packings of 100 particles, steps of 0.005, 0.01 and 0.02 gave
-  /// the same φ_J with similar standard deviations. The longest of these steps is the default, because it costs least.
+  /// the same φ_J with similar standard deviations. The default is the longest of these steps, because compression then
+  /// costs least.
   double step = 0.02;
   double target_energy = 3.2e-5;  ///< E/N at which compression ends; the value of the paper
-  /// The paper's target energy can be interpreted in two ways. false: compression ends at the first relaxed state with
-  /// E/N ≥ target_energy. This state is then minimised until it is an equilibrium. If less than half of its energy
-  /// remains, compression continues. true: each strain step is so short that E/N before relaxation stays below
-  /// target_energy. Compression ends when a relaxed state still has contacts and reaches `residual`.
+  /// The paper's target energy can be interpreted in two ways:
+  /// - false: compression ends at the first state whose E/N after relaxation is at least target_energy. The
+  ///   minimisation at the start of decompression can reduce E/N to less than half of target_energy. Compression then
+  ///   continues.
+  /// - true: each strain step is so short that E/N before relaxation is at most target_energy. Compression ends at the
+  ///   first state that has contacts and whose residual is at most `residual`.
   bool target_before_relaxation = false;
-  /// Upper limit of φ. The cell must be legal up to this density (is_legal() in packing/cell/periodic_cell.hpp).
-  /// Crystals can exceed φ = 0.9 before they reach the target energy.
+  /// Upper limit of φ. No particle may be able to touch two images of another particle up to this density (is_legal()
+  /// in packing/cell/periodic_cell.hpp). Crystals can exceed φ = 0.9 before they reach the target energy.
   double max_density = 0.93;
-  /// Residual at which L-BFGS ends the relaxation of a state. It also ends if E/N is below unjammed_energy, or after
-  /// `evaluations` evaluations. Only the state that reaches the target energy is minimised further, until it is an
-  /// equilibrium.
+  /// L-BFGS ends the relaxation of a state when the residual is at most this value, when E/N is below unjammed_energy,
+  /// or after `evaluations` evaluations. Decompression begins with a minimisation of the last state to an equilibrium.
   double residual = 1e-3;
   double unjammed_energy = 1e-14;                     ///< E/N below which a state counts as unjammed
   int evaluations = 2000;                             ///< largest number of evaluations for a state
@@ -69,19 +73,20 @@ struct Compression {
 /// Options of decompression, the second stage: steps to lower densities, or to lower pressures, towards φ_J.
 struct Decompression {
   /// Length of a step as a fraction of φ − φ_J, which is estimated from the last state. A step is shorter if it would
-  /// exceed longest_step or go far beyond final_distance. After a failed step, the next step is half as long. Each
-  /// successful step increases the fraction again, up to this value.
+  /// otherwise exceed longest_step or end below 0.95·final_distance. A step fails if it finds no equilibrium. After a
+  /// failed step, the next step is half as long. Each successful step increases the fraction by a factor of 1.5, up to
+  /// this value.
   double step_fraction = 0.35;
   double longest_step = 0.05;  ///< largest decrease of φ in a step
-  /// An event is a rearrangement (rearrangement.hpp) or the end of a solution branch. A step with an event is repeated
-  /// at half its length, until it is shorter than this fraction of φ − φ_J. The density of the event is then known with
-  /// this resolution. 0: steps are not repeated.
+  /// A step that contains a rearrangement (is_rearranged() in rearrangement.hpp) is repeated at half its length, until
+  /// it is shorter than this fraction of φ − φ_J. The density of the rearrangement is then known with this resolution.
+  /// 0: steps are not repeated.
   double event_resolution = 0;
   double final_distance = 0.004;  ///< decompression ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this are used to fit φ_J
-  /// Prescribed quantity. With Control::pressure, each state has a lower pressure than the last state, and particles
-  /// and volume are in equilibrium at this pressure. In a step that would reduce Δφ by the fraction f, the pressure is
-  /// multiplied by (1 − f)⁵.
+  /// Prescribed quantity. With Control::pressure, each step prescribes a lower pressure, and the volume of the cell
+  /// relaxes together with the particles. A step of the length f·(φ − φ_J) multiplies the pressure by (1 − f)⁵, because
+  /// p is proportional to (φ − φ_J)⁵.
   Control control = Control::density;
 };
 
@@ -92,7 +97,10 @@ struct JamOptions {
   Decompression decompression;            ///< options of the second stage
   int max_steps = 400;                    ///< largest number of strain steps of both stages together
   CellShape cell = CellShape::isotropic;  ///< relaxation of the shape of the cell
-  MinimiseOptions minimise;  ///< options of the minimisations; compression changes some of them, see Compression
+  /// Options of the minimisations. In compression, the method is always L-BFGS, and Compression::evaluations replaces
+  /// max_evaluations. `residual` and `unjammed_energy` are also members of Compression; compression uses the larger
+  /// value.
+  MinimiseOptions minimise;
 };
 
 /// Stages of the protocol. `consolidation` is compression, and `expansion` is decompression.
@@ -101,23 +109,24 @@ template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "consolidation"},
                                                  EnumName{JamStage::expansion, "expansion"}};
 
-/// Difference between two successive states of a decompression. On a smooth solution branch, the energy is proportional
-/// to Δφ⁶, and all particles move by similar distances. In a rearrangement, the packing loses energy, and a few
-/// particles move much farther than the others.
+/// Difference between two successive states of a decompression. Every pair of successive states has a Rearrangement;
+/// is_rearranged() decides whether the step between them contains a rearrangement. On a smooth solution branch, the
+/// energy is proportional to Δφ⁶, and all particles move by similar distances. In a rearrangement, the packing loses
+/// energy, and a few particles move much farther than the others.
 struct Rearrangement {
-  /// E₁ divided by its expected value (Δφ₁/Δφ₀)⁶ E₀. The index 0 is the first state, 1 the second. Δφ₀ and Δφ₁ are
-  /// estimated from the first state.
+  /// E₁ divided by its expected value (Δφ₁/Δφ₀)⁶ E₀. The index 0 means the first state, 1 the second. Δφ₀ is
+  /// distance_to_jamming() of the first state, and Δφ₁ = Δφ₀ − (φ₀ − φ₁).
   double energy_ratio = 0;
   /// numbers of pairs that touch only in the first state, and only in the second state
   int contacts_lost = 0, contacts_gained = 0;
-  /// Number of particles that moved: the participation number (Σu²)²/Σu⁴ with sums over all particles. u² = |dx|² +
-  /// R²|dθ|² for the non-affine displacement dx and the rotation dθ of a particle.
+  /// Number of particles that moved: the participation number (Σu²)²/Σu⁴ with sums over all particles. For each
+  /// particle, u² = |dx|² + R²|dθ|², where dx is the displacement without the affine part and dθ the rotation.
   double particles_moved = 0;
 };
 
-/// The control of the cell at a prescribed density: in compression, and in decompression with Control::density.
+/// Free strains of the cell in compression, and in decompression with Control::density. There is no load.
 CellControl control_at_density(const JamOptions& options);
-/// The control of the cell at a prescribed pressure (Y): in decompression with Control::pressure.
+/// Free strains of the cell, and its load, in decompression with Control::pressure. `pressure` is in units of Y.
 CellControl control_at_pressure(const JamOptions& options, double pressure);
 
 /// A strain step and the minimised state after it. Energies are in units of Y·V_p, the pressure in Y.
@@ -131,8 +140,9 @@ struct JamStep {
   int descents = 0;  ///< number of saddles that were relaxed along a negative mode before this state was reached
   /// difference from the state before; nullopt in compression and at the beginning of a solution branch
   std::optional<Rearrangement> rearrangement;
-  /// True if the solution branch ended in this step of the decompression: the packing lost its contact forces, or it
-  /// slid so far that two successive steps found no equilibrium.
+  /// True if the solution branch ended in this step of the decompression. Either the packing is unjammed, or this step
+  /// and the step before it, which was twice as long, both reached the largest number of evaluations without an
+  /// equilibrium.
   bool lost = false;
 };
 
@@ -163,11 +173,11 @@ inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called
 struct JamResult {
   JamStatus status = JamStatus::not_called;  ///< reason for the end of the run
   std::vector<JamStep> path;                 ///< all strain steps, with their minimised states
-  /// minimised packings of the last solution branch of the decompression, in the order of the steps
+  /// Minimised packings of the last solution branch of the decompression, in the order of the steps. They are
+  /// equilibria, unless minimise.energy_change is set: then they include packings whose minimisation ended with
+  /// StopReason::energy_change.
   std::vector<Packing> states;
-  /// index in `path` of each element of `states`. The states are equilibria, or satisfy the rule
-  /// minimise.energy_change.
-  std::vector<int> state_steps;
+  std::vector<int> state_steps;       ///< index in `path` of each element of `states`
   std::optional<JammingPoint> phi_j;  ///< jamming density; nullopt if there are fewer than two states
   long evaluations = 0;               ///< number of evaluations of energy and forces in all steps
   PairCounts counts;                  ///< numbers of pairs that were processed in all evaluations
@@ -177,22 +187,23 @@ struct JamResult {
 /// The data of `states` for fit_jamming_point().
 std::vector<EnergyPoint> energy_points(const JamResult& result);
 
-/// State of a run between two strain steps. It is a value type. A run that continues from it, in any process, gives the
-/// same bits as an uninterrupted run.
+/// Everything that a run needs to continue after a strain step. It is a value type. A run that continues from it, in
+/// any process, gives the same bits as an uninterrupted run.
 struct JamProgress {
   /// packing from which the next step starts: the last minimised state, or the initial configuration
   Packing packing;
   JamStage stage = JamStage::consolidation;  ///< stage of the next step
-  /// present value of Decompression::step_fraction, which failed steps reduce
+  /// current fraction for the next step: at first Decompression::step_fraction, smaller after failed steps
   double step_fraction = 0;
-  int halvings = 0;  ///< number of steps of the decompression that failed or in which a solution branch ended
-  /// Index in the path of the last equilibrium of a solution branch that has just ended, otherwise −1. `packing` is
-  /// then the state after the end of the branch, without contact forces or without equilibrium. The next steps compress
-  /// it again.
+  /// Number of steps of the decompression that failed or ended a solution branch. Each of them halves the step
+  /// fraction. The fifth ends the decompression.
+  int halvings = 0;
+  /// If a solution branch has ended: index in `path` of its last equilibrium. `packing` is then unjammed or far from
+  /// equilibrium, and the next steps compress it to an equilibrium of another branch. Otherwise −1.
   int lost = -1;
   JamResult result;  ///< result so far; its status is not_called until the run has ended
-  /// True if the run began with begin_expansion(). The packing then counts as jammed at any energy, so decompression
-  /// never returns to compression.
+  /// True if the run began with begin_expansion(). Decompression then begins at any energy. Otherwise it returns to
+  /// compression if its first minimisation reduces the energy too far (Compression::target_before_relaxation).
   bool jammed = false;
 
   bool ended() const { return result.status != JamStatus::not_called; }  ///< true if the run has ended
@@ -204,10 +215,9 @@ JamProgress begin_jam(Packing start, const JamOptions& options);
 JamProgress begin_expansion(Packing jammed, const JamOptions& options);
 
 /// Makes the next step of a run that has not ended: changes the density or pressure, minimises the packing, and appends
-/// the step to the path. The first step of each stage only minimises. After a step of the decompression, the packing is
-/// appended to `states` if it is an equilibrium or satisfies the rule minimise.energy_change. After a stop request, the
-/// run ends with the status `interrupted`, and the last step is unfinished. To continue the run, start from the
-/// progress before this call.
+/// the step to the path. The first step of a run and the first step of a decompression only minimise. If a step of the
+/// decompression succeeds, its packing is appended to `states`. After a stop request, the run ends with the status
+/// `interrupted`, and the last step is unfinished. To continue the run, start from the progress before this call.
 void advance(JamProgress& progress, const JamOptions& options, std::stop_token stop = {});
 
 /// Function that jam() calls after every step that was not interrupted.

@@ -7,7 +7,7 @@
 
 namespace isojam {
 
-/// Estimate 6E/(dE/dφ) of the distance φ − φ_J of a minimised state. It follows from E ∝ (φ − φ_J)⁶ and dE/dφ = N p/φ².
+/// Estimates the distance φ − φ_J of a minimised state as 6E/(dE/dφ), because E ∝ (φ − φ_J)⁶. dE/dφ is N p/φ².
 double distance_to_jamming(const JamStep& step);
 
 /// Computes the difference between the equilibria `before` and `after` of the same particles at two densities.
@@ -15,26 +15,27 @@ Rearrangement rearrangement(const Packing& before, const JamStep& step_before, c
                             const JamStep& step_after);
 
 /// A step contains a rearrangement if Rearrangement::energy_ratio is below this value. The value is a convention,
-/// because the ratio has a continuous distribution. At this value, the result hardly depends on the length of the
-/// steps. In 12 decompressions of N = 64 particles from the same initial states, the numbers of steps were
-///   length of a step   all   ratio ≥ 0.95   ratio < 0.5
-///   5 % of Δφ          855   830            2
-///   35 % of Δφ         117   54             2
-/// The two distributions differ only above a ratio of about 0.7, because a longer step also makes a packing softer,
+/// because the ratio has a continuous distribution. With this value, the number of rearrangements hardly depends on the
+/// length of the steps. 12 decompressions of N = 64 particles, from the same initial states for both lengths, had these
+/// steps:
+///   length of a step   steps   with ratio ≥ 0.95   with ratio < 0.5
+///   5 % of Δφ          855     830                 2
+///   35 % of Δφ         117     54                  2
+/// The two distributions of the ratio differ only above about 0.7, because a longer step also makes a packing softer,
 /// which is not a rearrangement. In 94 more decompressions with steps of 35 % (N = 32 to 400), 28 of 483 steps with Δφ
-/// below 0.05 had a ratio below 0.5. No step with a larger Δφ had.
+/// below 0.05 had a ratio below 0.5. Steps with a larger Δφ never had such a ratio.
 inline constexpr double rearranged_below = 0.5;
 
 /// True if the step contains a rearrangement: its energy_ratio is below rearranged_below, or the solution branch ended
-/// in it.
+/// in this step.
 bool is_rearranged(const JamStep& step);
 
 /// Numbers of steps and rearrangements in a decompression.
 struct Rearrangements {
-  /// number of steps that led from an equilibrium to the next one or to the end of a solution branch
+  /// number of steps that led from an equilibrium to the next equilibrium or to the end of a solution branch
   int steps = 0;
   int is_rearranged = 0;  ///< number of these steps that contain a rearrangement
-  /// Means over the rearranged steps that led to another equilibrium; nullopt if there is no such step.
+  /// means over the rearranged steps that led to another equilibrium; nullopt if there is no such step
   std::optional<double> particles_moved, contacts_lost, contacts_gained;
 };
 /// Counts the rearrangements in the path of a run.

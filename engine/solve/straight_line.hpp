@@ -15,8 +15,8 @@ struct Line {
 /// Fits a line to at least two points. They must not all have the same x.
 Line fit_line(std::span<const double> x, std::span<const double> y);
 
-/// The quantile t with P(|T| < t) = 0.95 for Student's T. `degrees` ≥ 1 is rounded to an integer number of degrees of
-/// freedom.
+/// The quantile t with P(|T| < t) = 0.95, where T has Student's distribution. The number of degrees of freedom is
+/// `degrees` ≥ 1, rounded to an integer.
 double student_95(double degrees);
 
 }  // namespace isojam

@@ -14,17 +14,17 @@ namespace isojam {
 
 /// Cholesky factorisation of H + shift·1 for a sparse symmetric matrix H of 6×6 blocks, by the multifrontal method on
 /// the graph of particles (Duff & Reid 1983, Liu 1992). Each supernode is eliminated as a dense front, and passes its
-/// update matrix to its parent. For large matrices, several threads share the tree of fronts and the rows of the
-/// largest fronts. The result has the same bits for any number of threads. The symbolic factorisation is reused until
-/// the pattern of the matrix changes. If the matrix has a border of strains, the strains are eliminated last. This
-/// needs one solution of the linear system for each strain, and a Cholesky factorisation of the Schur complement.
+/// update matrix to the parent front. For large matrices, several threads process different fronts, and different rows
+/// of the largest fronts. The result has the same bits for any number of threads. The symbolic factorisation is reused
+/// until the pattern of the matrix changes. If the matrix has a border of strains, the strains are eliminated last.
+/// This needs one solution of the linear system for each strain, and a Cholesky factorisation of the Schur complement.
 ///
 ///   BlockCholesky factor;
 ///   if (factor.factorise(energy.hessian(packing), 1e-9)) step = -factor.solve(gradient);
 class BlockCholesky {
  public:
-  /// Factorises the matrix. Returns false if the shifted matrix is not positive definite in double precision. Then do
-  /// not call solve().
+  /// Factorises the matrix. Returns false if the shifted matrix is not positive definite in double precision. solve()
+  /// may be called only after factorise() has returned true.
   bool factorise(const BlockMatrix& matrix, double shift);
   /// The solution (H + shift·1)⁻¹ b. b must have matrix.rows() entries.
   Eigen::VectorXd solve(const Eigen::Ref<const Eigen::VectorXd>& b) const;

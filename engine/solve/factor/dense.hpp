@@ -16,11 +16,12 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
-/// Computes an orthonormal basis of the space that independent columns span, by Householder reflections. The basis has
-/// the same number of columns.
+/// Computes an orthonormal basis of the space that linearly independent columns span, by Householder reflections. The
+/// basis has as many columns as the argument.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
-/// An orthonormal basis Q of the whole space. Its first vectors span the given independent columns.
+/// An orthonormal basis Q of the whole space. Its first vectors span the same space as the given linearly independent
+/// columns.
 class CompletedBasis {
  public:
   explicit CompletedBasis(const Eigen::MatrixXd& columns);
@@ -46,8 +47,8 @@ Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& matrix);
 Eigen::VectorXd solve_positive_definite(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 struct RightSingular {
-  Eigen::VectorXd values;   ///< singular values in descending order, min(rows, columns)
-  Eigen::MatrixXd vectors;  ///< right singular vectors V, columns × columns
+  Eigen::VectorXd values;   ///< the min(rows, columns) singular values in descending order
+  Eigen::MatrixXd vectors;  ///< right singular vectors V; V has columns × columns entries
 };
 RightSingular right_singular(const Eigen::MatrixXd& matrix);
 

@@ -6,12 +6,12 @@
 
 namespace isojam {
 
-/// A supernode: particles that are eliminated together. `columns` is their number, and they have the positions first …
-/// first + columns − 1 in the elimination order.
+/// A supernode: particles that are eliminated together. Their number is `columns`. In the elimination order, they have
+/// the positions first … first + columns − 1.
 struct Supernode {
   int first = 0, columns = 0;
   std::vector<int> rows;      ///< later positions to which the supernode couples, directly or by fill-in; ascending
-  std::vector<int> children;  ///< indices of the supernodes whose first row is one of these positions; ascending
+  std::vector<int> children;  ///< indices of the supernodes whose first row belongs to this supernode; ascending
 };
 
 /// The order in which a Cholesky factorisation eliminates the particles, and their supernodes.
@@ -20,7 +20,7 @@ struct Elimination {
   std::vector<Supernode> supernodes;  ///< children before parents, sorted by `first`
 };
 
-/// Plans the elimination for the pattern of `matrix`. The order of the particles is close to `order`. The result
+/// Plans the elimination for the pattern of `matrix`. The elimination order differs little from `order`. The result
 /// depends only on the pattern and `order`.
 Elimination plan_elimination(const BlockMatrix& matrix, const std::vector<int>& order);
 

@@ -9,8 +9,8 @@
 // index
 //   12·c·⌊i/12⌋ + 12·j + i mod 12.
 // A symmetric matrix is stored as its lower half, panel by panel; panel p has 12·(p + 1) columns. If the number of
-// particles is odd, the second half of the last panel is unused. It must be zero, and remains zero. `count` is a number
-// of panels. All other sizes are numbers of doubles.
+// particles is odd, the second half of the last panel is unused. This half must be zero, and remains zero. The
+// arguments `count` are numbers of panels. All other sizes are numbers of doubles.
 
 namespace isojam::panels {
 
@@ -19,8 +19,8 @@ inline constexpr int height = 12;
 constexpr std::ptrdiff_t size(int count, int columns) { return std::ptrdiff_t{height} * count * columns; }
 constexpr std::ptrdiff_t packed_size(int count) { return std::ptrdiff_t{height} * height * count * (count + 1) / 2; }
 
-/// Threads that process the panels of a front: only the calling thread, or all threads of for_each_in_forest(). If
-/// `all` is used, the caller must be a call of for_each_in_forest(). Both give the same bits.
+/// Threads that process the panels of a front: only the calling thread, or all threads of for_each_in_forest(). `all`
+/// may be used only inside a call of for_each_in_forest(). Both give the same bits.
 enum class Threads { one, all };
 
 /// Calls run(k) for every k < count, either in this order on the calling thread, or on all threads.
@@ -30,9 +30,10 @@ void for_each(int count, Threads threads, const Run& run) {
   for (int k = 0; k < count; ++k) run(k);
 }
 
-/// Computes the Cholesky factorisation A = L Lᵀ of a matrix with `width` rows and columns, a multiple of 6. It replaces
-/// the lower half of A by L and the upper half by zero, and writes 1/L_kk to `reciprocals`. It replaces B, which has
-/// `count` panels, by B L⁻ᵀ. Returns false if a pivot is not a positive number.
+/// Computes the Cholesky factorisation A = L Lᵀ. A has `width` rows and columns, and `width` is a multiple of 6. The
+/// lower half of A is replaced by L and the upper half by zero, and 1/L_kk is written to `reciprocals`. The matrix B,
+/// which has `count` panels of `width` columns, is replaced by B L⁻ᵀ. Returns false if a pivot is not a positive
+/// number.
 bool factorise(double* a, int width, double* reciprocals, double* b, int count, Threads threads);
 
 /// Computes the symmetric matrix C = −X Xᵀ, stored as its lower half. X has `count` panels of `width` columns.

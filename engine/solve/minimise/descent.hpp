@@ -10,9 +10,9 @@
 
 namespace isojam {
 
-/// State of a minimisation, which all minimisers use: the current packing, the number of evaluations, and the stopping
-/// criteria. The current packing is always the best one found, because minimisers accept only steps that lower the
-/// energy or reach an equilibrium.
+/// The part of a minimisation that is the same for all minimisers: the current packing, the number of evaluations, and
+/// the stopping criteria. The current packing is always the best one found, because minimisers accept only steps that
+/// lower the energy or reach an equilibrium.
 class Descent {
  public:
   Descent(Packing& packing, PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop);
@@ -22,8 +22,9 @@ class Descent {
   const MinimiseOptions& options() const { return options_; }
   long evaluations() const { return evaluations_; }
 
-  /// The reason to stop in the current state, or nullopt if there is none. If the residual is near its floor, this
-  /// function changes to Precision::double_double first.
+  /// The reason to stop at the current packing, or nullopt if there is none. If the residual is near the residual
+  /// floor, and the floor is above the requested residual, the function first changes the precision to
+  /// Precision::double_double.
   std::optional<StopReason> verdict();
   /// Moves along `direction` (a descent direction) by a line search. The first trial step is first_step·direction, and
   /// `curvature` is LineSearchOptions::curvature. Returns false, and does not move, if no lower energy was found.
@@ -31,13 +32,13 @@ class Descent {
   double last_step() const { return last_step_; }
   /// Upper limit of the displacement of a particle in one trial step, in units of V_p^(1/3).
   double longest_displacement() const;
-  /// Computes the second derivatives of any state, and its incipient contacts for a probe distance (V_p^(1/3)).
+  /// Computes the second derivatives at any packing, and its incipient contacts for a probe distance (V_p^(1/3)).
   SecondOrder second_order(const Packing& packing, double probe_distance);
-  /// Computes the state `there`, which `step` reaches from `from`, and evaluates it. The current state does not change.
-  /// If the cell of the new state would be too small or too skew (is_legal()), the energy is infinite, and the
-  /// minimisation stops with cell_limit.
+  /// Evaluates the packing `there`, which `step` reaches from `from`. The current packing does not change. If the new
+  /// cell is not legal (is_legal() in packing/cell/periodic_cell.hpp), the result has an infinite energy, and the
+  /// minimisation stops with StopReason::cell_limit.
   Evaluation probe(const Packing& from, const Eigen::VectorXd& step, Packing& there);
-  /// Moves the current state to a state that probe() has evaluated.
+  /// Makes `there`, which probe() has evaluated, the current packing.
   void accept(Packing there, Evaluation value);
 
   /// Adds numbers of factorisations and of updates of a factorisation to the summary.

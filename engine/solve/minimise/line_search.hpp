@@ -4,7 +4,7 @@
 
 namespace isojam {
 
-/// A point on a line of states: step t, energy f(t) and slope f'(t).
+/// A point on a line through the space of coordinates: step t, energy f(t) and slope f'(t).
 struct LinePoint {
   double step = 0, value = 0, slope = 0;
 };
@@ -24,10 +24,10 @@ struct LineSearchResult {
   int evaluations = 0;
 };
 
-/// Finds a step that satisfies both conditions (strong Wolfe conditions), by bracketing and cubic interpolation. If no
-/// such step is found, the result is the best step with sufficient decrease. If energies differ only by rounding
-/// errors, slopes are used instead (approximate Wolfe conditions of Hager and Zhang). Requires start.slope < 0 and
-/// first_step > 0.
+/// Finds a step that satisfies the two conditions of LineSearchOptions (strong Wolfe conditions), by bracketing and
+/// cubic interpolation. If no such step is found, the result is the best step with sufficient decrease. If energies
+/// differ only by rounding errors, slopes are compared instead (approximate Wolfe conditions of Hager and Zhang).
+/// Requires start.slope < 0 and first_step > 0.
 LineSearchResult line_search(const std::function<LinePoint(double)>& at, const LinePoint& start, double first_step,
                              const LineSearchOptions& options);
 

@@ -11,9 +11,10 @@
 
 namespace isojam {
 
-/// Method of minimisation. With `multipliers`, jam() follows an equilibrium through each strain step near jamming
-/// (solve/multipliers/). In all other cases `multipliers` is the same as `newton`. The methods conjugate_gradient, fire
-/// and lbfgs do not converge near jamming; they exist for comparison.
+/// Method of minimisation. With `multipliers`, jam() follows an equilibrium through each decompression step near
+/// jamming (solve/multipliers/). In all other cases `multipliers` is the same as `newton`. The methods
+/// `conjugate_gradient`, `fire` and `lbfgs` do not converge near jamming. They are available for comparison, and
+/// compression always uses `lbfgs`.
 enum class Method { conjugate_gradient, fire, lbfgs, newton, multipliers };
 template <>
 inline constexpr std::array enum_names<Method>{
@@ -23,11 +24,11 @@ inline constexpr std::array enum_names<Method>{
 /// Method of minimisation, and criteria to stop it.
 struct MinimiseOptions {
   Method method = Method::multipliers;  ///< method of minimisation
-  /// Largest residual of an equilibrium: the minimisation stops when Evaluation::residual is at most this large.
+  /// Largest residual of an equilibrium: the minimisation stops when Evaluation::residual is at most this value.
   double residual = 1e-6;
-  /// Stopping rule of the paper, which uses 1e-12: the minimisation stops when an iteration decreases the energy by
-  /// less than this fraction. 0 switches the rule off. Near jamming, a state that satisfies the rule is not necessarily
-  /// an equilibrium, but jam() accepts it.
+  /// Stopping criterion of the paper, with the value 1e-12 there: the minimisation stops when an iteration decreases
+  /// the energy by less than this fraction. 0: this criterion is not used. Near jamming, a state that satisfies the
+  /// criterion is not necessarily an equilibrium, but jam() accepts it.
   double energy_change = 0;
   /// Energy per particle (Y·V_p) below which a state that is not yet an equilibrium counts as unjammed. An equilibrium
   /// with contacts never counts as unjammed. Not used if the volume is free.

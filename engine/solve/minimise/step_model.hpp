@@ -10,14 +10,14 @@
 
 namespace isojam {
 
-/// The active set of a step, see StepModel: pairs of particles that are closing in the step, and pairs that are tilted.
+/// The active set of a step, see StepModel: the pairs of particles that close in the step, and the pairs that tilt.
 /// Both lists are sorted. They are the initial estimate for the next step.
 struct ActivePairs {
   std::vector<std::pair<int, int>> closing, tilted;
 };
 
-/// The factorisation that all models of one minimisation share, so that its symbolic part is computed once. Also the
-/// numbers of times that it was used.
+/// The factorisation that all models of one minimisation share, so that its symbolic part is computed only once, and
+/// the numbers of its uses.
 struct StepFactor {
   BlockCholesky cholesky;
   long factorisations = 0;
@@ -31,7 +31,7 @@ struct ModelStep {
 };
 
 /// Model of the energy for a step s: the series E + g·s + ½ s·H s, and two effects that this series does not contain.
-///   1. Closing: a pair can begin to touch, or a vertex contact can become flat. The model of the overlap volume is
+///   1. Closing: a pair begins to touch, or a vertex contact becomes flat. The model of the overlap volume is
 ///      V = max(0, now, closed), with the two tangents of IncipientContact.
 ///   2. Tilting: the faces of a flat contact can rotate relative to each other until the line in which their planes
 ///      intersect crosses the faces. From then on, the contact has a stiffness against this rotation.
@@ -48,10 +48,10 @@ class StepModel {
 
   /// Largest diagonal entry of the Hessian: the stiffness of the stiffest coordinate.
   double largest_diagonal() const { return largest_diagonal_; }
-  /// Removes the first effect from the model. The series and the second effect remain.
+  /// Removes effect 1, closing, from the model. The series and effect 2, tilting, remain.
   void forget_closing_pairs();
-  /// Minimises the model plus ½ shift·s². On entry, `active` is an estimate of the active set; on return, it is the
-  /// active set of the step. Returns nullopt if the shifted matrix is not positive definite.
+  /// Minimises the model plus ½ shift·s². `active` is at first an estimate of the active set, and on return the active
+  /// set of the step. Returns nullopt if the shifted matrix is not positive definite.
   std::optional<ModelStep> minimise(double shift, StepFactor& factor, ActivePairs& active);
 
  private:
@@ -73,7 +73,7 @@ class StepModel {
   SecondOrder second_;
   Eigen::VectorXd gradient_;
   double longest_, largest_diagonal_ = 0;
-  std::vector<State> states_;  ///< states of second_.pairs
+  std::vector<State> states_;  ///< closing or tilted, for each element of second_.pairs
 };
 
 }  // namespace isojam

@@ -12,8 +12,8 @@ namespace isojam {
 enum class StopReason {
   not_called,        ///< nothing was minimised
   residual_reached,  ///< the residual is at most the requested one
-  /// An iteration changed the energy by less than MinimiseOptions::energy_change. The state is not necessarily an
-  /// equilibrium.
+  /// An iteration decreased the energy by less than the fraction MinimiseOptions::energy_change. The state is not
+  /// necessarily an equilibrium.
   energy_change,
   unjammed,            ///< the packing has no contacts, or its energy is below MinimiseOptions::unjammed_energy
   precision_floor,     ///< the residual is at most the residual floor in double-double
@@ -35,12 +35,12 @@ inline constexpr std::array enum_names<StopReason>{EnumName{StopReason::not_call
                                                    EnumName{StopReason::not_finite, "not_finite"},
                                                    EnumName{StopReason::interrupted, "interrupted"}};
 
-/// Numbers of operations of a minimisation in addition to its evaluations.
+/// Numbers of operations of a minimisation, in addition to the number of evaluations.
 struct MinimiseWork {
   /// evaluations in double-double; they are also counted in MinimiseSummary::evaluations
   long double_double_evaluations = 0;
   long hessians = 0;              ///< computations of the second derivatives of the whole packing
-  long factorisations = 0;        ///< factorisations of a shifted Hessian, including failed ones
+  long factorisations = 0;        ///< factorisations of a shifted Hessian, including attempts that failed
   long factor_updates = 0;        ///< linear systems that were solved by updating a factorisation
   long envelopes = 0;             ///< evaluations of the envelope (EnvelopeEvaluation) in the method of multipliers
   long envelope_overlaps = 0;     ///< overlaps with Hessian that the evaluations of the envelope computed

@@ -17,7 +17,7 @@ struct EnvelopeState {
   EnvelopeEvaluation value;
 };
 
-/// Evaluates envelopes with one stiffness ρ (Y·V_p^(1/3)), adds the load on the cell, and counts the work.
+/// Evaluates envelopes with one stiffness ρ (Y·V_p^(1/3)), adds the load on the cell, and counts the operations.
 class EnvelopeEvaluator {
  public:
   EnvelopeEvaluator(Enthalpy load, MinimiseWork& work) : load_(std::move(load)), work_(work) {}
@@ -33,6 +33,7 @@ class EnvelopeEvaluator {
   /// Evaluates the envelope with the multipliers `forces`. If `only` is not empty, only contacts of the flagged
   /// particles are included, and the load is not.
   EnvelopeState at(Packing packing, const std::vector<ContactMultiplier>& forces, const std::vector<char>& only = {});
+  /// Evaluates the envelope with the multipliers μ = ∇e, for which all shifts are 0.
   EnvelopeState unshifted(Packing packing);
 
   /// Second derivatives of Φ, including the second derivatives of the load.
@@ -51,15 +52,16 @@ Eigen::Matrix3d strain_of(const Eigen::VectorXd& step, int particles);
 /// The step (x, R·θ) of B in a contact, including the motion of its image relative to A due to the strain ε.
 Vector6d step_of_b(const EnvelopeContact& contact, const Eigen::VectorXd& step, const Eigen::Matrix3d& strain);
 
-/// Multipliers and estimates of the shifts for the state after a step (packing.hpp). The multipliers do not change; the
-/// shifts change to first order in the step.
+/// Multipliers and estimates of the shifts w after a step (packing.hpp). The multipliers do not change. The shifts
+/// change to first order in the step.
 std::vector<ContactMultiplier> forces_after(const EnvelopeState& state, const Eigen::VectorXd& step);
 
-/// True if the decrease of Φ between two states is large enough compared with the predicted decrease. If the predicted
-/// decrease is not larger than the rounding errors of Φ, the gradients of both states are compared instead.
+/// True if the decrease of Φ from `from` to `to` is large enough compared with the predicted decrease. If the predicted
+/// decrease is not larger than the rounding errors of Φ, the gradients in both states are compared instead.
 bool acceptable(const EnvelopeEvaluation& from, const EnvelopeEvaluation& to, double predicted_decrease);
 
-/// The Levenberg–Marquardt shift after a step, from the ratio of the actual to the predicted decrease (Nielsen's rule).
+/// The Levenberg–Marquardt shift for the next step, from the shift of this step and the ratio of the actual decrease to
+/// the predicted decrease (Nielsen's rule).
 double adapted_shift(double shift, double ratio);
 
 /// The step, multiplied by a factor of at most 1, so that no particle moves farther than `longest`.

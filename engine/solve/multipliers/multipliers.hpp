@@ -11,22 +11,26 @@ namespace isojam {
 /// Follows an equilibrium to a lower density by the method of multipliers, which multipliers.cpp describes. On entry,
 /// `packing` must be an equilibrium in double-double. `distance` is its φ − φ_J, and must be larger than the decrease
 /// of the density. On return, `packing` is the state that was reached. It is an equilibrium of the energy if
-/// is_equilibrium(summary) is true. The function uses the options `control`, `residual`, `unjammed_energy` and
-/// `max_evaluations`. The last one limits the number of evaluations of the energy and of the envelope together.
+/// is_equilibrium(summary) is true for the returned summary. The function uses the options `control`, `residual`,
+/// `unjammed_energy` and `max_evaluations`. `max_evaluations` limits the number of evaluations of the energy and of the
+/// envelope together.
 MinimiseSummary follow_equilibrium(Packing& packing, double density, double distance, PackingEnergy& energy,
                                    const MinimiseOptions& options, std::stop_token stop = {});
 
-/// Follows an equilibrium in the same way while F, a small strain, deforms its cell.
+/// Follows an equilibrium, in the same way as follow_equilibrium(), while its cell is deformed by F. F must be a small
+/// strain.
 MinimiseSummary follow_deformation(Packing& packing, const DoubleDoubleMatrix& f, double distance,
                                    PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop = {});
 
-/// Follows an equilibrium in the same way to the load in options.control. The volume must be free.
+/// Follows an equilibrium, in the same way as follow_equilibrium(), to the load in options.control. The volume must be
+/// free.
 MinimiseSummary follow_load(Packing& packing, double distance, PackingEnergy& energy, const MinimiseOptions& options,
                             std::stop_token stop = {});
 
-/// Relaxes a state that is near an equilibrium at the same density. The method is the same, but the initial multipliers
-/// are 0. `force` and `distance` are estimates of the mean contact force (Y·V_p^(2/3)) and of φ − φ_J at the
-/// equilibrium. They only set scales, so an error of a factor of ten does not matter.
+/// Relaxes a state that is near an equilibrium with the same density. The method is the same as in
+/// follow_equilibrium(), but the initial multipliers are 0. `force` and `distance` are estimates of the mean contact
+/// force (Y·V_p^(2/3)) and of φ − φ_J at the equilibrium. They only set scales, so an error of a factor of ten does not
+/// matter.
 MinimiseSummary relax_to_equilibrium(Packing& packing, double force, double distance, PackingEnergy& energy,
                                      const MinimiseOptions& options, std::stop_token stop = {});
 

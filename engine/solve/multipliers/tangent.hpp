@@ -10,7 +10,7 @@ namespace isojam {
 
 /// First-order response of an equilibrium to a change of density, cell shape or load.
 struct Tangent {
-  Eigen::VectorXd step;                   ///< step (packing.hpp) after the strain `imposed`
+  Eigen::VectorXd step;                   ///< step (packing.hpp) that the particles make after the strain `imposed`
   std::vector<ContactMultiplier> forces;  ///< the unchanged multipliers, and the shifts after the change
 };
 
