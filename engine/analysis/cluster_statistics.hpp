@@ -14,8 +14,8 @@ namespace isojam {
 enum class DimensionVerdict {
   not_called,
   fitted,
-  winds,     ///< the cluster winds: it is connected to its own periodic image, so it has no size
-  too_small  ///< there are fewer than three radii ℓ, or all centres coincide
+  winds,     ///< the cluster winds: it is connected to its own periodic image, so its size is infinite
+  too_small  ///< there are fewer than three radii ℓ (see fractal_dimension()), or all centres coincide
 };
 template <>
 inline constexpr std::array enum_names<DimensionVerdict>{
@@ -25,7 +25,7 @@ inline constexpr std::array enum_names<DimensionVerdict>{
 /// Fractal dimension D of connected pieces of a cluster: s ∝ ρ^D for pieces of s particles with the size ρ.
 struct FractalDimension {
   DimensionVerdict verdict = DimensionVerdict::not_called;  ///< result of the fit
-  double D = 0;      ///< fractal dimension, the slope of the fitted line; 0 unless the verdict is fitted
+  double D = 0;      ///< fractal dimension, the slope of the fitted line; 0 unless the verdict is `fitted`
   double error = 0;  ///< standard error of the slope, from the scatter of the points about the line
   int points = 0;    ///< number of radii ℓ in the fit
 };
@@ -36,21 +36,23 @@ struct FractalDimension {
 /// defined by ρ² = R_g² + a²/12, where R_g is the radius of gyration of the centres and a² is the mean square length of
 /// a bond. The second term replaces each particle by a rod with the length of a bond. Straight chains of any length
 /// then have exactly D = 1. The pieces overlap, so the error describes only the fitted line, and not the spread of D
-/// between similar clusters. `bonds` may contain bonds of other clusters. The time is O(s²·bonds per particle).
+/// between similar clusters. `bonds` may contain bonds of other clusters. For a cluster of n particles, the time is
+/// O(n²·bonds per particle).
 FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluster,
                                    std::span<const NeighbourPair> bonds);
 
 /// Sizes and extents of the clusters of a packing, as in the paper's Table IV. L is the side of the cell
 /// (PeriodicCell::side()).
 struct ClusterStatistics {
-  double S = 0;          ///< mean size Σs²/Σs, with sums over all clusters, including single particles
+  double S = 0;          ///< mean size Σs²/Σs over all clusters of s particles, including single particles
   int largest = 0;       ///< number of particles in the largest cluster
   int winding_rank = 0;  ///< largest winding_rank() of a cluster; 0 if no cluster percolates
-  bool spans = false;    ///< true if Cluster::spans() is true for a cluster
-  /// index of the cluster with the largest extent; if a cluster winds, index of the first cluster that winds
+  bool spans = false;    ///< true if Cluster::spans() is true for at least one cluster
+  /// Index of the cluster with the largest extent between centres. If a cluster winds, it is the index of the first
+  /// cluster that winds.
   int longest = -1;
-  /// Largest extent of a cluster along an axis, divided by L, between centres (l_max) and between vertices
-  /// (body_l_max). nullopt if a cluster winds.
+  /// Largest extent of any cluster along an axis, divided by L: l_max between centres, and body_l_max between vertices.
+  /// nullopt if a cluster winds.
   std::optional<double> l_max, body_l_max;
   FractalDimension D_max;  ///< fractal dimension of the cluster `longest`
 };

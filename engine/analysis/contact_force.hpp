@@ -31,9 +31,9 @@ inline constexpr std::array enum_names<ContactKind>{
     EnumName{ContactKind::edge_face, "edge_face"}, EnumName{ContactKind::face_face, "face_face"},
     EnumName{ContactKind::compound, "compound"}};
 
-/// Force and torques that a contact exerts on its two particles, in the lab frame. F_A = −(V/2) S_A and F_B = −F_A
-/// (Smith, Fisher, Alam 2011: E_αβ = Y V²/4V_p). Lengths are in units of V_p^(1/3), forces in Y·V_p^(2/3), torques in
-/// Y·V_p.
+/// Force and torques that a contact exerts on its two particles, in the lab frame. F_A = −(V/2) S_A and F_B = −F_A,
+/// where S_A is the vector area (Overlap::area; Smith, Fisher, Alam 2011: E_αβ = Y V²/4V_p). Lengths are in units of
+/// V_p^(1/3), forces in Y·V_p^(2/3), torques in Y·V_p.
 struct ContactForce {
   double volume = 0;                                  ///< volume V of the intersection, in units of V_p
   double area = 0;                                    ///< length |S_A| of the vector area, in units of V_p^(2/3)

@@ -28,10 +28,10 @@ struct ContactNumbers {
   double Z = 0, Z_ff = 0, Z_ef = 0, Z_l = 0, C = 0;
 };
 
-/// Cut-offs between the contact classes, for the contacts between solids of two shapes.
+/// Cut-offs that separate the contact classes, for the contacts between solids of two shapes.
 struct ClassCutoffs {
   CdfFit face_face, edge_face;  ///< fits of the distributions of θ_ff and of θ_ef
-  /// cut-offs by another method: gaps in the same angles
+  /// cut-offs by a second method: from gaps in the same angles
   GapSplit face_face_gap, edge_face_gap;
   /// critical angles; angles above half of the smallest critical angle are not used for the cut-offs
   CriticalAngles critical;
@@ -45,9 +45,9 @@ struct ShapePair {
 };
 
 /// Result of analyse_contacts(). If particles have several shapes, `pairs` contains the cut-offs of each pair of
-/// shapes. The base class then contains the smallest critical angles. For each fit and each gap, it contains the result
-/// of the least conclusive pair of shapes: a pair without a cut-off if there is one, otherwise a pair with a doubtful
-/// fit if there is one, otherwise any pair.
+/// shapes, and the members of the base class summarise them. The critical angles are then the smallest of all pairs.
+/// Each fit and each gap is that of the least conclusive pair of shapes: first a pair without a cut-off, then a pair
+/// with a doubtful fit, then any pair.
 struct ContactAnalysis : ClassCutoffs {
   std::vector<ShapePair> pairs;  ///< pairs of shapes that have contacts; empty if there is only one shape
   /// Number of packings whose angles were combined for the fits and gaps; 1 if the angles are those of this packing
@@ -56,7 +56,7 @@ struct ContactAnalysis : ClassCutoffs {
   /// class of each contact from the fitted cut-offs, in the order of the contacts
   std::vector<ContactClass> classes;
   ContactNumbers numbers;  ///< contact and constraint numbers from the fitted cut-offs
-  /// Z_ff with the cut-off of face_face_gap instead of the fitted one; nullopt if there is no such cut-off
+  /// Z_ff with the cut-off of face_face_gap instead of the fitted cut-off; nullopt if there is no such cut-off
   std::optional<double> Z_ff_gap;
   ContactNumbers fixed_cutoffs;  ///< result of fixed_cutoff_numbers()
   /// contact and constraint numbers for the particles of each kind of a mixture; empty if all particles are identical
@@ -86,8 +86,8 @@ ContactAnalysis analyse_contacts(const Composition& solids, int particles, std::
 std::vector<ContactAnalysis> analyse_pooled(const ConvexSolid& solid, int particles,
                                             std::span<const std::vector<Alignment>> packings);
 
-/// Numbers with fixed cut-offs instead of fitted ones. They are means over the cut-offs 5°, 15°, …, 55°, each used for
-/// both angles, as in column 2 of the paper's Table III.
+/// Numbers with fixed cut-offs instead of fitted ones. For each of the cut-offs 5°, 15°, …, 55°, the numbers are
+/// computed with this cut-off for both angles. The result is the mean, as in column 2 of the paper's Table III.
 ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> alignments);
 
 /// Classes of the contacts for given cut-offs (radians).

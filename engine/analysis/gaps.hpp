@@ -9,9 +9,9 @@ namespace isojam {
 /// A pair of particles that nearly touch.
 struct Gap {
   NeighbourPair pair;  ///< the particles, and the image of b
-  /// Width of the gap (V_p^(1/3)): the largest distance between two parallel planes that separate the particles. The
-  /// planes are parallel to a face of one particle, or to an edge of each particle. The width is the distance between
-  /// the particles, or less if their nearest points are vertices.
+  /// Width of the gap (V_p^(1/3)): the largest distance between two parallel planes that separate the particles. Only
+  /// planes that are parallel to a face of one particle, or to an edge of each particle, are used. The width is at most
+  /// the distance between the particles. It can be smaller, for example if two vertices are the nearest points.
   double width = 0;
   /// true if the planes are parallel to a face
   bool of_faces = true;

@@ -11,16 +11,17 @@ namespace isojam {
 
 /// The smallest rank l from 1 to 10 for which the mean of the spherical harmonics over the vertex directions of the
 /// solid does not vanish. It is 3 for tetrahedra, 4 (cubatic) for cubes and octahedra, and 6 for dodecahedra and
-/// icosahedra. For most other solids it is 2 (nematic). An order parameter of lower rank would not depend on the
+/// icosahedra. For most other solids it is 2 (nematic). Order parameters of lower rank do not depend on the
 /// orientations of the particles. Throws std::invalid_argument if the mean vanishes for all ranks up to 10.
 unsigned orientation_rank(const ConvexSolid& solid);
 
 /// Spherical harmonics of all particles, a matrix with (2l + 1) × N entries. All particles must have the same shape.
-/// The column of a particle has the components Σ_v Y_lm(v) with real harmonics Y_lm. The sum is over the vertex
-/// directions v of the particle in the lab frame, and the column is scaled to norm 1. Orientations that differ by a
-/// symmetry of the solid have equal columns. The product of the columns of particles i and j is q_ij = Σ_vw
-/// P_l(v·w)/Σ_vv' P_l(v·v'). It is 1 if the particles are aligned, and 0 on average if their orientations are
-/// independent.
+/// The column of a particle has the components Σ_v Y_lm(v), scaled so that the column has the norm 1. The sum is over
+/// the directions v of all vertices of the particle, in the lab frame. Y_lm are real spherical harmonics. Orientations
+/// that differ by a symmetry of the solid have equal columns. The product of the columns of two particles i and j is
+///   q_ij = Σ_vw P_l(v·w) / Σ_vv' P_l(v·v'),
+/// where v and v' are vertex directions of i, w are those of j, and P_l is the Legendre polynomial. q_ij is 1 if the
+/// particles are aligned, and 0 on average if their orientations are independent.
 Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l);
 
 /// Orientational order S_l, computed from orientation_harmonics(). S_l is the norm of the mean column, S_l² = (1/N²)
@@ -32,10 +33,10 @@ std::vector<std::optional<double>> local_steinhardt_order(std::span<const Contac
 
 /// Order of a packing: Q of the directions of its contacts, and S of the orientations of its particles. Typical values
 /// of S near jamming, for N = 64 and 100:
-///   tetrahedra                                           0.03 to 0.05
-///   octahedra                                            0.14 to 0.18
-///   dodecahedra and icosahedra, Q6 ≤ crystalline_q6      0.16 to 0.41
-///   icosahedra, Q6 > crystalline_q6                      0.41 to 0.71
+///   tetrahedra                                0.03 to 0.05
+///   octahedra                                 0.14 to 0.18
+///   dodecahedra and icosahedra, Q6 ≤ 0.32     0.16 to 0.41
+///   icosahedra, Q6 > 0.32 (crystalline)       0.41 to 0.71
 struct Order {
   double Q4 = 0, Q6 = 0;  ///< Steinhardt's Q4 and Q6 of all contacts; 0 without contacts
   /// means of the local Q4 and Q6 of all particles with contacts; nullopt without contacts
@@ -69,9 +70,9 @@ struct OrientationCorrelationOptions {
   std::optional<double> reach = std::nullopt;
 };
 
-/// Computes the correlation from all pairs of particles, including periodic images, whose distance is at most `reach`.
-/// Only complete bins are returned, but at least one bin. Throws std::invalid_argument unless `width` and `reach` are
-/// positive.
+/// Computes the correlation from all pairs of particles, including periodic images. The number of bins is
+/// ⌊reach/width⌋, but at least 1. Pairs whose distance is beyond the last bin are not used. Throws
+/// std::invalid_argument unless `width` and `reach` are positive.
 OrientationCorrelation orientation_correlation(const Packing& packing, const Eigen::MatrixXd& harmonics,
                                                const OrientationCorrelationOptions& options = {});
 

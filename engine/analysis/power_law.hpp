@@ -15,7 +15,7 @@ struct PowerLaw {
   int points = 0;  ///< number of points in the fit
 };
 
-/// Fits the points with x > 0 and y > 0. nullopt if these points do not have at least two different x. Throws
+/// Fits the points with x > 0 and y > 0. Returns nullopt unless these points have at least two different x. Throws
 /// std::invalid_argument if x and y have different sizes.
 std::optional<PowerLaw> fit_power_law(std::span<const double> x, std::span<const double> y);
 

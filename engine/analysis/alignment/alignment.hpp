@@ -7,7 +7,8 @@
 
 namespace isojam {
 
-/// Alignment angles θ_ff and θ_ef of a contact as in the paper, in radians, and the features for which they are found.
+/// Alignment angles θ_ff and θ_ef of a contact as in the paper, in radians, and the faces and the edge that determine
+/// them.
 struct Alignment {
   /// θ_ff = π − arccos(min n_i·n_j), over the faces i of A and j of B that bound the intersection, with outward normals
   /// n

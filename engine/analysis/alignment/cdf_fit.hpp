@@ -13,9 +13,10 @@ enum class FitVerdict {
   not_called,
   fitted,
   /// A cut-off was found, but it is doubtful: the fitted function does not describe c, for example because c has a
-  /// second jump. CdfFit::deviation exceeds Kolmogorov's 5 % limit, 1.358/√n for n angles.
+  /// second jump. The criterion is that CdfFit::deviation exceeds Kolmogorov's 5 % limit, 1.358/√n for n angles.
   bimodal,
-  /// c has no jump: a_0 is less than 2 standard errors above 0, or less than the step of c at a single angle
+  /// c has no jump: a_0 is less than 2 standard errors above 0, or less than 1/n, the contribution of one of n angles
+  /// to c
   collapsed,
   alpha_out_of_range,  ///< α is in the upper half of [0, upper], so no group of angles is near 0
   too_few              ///< there are fewer angles below `upper` than the five free parameters α and a_0 to a_3
@@ -37,13 +38,13 @@ struct CdfFit {
   double a[4] = {0, 0, 0, 0};                   ///< parameters a_0 to a_3, with a_0 ≤ c(upper)
   double a0_error = 0;  ///< standard error of a_0; the angles above the jump are assumed to be independent
   double error = 0;     ///< squared deviation ∫ (c_f − c)² dθ over [0, upper]
-  /// Largest deviation |c_f − c| above the jump, where c ≥ a_0. Random noise of n independent angles causes a deviation
-  /// of more than 1.358/√n from their true distribution in one of twenty sets. Deviations from a curve that is fitted
-  /// to the angles are smaller, so such a deviation is even less frequent.
+  /// Largest deviation |c_f − c| above the jump, where c ≥ a_0. In 5 % of all sets of n independent angles, c deviates
+  /// from the true distribution by more than 1.358/√n. A curve that is fitted to the angles is nearer to c than the
+  /// true distribution, so it exceeds this limit in fewer than 5 %.
   double deviation = 0;
   /// Cut-off θ_cut in radians, defined by c(θ_cut) = a_0. Because c is a step function, the cut-off is the end of the
-  /// step whose value is nearest to a_0, and at most `upper`. The fraction of angles below θ_cut is therefore a_0
-  /// within half a step. It is 0 if no cut-off was found.
+  /// step whose value is nearest to a_0, and at most `upper`. The fraction of angles below θ_cut therefore differs from
+  /// a_0 by at most half a step. `cutoff` is 0 if no cut-off was found.
   double cutoff = 0;
 
   /// True if a cut-off was found, even if it is doubtful.

@@ -5,10 +5,10 @@
 
 namespace isojam {
 
-/// Critical angles (radians): the largest alignment angles that each contact topology allows, for two equal solids in
+/// Critical angles (radians): the largest alignment angles that each type of contact allows, for two equal solids in
 /// the orientation of highest symmetry (the paper's Table II). If the vertices or edges of a solid are not equivalent,
 /// the largest angle is computed for each vertex or edge in its best orientation. The critical angle is the smallest of
-/// these. All vertices and edges of the solid then allow every angle below the critical angle.
+/// these largest angles. All vertices and edges of the solid then allow every angle below the critical angle.
 struct CriticalAngles {
   double ef_vertex_face = 0, ef_edge_edge = 0;  ///< θ_ef of a vertex on a face, and of two crossed edges
   /// θ_ff of a vertex on a face, of two crossed edges, and of an edge in a face
@@ -36,8 +36,8 @@ CriticalAngles critical_angles(const Mixture& mixture);
 /// the same number of sides.
 bool has_like_features(const ConvexSolid& solid);
 
-/// Computes the critical angles from the largest dihedral angle and the normal cones of all vertices. This applies to
-/// any solid. Tests use it as the reference for the closed form.
+/// Computes the critical angles from the largest dihedral angle and the normal cones of all vertices, for any solid.
+/// Tests use the result as the reference for the closed form.
 CriticalAngles critical_angles_of_cones(const ConvexSolid& solid);
 
 }  // namespace isojam

@@ -13,7 +13,7 @@ enum class GapVerdict {
   not_called,
   separated,  ///< the angles form two groups with a gap between them
   all_alike,  ///< all angles form one group, whose distance from `upper` in log θ is larger than its width
-  no_gap,     ///< no two groups are separated better than those of a uniform distribution of log θ
+  no_gap,     ///< no division into two groups separates them better than for a uniform distribution of log θ
   too_few     ///< there are fewer than 10 angles below `upper`
 };
 template <>
@@ -32,8 +32,9 @@ struct GapOptions {
 };
 
 /// Division of the angles below `upper` into two groups by Otsu's criterion, with x = log θ. The variance between the
-/// groups is a fraction η = w_0 w_1 (μ_1 − μ_0)²/σ² of the total variance σ². w are the fractions of the angles in the
-/// groups, and μ are their means of x. The groups are divided where η is largest.
+/// groups is a fraction η = w_0 w_1 (μ_1 − μ_0)²/σ² of the total variance σ². w_0 and w_1 are the fractions of the
+/// angles that are in the two groups, and μ_0 and μ_1 are the means of x in the two groups. The groups are divided
+/// where η is largest.
 struct GapSplit {
   GapVerdict verdict = GapVerdict::not_called;  ///< result of the search
   /// cut-off in radians, the middle of the gap in log θ; 0 unless the verdict is separated or all_alike

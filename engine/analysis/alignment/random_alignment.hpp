@@ -13,7 +13,7 @@
 namespace isojam {
 
 /// Cumulative distributions of the alignment angles of ideal random contacts, as a reference (the paper's Figure 2). In
-/// these contacts, a solid touches a face of another solid. Angles are in radians. p is the density of a distribution.
+/// these contacts, a solid touches a face of another solid. Angles are in radians, and p is a probability density.
 /// There are two models:
 ///   unconstrained          All orientations are equally likely, so a vertex touches the face. p(θ_ff) ∝ sin θ_ff below
 ///                          half of the smallest angle between two face normals. p(θ_ef) is finite for θ_ef → 0.
@@ -34,8 +34,8 @@ class RandomAlignment {
   /// clipped by the spherical polygon that its face subtends.
   double face_face(double theta) const;
   /// Distribution of θ_ef. The normal cone of a vertex forms a polygon on the unit sphere. θ_ef is the smallest angle
-  /// from a random direction to the sides of the polygon that contains it. The distribution is 1 minus the fraction of
-  /// the polygon that is farther than θ from all sides (Gauss–Bonnet theorem).
+  /// from a random direction to the sides of the polygon that contains this direction. The distribution is 1 minus the
+  /// fraction of the polygon that is farther than θ from all sides. The Gauss–Bonnet theorem gives this fraction.
   double edge_face(double theta) const;
   /// Distribution of θ_ff in the edge-face constrained model.
   double constrained_face_face(double theta) const;
@@ -47,9 +47,9 @@ class RandomAlignment {
   /// angle where constrained_face_face() reaches 1
   double constrained_ff_max() const { return constrained_ff_max_; }
 
-  /// True if the distributions are computed from a sample, because the solid is not regular. The sample consists of n =
-  /// 65 536 directions, one in each of n cells of the sphere. The standard deviation of a distribution is then about
-  /// n^(-3/4).
+  /// True if the distributions are computed from a sample: the solid is not regular, or Way::sampled was requested. The
+  /// sample consists of n = 65 536 directions, one in each of n parts of the sphere with equal areas. The standard
+  /// deviation of a distribution is then about n^(-3/4).
   bool is_sampled() const { return !face_face_.empty(); }
 
  private:
@@ -80,7 +80,8 @@ inline constexpr std::array enum_names<RandomnessVerdict>{
 
 /// Options of compare_with_random().
 struct RandomnessOptions {
-  /// angles are near 0 where the distribution for random contacts is below this value; it is almost linear there
+  /// an angle counts as near 0 if the distribution for random contacts is below this value at this angle; the
+  /// distribution is almost linear there
   double fraction = 0.1;
   double level = 0.01;  ///< significance level for each side of the test
 };
@@ -91,7 +92,8 @@ struct Randomness {
   double angle = 0;                                           ///< upper end of the range of angles near 0, in radians
   long below = 0;                                             ///< number of angles in this range
   double expected = 0;  ///< number of angles that random contacts would have in this range
-  /// the smaller of two binomial probabilities for random contacts: of at least this number, and of at most this number
+  /// for random contacts, the smaller of two binomial probabilities: of at least `below` angles in this range, and of
+  /// at most `below` angles
   double probability = 1;
 };
 

@@ -9,12 +9,12 @@
 namespace isojam {
 
 // Model of random contacts of two convex solids A and B with random orientations: all positions in which B touches A
-// are equally likely. These positions form the surface of the Minkowski sum of A and −B. The surface has two kinds of
-// faces. The first kind are faces of A or B; there, a vertex of the other solid lies on the face. The second kind are
-// parallelograms that an edge of A and an edge of B span. The mean area of the surface, over all rotations of B, is S_A
-// + S_B + M_A M_B/2π (principal kinematic formula). S is the surface area of a solid, and M = ½ Σ ℓ α is its integrated
-// mean curvature. The sum is over the edges of the solid with length ℓ and exterior angle α. In the model of
-// RandomAlignment, in contrast, a vertex always touches a face.
+// are equally likely. These positions form the surface of the Minkowski sum of A and −B. The surface has faces of two
+// types. The first type are faces of A or B; there, a vertex of the other solid lies on the face. The second type are
+// parallelograms that an edge of A and an edge of B span; there, the two edges cross. The mean area of the surface,
+// over all rotations of B, is S_A + S_B + M_A M_B/2π (principal kinematic formula). S is the surface area of a solid,
+// and M = ½ Σ ℓ α is its integrated mean curvature. The sum is over the edges of the solid with length ℓ and exterior
+// angle α. In RandomAlignment, in contrast, edges never cross.
 
 /// Quantities of a solid that determine the frequency of each type of contact.
 struct ContactSize {
@@ -54,8 +54,8 @@ class RandomEdgeContact {
   double ef_max() const { return edge_face_.largest; }                ///< angle where edge_face() reaches 1
 
  private:
-  /// A distribution, stored as a function of a quantity that increases with the angle and needs no inverse function:
-  /// the sine, or the chord 2 sin(θ/2).
+  /// A distribution, stored as a function of the sine of the angle or of the chord 2 sin(θ/2). Both increase with the
+  /// angle, and both are obtained without an inverse trigonometric function.
   struct Curve {
     enum class By { sine, chord };
     By by = By::sine;
@@ -76,15 +76,15 @@ class RandomEdgeContact {
   Curve face_face_, edge_face_;
 };
 
-/// Distributions of the alignment angles of all contacts: the sum over all kinds of contacts, weighted by their
-/// fractions.
+/// Distributions of the alignment angles of all contacts: the sum of the distributions of all types of contacts,
+/// weighted by their fractions.
 class RandomContact {
  public:
   RandomContact() = default;
   /// Contacts between identical solids.
   explicit RandomContact(const ConvexSolid& solid);
 
-  /// Adds a kind of contact. `share` is its fraction of all contacts; all fractions must sum to 1.
+  /// Adds a type of contact. `share` is its fraction of all contacts; all fractions must sum to 1.
   void add(double share, RandomAlignment vertices) { vertices_.push_back({share, std::move(vertices)}); }
   void add(double share, RandomEdgeContact edges) { edges_.push_back({share, std::move(edges)}); }
 
