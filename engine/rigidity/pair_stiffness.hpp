@@ -19,10 +19,11 @@ using Matrix12d = Eigen::Matrix<double, 12, 12>;
 ///   ∂²E/∂r² = ½ g gᵀ + ½ V W.
 /// A pair has twelve independent motions. Six of them move it as a rigid body. One is parallel to g and changes V to
 /// first order; it is called the normal. The other five are called tilts. The first term opposes only the normal. The
-/// second term contains all other stiffness. A part of it is caused by the geometry of the contact: for example, an
-/// edge in a face resists a rotation that lifts one of its ends. The rest is caused by the contact force, which rotates
-/// and shifts with the contact. If the depth of a face-face contact is positive on the whole polygon in which the faces
-/// overlap, V is the area of the polygon times the depth at its centroid. Such a contact has no stiff tilt.
+/// second term contains all other stiffness. A part of this stiffness is caused by the geometry of the contact: for
+/// example, an edge in a face resists a rotation that lifts one of its ends. The rest is caused by the contact force,
+/// which rotates and shifts with the contact. If the depth of a face-face contact is positive on the whole polygon in
+/// which the faces overlap, V is the area of the polygon times the depth at its centroid. Such a contact has no stiff
+/// tilt.
 struct PairStiffness {
   Vector12d normal;             ///< unit vector g/|g| of the normal
   double normal_stiffness = 0;  ///< stiffness ½ |g|² of the normal, in units of Y·V_p^(1/3)
@@ -33,7 +34,8 @@ struct PairStiffness {
   /// term is diagonal in this basis. The tilts are sorted by descending stiffness κ_k.
   Eigen::Matrix<double, 12, 5> tilts;
   Eigen::Matrix<double, 5, 1> tilt_stiffness;  ///< stiffness κ_k of each tilt, in units of Y·V_p^(1/3)
-  /// False if the second term could not be computed because the loop of the pair is not closed. The term is then 0.
+  /// False if the second term could not be computed, because the surfaces of the particles were not found to intersect
+  /// in one closed loop (OverlapPath::loop). The term is then 0.
   bool has_second = false;
 
   /// Stiffness of tilt k relative to f/R, the stiffness that the contact force causes for a rotation: s_k = κ_k R/f. If

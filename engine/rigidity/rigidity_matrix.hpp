@@ -21,11 +21,11 @@ struct RigidityMatrix {
   double imbalance = 0;
 };
 
-/// Makes the rigidity matrix with one row ∇V/|∇V| per contact, the normal.
+/// Makes the rigidity matrix with one row for each contact: the normal ∇V/|∇V|.
 RigidityMatrix normal_constraints(const Packing& packing, std::span<const Contact> contacts);
 
-/// Makes the rigidity matrix with the normal of each contact, followed by 0, 1 or 2 tilts according to the class of the
-/// contact:
+/// Makes the rigidity matrix. The rows of a contact are its normal, followed by 0, 1 or 2 tilts. The class of the
+/// contact determines the tilts:
 ///   lower order   no tilt
 ///   edge-face     one tilt: a relative rotation about e×n (edge × normal of the face). It lifts one end of the edge
 ///                 off the face. Rotations about the edge or the normal do not lift it.
