@@ -28,15 +28,16 @@ struct Evaluation {
   /// or T_i is not. Enthalpy::of() also takes the stress into account.
   double residual = 0;
   /// Residual that rounding errors alone can cause. A minimisation cannot reach a smaller residual.
-  /// With Precision::working, the coordinates are rounded, and the floor is λ·ulp(L)/mean_force. L is the side of the
-  /// cell, and ulp(L) = 2⁻⁵² L. λ is an estimate of the largest eigenvalue of the Hessian: twice the largest sum Σ_c ½
-  /// |∇V|² of a particle over its contacts c.
-  /// With Precision::double_double, the values of the contacts have rounding errors. The floor is b·max Σ_c ρ_c
-  /// |F_c|/mean_force, with the maximum over all particles. The factor b is the largest ratio of circumradius to radius
-  /// of gyration, because the circumradius is the longest lever arm of a force. ρ_c = τ/max(d, V/|S|) + τ/√|S| is the
-  /// relative error of V and S of a contact. The distance of a vertex from a plane has the error τ = gap_tolerance() if
-  /// it is larger than d = double_double_below(). Smaller distances are correct to their last bits. The second term of
-  /// ρ_c is due to the corners of the intersection, whose coordinates are doubles.
+  /// - Precision::working: the coordinates are rounded, and the floor is λ·ulp(L)/mean_force. L is the side of the
+  ///   cell, and ulp(L) = 2⁻⁵² L. λ is an estimate of the largest eigenvalue of the Hessian: twice the largest sum Σ_c
+  ///   ½ |∇V|² of any particle, over the contacts c of this particle.
+  /// - Precision::double_double: the values of the contacts have rounding errors, and the floor is b·max Σ_c ρ_c
+  ///   |F_c|/mean_force. The sum is over the contacts c of a particle, and the maximum over all particles. The factor b
+  ///   is the largest ratio of circumradius to radius of gyration, because the circumradius is the longest lever arm of
+  ///   a force. ρ_c = τ/max(d, V/|S|) + τ/√|S| is the relative error of the volume V and the vector area S of a
+  ///   contact. The distance of a vertex from a plane has the error τ = gap_tolerance() if it is larger than d =
+  ///   double_double_below(). Smaller distances are correct to their last bits. The second term of ρ_c is due to the
+  ///   corners of the intersection, whose coordinates are doubles.
   double residual_floor = 0;
   /// Error of the energy that the same rounding can cause, as a sum over contacts: Σ |F|·ulp(L) with
   /// Precision::working, and Σ ρ_c V²/2 with Precision::double_double. Smaller differences of energies are not
@@ -45,11 +46,12 @@ struct Evaluation {
   long contacts = 0;  ///< number of touching pairs
 };
 
-/// Deviation from hydrostatic stress: the largest entry of stress + p·1, divided by p. It is 0 if p is not positive.
+/// Deviation from hydrostatic stress: the largest absolute value of the entries of stress + p·1, divided by p. It is 0
+/// if p is not positive.
 double deviator_of(const Evaluation& evaluation);
 
-/// Second derivatives of the energy, and the incipient contacts. For some of these pairs, the stiffness in the second
-/// derivatives is missing or too small.
+/// Second derivatives of the energy, and the incipient contacts. The second derivatives contain no stiffness, or too
+/// little, for some incipient contacts.
 struct SecondOrder {
   /// Hessian ∂²E/∂r². The coordinates r are (x, R·θ) for each particle, as in Evaluation::gradient, followed by the
   /// coordinates ℓ·ε of the free strains.
@@ -69,11 +71,11 @@ struct Contact {
 
 /// Contributions of one contact of particles a and b to an Evaluation.
 struct ContactTerms {
-  /// to the gradient: (dx, dtheta_a) for a, and (−dx, dtheta_b) for b
+  /// terms that are added to the gradient: (dx, dtheta_a) for a, and (−dx, dtheta_b) for b
   Eigen::Vector3d dx, dtheta_a, dtheta_b;
-  Eigen::Matrix3d stress;        ///< to the stress, multiplied by −V_cell
+  Eigen::Matrix3d stress;        ///< −V_cell times the term that is added to the stress
   double energy = 0, force = 0;  ///< energy V²/4, and contact force |F|
-  /// ½ |∇V|², with the derivatives with respect to the coordinates of a only, and of b only
+  /// ½ |∇V|²; stiffness_a contains only derivatives with respect to the coordinates of a, and stiffness_b of b
   double stiffness_a = 0, stiffness_b = 0;
   double error = 0;  ///< relative error ρ_c, see Evaluation::residual_floor
 };
@@ -84,9 +86,9 @@ struct ContactTerms {
 class PackingEnergy {
  public:
   /// Computes the energy and its first derivatives. Throws std::invalid_argument if the cell is not legal for the
-  /// particles (is_legal() in cell/periodic_cell.hpp). With Precision::double_double, V, S and M of every contact are
-  /// computed from both doubles of each coordinate, which takes about 10 % more time. With both precisions, sums over
-  /// contacts are computed in double.
+  /// particles (is_legal() in cell/periodic_cell.hpp). With Precision::double_double, the volume, vector area and
+  /// moment of every contact are computed from both doubles of each coordinate, which takes about 10 % more time. With
+  /// both precisions, sums over contacts are computed in double.
   Evaluation evaluate(const Packing& packing, Precision precision = Precision::working);
   /// Computes the Hessian from analytic formulae, and the incipient contacts for a probe distance (V_p^(1/3)). If the
   /// probe distance is 0, the incipient contacts are all pairs that touch. The free strains of `cell` form the border

@@ -11,13 +11,14 @@
 
 namespace isojam {
 
-/// Numbers of pairs in one evaluation. They are counted by the test that decided whether the pair touches.
+/// Numbers of pairs in one evaluation: all pairs of the neighbour list, and the pairs that each test found.
 struct PairCounts {
   long listed = 0;        ///< pairs in the neighbour list
   long out_of_reach = 0;  ///< pairs whose circumscribed spheres do not intersect
   long by_axis = 0;       ///< pairs that the separating axis of an earlier evaluation separates
   long overlapped = 0;    ///< pairs whose overlap was computed
-  /// pairs of `overlapped` that were computed by clipped_overlap(), which is slower but also works for degenerate pairs
+  /// pairs among these whose overlap was computed by clipped_overlap(), which is slower but also works for degenerate
+  /// pairs
   long clipped = 0;
   long touching = 0;  ///< pairs with V > 0
 
@@ -57,13 +58,13 @@ struct TouchingPairs {
 };
 
 /// Finds the touching pairs of a list. `placed` must come from place_all() with the same precision. axes[k] is the
-/// separating axis of pair k from an earlier call, and is updated. It changes the cost, but never the result.
+/// separating axis of pair k from an earlier call, and is updated. The axes change the cost, but never the result.
 /// `touching` is overwritten.
 PairCounts overlap_pairs(const Packing& packing, Precision precision, const PlacedSolids& placed,
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, TouchingPairs& touching);
 
-/// Finds the pairs of a list that touch after the centre of B has moved towards the centre of A by `probe_distance`
-/// (V_p^(1/3)). The overlaps are those after this move. `axes` must come from overlap_pairs().
+/// Finds the pairs of a list that would touch if the centre of B were closer to the centre of A by `probe_distance`
+/// (V_p^(1/3)), and computes their overlaps in this closed state. `axes` must come from overlap_pairs().
 TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
                           std::span<const SeparatingAxis> axes, double probe_distance);
 

@@ -44,7 +44,7 @@ struct EnvelopeEvaluation {
   long overlaps = 0;            ///< number of overlaps with Hessian that were computed to find the shifts
 };
 
-/// Computes envelopes of packings. Like PackingEnergy, an object contains only caches: they never change a result.
+/// Computes envelopes of packings. An object contains only caches, which never change a result.
 class EnvelopeEnergy {
  public:
   /// Computes the envelope for ρ = `stiffness`. `forces` contains the multipliers, sorted by (a, b, shift); pairs that
@@ -69,12 +69,13 @@ class EnvelopeEnergy {
   std::vector<Pose> poses_;  ///< poses from which placed_ was computed
 };
 
-/// The part of an evaluation without `only` that evaluate() with `only` would compute: the pairs with a flagged
-/// particle.
+/// The contribution of the pairs with a flagged particle to `whole`. `whole` must be an evaluation of all pairs. The
+/// result is the same as that of evaluate() with the flags `only`.
 EnvelopeEvaluation part_of(const EnvelopeEvaluation& whole, std::span<const char> only);
 
-/// The evaluation, without `only`, of a packing in which only flagged particles have moved since the evaluation
-/// `before`. Pairs with a flagged particle are taken from `part`, and all other pairs from `before`.
+/// The evaluation of all pairs of a packing in which only flagged particles have moved since the evaluation `before`.
+/// Pairs with a flagged particle are taken from `part`, the new evaluation with the flags `only`. All other pairs are
+/// taken from `before`.
 EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEvaluation& part,
                              std::span<const char> only);
 

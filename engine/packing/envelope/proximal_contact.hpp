@@ -12,8 +12,8 @@ namespace isojam {
 // The ghost of B is a copy of B that is displaced from B by a rigid motion, the shift w. The first three components of
 // w are the translation. The other three are 2 R_B v, where v is the vector part of the unit quaternion of the rotation
 // and R_B is the radius of gyration of B. All components are in the body frame of B. If A and B move together as one
-// rigid body, the ghost moves with them, and w does not change. A wrench is a force and a torque divided by R_B. It is
-// conjugate to w, so it is also in the body frame of B. Its unit is Y·V_p^(2/3).
+// rigid body, the ghost moves with them, and w does not change. A wrench consists of a force, and of a torque divided
+// by R_B. It is conjugate to w, so it is also in the body frame of B. Its unit is Y·V_p^(2/3).
 
 /// Parameters of the Moreau envelope Φ of a contact,
 ///   Φ = min_w [ e(w) + ½ ρ |w|² − μ·w ].

@@ -44,7 +44,7 @@ class Composition {
   std::span<const ConvexSolid* const> solids() const;
   std::span<const Particle> particles() const;  ///< one element per particle; empty if the composition is uniform
 
-  /// Properties over all particles. Lengths are in units of V_p^(1/3).
+  // The next functions describe all particles together. Lengths are in units of V_p^(1/3).
   const ConvexSolid& widest() const { return one_ ? *one_ : *mixed_->widest; }  ///< solid with the largest diameter
   /// Smallest inradius: the smallest distance of a face from the centroid of its solid.
   double least_inradius() const { return one_ ? one_->inradius() : mixed_->least_inradius; }

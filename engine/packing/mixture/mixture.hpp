@@ -11,7 +11,7 @@
 
 namespace isojam {
 
-/// One kind of particles in a mixture: particles with the same shape.
+/// One kind of a mixture: particles with the same shape, and a distribution of their sizes.
 struct MixtureKind {
   Solid solid = SolidKind::tetrahedron;  ///< shape of the particles
   double fraction = 1;                   ///< fraction of all particles (by number) that are of this kind
@@ -59,7 +59,7 @@ class Mixture {
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
 /// Smallest number of particles of a mixture for which a cubic cell is legal (is_legal()) at density φ and at all lower
-/// densities. The result is at most 2^17, even if more particles would be needed.
+/// densities. If this number is above 2^17, the result is 2^17.
 int least_particles(const Mixture& mixture, double density);
 
 }  // namespace isojam
