@@ -14,7 +14,7 @@ namespace isojam {
 template <class Enum>
 struct EnumName {
   Enum value;             ///< the enumerator
-  std::string_view name;  ///< its name in files and messages
+  std::string_view name;  ///< name in files and messages
 };
 /// Deduction guide for clang before version 17, because clang-tidy 14 reads these headers. g++ does not need it.
 template <class Enum>
@@ -32,8 +32,8 @@ inline constexpr std::array<EnumName<Enum>, 0> enum_names{};
 template <class Enum>
 concept NamedEnum = std::is_enum_v<Enum> && !enum_names<Enum>.empty();
 
-template <NamedEnum Enum>
 /// The name of an enumerator. The enumerator must have a name.
+template <NamedEnum Enum>
 constexpr std::string_view to_string(Enum value) {
   for (const auto& entry : enum_names<Enum>) {
     if (entry.value == value) return entry.name;

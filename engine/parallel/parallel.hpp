@@ -11,7 +11,7 @@ namespace isojam {
 //   then depends neither on the number of threads nor on the order of the calls.
 // - A thread that waits for the end of a loop or forest runs only calls of the same loop or forest. It does not start
 //   another replicate, which might take an hour.
-// - If oneTBB cancels the caller, all calls are made nevertheless.
+// - If the caller runs in a task of oneTBB that is cancelled, all calls are made nevertheless.
 // - If a call throws an exception, calls that have not started may be skipped. The exception is rethrown when all
 //   running calls have ended.
 
@@ -19,9 +19,9 @@ namespace isojam {
 /// calls, use for_each_small().
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& run);
 
-/// Calls run(k) for every k < count, if each call is short. One task makes small_calls_per_task calls. For example, the
-/// overlaps of so many pairs take about 50 µs. This is much longer than oneTBB needs to start a task, and short enough
-/// to distribute the work evenly over the threads.
+/// Calls run(k) for every k < count, if each call is short. One task makes small_calls_per_task calls. If each call
+/// computes the overlap of one pair, a task takes about 50 µs. This is much longer than oneTBB needs to start a task,
+/// and short enough to distribute the work evenly over the threads.
 void for_each_small(std::size_t count, const std::function<void(std::size_t)>& run);
 inline constexpr std::size_t small_calls_per_task = 128;
 

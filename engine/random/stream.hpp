@@ -7,13 +7,13 @@
 
 namespace isojam {
 
-/// Purpose of a random stream: one element of its key.
+/// Purpose of a random stream; it is one element of the key of the stream.
 enum class Purpose : std::uint64_t { placement = 1, bootstrap = 2 };
 
-/// A reproducible stream of random bits. It depends only on its key, for example on the seed of the manifest, the
-/// solid, the number of particles, the replicate and the purpose. The C++ standard defines the 64-bit Mersenne twister
-/// and std::seed_seq bit by bit. It does not define its distributions bit by bit, so this class converts the bits to
-/// random numbers itself.
+/// A reproducible stream of random bits. It depends only on its key: for example the seed of the manifest, the solid,
+/// the number of particles, the replicate and the purpose. The C++ standard defines the 64-bit Mersenne twister and
+/// std::seed_seq bit by bit, but not its random distributions. Therefore this class itself converts the bits to random
+/// numbers.
 class RandomStream {
  public:
   /// The stream with this key.
@@ -29,7 +29,7 @@ class RandomStream {
   std::mt19937_64 engine_;
 };
 
-/// 64-bit FNV-1a hash of a text. It converts a text, such as the name of a solid, to a number for a key.
+/// 64-bit FNV-1a hash of a text. It converts a text, such as the name of a solid, to a number that a key can contain.
 std::uint64_t hash_of(std::string_view text);
 
 }  // namespace isojam
