@@ -17,8 +17,8 @@ namespace isojam {
 /// particles keep their poses in the same cell; they are not minimised again. `here` contains their residual, which is
 /// the same as before if the removed particles carried no force.
 struct Backbone {
-  /// the remaining particles in their original order. If none remains, it has no poses, and the members below `rounds`
-  /// are empty.
+  /// the remaining particles in their original order. If no particle remains, `packing` has no poses, and the members
+  /// after `rounds` are empty.
   Packing packing;
   std::vector<int> kept{};     ///< indices of the remaining particles in the whole packing, ascending
   std::vector<int> removed{};  ///< indices of the removed particles, ascending

@@ -23,8 +23,8 @@ BlockMatrix dynamical_matrix(const Packing& packing, BlockMatrix hessian);
 /// `modes` is one mode with 6N entries.
 Eigen::MatrixXd mode_displacements(const Packing& packing, Eigen::MatrixXd modes);
 
-/// Largest value of R²/I over all particles and all principal moments of inertia I. It is the largest eigenvalue of
-/// M^(-1) for rotations, and 1 for spherical tops of unit volume.
+/// Largest value of R²/I over all particles and all principal moments of inertia I. It is the largest eigenvalue of the
+/// part of M^(-1) that belongs to rotations, and 1 for spherical tops of unit volume.
 double greatest_inverse_mass(const Packing& packing);
 
 /// All entries of the symmetric matrix as a sparse matrix. It has 6N × 6N entries, or more if there is a border.

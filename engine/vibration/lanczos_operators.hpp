@@ -24,8 +24,8 @@ inline void remove_translations(const Eigen::VectorXd& root_masses, Eigen::Ref<E
 }
 
 /// Start vector of the Lanczos method, without components along the translations. It is the same for all matrices with
-/// equal N and masses. It is random, because the Lanczos method finds only modes that have the symmetry of the start
-/// vector.
+/// equal N and masses. It is random, so that it has no symmetry. From a symmetric start vector, the Lanczos method
+/// finds only modes with the same symmetry.
 Eigen::VectorXd lanczos_start(const BlockMatrix& matrix);
 
 /// The operator P A P, where A is `operation` and P is the projection that removes translations. It has the interface

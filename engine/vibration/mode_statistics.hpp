@@ -17,8 +17,8 @@ double participation_ratio(const Eigen::Ref<const Eigen::VectorXd>& mode);
 Eigen::VectorXd participation_ratios(const ModeSet& modes);
 
 /// Mean frequency ⟨ω⟩ of a set of modes, with ω = √λ in units of V_p^(-1/3)·√(Y/ρ). It is ⟨ω_l⟩ in the paper's Fig.
-/// 1(b) for the lowest modes, and ⟨ω_h⟩ for the highest modes. nullopt if the set is empty. nullopt also if a λ is not
-/// above `tolerance`, because this mode has no frequency.
+/// 1(b) for the lowest modes, and ⟨ω_h⟩ for the highest modes. nullopt if the set is empty, or if at least one mode has
+/// no frequency because its λ is not above `tolerance`.
 std::optional<double> mean_frequency(const ModeSet& modes, double tolerance);
 
 /// The part of the amplitude of modes that belongs to marked particles.

@@ -6,9 +6,9 @@
 
 namespace isojam {
 
-/// Relaxes every state of a decompression that is a saddle to a minimum with relax_to_minimum(), and fits φ_J again if
-/// a state has changed. JamStep::descents is positive for the changed states. A state that is already a minimum keeps
-/// its bits. If no minimum is found for a state, the original state is kept.
+/// Applies relax_to_minimum() to every state of a decompression. If a state is a saddle, the minimum that is found
+/// replaces it, and JamStep::descents is then positive. If no minimum is found, the saddle is kept. A state that is
+/// already a minimum keeps its bits. φ_J is fitted again if a state has changed.
 void settle(JamResult& result, const JamOptions& options, std::stop_token stop = {});
 
 }  // namespace isojam

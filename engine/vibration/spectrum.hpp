@@ -54,8 +54,8 @@ struct SpectrumEnds {
 struct ModeOptions {
   int lowest = 50, highest = 50;  ///< numbers of modes; if the packing has fewer modes, all modes are computed
   /// Magnitude |σ|/λ_max of the shift σ < 0 in the first attempt. It must be larger than the rounding errors of the
-  /// translations in the factorisation. It must not be much larger than the smallest λ/λ_max, which is of order Δφ⁴ and
-  /// 1e-12 for the tetrahedra nearest to jamming. A shift of 1e-6 gives wrong modes for these.
+  /// translations in the factorisation. It must not be much larger than the smallest λ/λ_max, which is of order Δφ⁴:
+  /// 1e-12 for the packings of tetrahedra nearest to jamming. A shift of 1e-6 gives wrong modes for these packings.
   double shift = 1e-11;
   /// Relative accuracy of 1/(λ − σ) for the lowest modes, where σ is the shift. The inverse iteration converges so fast
   /// that full accuracy costs little.

@@ -36,7 +36,7 @@ struct NearRattler {
   };
   int particle = 0;                      ///< index of the particle
   Reason reason = Reason::few_contacts;  ///< reason for the classification
-  int contacts = 0;                      ///< number of its contacts
+  int contacts = 0;                      ///< number of contacts of the particle
   double least_eigenvalue = 0;           ///< smallest eigenvalue of the diagonal block of D of the particle
 };
 template <>
@@ -67,9 +67,10 @@ double unbalanced_torque(const Evaluation& evaluation, const Composition& solids
 /// Counts the modes of D: eigenvalues below −tolerance are negative, eigenvalues above +tolerance are positive, and all
 /// others are zero modes. If the matrix has a border, the modes are those of particles and cell together. Also finds
 /// the near-rattlers. A particle with fewer than four contacts is a near-rattler: the forces of three contacts can
-/// balance only in a plane, and nothing opposes a motion out of this plane to first order. Method: if D with one pinned
-/// particle minus the tolerance has a Cholesky factorisation, all its eigenvalues are above the tolerance. Because
-/// eigenvalues interlace, 6N − 3 modes of D are then positive. Otherwise an LDLᵀ factorisation counts the modes.
+/// balance only in a plane, and nothing opposes a motion out of this plane to first order. Method: let D' be D with one
+/// pinned particle (pinned_matrix()). If D' − tolerance·1 has a Cholesky factorisation, all eigenvalues of D' are above
+/// the tolerance. Because eigenvalues interlace, 6N − 3 modes of D are then positive. Otherwise an LDLᵀ factorisation
+/// counts the modes.
 Stability assess(const BlockMatrix& matrix, const SpectrumEnds& ends, double unbalanced_torque = 0);
 
 }  // namespace isojam

@@ -18,7 +18,7 @@ namespace isojam {
 /// Computes the second derivatives of the enthalpy with respect to the particles and the free strains of `control`.
 BlockMatrix enthalpy_hessian(const Packing& packing, const CellControl& control, Precision precision);
 
-/// The control for the test of strict jamming: all strains are free, at the pressure of the packing.
+/// Free strains and load for the test of strict jamming: all six strains are free, at the pressure of the packing.
 CellControl strict_control(const Evaluation& evaluation);
 
 /// Counts the modes of particles and all six strains together, at the pressure of the packing. If the stress is not
@@ -50,8 +50,8 @@ struct FreedCell {
 };
 
 /// Relaxes all six strains of the cell of an equilibrium at constant pressure. `distance` is an estimate of φ − φ_J.
-/// The method of multipliers (follow_load()) finds an equilibrium. If this is a saddle, it is relaxed along its
-/// negative modes.
+/// The method of multipliers (follow_load()) finds an equilibrium. If this equilibrium is a saddle, it is relaxed to a
+/// minimum.
 FreedCell free_cell(const Packing& packing, double distance, const MinimiseOptions& options = {});
 
 }  // namespace isojam
