@@ -36,7 +36,7 @@ inline constexpr std::array enum_names<ShearControl>{EnumName{ShearControl::stra
 
 /// Options of shear().
 struct ShearOptions {
-  ShearMode mode = ShearMode::pure;             ///< kind of shear
+  ShearMode mode = ShearMode::pure;             ///< geometry of the shear
   ShearControl control = ShearControl::strain;  ///< prescribed quantity
   /// change of γ in a step; with stress control, change of s/p₀ in a step, where p₀ is the pressure of the initial
   /// packing
@@ -75,8 +75,8 @@ enum class ShearEnd {
   completed,       ///< all requested steps were made
   no_equilibrium,  ///< the minimisation after a step found no equilibrium
   unjammed,        ///< the packing lost its contact forces
-  /// The cell became so small or skew that a particle could touch two images of another particle. This happens if the
-  /// prescribed stress exceeds the yield stress.
+  /// The cell became so small or skew that a particle could touch two images of another particle. One reason is a
+  /// prescribed stress above the yield stress.
   cell_limit,
   interrupted
 };
@@ -99,8 +99,8 @@ ShearResult shear(const Packing& start, const ShearOptions& options, std::stop_t
 
 /// Shear stress s of a stress tensor.
 double shear_stress(const Eigen::Matrix3d& stress, ShearMode mode);
-/// The traceless symmetric stress tensor with the shear stress s. Its only entries that are not 0 are xx = s and yy =
-/// −s for pure shear, and xy = yx = s for simple shear.
+/// The traceless symmetric stress tensor with the shear stress s. Its only entries that are not 0 are s at xx and
+/// −s at yy for pure shear, and s at xy and yx for simple shear.
 Eigen::Matrix3d deviator_with(double shear_stress, ShearMode mode);
 /// The deformation F of the cell that produces the strain γ.
 DoubleDoubleMatrix shear_deformation(double strain, ShearMode mode);

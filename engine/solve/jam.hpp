@@ -51,16 +51,17 @@ struct Compression {
   /// the same φ_J with similar standard deviations. The default is the longest of these steps, because compression then
   /// costs least.
   double step = 0.02;
-  double target_energy = 3.2e-5;  ///< E/N at which compression ends; the value of the paper
+  double target_energy = 3.2e-5;  ///< target energy per particle E/N; the value of the paper
   /// The paper's target energy can be interpreted in two ways:
   /// - false: compression ends at the first state whose E/N after relaxation is at least target_energy. The
   ///   minimisation at the start of decompression can reduce E/N to less than half of target_energy. Compression then
   ///   continues.
-  /// - true: each strain step is so short that E/N before relaxation is at most target_energy. Compression ends at the
-  ///   first state that has contacts and whose residual is at most `residual`.
+  /// - true: each strain step is halved, at most six times, until E/N before relaxation is at most target_energy.
+  ///   Compression ends at the first state that has contacts and whose residual is at most `residual`.
   bool target_before_relaxation = false;
-  /// Upper limit of φ. No particle may be able to touch two images of another particle up to this density (is_legal()
-  /// in packing/cell/periodic_cell.hpp). Crystals can exceed φ = 0.9 before they reach the target energy.
+  /// Upper limit of φ. The cell must be so large that no particle can touch two images of another particle at this
+  /// density (is_legal() in packing/cell/periodic_cell.hpp). Crystals can exceed φ = 0.9 before they reach the target
+  /// energy.
   double max_density = 0.93;
   /// L-BFGS ends the relaxation of a state when the residual is at most this value, when E/N is below unjammed_energy,
   /// or after `evaluations` evaluations. Decompression begins with a minimisation of the last state to an equilibrium.
@@ -109,24 +110,24 @@ template <>
 inline constexpr std::array enum_names<JamStage>{EnumName{JamStage::consolidation, "consolidation"},
                                                  EnumName{JamStage::expansion, "expansion"}};
 
-/// Difference between two successive states of a decompression. Every pair of successive states has a Rearrangement;
-/// is_rearranged() decides whether the step between them contains a rearrangement. On a smooth solution branch, the
-/// energy is proportional to Δφ⁶, and all particles move by similar distances. In a rearrangement, the packing loses
-/// energy, and a few particles move much farther than the others.
+/// Difference between two successive states of a solution branch. It is computed for every step from one state to the
+/// next; is_rearranged() decides whether the step contains a rearrangement. On a smooth solution branch, the energy is
+/// proportional to Δφ⁶, and all particles move by similar distances. In a rearrangement, the packing loses energy, and
+/// a few particles move much farther than the others.
 struct Rearrangement {
   /// E₁ divided by its expected value (Δφ₁/Δφ₀)⁶ E₀. The index 0 means the first state, 1 the second. Δφ₀ is
   /// distance_to_jamming() of the first state, and Δφ₁ = Δφ₀ − (φ₀ − φ₁).
   double energy_ratio = 0;
   /// numbers of pairs that touch only in the first state, and only in the second state
   int contacts_lost = 0, contacts_gained = 0;
-  /// Number of particles that moved: the participation number (Σu²)²/Σu⁴ with sums over all particles. For each
-  /// particle, u² = |dx|² + R²|dθ|², where dx is the displacement without the affine part and dθ the rotation.
+  /// Number of particles that moved: the participation number (Σu²)²/Σu⁴ with sums over all particles. u² = |dx|² +
+  /// R²|dθ|², where dx is the non-affine displacement of a particle and dθ its rotation.
   double particles_moved = 0;
 };
 
 /// Free strains of the cell in compression, and in decompression with Control::density. There is no load.
 CellControl control_at_density(const JamOptions& options);
-/// Free strains of the cell, and its load, in decompression with Control::pressure. `pressure` is in units of Y.
+/// Free strains of the cell and load on the cell in decompression with Control::pressure. `pressure` is in units of Y.
 CellControl control_at_pressure(const JamOptions& options, double pressure);
 
 /// A strain step and the minimised state after it. Energies are in units of Y·V_p, the pressure in Y.
@@ -172,7 +173,7 @@ inline constexpr std::array enum_names<JamStatus>{EnumName{JamStatus::not_called
 /// Result of a run of the protocol.
 struct JamResult {
   JamStatus status = JamStatus::not_called;  ///< reason for the end of the run
-  std::vector<JamStep> path;                 ///< all strain steps, with their minimised states
+  std::vector<JamStep> path;                 ///< all strain steps, including failed and repeated steps
   /// Minimised packings of the last solution branch of the decompression, in the order of the steps. They are
   /// equilibria, unless minimise.energy_change is set: then they include packings whose minimisation ended with
   /// StopReason::energy_change.
@@ -193,13 +194,13 @@ struct JamProgress {
   /// packing from which the next step starts: the last minimised state, or the initial configuration
   Packing packing;
   JamStage stage = JamStage::consolidation;  ///< stage of the next step
-  /// current fraction for the next step: at first Decompression::step_fraction, smaller after failed steps
+  /// present value of the step fraction: at first Decompression::step_fraction, smaller after failed steps
   double step_fraction = 0;
   /// Number of steps of the decompression that failed or ended a solution branch. Each of them halves the step
   /// fraction. The fifth ends the decompression.
   int halvings = 0;
-  /// If a solution branch has ended: index in `path` of its last equilibrium. `packing` is then unjammed or far from
-  /// equilibrium, and the next steps compress it to an equilibrium of another branch. Otherwise −1.
+  /// If a solution branch has just ended: index in `path` of its last equilibrium. `packing` is then unjammed or far
+  /// from equilibrium, and the next steps compress it to an equilibrium of another branch. Otherwise −1.
   int lost = -1;
   JamResult result;  ///< result so far; its status is not_called until the run has ended
   /// True if the run began with begin_expansion(). Decompression then begins at any energy. Otherwise it returns to

@@ -11,7 +11,7 @@ namespace isojam {
 struct Supernode {
   int first = 0, columns = 0;
   std::vector<int> rows;      ///< later positions to which the supernode couples, directly or by fill-in; ascending
-  std::vector<int> children;  ///< indices of the supernodes whose first row belongs to this supernode; ascending
+  std::vector<int> children;  ///< indices of the supernodes whose rows begin with a position of this one; ascending
 };
 
 /// The order in which a Cholesky factorisation eliminates the particles, and their supernodes.
@@ -20,8 +20,8 @@ struct Elimination {
   std::vector<Supernode> supernodes;  ///< children before parents, sorted by `first`
 };
 
-/// Plans the elimination for the pattern of `matrix`. The elimination order differs little from `order`. The result
-/// depends only on the pattern and `order`.
+/// Plans the elimination for the pattern of `matrix`. The elimination order is `order`, changed so that the particles
+/// of a supernode follow each other. The result depends only on the pattern and `order`.
 Elimination plan_elimination(const BlockMatrix& matrix, const std::vector<int>& order);
 
 }  // namespace isojam
