@@ -44,7 +44,9 @@ FractalDimension fractal_dimension(const Packing& packing, const Cluster& cluste
 /// Sizes and extents of the clusters of a packing, as in the paper's Table IV. L is the side of the cell
 /// (PeriodicCell::side()).
 struct ClusterStatistics {
-  double S = 0;          ///< mean size Σs²/Σs over all clusters of s particles, including single particles
+  /// mean size Σs²/Σs; the sums are over all clusters, s is the number of particles of a cluster, and single particles
+  /// are clusters too
+  double S = 0;
   int largest = 0;       ///< number of particles in the largest cluster
   int winding_rank = 0;  ///< largest winding_rank() of a cluster; 0 if no cluster percolates
   bool spans = false;    ///< true if Cluster::spans() is true for at least one cluster

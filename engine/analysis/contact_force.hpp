@@ -40,8 +40,8 @@ struct ContactForce {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< unit vector S_A/|S_A|, which points out of A
   Eigen::Vector3d force_a = Eigen::Vector3d::Zero();  ///< force on A; its direction is opposite to the normal
   /// Point of application of the force: the point on the line of action that is nearest to the centroid of the
-  /// intersection. Its coordinates are relative to the stored position of particle a, not to one of its periodic
-  /// images. About this point, the torque has only a component along the line.
+  /// intersection. It is given in the lab frame, next to the stored position of particle a and not next to one of
+  /// its periodic images. About this point, the torque has only a component along the line.
   Eigen::Vector3d attack = Eigen::Vector3d::Zero();
   /// torques on A and on B, each about the centre of the particle
   Eigen::Vector3d torque_a = Eigen::Vector3d::Zero(), torque_b = Eigen::Vector3d::Zero();

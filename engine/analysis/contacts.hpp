@@ -92,8 +92,8 @@ ContactNumbers fixed_cutoff_numbers(int particles, std::span<const Alignment> al
 
 /// Classes of the contacts for given cut-offs (radians).
 std::vector<ContactClass> classify(std::span<const Alignment> alignments, double ff_cutoff, double ef_cutoff);
-/// Contact and constraint numbers per particle for contacts of these classes. Each contact belongs to two particles.
-/// Throws std::invalid_argument if particles < 1.
+/// Contact and constraint numbers per particle for contacts of these classes. Each contact counts for both of its
+/// particles. Throws std::invalid_argument if particles < 1.
 ContactNumbers contact_numbers(int particles, std::span<const ContactClass> classes);
 
 }  // namespace isojam

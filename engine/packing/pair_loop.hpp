@@ -17,8 +17,7 @@ struct PairCounts {
   long out_of_reach = 0;  ///< pairs whose circumscribed spheres do not intersect
   long by_axis = 0;       ///< pairs that the separating axis of an earlier evaluation separates
   long overlapped = 0;    ///< pairs whose overlap was computed
-  /// pairs among these whose overlap was computed by clipped_overlap(), which is slower but also works for degenerate
-  /// pairs
+  /// the part of `overlapped` that clipped_overlap() computed, which is slower but also works for degenerate pairs
   long clipped = 0;
   long touching = 0;  ///< pairs with V > 0
 
@@ -64,7 +63,7 @@ PairCounts overlap_pairs(const Packing& packing, Precision precision, const Plac
                          std::span<const NeighbourPair> pairs, std::span<SeparatingAxis> axes, TouchingPairs& touching);
 
 /// Finds the pairs of a list that would touch if the centre of B were closer to the centre of A by `probe_distance`
-/// (V_p^(1/3)), and computes their overlaps in this closed state. `axes` must come from overlap_pairs().
+/// (V_p^(1/3)), and computes their overlaps at this smaller distance. `axes` must come from overlap_pairs().
 TouchingPairs probe_pairs(const Packing& packing, const PlacedSolids& placed, std::span<const NeighbourPair> pairs,
                           std::span<const SeparatingAxis> axes, double probe_distance);
 

@@ -54,8 +54,8 @@ struct PairStiffness {
 std::vector<PairStiffness> pair_stiffnesses(const Packing& packing, std::span<const Contact> contacts);
 
 /// Constraint number from stiffness, without a cut-off angle: C_s = (2/N) Σ_c [1 + #{k: s_k > threshold}]. The
-/// constraints of a contact c are its normal and its stiff tilts. The factor 2 is there because each contact belongs to
-/// two particles.
+/// constraints of a contact c are its normal and its stiff tilts. Each contact counts for both of its particles, hence
+/// the factor 2.
 double stiff_constraint_number(int particles, std::span<const PairStiffness> pairs, double threshold);
 
 /// Makes the rigidity matrix with one row for the normal of each contact, followed by rows for its stiff tilts. In

@@ -142,8 +142,7 @@ struct JamStep {
   /// difference from the state before; nullopt in compression and at the beginning of a solution branch
   std::optional<Rearrangement> rearrangement;
   /// True if the solution branch ended in this step of the decompression. Either the packing is unjammed, or this step
-  /// and the step before it, which was twice as long, both reached the largest number of evaluations without an
-  /// equilibrium.
+  /// and the step before it, which was twice as long, both ended with StopReason::budget.
   bool lost = false;
 };
 

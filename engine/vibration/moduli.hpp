@@ -25,8 +25,8 @@ struct ElasticTensor {
 
   double affine_bulk_modulus() const;  ///< bulk modulus K without relaxation, in units of Y
   double bulk_modulus() const;         ///< bulk modulus K with relaxation, in units of Y
-  /// shear moduli of the five traceless strains, ascending, in units of Y; a negative one means that the packing is
-  /// unstable
+  /// shear moduli of the five traceless strains, ascending, in units of Y; a negative modulus means that the packing
+  /// is unstable
   std::array<double, 5> shear_moduli() const;
   double mean_shear_modulus() const;  ///< mean of the five shear moduli (Voigt average), in units of Y
 };

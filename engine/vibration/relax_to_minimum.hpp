@@ -31,7 +31,7 @@ inline constexpr std::array enum_names<MinimumSearchEnd>{EnumName{MinimumSearchE
 
 /// Options of relax_to_minimum().
 struct MinimumSearchOptions {
-  /// largest number of saddles that are relaxed. A relaxed saddle rarely leads to another saddle; three saddles in
+  /// Largest number of saddles that are relaxed. A relaxed saddle rarely leads to another saddle; three saddles in
   /// succession were never observed.
   int max_descents = 5;
   /// Largest displacement of a particle in the first trial step along the mode, in units of the inradius. It is halved
@@ -52,10 +52,11 @@ struct MinimumSearchResult {
   int descents = 0;  ///< number of saddles that were relaxed
 };
 
-/// Relaxes a saddle to a minimum. First the packing is minimised, which does not change an equilibrium. If it is a
-/// saddle, it is displaced along its lowest mode, in the direction in which the energy decreases more, and minimised
-/// again. This is repeated until a minimum is found, up to `max_descents` times. If the cell is variable
-/// (options.minimise.control), the negative modes are those of particles and cell together.
+/// Relaxes a saddle to a minimum. First the packing is minimised, which does not change an equilibrium. If the result
+/// is a saddle, it is displaced along its lowest mode, in the direction in which the energy decreases more, and
+/// minimised again. This is repeated until a minimum is found, up to `max_descents` times. If the cell is variable
+/// (options.minimise.control), the negative modes are those of particles and cell together. If the particles alone have
+/// no negative mode, the softest strain (strict.hpp) takes the place of the lowest mode.
 MinimumSearchResult relax_to_minimum(const Packing& packing, const MinimumSearchOptions& options = {},
                                      std::stop_token stop = {});
 

@@ -42,7 +42,8 @@ ContactShares contact_shares(const ContactSize& a, const ContactSize& b);
 ///   θ_ff   smallest angle between a normal of A and the negative of a normal of B; c → 4 ⟨1/(α_A α_B)⟩ θ² for θ → 0
 ///   θ_ef   sin θ_ef = sin ψ · (smallest sine of the angles between the common normal and the four normals)
 /// The distributions are computed from 131072 fixed points with an error of 2e-3. Below a hundredth of the smallest
-/// α/2, the limiting law for θ → 0 is used. They apply to any convex solids, and do not depend on their sizes.
+/// α/2, the limiting law for θ → 0 is used. The distributions apply to any convex solids, and do not depend on the
+/// sizes of the solids.
 class RandomEdgeContact {
  public:
   /// Computes the distributions for an edge of `a` and an edge of `b`.
@@ -61,7 +62,7 @@ class RandomEdgeContact {
     By by = By::sine;
     int power = 1;                ///< power of θ in the law for θ → 0
     double cut = 0, largest = 0;  ///< the law for θ → 0 applies below `cut`; the distribution is 1 from `largest` on
-    std::vector<double> at{}, shares{};  ///< values of the quantity, ascending, and of the distribution
+    std::vector<double> at{}, shares{};  ///< values of the sine or chord, ascending, and of the distribution
     double share_at_cut = 0;
 
     double measure(double theta) const;

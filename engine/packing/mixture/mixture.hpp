@@ -59,7 +59,7 @@ class Mixture {
 inline std::string_view to_string(const Mixture& mixture) { return mixture.name(); }
 
 /// Smallest number of particles of a mixture for which a cubic cell is legal (is_legal()) at density φ and at all lower
-/// densities. If this number is above 2^17, the result is 2^17.
+/// densities. If the particles are not identical, the result is at most 2^17, even if more particles would be needed.
 int least_particles(const Mixture& mixture, double density);
 
 }  // namespace isojam

@@ -32,7 +32,7 @@ class Descent {
   double last_step() const { return last_step_; }
   /// Upper limit of the displacement of a particle in one trial step, in units of V_p^(1/3).
   double longest_displacement() const;
-  /// Computes the second derivatives at any packing, and its incipient contacts for a probe distance (V_p^(1/3)).
+  /// Computes the second derivatives and the incipient contacts of any packing, for a probe distance (V_p^(1/3)).
   SecondOrder second_order(const Packing& packing, double probe_distance);
   /// Evaluates the packing `there`, which `step` reaches from `from`. The current packing does not change. If the new
   /// cell is not legal (is_legal() in packing/cell/periodic_cell.hpp), the result has an infinite energy, and the

@@ -15,9 +15,13 @@ enum class StopReason {
   /// An iteration decreased the energy by less than the fraction MinimiseOptions::energy_change. The state is not
   /// necessarily an equilibrium.
   energy_change,
-  unjammed,            ///< the packing has no contacts, or its energy is below MinimiseOptions::unjammed_energy
-  precision_floor,     ///< the residual is at most the residual floor in double-double
-  budget,              ///< the largest number of evaluations was reached
+  /// The packing has no contacts, or its energy per particle is below MinimiseOptions::unjammed_energy. The method of
+  /// multipliers has further criteria, see multipliers.cpp.
+  unjammed,
+  precision_floor,  ///< the residual is at most the residual floor in double-double
+  /// The largest number of evaluations was reached. The method of multipliers also has a largest number of
+  /// factorisations.
+  budget,
   line_search_failed,  ///< no step that lowers the energy was found
   cell_limit,          ///< the cell became so small or skew that a particle could touch two images of another particle
   not_finite,          ///< the energy or the gradient is not finite
