@@ -10,7 +10,7 @@
 namespace isojam {
 
 /// The smallest rank l from 1 to 10 for which the mean of the spherical harmonics over the vertex directions of the
-/// solid does not vanish. It is 3 for tetrahedra, 4 (cubatic) for cubes and octahedra, and 6 for dodecahedra and
+/// solid does not vanish. The rank is 3 for tetrahedra, 4 (cubatic) for cubes and octahedra, and 6 for dodecahedra and
 /// icosahedra. For most other solids it is 2 (nematic). Order parameters of lower rank do not depend on the
 /// orientations of the particles. Throws std::invalid_argument if the mean vanishes for all ranks up to 10.
 unsigned orientation_rank(const ConvexSolid& solid);
@@ -25,7 +25,7 @@ unsigned orientation_rank(const ConvexSolid& solid);
 Eigen::MatrixXd orientation_harmonics(const Packing& packing, unsigned l);
 
 /// Orientational order S_l, computed from orientation_harmonics(). S_l is the norm of the mean column, S_l² = (1/N²)
-/// Σ_ij q_ij. It is 1 if all particles are aligned, and about 1/√N if their orientations are independent.
+/// Σ_ij q_ij. S_l is 1 if all particles are aligned, and about 1/√N if their orientations are independent.
 double orientation_order(const Eigen::MatrixXd& harmonics);
 
 /// Steinhardt's Q_l of each particle, computed from the contacts of this particle only; nullopt if it has no contacts.

@@ -18,8 +18,8 @@ class Enthalpy {
 
   const CellControl& control() const { return control_; }  ///< free strains of the cell and load on the cell
 
-  /// Converts an evaluation of the energy to an evaluation of the enthalpy. It adds the energy of the load to the
-  /// energy, and appends the derivatives with respect to the free strains to the gradient. The new residual is the
+  /// Converts an evaluation of the energy to an evaluation of the enthalpy. The function adds the energy of the load to
+  /// the energy, and appends the derivatives with respect to the free strains to the gradient. The new residual is the
   /// larger of the residual of the forces and the residual of the stress. The residual of the stress is the largest
   /// absolute value of the entries of σ + p·1 − (V₀/V) sym(F τ), projected on the free strains, divided by p. σ is
   /// Evaluation::stress. If the volume is not free, p = 0 in the numerator, and p in the denominator is the pressure of

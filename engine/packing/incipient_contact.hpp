@@ -39,10 +39,11 @@ struct IncipientContact {
   /// negative. The tangent is zero if the pair does not touch in the closed state.
   LinearisedOverlap closed;
   /// Stiffness matrix of a flat contact against relative_rotation(), in units of Y·V_p^(1/3), if the line in which the
-  /// two face planes intersect goes through the centre of the contact. It is |S|³/(50 R_a R_b) for all axes in the
-  /// plane of the faces, and 0 for the normal of this plane. S is the larger vector area of the present and the closed
-  /// state. The matrix is computed for every pair, but a pair has this stiffness only if the line crosses the faces.
-  /// Otherwise V is linear in such a rotation, and the Hessian of the present state does not contain the stiffness.
+  /// two face planes intersect goes through the centre of the contact. The stiffness is |S|³/(50 R_a R_b) for all axes
+  /// in the plane of the faces, and 0 for the normal of this plane. S is the larger vector area of the present and the
+  /// closed state. The matrix is computed for every pair, but a pair has this stiffness only if the line crosses the
+  /// faces. Otherwise V is linear in such a rotation, and the Hessian of the present state does not contain the
+  /// stiffness.
   Eigen::Matrix3d tilt = Eigen::Matrix3d::Zero();
   /// √(R_a R_b)/R_a and √(R_a R_b)/R_b, where R_a and R_b are the radii of gyration
   double rotation_scale_a = 1, rotation_scale_b = 1;

@@ -14,7 +14,7 @@ namespace isojam {
 /// balance if rowsᵀ·f = 0.
 struct RigidityMatrix {
   Eigen::SparseMatrix<double> rows;  ///< matrix with constraints × 6N entries; every row has unit length
-  /// Force of the contact along each row: (V/2)|∇V| for a normal, 0 for a tilt. It satisfies rowsᵀ·forces = ∇E.
+  /// Force of the contact along each row: (V/2)|∇V| for a normal, 0 for a tilt. The forces satisfy rowsᵀ·forces = ∇E.
   Eigen::VectorXd forces;
   /// Relative force residual |∇E| / |forces|. It is 0 if the forces are a state of self-stress, or if there are no
   /// forces.

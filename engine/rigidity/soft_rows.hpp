@@ -19,8 +19,8 @@ class SoftRows {
 
   /// One step of the iteration for each column of x (Sherman, Morrison, Woodbury):
   ///   τ² (rows rowsᵀ + τ²)⁻¹ x = x − rows (rowsᵀrows + τ²)⁻¹ rowsᵀ x
-  /// It multiplies a combination with the singular value σ by τ²/(σ² + τ²). States of self-stress therefore do not
-  /// change, and all other combinations are damped. τ is 1e-6 times stiffest().
+  /// The step multiplies a combination with the singular value σ by τ²/(σ² + τ²). States of self-stress therefore do
+  /// not change, and all other combinations are damped. τ is 1e-6 times stiffest().
   Eigen::MatrixXd damped(const Eigen::MatrixXd& x) const;
 
   /// An upper bound of the largest singular value: the square root of the largest row sum of |rowsᵀrows|.

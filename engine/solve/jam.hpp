@@ -80,8 +80,8 @@ struct Decompression {
   double step_fraction = 0.35;
   double longest_step = 0.05;  ///< largest decrease of φ in a step
   /// A step that contains a rearrangement (is_rearranged() in rearrangement.hpp) is repeated at half its length, until
-  /// it is shorter than this fraction of φ − φ_J. The density of the rearrangement is then known with this resolution.
-  /// 0: steps are not repeated.
+  /// the step is shorter than this fraction of φ − φ_J. The density of the rearrangement is then known with this
+  /// resolution. 0: steps are not repeated.
   double event_resolution = 0;
   double final_distance = 0.004;  ///< decompression ends when φ − φ_J falls below this
   double fit_window = 0.02;       ///< states with φ − φ_J below this are used to fit φ_J

@@ -48,10 +48,10 @@ double rounding_bound(const BlockMatrix& matrix, double lambda_max);
 /// Computes the Hessian by the method of the paper, central differences of the gradient,
 ///   (∇E(r + h e_k) − ∇E(r − h e_k)) / 2h
 /// for each coordinate k of the 6N coordinates. h is in units of V_p^(1/3). Tests use the result as a reference for the
-/// analytic Hessian. It is a dense 6N × 6N matrix and needs 12N evaluations. It is symmetrised, because out of
-/// equilibrium the differences are not symmetric: rotations do not commute. It is correct only if h is smaller than the
-/// depth of the flattest contact. Otherwise contacts form and break within a step. Throws std::invalid_argument unless
-/// h > 0.
+/// analytic Hessian. The result is a dense 6N × 6N matrix, which needs 12N evaluations. It is symmetrised, because out
+/// of equilibrium the differences are not symmetric: rotations do not commute. The result is correct only if h is
+/// smaller than the depth of the flattest contact. Otherwise contacts form and break within a step. Throws
+/// std::invalid_argument unless h > 0.
 Eigen::MatrixXd difference_hessian(const Packing& packing, double h, Precision precision = Precision::double_double);
 
 }  // namespace isojam

@@ -57,7 +57,7 @@ struct PressureSlope {
 };
 
 /// Computes the bulk modulus from the pressures of equilibria at two neighbouring densities. Both are minimised from
-/// the given state. It is a check of elastic_tensor(). nullopt if a minimisation finds no equilibrium.
+/// the given state. The result is a check of elastic_tensor(). nullopt if a minimisation finds no equilibrium.
 std::optional<PressureSlope> pressure_slope(const Packing& packing, const PressureSlopeOptions& options = {});
 
 }  // namespace isojam

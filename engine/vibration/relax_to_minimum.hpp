@@ -34,8 +34,8 @@ struct MinimumSearchOptions {
   /// Largest number of saddles that are relaxed. A relaxed saddle rarely leads to another saddle; three saddles in
   /// succession were never observed.
   int max_descents = 5;
-  /// Largest displacement of a particle in the first trial step along the mode, in units of the inradius. It is halved
-  /// until the energy decreases.
+  /// Largest displacement of a particle in the first trial step along the mode, in units of the inradius. The trial
+  /// step is halved until the energy decreases.
   double first_step = 0.1;
   MinimiseOptions minimise;  ///< options of all minimisations
   /// options for the modes: of the lowest modes, only the first is used; the highest mode gives λ_max for the tolerance

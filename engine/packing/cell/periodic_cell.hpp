@@ -79,8 +79,8 @@ bool is_legal(const PeriodicCell& cell, const ConvexSolid& solid);
 /// Side (n/φ)^(1/3) of a cubic cell with n particles of unit volume at density φ.
 double side_at(int n, double density);
 
-/// Smallest number of particles of unit volume for which a cubic cell is legal at density φ. It is then also legal at
-/// all lower densities.
+/// Smallest number of particles of unit volume for which a cubic cell is legal at density φ. A cell with this number
+/// of particles is then also legal at all lower densities.
 int least_particles(const ConvexSolid& solid, double density);
 
 }  // namespace isojam

@@ -29,8 +29,8 @@ MinimiseSummary follow_load(Packing& packing, double distance, PackingEnergy& en
 
 /// Relaxes a state that is near an equilibrium with the same density. The method is the same as in
 /// follow_equilibrium(), but the initial multipliers are 0. `force` and `distance` are estimates of the mean contact
-/// force (Y·V_p^(2/3)) and of φ − φ_J at the equilibrium. They only set scales, so an error of a factor of ten does not
-/// matter.
+/// force (Y·V_p^(2/3)) and of φ − φ_J at the equilibrium. These estimates only set scales, so an error of a factor of
+/// ten does not matter.
 MinimiseSummary relax_to_equilibrium(Packing& packing, double force, double distance, PackingEnergy& energy,
                                      const MinimiseOptions& options, std::stop_token stop = {});
 
