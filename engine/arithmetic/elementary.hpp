@@ -1,7 +1,7 @@
 #pragma once
 
 // The C library has two versions of each elementary function. One of them uses fused multiply-adds, and the library
-// selects the version for the processor at run time. The last bits of the two versions differ. With these functions,
+// selects the version for the processor at run time. The last bits of the two versions differ. With the C library,
 // the results of a replicate would therefore depend on the processor.
 
 /// Elementary functions with the same bits on every processor. They are computed in software in quadruple precision,
