@@ -36,8 +36,8 @@ class Options {
 
   explicit Options(CLI::App& app) : app_(app) {}
 
-  /// `name` is "word" for a positional argument, and "-s,--long" for an option. `type` is the name of the value in the
-  /// help, such as FILE.
+  /// `name` has the form "manifest" for a positional argument, and the form "-o,--output" for an option. `type` is the
+  /// name of the value in the help, such as FILE.
   void text(const std::string& name, std::string& value, const std::string& description, const std::string& type,
             Need need = Need::optional);
   void texts(const std::string& name, std::vector<std::string>& values, const std::string& description,
@@ -95,8 +95,8 @@ void add_measure(CLI::App& app, Session& session);
 void add_completions(CLI::App& app, Session& session);
 void add_manual(CLI::App& app, Session& session);
 
-/// Parses the command line, and stores the function of the chosen command in `session`. The help lists `commands` in
-/// this order. If the user asked for the help or the version, or made an error, there is no function to call. The text
+/// Parses the command line, and stores the function of the chosen command in `session`. The help lists the
+/// commands in the order of `commands`. If the user asked for the help or the version, or made an error, there is no function to call. The text
 /// of the help, version or error is then printed, and the exit code is returned.
 std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<const AddCommand> commands,
                                            Session& session);

@@ -5,10 +5,10 @@
 
 namespace isojam {
 
-/// Critical angles (radians): the largest alignment angles that each type of contact allows, for two equal solids in
-/// the orientation of highest symmetry (the paper's Table II). If the vertices or edges of a solid are not equivalent,
-/// the largest angle is computed for each vertex or edge in its best orientation. The critical angle is the smallest of
-/// these largest angles. All vertices and edges of the solid then allow every angle below the critical angle.
+/// Critical angles (radians) of two equal solids, as in the paper's Table II. For each pair of features that touch, for
+/// example a vertex and a face, the member is the largest alignment angle that is geometrically possible. Vertices of an
+/// irregular solid allow different largest angles, and so do its edges. The member is then the smallest of these, so
+/// that every vertex and every edge allows all angles below it.
 struct CriticalAngles {
   double ef_vertex_face = 0, ef_edge_edge = 0;  ///< θ_ef of a vertex on a face, and of two crossed edges
   /// θ_ff of a vertex on a face, of two crossed edges, and of an edge in a face
@@ -32,8 +32,8 @@ CriticalAngles critical_angles(const ConvexSolid& a, const ConvexSolid& b);
 /// Computes the smallest value of each critical angle over all pairs of solids in a mixture.
 CriticalAngles critical_angles(const Mixture& mixture);
 
-/// True if the solid is regular. The test is that all vertices and edges have the same angles, and that all faces have
-/// the same number of sides.
+/// True if the solid is regular. The test is that all edges have the same dihedral angle, all vertices have the same
+/// angles, and all faces have the same number of sides.
 bool has_like_features(const ConvexSolid& solid);
 
 /// Computes the critical angles from the largest dihedral angle and the normal cones of all vertices, for any solid.

@@ -9,21 +9,21 @@
 namespace isojam {
 
 /// Follows an equilibrium to a lower density by the method of multipliers, which multipliers.cpp describes. On entry,
-/// `packing` must be an equilibrium in double-double. `distance` is its φ − φ_J, and must be larger than the decrease
+/// `packing` must be an equilibrium, with its residual computed in double-double. `distance` is its φ − φ_J, and must be larger than the decrease
 /// of the density. On return, `packing` is the state that was reached. It is an equilibrium of the energy if
 /// is_equilibrium(summary) is true for the returned summary. The function uses the options `control`, `residual`,
 /// `unjammed_energy` and `max_evaluations`. `max_evaluations` limits the number of evaluations of the energy and of the
-/// envelope together.
+/// envelope together. The envelope is the function that this method minimises instead of the energy.
 MinimiseSummary follow_equilibrium(Packing& packing, double density, double distance, PackingEnergy& energy,
                                    const MinimiseOptions& options, std::stop_token stop = {});
 
-/// Follows an equilibrium, in the same way as follow_equilibrium(), while its cell is deformed by F. F must be a small
-/// strain.
+/// Follows an equilibrium, in the same way as follow_equilibrium(), while its cell is deformed: the new lattice vectors
+/// are f·h. `f` must be close to the identity.
 MinimiseSummary follow_deformation(Packing& packing, const DoubleDoubleMatrix& f, double distance,
                                    PackingEnergy& energy, const MinimiseOptions& options, std::stop_token stop = {});
 
-/// Follows an equilibrium, in the same way as follow_equilibrium(), to the load in options.control. The volume must be
-/// free.
+/// Follows an equilibrium, in the same way as follow_equilibrium(), until its stress is the stress or pressure that
+/// options.control prescribes. The volume must be free.
 MinimiseSummary follow_load(Packing& packing, double distance, PackingEnergy& energy, const MinimiseOptions& options,
                             std::stop_token stop = {});
 

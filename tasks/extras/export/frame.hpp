@@ -10,7 +10,8 @@
 
 namespace isojam {
 
-/// The contacts of a face: the class with the most constraints among them. The numbers are written to files.
+/// The class of the contacts of a face. If they have different classes, it is the class with the most constraints. The
+/// numbers are written to files.
 enum class FaceContact : std::int32_t {
   undecided = -1,  ///< the face has contacts, but their classes are undecided, because a fit found no cut-off
   none = 0,
@@ -43,7 +44,7 @@ struct ExportFrame {
   const ConvexSolid& solid(std::size_t particle) const { return packing.solids[particle]; }
 };
 
-/// Makes a frame. Contacts, classes and clusters are those of the measures. The contact network takes about 50 µs per
+/// Makes a frame. Contacts, classes and clusters are computed in the same way as in records. The contact network takes about 50 µs per
 /// contact. Throws std::invalid_argument if the cell is so small that a particle could touch two images of another one.
 ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network = false);
 
@@ -63,11 +64,12 @@ WrappedPosition into_cell(const PeriodicCell& cell, const Eigen::Vector3d& posit
 /// this interval after the position and the side are rounded to single precision.
 WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3d& position);
 
-/// The rotation of in_standard_frame(); the identity for a cube.
+/// The rotation that turns the first lattice vector along x and the second one into the xy plane. It is the identity if
+/// the cell is a cube.
 Eigen::Matrix3d to_standard_frame(const PeriodicCell& cell);
-/// The packing, rotated so that its first lattice vector is along x, and the second one is in the xy plane. File
-/// formats that describe a cell by tilt factors require this. A cube is unchanged; otherwise only the first double of
-/// each coordinate is kept.
+/// The packing, rotated by to_standard_frame(). File formats that describe a cell by tilt factors require this. A
+/// packing in a cube is unchanged. In any other cell, the coordinates lose the second double of their double-double, and
+/// have only double precision.
 Packing in_standard_frame(Packing packing);
 
 }  // namespace isojam
