@@ -95,9 +95,9 @@ void add_measure(CLI::App& app, Session& session);
 void add_completions(CLI::App& app, Session& session);
 void add_manual(CLI::App& app, Session& session);
 
-/// Parses the command line, and stores the function of the chosen command in `session`. The help lists the
-/// commands in the order of `commands`. If the user asked for the help or the version, or made an error, there is no function to call. The text
-/// of the help, version or error is then printed, and the exit code is returned.
+/// Parses the command line, and stores the function of the chosen command in `session`. The help lists the commands in
+/// the order of `commands`. If the user asked for the help or the version, or made an error, there is no function to
+/// call. The text of the help, version or error is then printed, and the exit code is returned.
 std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<const AddCommand> commands,
                                            Session& session);
 

@@ -6,8 +6,8 @@
 namespace isojam {
 
 /// Critical angles (radians) of two equal solids, as in the paper's Table II. For each pair of features that touch, for
-/// example a vertex and a face, the member is the largest alignment angle that is geometrically possible. Vertices of an
-/// irregular solid allow different largest angles, and so do its edges. The member is then the smallest of these, so
+/// example a vertex and a face, the member is the largest alignment angle that is geometrically possible. Vertices of
+/// an irregular solid allow different largest angles, and so do its edges. The member is then the smallest of these, so
 /// that every vertex and every edge allows all angles below it.
 struct CriticalAngles {
   double ef_vertex_face = 0, ef_edge_edge = 0;  ///< θ_ef of a vertex on a face, and of two crossed edges

@@ -9,11 +9,11 @@
 namespace isojam {
 
 /// Follows an equilibrium to a lower density by the method of multipliers, which multipliers.cpp describes. On entry,
-/// `packing` must be an equilibrium, with its residual computed in double-double. `distance` is its φ − φ_J, and must be larger than the decrease
-/// of the density. On return, `packing` is the state that was reached. It is an equilibrium of the energy if
-/// is_equilibrium(summary) is true for the returned summary. The function uses the options `control`, `residual`,
-/// `unjammed_energy` and `max_evaluations`. `max_evaluations` limits the number of evaluations of the energy and of the
-/// envelope together. The envelope is the function that this method minimises instead of the energy.
+/// `packing` must be an equilibrium, with its residual computed in double-double. `distance` is its φ − φ_J, and must
+/// be larger than the decrease of the density. On return, `packing` is the state that was reached. It is an equilibrium
+/// of the energy if is_equilibrium(summary) is true for the returned summary. The function uses the options `control`,
+/// `residual`, `unjammed_energy` and `max_evaluations`. `max_evaluations` limits the number of evaluations of the
+/// energy and of the envelope together. The envelope is the function that this method minimises instead of the energy.
 MinimiseSummary follow_equilibrium(Packing& packing, double density, double distance, PackingEnergy& energy,
                                    const MinimiseOptions& options, std::stop_token stop = {});
 

@@ -44,8 +44,9 @@ struct ExportFrame {
   const ConvexSolid& solid(std::size_t particle) const { return packing.solids[particle]; }
 };
 
-/// Makes a frame. Contacts, classes and clusters are computed in the same way as in records. The contact network takes about 50 µs per
-/// contact. Throws std::invalid_argument if the cell is so small that a particle could touch two images of another one.
+/// Makes a frame. Contacts, classes and clusters are computed in the same way as in records. The contact network takes
+/// about 50 µs per contact. Throws std::invalid_argument if the cell is so small that a particle could touch two images
+/// of another one.
 ExportFrame make_frame(Packing packing, std::optional<double> delta_phi, bool with_network = false);
 
 /// Throws std::invalid_argument if there is no frame, or if the frames have different particles.
@@ -68,8 +69,8 @@ WrappedPosition into_centred_cell(const PeriodicCell& cell, const Eigen::Vector3
 /// the cell is a cube.
 Eigen::Matrix3d to_standard_frame(const PeriodicCell& cell);
 /// The packing, rotated by to_standard_frame(). File formats that describe a cell by tilt factors require this. A
-/// packing in a cube is unchanged. In any other cell, the coordinates lose the second double of their double-double, and
-/// have only double precision.
+/// packing in a cube is unchanged. In any other cell, the coordinates lose the second double of their double-double,
+/// and have only double precision.
 Packing in_standard_frame(Packing packing);
 
 }  // namespace isojam

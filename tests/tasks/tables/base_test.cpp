@@ -139,7 +139,7 @@ TEST(Base, PairedIntervalsAreNarrowerIfReplicatesVaryTogether) {
     records.push_back(record_of(fraction(0.2), r, common + 0.003 + 0.001 * uniform()));
   }
   const auto table = aggregate(records, {}, usually_excluded(), fraction(0.35));
-  const auto &base = row_with(table, fraction(0.35)), &other = row_with(table, fraction(0.2));
+  const auto base = row_with(table, fraction(0.35)), other = row_with(table, fraction(0.2));
   const auto i = index_of("phi_j");
   const double unpaired = std::hypot(*base.estimates[i].half_width, *other.estimates[i].half_width);
   const auto& paired = other.differences->estimates[i];
