@@ -1,0 +1,86 @@
+"""usage: /usr/bin/python3 packing.py DIR SOLID
+
+Draws a packing of a results directory beside the energies that give φ_J, and writes packing.png. In the packing, each
+cluster of at least two particles that face-face contacts connect has a colour; all other particles are grey. Needs
+Debian's python3-matplotlib. The module isojam is in build/python."""
+
+# %% Clusters: particles that face-face contacts connect
+import sys
+
+import matplotlib
+import numpy
+
+import isojam
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
+
+SOLIDS = {"tetrahedron": "#d55e00", "octahedron": "#0072b2", "icosahedron": "#e69f00", "dodecahedron": "#009e73"}
+CLUSTERS = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#f0e442", "#0072b2")
+
+
+def clusters(count, pairs):
+    label = numpy.arange(count)
+    for _ in range(count):
+        before = label.copy()
+        for a, b in pairs:
+            label[a] = label[b] = min(label[a], label[b])
+        if (label == before).all():
+            return label
+    return label
+
+
+# %% Packing: faces with a a light from the upper left
+def draw_packing(axes, packing, label):
+    sizes = numpy.bincount(label, minlength=len(packing))
+    large = [k for k in numpy.argsort(-sizes, kind="stable") if sizes[k] > 1]
+    faces, colours = [], []
+    light = numpy.array([0.35, -0.6, 0.72])
+    for particle, kind in enumerate(packing.kind):
+        solid = packing.solids[kind]
+        corners = packing.corners(particle)
+        centre = corners.mean(axis=0)
+        corners = corners + packing.cell @ -numpy.floor(numpy.linalg.solve(packing.cell, centre))
+        rank = large.index(label[particle]) if label[particle] in large else None
+        colour = numpy.array(matplotlib.colors.to_rgb("#d9d9d9" if rank is None else CLUSTERS[rank % len(CLUSTERS)]))
+        for face in solid.faces:
+            points = corners[list(face)]
+            normal = numpy.cross(points[1] - points[0], points[2] - points[0])
+            shade = 0.72 + 0.28 * normal @ light / numpy.linalg.norm(normal)
+            faces.append(points)
+            colours.append(shade * colour)
+    axes.add_collection3d(Poly3DCollection(faces, facecolors=colours, edgecolors="#303030", linewidths=0.3))
+    side = numpy.diag(packing.cell).copy()
+    axes.set(xlim=(0, side[0]), ylim=(0, side[1]), zlim=(0, side[2]))
+    axes.set_box_aspect(side, zoom=0.92)
+    axes.view_init(elev=22, azim=-60)
+    axes.set_axis_off()
+
+
+# %% Energies: (E/N)^(1/6) of each state vanishes at φ_J
+def draw_energies(axes, study):
+    for solid, colour in SOLIDS.items():
+        states = study.states[study.states["solid"] == solid]
+        for name in numpy.unique(states["replicate"]):
+            of = states["replicate"] == name
+            axes.plot(states["phi"][of], states["energy_per_particle"][of] ** (1 / 6), ".-", color=colour, markersize=4,
+                      linewidth=0.8, label=solid if name.endswith("r0000") else None)
+        kept = study.replicates["solid"] == solid
+        axes.plot(study.replicates["phi_j"][kept], 0 * study.replicates["phi_j"][kept], "|", color=colour, markersize=12)
+    axes.set(xlabel=r"density $\phi$", ylabel=r"$(E/N)^{1/6}$", ylim=(0, None))
+    axes.legend(frameon=False)
+
+
+# %% One figure of both
+if __name__ == "__main__":
+    study = isojam.load(sys.argv[1])
+    name = study.replicates[study.replicates["solid"] == sys.argv[2]]["replicate"][0]
+    contacts = study.contacts(name)
+    flat = contacts[contacts["class"] == "face_face"]
+    figure = pyplot.figure(figsize=(11, 5))
+    packing = study.packing(name)
+    draw_packing(figure.add_axes((-0.04, -0.12, 0.56, 1.24), projection="3d"), packing,
+                 clusters(len(packing), zip(flat["a"], flat["b"])))
+    draw_energies(figure.add_axes((0.58, 0.13, 0.40, 0.82)), study)
+    figure.savefig("packing.png", dpi=110, metadata={"Software": None})
