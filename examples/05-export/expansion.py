@@ -7,7 +7,7 @@ import sys
 
 import gsd.hoomd
 
-with gsd.hoomd.open(sys.argv[1], "rb") as expansion:
+with gsd.hoomd.open(sys.argv[1]) as expansion:
     first = expansion[0].particles
     print(f"{first.N} particles, {first.types[0]}, {len(first.type_shapes[0]['vertices'])} vertices each")
     print("delta_phi       Z   in clusters")

@@ -17,6 +17,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -276,6 +277,10 @@ void build_and_wait(Run& run, int in_flight) {
 int default_threads() { return tbb::info::default_concurrency(); }
 
 void with_threads(int threads, const std::function<void()>& work) {
+  // oneTBB 2022 waits forever if an allocation fails while it makes the arena. 4 MiB are more than the arena needs: if
+  // they are not available, this throws std::bad_alloc before.
+  void* volatile room = ::operator new (std::size_t{4} << 20);
+  ::operator delete(room);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   arena.execute(work);

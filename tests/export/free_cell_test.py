@@ -57,7 +57,7 @@ class FreeCell(unittest.TestCase):
 
     def test_gsd(self):
         for stem, cell, positions, quaternions in self.packings():
-            with gsd.hoomd.open(stem + ".gsd", "rb") as trajectory:
+            with gsd.hoomd.open(stem + ".gsd") as trajectory:
                 snapshot = trajectory[0]
             snapshot.validate()
             lx, ly, lz, xy, xz, yz = snapshot.configuration.box.astype(float)

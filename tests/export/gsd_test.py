@@ -44,7 +44,7 @@ def wound(vertices, corners, normal):
 class Gsd(check.RoundTrip):
     def frames(self):
         for stem, states, measured, _ in self.cases():
-            with gsd.hoomd.open(str(stem) + ".gsd", "rb") as trajectory:
+            with gsd.hoomd.open(str(stem) + ".gsd") as trajectory:
                 self.assertEqual(len(trajectory), len(states))
                 for k, (state, values) in enumerate(zip(states, measured)):
                     yield k, trajectory[k], state, values
@@ -62,7 +62,8 @@ class Gsd(check.RoundTrip):
 
     def test_both_readers_agree(self):
         for stem, states, _, _ in self.cases():
-            with open(str(stem) + ".gsd", "rb") as file, gsd.fl.open(str(stem) + ".gsd", "rb") as by_c:
+            with open(str(stem) + ".gsd", "rb") as file, gsd.hoomd.open(str(stem) + ".gsd") as trajectory:
+                by_c = trajectory.file
                 by_python = gsd.pygsd.GSDFile(file)
                 self.assertEqual((by_c.schema, by_c.schema_version, by_c.gsd_version), ("hoomd", (1, 4), (2, 0)))
                 chunks = by_c.find_matching_chunk_names("")

@@ -110,7 +110,7 @@ class Network(unittest.TestCase):
 
     def test_bonds_are_the_contacts(self):
         for name in results.names(RESULTS):
-            with gsd.hoomd.open(str(EXPORTED / "network" / (name + ".gsd")), "rb") as trajectory:
+            with gsd.hoomd.open(str(EXPORTED / "network" / (name + ".gsd"))) as trajectory:
                 for k, frame in enumerate(trajectory):
                     rows = self.by_state[name, k]
                     frame.validate()
@@ -154,7 +154,7 @@ class Network(unittest.TestCase):
             packing = json.loads((FREE_RESULTS / "packings" / (name + ".json")).read_text())
             own = [row for row in rows if row["replicate"] == name]
             positions, lattice = numpy.array(packing["positions"]), numpy.array(packing["cell"])
-            with gsd.hoomd.open(str(FREE_EXPORTED / "network" / (name + ".gsd")), "rb") as trajectory:
+            with gsd.hoomd.open(str(FREE_EXPORTED / "network" / (name + ".gsd"))) as trajectory:
                 frame = trajectory[0]
             lx, ly, lz, xy, xz, yz = frame.configuration.box.astype(float)
             box = numpy.array([[lx, xy * ly, xz * lz], [0, ly, yz * lz], [0, 0, lz]])

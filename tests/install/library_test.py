@@ -75,7 +75,8 @@ class Library(unittest.TestCase):
         self.assertGreaterEqual(len(texts), 5)
         for path in texts:
             for directory in (SOURCE, BUILD):
-                self.assertNotIn(directory, path.read_text(encoding="utf-8"), path)
+                named = rf"(?<![\w./}}-]){re.escape(directory)}(?![\w.-])"
+                self.assertNotRegex(path.read_text(encoding="utf-8"), named, path)
 
     def test_installed_headers_include_only_installed_headers(self):
         folder = self.prefix / "include/isojam"

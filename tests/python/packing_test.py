@@ -58,7 +58,7 @@ class Exported(support.Case):
     def test_gsd(self):
         for name in support.done(CUBES):
             packings = support.study(CUBES).path(name)
-            with gsd.hoomd.open(str(EXPORTED / "exported/path" / (name + ".gsd")), "rb") as trajectory:
+            with gsd.hoomd.open(str(EXPORTED / "exported/path" / (name + ".gsd"))) as trajectory:
                 self.assertEqual(len(trajectory), len(packings))
                 for snapshot, packing in zip(trajectory, packings):
                     shifts = (packing.positions - snapshot.particles.position) / packing.side
@@ -117,7 +117,7 @@ class Solids(support.Case):
             file = pathlib.Path(folder, "mixture.gsd")
             subprocess.run([isojam.program.find(), "export", MIXED, name, "--format", "gsd", "-o", file], check=True,
                            stdout=subprocess.DEVNULL)
-            with gsd.hoomd.open(str(file), "rb") as trajectory:
+            with gsd.hoomd.open(str(file)) as trajectory:
                 particles = trajectory[0].particles
                 shapes = [numpy.array(shape["vertices"]) for shape in particles.type_shapes]
         turns = packing.rotations()

@@ -302,7 +302,8 @@ TEST(Starts, FromAFileThatPythonWrote) {
   test::write_text(directory / "write.py", R"(import itertools, math, random
 import gsd.hoomd
 random.seed(3)
-snapshot = (gsd.hoomd.Frame if hasattr(gsd.hoomd, 'Frame') else gsd.hoomd.Snapshot)()
+new = hasattr(gsd.hoomd, 'Frame')
+snapshot = gsd.hoomd.Frame() if new else gsd.hoomd.Snapshot()
 n, edge = 4, 2.2
 L = n * edge
 snapshot.configuration.box = [L, L, L, 0, 0, 0]
@@ -318,7 +319,7 @@ for _ in cells:
     r = math.sqrt(sum(c * c for c in q))
     quaternions.append([c / r for c in q])
 snapshot.particles.orientation = quaternions
-opened = gsd.hoomd.open('written.gsd', 'wb')
+opened = gsd.hoomd.open('written.gsd', 'w' if new else 'wb')
 opened.append(snapshot)
 opened.close()
 )");
