@@ -87,8 +87,8 @@ TEST(ExactOverlap, WedgeInAFaceGrowsAsTheSquareOfTheDepth) {
     const ExactOverlap overlap = exact_overlap(SolidKind::cube, SolidKind::cube, pose);
     const Real expected = Real(25) / 24 * depth * depth;
     EXPECT_LT(relative(overlap.volume, expected), 1e-40) << depth;
-    // The tops and bottoms of the two cubes are coplanar. Their contributions to S cancel by symmetry, but each could be
-    // counted for either cube.
+    // The tops and bottoms of the two cubes are coplanar. Their contributions to S cancel by symmetry, but each could
+    // be counted for either cube.
     EXPECT_FALSE(overlap.single_valued);
     const ExactOverlap lifted =
         exact_overlap(SolidKind::cube, SolidKind::cube, {q, pose.displacement + RealVector(0, 0, .25)});

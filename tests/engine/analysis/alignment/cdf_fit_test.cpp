@@ -5,7 +5,7 @@
 // 3. A fraction f of face-face angles among uniform ones is found within the standard error of the fit. The fraction of
 //    angles below the cut-off is a_0, within half an angle.
 // 4. The verdict is `collapsed` without a jump or with a jump of one angle, `bimodal` if two jumps are in the window,
-//    `out_of_range` if the jump is in its upper half, and `too_few` with fewer angles than parameters. a_0 is at most c.
+//    `out_of_range` if the jump is in its upper half, `too_few` with fewer angles than parameters. a_0 is at most c.
 // 5. The result has the same bits if the order or the unit of the angles changes, or if every angle is counted twice.
 // 6. Equal angles at the jump, also at 0, are below the cut-off. Invalid angles are rejected.
 
