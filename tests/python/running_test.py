@@ -117,13 +117,13 @@ class Runs(Case):
 
         written = pathlib.Path("r/tables.json").read_bytes()
         pathlib.Path("r/tables.json").unlink()
-        table = isojam.aggregate("r").table
+        table = isojam.aggregate("r").table()
         self.assertEqual(pathlib.Path("r/tables.json").read_bytes(), written)
         row, = json.loads(written)["rows"]
         self.assertEqual(list(table["phi_j_mean"]), [row["phi_j"]["mean"]])
         self.assertEqual(list(table["Q6_n"]), [2])
         # A Study that was loaded asks the program for its table.
-        self.assertEqual(list(isojam.load("r").table["phi_j_mean"]), [row["phi_j"]["mean"]])
+        self.assertEqual(list(isojam.load("r").table()["phi_j_mean"]), [row["phi_j"]["mean"]])
 
 
 class Failures(Case):

@@ -6,7 +6,7 @@
 - A failed replicate has no rows of states, even if its record has states.
 - Swept parameters, flags, failures and their reasons are columns. If `residual` is swept, its column differs from the
   column of the residual that was reached.
-- Everything except frame() works without pandas. A frame has the columns and values of its rows.
+- Everything except frame(), groupby() and table() works without pandas. A frame has the columns and values of its rows.
 - Rows can be selected by masks and by values. An unknown column is an error that suggests a similar one.
 - Records of the earlier version have the same columns.
 - A directory without records, a path that is not a directory, and unknown names are rejected."""
@@ -156,7 +156,7 @@ class EarlierRecords(support.Case):
 
 class Columns(support.Case):
     def test_pandas_is_not_needed(self):
-        read = ("import isojam; study = isojam.load(sys.argv[1]); study.states; print(len(study.replicates))\n"
+        read = ("import isojam; study = isojam.load(sys.argv[1]); study.states; study._repr_html_(); print(len(study.replicates))\n"
                 "try: study.replicates.frame()\nexcept ImportError: print('no frame')")
         for before in ("import sys; sys.modules['pandas'] = None", "import sys"):
             code = f"{before}; sys.path.insert(0, sys.argv[2]); {read}"

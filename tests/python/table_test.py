@@ -5,8 +5,7 @@
 - Each column has its type, even if all its values are integers or missing, and even if there are no rows.
 - CSV, JSON lines, and an open file give the same rows.
 - A file that does not contain a table is rejected; the error states the file and the line.
-- The program is called for contacts with the documented arguments. Its errors and warnings are passed on.
-- The table of `aggregate --format csv` has the numbers of tables.json."""
+- The program is called for contacts with the documented arguments. Its errors and warnings are passed on."""
 
 import io
 import json
@@ -17,7 +16,7 @@ import tempfile
 import numpy
 
 import support
-from support import CUBES, MIXED, isojam
+from support import CUBES, isojam
 
 from isojam import program
 
@@ -99,18 +98,6 @@ class Tables(support.Case):
         for value, others in zip(rows["reasons"], own["reasons"]):
             self.assertEqual(value, {key: why for key, why in others.items() if key in quantities})
         return None
-
-    def test_tables_of_aggregate(self):
-        text = subprocess.run([program.find(), "aggregate", MIXED, "--format", "csv"], check=True, capture_output=True,
-                              text=True).stdout
-        rows = table(*text.splitlines())
-        lines = json.loads((MIXED / "tables.json").read_text())["rows"]
-        for line in lines:
-            of = rows[(rows["solid"] == line["solid"]) & (rows["max_density"] == line["parameters"]["max_density"])]
-            for over in ("kept", "all") if line["excluded"] else ("kept",):
-                place = line if over == "kept" else line["all"]
-                value, = of[of["over"] == over]["Z_mean"]
-                self.assertTrue(value == place["Z"]["mean"] or numpy.isnan(value) and place["Z"]["mean"] is None)
 
     def test_refusals(self):
         self.refused(lambda: isojam.read_table("/no/such.csv"), "/no/such.csv", "No such file")

@@ -7,6 +7,7 @@
     study.states["C"]                            # one value per state
     study.packing(study.names[0]).positions
     study.contacts()["force"]                    # (contacts, 3)
+    study.table()                                # means and confidence intervals, as a pandas DataFrame
 
 docs/python.md describes the module."""
 

@@ -1,5 +1,6 @@
 """Functions that call commands of the program. Each returns the results directory as a Study."""
 
+import contextlib
 import json
 import os
 import pathlib
@@ -10,6 +11,7 @@ from typing import Any
 
 from . import program as _program
 from .errors import InputError, ManifestError
+from .files import open_file, reading
 from .program import Ended, Path
 from .progress import shown
 from .study import Study
@@ -34,6 +36,8 @@ def run(manifest: Mapping[str, Any] | Path, directory: Path, threads: int = 2, p
     words: list[Path] = ["-o", directory, "-j", str(threads)]
     if not isinstance(manifest, Mapping):
         file = os.fspath(manifest)
+        with reading(file), contextlib.suppress(FileNotFoundError):
+            open_file(file).close()
         with shown(progress) as show:
             ended = _program.call(program, ["run", file, *words], show=show)
     else:
@@ -73,7 +77,7 @@ def aggregate(directory: Path, *, program: Path | None = None) -> Study:
 def _text(manifest: Mapping[str, Any]) -> str:
     try:
         return json.dumps(manifest, default=_plain, allow_nan=False)
-    except (TypeError, ValueError) as error:
+    except (RecursionError, TypeError, ValueError) as error:
         raise ManifestError([InputError("manifest", "", f"cannot be written as JSON: {error}",
                                         "dicts, lists, text, finite numbers, arrays, True, False and None")]) from None
 

@@ -9,6 +9,7 @@ import numpy
 from numpy.typing import NDArray
 
 from .errors import InputError
+from .files import reading
 from .rows import Array
 from .solid import Solid
 
@@ -32,22 +33,26 @@ class Packing:
     Coordinates are double-doubles. The arrays above are the nearest doubles; `cell_low`, `positions_low` and
     `orientations_low` contain the remainders."""
 
-    def __init__(self, name: str, document: dict[str, Any], file: str | os.PathLike[str], place: str, delta_phi: float,
-                 shapes: Callable[[], dict[str, Solid]]) -> None:
-        """Makes a packing from the JSON at `place` in a file. `shapes()` returns the solids of the replicate by
-        name."""
-        self.name, self.delta_phi = name, delta_phi
+    def __init__(self, name: str, document: dict[str, Any], file: str | os.PathLike[str], place: str,
+                 shapes: Callable[[], dict[str, Solid]], delta_phi: float | None = None) -> None:
+        """Makes a packing from the JSON at `place` in a file. `shapes()` returns the solids of the replicate by name.
+
+        `delta_phi` is needed if the JSON does not contain it."""
+        self.name = name
         self._document, self._file, self._place, self._shapes = document, file, place, shapes
-        self.phi = float(self._at("phi"))
+        self.delta_phi = self._number("delta_phi") if delta_phi is None else delta_phi
+        self.phi = self._number("phi")
         n = len(self._at("positions"))
         self.positions: Floats = self._array("positions", (n, 3))
         self.orientations: Floats = self._array("orientations", (n, 4))
-        self.side = None if "cell" in document else float(self._at("side"))
+        self.side = None if "cell" in document else self._number("side")
         self.cell: Floats = self._array("cell", (3, 3)) if self.side is None else self.side * numpy.eye(3)
         if "kinds" in document:
             self.solid_names: tuple[str, ...] = tuple(kind["solid"] for kind in self._at("kinds"))
             self.kind: NDArray[numpy.int_] = self._array("kind", (n,), int)
             self.size: Floats = self._array("size", (n,))
+            if not ((self.kind >= 0) & (self.kind < len(self.solid_names))).all():
+                raise InputError(file, place + "/kind", "a particle has an unknown kind", "indices of elements of kinds")
         else:
             self.solid_names = (self._at("solid"),)
             self.kind, self.size = numpy.zeros(n, dtype=int), numpy.ones(n)
@@ -71,13 +76,14 @@ class Packing:
     def cell_low(self) -> Floats:
         if self.side is None:
             return self._array("cell_low", (3, 3))
-        return float(self._document.get("side_low", 0)) * numpy.eye(3)
+        return (self._number("side_low") if "side_low" in self._document else 0.) * numpy.eye(3)
 
     @functools.cached_property
     def solids(self) -> tuple[Solid, ...]:
         """The Solid of each kind of particle, with unit volume. The first access calls the program."""
-        shapes = self._shapes()
-        return tuple(shapes[name] for name in self.solid_names)
+        with reading(self._file):
+            shapes = self._shapes()
+            return tuple(shapes[name] for name in self.solid_names)
 
     def rotations(self) -> Floats:
         """(N, 3, 3): matrices that rotate the body frame of each particle into the lab frame."""
@@ -99,11 +105,14 @@ class Packing:
         return self._document[key]
 
     def _array(self, key: str, shape: tuple[int, ...], kind: type = float) -> Array:
-        try:
-            array: Array = numpy.array(self._at(key), dtype=kind)
-        except (TypeError, ValueError):
-            array = numpy.empty(0)
-        if array.shape != shape:
-            raise InputError(self._file, self._place + "/" + key, "the list of numbers has the wrong shape",
-                             " by ".join(map(str, shape)) + " numbers")
-        return array
+        expected = " by ".join(map(str, shape)) + (" integers" if kind is int else " numbers") if shape else "a number"
+        with reading(self._file, expected, f"{self._place}/{key}"):
+            array: Array = numpy.array(self._at(key))
+            if array.shape != shape:
+                raise ValueError("the list of numbers has the wrong shape")
+            if array.dtype.kind not in ("i" if kind is int else "if"):
+                raise TypeError("the list contains other values than numbers")
+            return array.astype(kind)
+
+    def _number(self, key: str) -> float:
+        return float(self._array(key, ()))

@@ -159,13 +159,13 @@ def solids(program: Path | None, directory: Path, replicate: str) -> dict[str, S
     return {solid.name: solid for solid in found}
 
 
-def table(program: Path | None, words: list[Path]) -> Rows:
+def table(program: Path | None, words: list[Path], stacklevel: int = 3) -> Rows:
     """Calls the program and returns the table that it prints.
 
-    Warnings refer to the line that called the function of the module."""
+    Warnings refer to the line that called the function of the module. `stacklevel` counts the frames up to this line."""
     with tempfile.TemporaryFile("w+", newline="", encoding="utf-8") as output:
         ended = call(program, words, stdout=output)
-        ended.warn(stacklevel=3)
+        ended.warn(stacklevel)
         if ended.code != 0:
             raise ended.error()
         output.seek(0)

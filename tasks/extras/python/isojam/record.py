@@ -1,12 +1,10 @@
 """Rows of `Study.replicates` and `Study.states`: the numbers and texts of records, with the names of columns."""
 
 import functools
-import os
 from collections.abc import Collection, Iterator
 from typing import Any
 
 from . import facts
-from .errors import InputError
 from .rows import Rows, column_of
 
 _REASON = "_reason"
@@ -144,15 +142,23 @@ def state_rows(head: dict[str, Any], record: dict[str, Any]) -> list[dict[str, A
     return rows
 
 
-def read_rows(name: str, record: dict[str, Any], file: str | os.PathLike[str],
+def read_rows(name: str, record: dict[str, Any],
               excluding: Collection[str]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """The row of a replicate, and the rows of its states. Raises InputError if the record is not valid."""
-    try:
-        head = head_of(name, record, excluding)
-        return replicate_row(head, record), state_rows(head, record)
-    except (KeyError, TypeError, AttributeError) as error:
-        raise InputError(file, "", f"not a valid record: {type(error).__name__} {error}",
-                         "a record of schema " + facts.schemas["record"]) from None
+    """The row of a replicate, and the rows of its states. Raises an exception that `reading` converts."""
+    head = head_of(name, record, excluding)
+    row, states = replicate_row(head, record), state_rows(head, record)
+    for each in (row, *states):
+        _check_numbers(each)
+    return row, states
+
+
+def _check_numbers(row: dict[str, Any]) -> None:
+    """Each quantity is a number or null, and a double can represent each integer."""
+    for name, value in row.items():
+        if isinstance(value, int):
+            float(value)
+        elif name in _QUANTITIES and not (value is None or isinstance(value, float)):
+            raise TypeError(f"{name} is not a number")
 
 
 def as_columns(rows: list[dict[str, Any]]) -> Rows:

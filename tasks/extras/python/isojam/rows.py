@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 #: An array of numbers, text, truth values or objects.
 Array = NDArray[Any]
+#: Texts up to this length are always in an array of fixed width.
+_SHORT = 64
 
 
 class Rows:
@@ -59,6 +61,12 @@ class Rows:
         """Iterates over the rows; each is a dict."""
         return (self[i] for i in range(len(self)))
 
+    @property
+    def kept(self) -> "Rows":
+        """The rows of replicates that the program uses for means: those that neither failed nor are excluded."""
+        kept: Array = (self["status"] == "done") & ~self["excluded"]
+        return self[kept]
+
     def by(self, name: str) -> list[tuple[Any, "Rows"]]:
         """Pairs of a value of this column and the Rows with this value, sorted by value. Null is left out."""
         places: dict[Any, list[int]] = {}
@@ -77,6 +85,10 @@ class Rows:
             else:
                 flat.update({f"{name}_{axis}": values[:, c] for c, axis in enumerate("xyz")})
         return pandas.DataFrame(flat)
+
+    def groupby(self, names: str | list[str]) -> Any:
+        """The groups of the pandas DataFrame by one or several columns."""
+        return self.frame().groupby(names)
 
     def __repr__(self) -> str:
         first = ", ".join(self.columns[:12]) + (", …" if len(self._columns) > 12 else "")
@@ -105,7 +117,22 @@ def column_of(values: list[Any]) -> Array:
     if kinds <= {int, float, bool}:
         return numpy.array([numpy.nan if value is None else value for value in values], dtype=float)
     if kinds == {str}:
-        return numpy.array(["" if value is None else value for value in values])
+        return text_array(["" if value is None else value for value in values])
+    return _object_array(values)
+
+
+def text_array(texts: list[str]) -> Array:
+    """An array of texts.
+
+    numpy gives each text the length of the longest one. If the longest is much longer than the mean, the array contains
+    objects, so that it needs about as much memory as the texts."""
+    longest, total = max(map(len, texts), default=0), sum(map(len, texts))
+    if longest * len(texts) > _SHORT * len(texts) + 4 * total:
+        return _object_array(texts)
+    return numpy.array(texts, dtype=str)
+
+
+def _object_array(values: list[Any]) -> Array:
     array = numpy.empty(len(values), dtype=object)
     for i, value in enumerate(values):
         array[i] = value

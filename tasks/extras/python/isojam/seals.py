@@ -12,13 +12,13 @@ operations of numpy:
 
 import json
 import os
-import pathlib
 from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
 from .errors import InputError
+from .files import open_file, parse_json, reading
 
 PRIME = 0x100000001B3
 BASIS = 0xCBF29CE484222325
@@ -97,21 +97,15 @@ def read_sealed(file: str | os.PathLike[str], schemas: str | tuple[str, ...] = (
 
     Raises InputError if the file cannot be read, is not valid JSON, or has a schema that is not in `schemas`. If
     `check` is true, also raises it if the checksum does not match."""
-    try:
-        data = pathlib.Path(file).read_bytes()
-    except OSError as error:
-        raise InputError(file, "", f"cannot be read: {error.strerror}") from None
-    if check:
-        check_seal(data, file)
-    try:
-        document = json.loads(data)
-    except ValueError as error:
-        raise InputError(file, "", f"not valid JSON: {error}", _WHOLE) from None
-    if not isinstance(document, dict):
-        raise InputError(file, "", "not an object", _WHOLE)
-    schemas = (schemas,) if isinstance(schemas, str) else schemas
-    if schemas and document.get("schema") not in schemas:
-        raise InputError(file, "/schema", f"unknown value {json.dumps(document.get('schema'))}", f'"{schemas[0]}"')
+    with reading(file, _WHOLE):
+        with open_file(file) as opened:
+            data = opened.read()
+        if check:
+            check_seal(data, file)
+        document = parse_json(data)
+        schemas = (schemas,) if isinstance(schemas, str) else schemas
+        if schemas and document.get("schema") not in schemas:
+            raise InputError(file, "/schema", f"unknown value {json.dumps(document.get('schema'))}", f'"{schemas[0]}"')
     return document
 
 

@@ -6,7 +6,9 @@ import warnings
 from typing import Any
 
 from . import facts, program
-from .errors import InputError
+from .errors import InputError, ProgramError
+from .files import reading
+from .notebook import html_of
 from .packing import Packing
 from .program import Path
 from .record import as_columns, read_rows, upgraded
@@ -15,6 +17,8 @@ from .seals import check_owner, read_sealed
 from .solid import Solid
 
 
+_A_RECORD = "a record of schema " + facts.schemas["record"]
+_A_PACKING = "a packing written by isojam"
 _HOW_TO_GET_RESULTS = "give a results directory of isojam run"
 
 
@@ -37,7 +41,7 @@ class Study:
     manifest    the manifest as a dict; None if the directory has none
     replicates  Rows: one row for each replicate
     states      Rows: one row for each state of each replicate that did not fail
-    table       Rows: one row for each line of the table"""
+    excluding   flags that exclude a replicate from means, as in the manifest"""
 
     def __init__(self, directory: Path, program: Path | None = None, check: bool = True, table: Rows | None = None) -> None:
         self.directory, self._program, self._check = pathlib.Path(directory), program, check
@@ -48,17 +52,23 @@ class Study:
             raise InputError(directory, "", "contains no results", remedy=_HOW_TO_GET_RESULTS)
         manifest = self.directory / "manifest.json"
         self.manifest = read_sealed(manifest, check=check) if manifest.exists() else None
+        exclude = (self.manifest or {}).get("exclude", list(facts.usual_exclusions))
+        if not (isinstance(exclude, list) and all(isinstance(flag, str) for flag in exclude)):
+            raise InputError(manifest, "/exclude", "is not a list of flags", "names of flags, such as crystalline")
+        self.excluding = tuple(exclude)
         self._rows: tuple[Rows, Rows] | None = None
         self._solids: dict[str, Solid] = {}
-        self._table = table
+        self._tables = {} if table is None else {False: table}
 
     def __repr__(self) -> str:
         return f"<{self.directory}: {len(self.names)} replicates>"
 
-    @property
-    def excluding(self) -> tuple[str, ...]:
-        """Flags that exclude a replicate from means, as in the manifest."""
-        return tuple((self.manifest or {}).get("exclude", facts.usual_exclusions))
+    def _repr_html_(self) -> str:
+        """The table in a notebook. If the program cannot compute the table, its error."""
+        try:
+            return html_of(repr(self), self._table())
+        except (InputError, ProgramError) as error:
+            return html_of(f"{self!r}: {error}")
 
     @property
     def replicates(self) -> Rows:
@@ -68,36 +78,47 @@ class Study:
     def states(self) -> Rows:
         return self._read()[1]
 
-    @property
-    def table(self) -> Rows:
-        """The table of `isojam aggregate --format csv`. The first access calls the program, whose warnings become
-        Python warnings."""
-        if self._table is None:
-            self._table = program.table(self._program, ["aggregate", self.directory, "--format", "csv"])
-        return self._table
+    def table(self, series: bool = False) -> Any:
+        """The table of `isojam aggregate --format csv` as a pandas DataFrame. With `series`, the quantities as functions
+        of Δφ, as with the option --series.
+
+        The first call runs the program, whose warnings become Python warnings."""
+        return self._table(series).frame()
+
+    def _table(self, series: bool = False) -> Rows:
+        if series not in self._tables:
+            words: list[Path] = ["aggregate", self.directory, "--format", "csv"]
+            self._tables[series] = program.table(self._program, words + (["--series"] if series else []), stacklevel=4)
+        return self._tables[series]
 
     def record(self, name: str) -> dict[str, Any]:
         """The record of a replicate as a dict, see schemas/replicate.schema.json."""
         file = self._file("records", name)
-        record = upgraded(read_sealed(file, (facts.schemas["record"], facts.earlier_record), self._check))
-        spec = record.get("spec", {})
-        if not (name.startswith(f"{spec.get('solid')}-N{spec.get('particles')}-")
-                and name.endswith(f"-r{spec.get('replicate', -1):04}")):
-            raise InputError(file, "/spec", "the file name does not match the replicate")
+        document = read_sealed(file, (facts.schemas["record"], facts.earlier_record), self._check)
+        with reading(file, _A_RECORD):
+            record = upgraded(document)
+            spec = record["spec"]
+            if not (name.startswith(f"{spec['solid']}-N{spec['particles']}-")
+                    and name.endswith(f"-r{spec['replicate']:04}")):
+                raise InputError(file, "/spec", "the file name does not match the replicate")
+            if record["status"] != "failed" and not isinstance(record["nearest"]["delta_phi"], float):
+                raise InputError(file, "/nearest/delta_phi", "is not a number", "the distance to jamming")
         return record
 
     def packing(self, name: str) -> Packing:
         """The nearest state of a replicate. Raises InputError if the replicate failed."""
         file, record, document = self._companion("packings", "packing", name)
-        return Packing(name, document, file, "", record["nearest"]["delta_phi"], lambda: self._shapes(name, record))
+        with reading(file, _A_PACKING):
+            return Packing(name, document, file, "", lambda: self._shapes(name, record), record["nearest"]["delta_phi"])
 
     def path(self, name: str) -> list[Packing]:
         """All states of a replicate as a list of Packings, in the order of decompression.
 
         Raises InputError if the replicate failed, or if the manifest does not have "keep_path": true."""
         file, record, document = self._companion("paths", "path", name)
-        return [Packing(name, state, file, f"/states/{k}", state["delta_phi"], lambda: self._shapes(name, record))
-                for k, state in enumerate(document["states"])]
+        with reading(file, _A_PACKING):
+            return [Packing(name, state, file, f"/states/{k}", lambda: self._shapes(name, record))
+                    for k, state in enumerate(document["states"])]
 
     def contacts(self, name: str | None = None, path: bool = False) -> Rows:
         """Rows with one row for each contact of a replicate; without `name`, of all replicates.
@@ -119,10 +140,11 @@ class Study:
     def _whole(self, name: str) -> dict[str, Any]:
         """The record of a replicate. Raises InputError if the replicate failed."""
         record = self.record(name)
-        if record["status"] == "failed":
-            failure = record["failure"]
-            raise InputError(self._file("records", name), "/status",
-                             f"failed in {failure['where']}: {failure['why']}; it has no packing")
+        file = self._file("records", name)
+        with reading(file, _A_RECORD):
+            if record["status"] == "failed":
+                failure = record["failure"]
+                raise InputError(file, "/status", f"failed in {failure['where']}: {failure['why']}; it has no packing")
         return record
 
     def _companion(self, folder: str, kind: str, name: str) -> tuple[pathlib.Path, dict[str, Any], dict[str, Any]]:
@@ -134,7 +156,8 @@ class Study:
             raise InputError(file, "", "the states of the decompression were not saved",
                              remedy='set "keep_path": true in the manifest and run it again')
         document = read_sealed(file, facts.schemas[kind], self._check)
-        check_owner(document, file, name, record)
+        with reading(self._file("records", name), _A_RECORD):
+            check_owner(document, file, name, record)
         return file, record, document
 
     def _shapes(self, name: str, record: dict[str, Any]) -> dict[str, Solid]:
@@ -153,12 +176,13 @@ class Study:
             earlier: set[str] = set()
             for name in self.names:
                 record = self.record(name)
-                row, own = read_rows(name, record, self._file("records", name), self.excluding)
-                replicates.append(row)
-                states.extend(own)
-                digests.add(row["manifest_digest"])
-                added = record["provenance"].get("added", [])
-                earlier.update(each["before"]["manifest_digest"] for each in added)
+                with reading(self._file("records", name), _A_RECORD):
+                    row, own = read_rows(name, record, self.excluding)
+                    replicates.append(row)
+                    states.extend(own)
+                    digests.add(row["manifest_digest"])
+                    added = record["provenance"].get("added", [])
+                    earlier.update(each["before"]["manifest_digest"] for each in added)
             # Some records may have additional measures, and others may not have them yet.
             digests -= earlier
             if len(digests) > 1:

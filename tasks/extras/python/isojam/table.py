@@ -1,9 +1,9 @@
 """Tables that the program exports, as CSV or as JSON lines."""
 
+import contextlib
 import csv
-import json
+import operator
 import os
-import pathlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import IO, Any
 
@@ -11,7 +11,8 @@ import numpy
 
 from . import facts
 from .errors import InputError
-from .rows import Array, Rows, column_of
+from .files import open_file, parse_json, reading
+from .rows import Array, Rows, column_of, text_array
 
 #: Types of columns. Values do not always show the type: 0 may be 0.0, and an empty cell is null for every type.
 _TEXT = {"replicate", "solid", "class", "kind", "solid_a", "solid_b", "status", "stopped", "failed_in", "failure"}
@@ -23,6 +24,7 @@ _FLOAT |= {quantity["name"] for quantity in facts.quantities}
 _AXES = ("_x", "_y", "_z")
 #: Separator of several values in one cell.
 _BETWEEN = "; "
+_A_TABLE = "a table written by isojam export"
 _TRUTH = {"true": True, "false": False}
 
 
@@ -36,17 +38,15 @@ def read_table(file: str | os.PathLike[str] | IO[str], name: str | None = None) 
     and "" in a column of text. Raises InputError with the file and the line if the file does not contain such a
     table."""
     if not isinstance(file, (str, os.PathLike)):
-        return _read(file, name or str(getattr(file, "name", "the table")))
-    try:
-        with pathlib.Path(file).open(newline="", encoding="utf-8") as opened:
-            return _read(opened, name or file)
-    except OSError as error:
-        raise InputError(file, "", f"cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(file, "", f"not a text file: {error.reason}", "UTF-8") from None
+        name = name or str(getattr(file, "name", "the table"))
+        with reading(name, _A_TABLE):
+            return _read(file, name)
+    name = name or os.fspath(file)
+    with reading(name, _A_TABLE), open_file(file, text=True) as opened:
+        return _read(opened, name)
 
 
-def _read(opened: Iterable[str], file: str | os.PathLike[str]) -> Rows:
+def _read(opened: Iterable[str], file: str) -> Rows:
     lines = iter(opened)
     first = next(lines, "")
     if not first.strip():
@@ -77,7 +77,7 @@ def _reasons(names: set[str]) -> Callable[[str], Any]:
     return take
 
 
-def _csv_columns(lines: Iterable[str], file: str | os.PathLike[str]) -> dict[str, Array]:
+def _csv_columns(lines: Iterable[str], file: str) -> dict[str, Array]:
     reader = csv.reader(lines, strict=True)
     try:
         names = next(reader)
@@ -92,27 +92,56 @@ def _csv_columns(lines: Iterable[str], file: str | os.PathLike[str]) -> dict[str
     if len(set(names)) < len(names):
         raise InputError(file, "line 1", "contains a column twice", "different names")
     columns = zip(*rows) if rows else [()] * len(names)
-    return {name: _parsed(name, column, file) for name, column in zip(names, columns)}
+    return {name: _parsed(name, [text or None for text in column], file) for name, column in zip(names, columns)}
 
 
-def _parsed(name: str, texts: Sequence[str], file: str | os.PathLike[str]) -> Array:
-    """Converts the texts of a column to an array."""
+def _parsed(name: str, cells: list[Any], file: str) -> Array:
+    """Converts the texts of CSV or the values of JSON in a column to an array. None is null."""
     plain = _plain(name)
     if plain in _TEXT | _LISTS:
-        return numpy.array(texts, dtype=str)
-    if texts and _TRUTH.keys() >= set(texts):
-        return numpy.array([_TRUTH[text] for text in texts])
-    kinds: list[type] = [int] if plain in _INTEGER and "" not in texts else [float] if plain in _FLOAT else [int, float]
-    for kind in kinds:
-        try:
-            return numpy.array([kind(text) if text else numpy.nan for text in texts], dtype=kind)
-        except ValueError:
-            continue
-    if plain in _INTEGER | _FLOAT:
-        place = next(i for i, text in enumerate(texts) if text and not _is(kinds[-1], text))
-        raise InputError(file, f"row {place + 1} of {name}", f'"{texts[place]}" is not a number',
-                         "a number, or nothing for null")
-    return numpy.array(texts, dtype=str)
+        converters = [_texts]
+    elif plain in _INTEGER | _FLOAT:
+        converters = [_integers if plain in _INTEGER else _floats]
+    else:
+        converters = [_truths, _integers, _floats, _texts, _scalars]
+    for converter in converters:
+        with contextlib.suppress(*_MISFITS):
+            return converter(cells)
+    row = next(i for i, cell in enumerate(cells) if not _fits(converters[-1], cell))
+    raise InputError(file, f"row {row + 1} of {name}", f"{cells[row]!r:.60} cannot be read",
+                     f"{_EXPECTED[converters[-1]]}, or null")
+
+
+def _fits(converter: Callable[[list[Any]], Array], cell: object) -> bool:
+    try:
+        converter([cell])
+    except _MISFITS:
+        return False
+    return True
+
+
+def _truths(cells: list[Any]) -> Array:
+    if not cells:
+        raise ValueError("without values, the type is unknown")
+    return numpy.array([cell if isinstance(cell, bool) else _TRUTH[cell] for cell in cells])
+
+
+def _integers(cells: list[Any]) -> Array:
+    values = [None if cell is None else int(cell) if isinstance(cell, str) else operator.index(cell) for cell in cells]
+    return _floats(values) if None in values else numpy.array(values, dtype=numpy.int64)
+
+
+def _floats(cells: list[Any]) -> Array:
+    values = numpy.array([numpy.nan if cell is None else float(cell) for cell in cells], dtype=float)
+    if numpy.count_nonzero(numpy.isfinite(values)) + cells.count(None) != len(cells):
+        raise ValueError("not finite")
+    return values
+
+
+def _texts(cells: list[Any]) -> Array:
+    if not all(cell is None or isinstance(cell, str) for cell in cells):
+        raise TypeError("not a text")
+    return text_array([cell or "" for cell in cells])
 
 
 def _plain(name: str) -> str:
@@ -120,38 +149,26 @@ def _plain(name: str) -> str:
     return name[:-2] if name.endswith(_AXES) else name
 
 
-def _is(kind: Callable[[str], object], text: str) -> bool:
-    try:
-        kind(text)
-    except ValueError:
-        return False
-    return True
+def _scalars(cells: list[Any]) -> Array:
+    """Numbers and texts in one column of JSON."""
+    if not all(cell is None or isinstance(cell, str) or _fits(_floats, cell) for cell in cells):
+        raise TypeError("neither a number nor a text")
+    return column_of(cells)
 
 
-def _json_columns(lines: Iterable[str], file: str | os.PathLike[str]) -> dict[str, Array]:
+#: Exceptions of a converter if a value has another type.
+_MISFITS = (KeyError, OverflowError, TypeError, ValueError)
+_EXPECTED = {_texts: "a text", _integers: "a 64-bit integer", _floats: "a finite number", _scalars: "a number or a text"}
+
+
+def _json_columns(lines: Iterable[str], file: str) -> dict[str, Array]:
     rows = []
     for number, line in enumerate(lines, 1):
-        if not line.strip():
-            continue
-        try:
-            row = json.loads(line)
-        except ValueError as error:
-            raise InputError(file, f"line {number}", f"not valid JSON: {error}",
-                             "a JSON object on every line") from None
-        if not isinstance(row, dict):
-            raise InputError(file, f"line {number}", "not an object", "a JSON object on every line")
-        rows.append(row)
+        if line.strip():
+            with reading(file, "a JSON object on every line", f"line {number}"):
+                rows.append(parse_json(line))
     names = dict.fromkeys(key for row in rows for key in row)
-    return {name: _gathered(name, [row.get(name) for row in rows]) for name in names}
-
-
-def _gathered(name: str, values: list[Any]) -> Array:
-    """Converts the JSON values of a column to an array."""
-    if name in _TEXT | _LISTS and all(value is None for value in values):
-        return numpy.array([""] * len(values))
-    if _plain(name) in _FLOAT and all(value is None or isinstance(value, (int, float)) for value in values):
-        return column_of([None if value is None else float(value) for value in values])
-    return column_of(values)
+    return {name: _parsed(name, [row.get(name) for row in rows], file) for name in names}
 
 
 def _with_vectors(columns: Mapping[str, Array]) -> dict[str, Array]:
