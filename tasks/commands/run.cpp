@@ -12,6 +12,7 @@
 #include "tasks/io/directory_lock.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/interrupt.hpp"
+#include "tasks/io/memory.hpp"
 #include "tasks/io/standard_streams.hpp"
 #include "tasks/io/texts.hpp"
 #include "tasks/run/campaign.hpp"

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <string>
 
 #include "engine/arithmetic/elementary.hpp"
 
@@ -40,31 +37,6 @@ constexpr double particle_bytes = 130e3;
 /// faster than N.
 constexpr double factor_bytes = 1.3e3, factor_power = 1.6;
 
-/// The number in a file that contains one number. Infinity if the file is missing or contains "max".
-double number_in_file(const char* path) {
-  std::ifstream file(path);
-  double value = 0;
-  return file >> value ? value : std::numeric_limits<double>::infinity();
-}
-
-double available_of_machine() {
-  std::ifstream file("/proc/meminfo");
-  std::string key, unit;
-  double kibibytes = 0;
-  while (file >> key >> kibibytes && std::getline(file, unit)) {
-    if (key == "MemAvailable:") return 1024 * kibibytes;
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
-/// Free memory in the control group of this process. Version 2 of control groups is tried first, then version 1.
-double available_of_control_group() {
-  const double left = number_in_file("/sys/fs/cgroup/memory.max") - number_in_file("/sys/fs/cgroup/memory.current");
-  if (std::isfinite(left)) return left;
-  return number_in_file("/sys/fs/cgroup/memory/memory.limit_in_bytes") -
-         number_in_file("/sys/fs/cgroup/memory/memory.usage_in_bytes");
-}
-
 }  // namespace
 
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path) {
@@ -79,16 +51,9 @@ Cost estimated_cost(const ReplicateSpec& spec, bool keep_path) {
   return cost;
 }
 
-double available_memory() {
-  const double of_group = available_of_control_group();
-  const double least = std::isnan(of_group) ? available_of_machine() : std::min(available_of_machine(), of_group);
-  return std::isfinite(least) ? std::max(least, 0.0) : 0;
-}
-
 int replicates_in_flight(int threads, double largest, double available) {
-  // One fifth of the memory remains free, because the estimate can be too small. If the memory is unknown, it sets no
-  // limit.
-  if (available <= 0 || largest <= 0) return threads;
+  // One fifth of the memory remains free, because the estimate can be too small.
+  if (largest <= 0) return threads;
   return static_cast<int>(std::clamp(0.8 * available / largest, 1.0, static_cast<double>(threads)));
 }
 

@@ -20,14 +20,9 @@ struct Cost {
 /// Survey::calibration is this factor.
 Cost estimated_cost(const ReplicateSpec& spec, bool keep_path);
 
-/// Number of bytes that this process can still allocate: the free memory of the machine or of the control group of the
-/// process, whichever is smaller. 0 if both are unknown.
-double available_memory();
-
 /// Number of replicates that may be in memory at the same time, if each needs at most `largest` bytes and `available`
 /// bytes are free. One fifth of the free memory is not used, because `largest` is an estimate. The number is at least
-/// 1, and at most `threads`, because more replicates than threads would not be faster. If `available` is 0, that is,
-/// unknown, the number is `threads`.
+/// 1, and at most `threads`, because more replicates than threads would not be faster. `available` may be infinite.
 int replicates_in_flight(int threads, double largest, double available);
 
 }  // namespace isojam
