@@ -52,6 +52,11 @@ class Warnings {
     lines_.push_back(fmt::format("/{}/{}: {}", group, name, text));
   }
 
+  /// Adds a warning about a key that cannot be swept.
+  void add_at(std::string_view pointer, const std::string& text) {
+    lines_.push_back(fmt::format("{}: {}", pointer, text));
+  }
+
   std::vector<std::string> take() { return std::move(lines_); }
 
  private:
@@ -164,10 +169,23 @@ void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warn
   }
 }
 
+/// The number of replicates that the stopping rule requests grows with the square of Student's t for `min` values, which
+/// is 2.4 for 8 values, 3.2 for 4 values and 12.7 for 2 values.
+constexpr int reliable_min = 8;
+
+void look_at_goal(const Replicates& replicates, Warnings& warnings) {
+  if (!replicates.goal || replicates.min == replicates.max || replicates.min >= reliable_min) return;
+  warnings.add_at("/replicates/min",
+                  fmt::format("the stopping rule uses the standard deviation of the first {} replicates, which is "
+                              "uncertain, so it may request many more replicates than necessary; use at least {}",
+                              replicates.min, reliable_min));
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Manifest& manifest) {
   Warnings warnings(manifest);
+  look_at_goal(manifest.replicates, warnings);
   for (const auto& set : option_sets(manifest)) {
     look_at_window(set.options, warnings);
     look_at_minimiser(set.options, manifest.exclude, warnings);

@@ -9,7 +9,7 @@ constexpr std::string_view group = "clusters";
 constexpr Quantity mean_size{"S", "/clusters/S", group, "particles", "S"};
 constexpr Quantity extent{"l_max", "/clusters/l_max", group, "L", "l_{max}/L"};
 constexpr Quantity dimension_of_longest{"D_max", "/clusters/D", group, "1", "D_{max}"};
-constexpr Quantity percolation{"percolates", "/clusters/percolates", group, "1", "P"};
+constexpr Quantity percolation = proportion({"percolates", "/clusters/percolates", group, "1", "P"});
 constexpr std::array quantities{mean_size, extent, dimension_of_longest, percolation};
 
 Json cluster_record(const Packing& packing, const ClassifiedContacts& classified) {

@@ -30,7 +30,14 @@ struct Quantity {
   Of of = Of::state;
   /// Measure that computes the quantity, set by all_quantities(). nullopt for quantities of the protocol.
   std::optional<Measure> measure = std::nullopt;
+  bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
 };
+
+/// The same quantity, with values that are 0 or 1.
+constexpr Quantity proportion(Quantity quantity) {
+  quantity.proportion = true;
+  return quantity;
+}
 
 /// Groups that are used in several source files.
 inline constexpr std::string_view main_group = "jamming", contact_group = "other cut-offs", mode_group = "modes",

@@ -10,11 +10,12 @@ namespace {
 // and all six strains of the cell, at the pressure of the state. Also relaxes the cell of the nearest state.
 
 constexpr std::string_view group = "strict jamming";
-constexpr Quantity strictly_jammed{"strictly_jammed", "/strict/jammed", group, "1", "n_{strict}"};
+constexpr Quantity strictly_jammed = proportion({"strictly_jammed", "/strict/jammed", group, "1", "n_{strict}"});
 constexpr Quantity negative{"strict_negative", "/strict/negative", group, "1", "n_-^{strict}"};
 constexpr Quantity deviator{"deviator", "/strict/deviator", group, "1", "\\max|\\sigma+p|/p"};
 constexpr auto of_replicate = Quantity::Of::replicate;
-constexpr Quantity freed_jammed{"freed_jammed", "/strict/freed/jammed", group, "1", "n_{freed}", of_replicate};
+constexpr Quantity freed_jammed =
+    proportion({"freed_jammed", "/strict/freed/jammed", group, "1", "n_{freed}", of_replicate});
 constexpr Quantity freed_strain{"freed_strain", "/strict/freed/strain", group, "1", "\\epsilon_{freed}", of_replicate};
 constexpr Quantity freed_phi_j{"freed_phi_j", "/strict/freed/phi_j", group, "1", "\\phi_J^{freed}", of_replicate};
 constexpr std::array quantities{strictly_jammed, negative, deviator, freed_jammed, freed_strain, freed_phi_j};

@@ -42,6 +42,10 @@ std::string difference(const Json& a, const Json& b) {
   return patch.empty() ? "" : patch.front().at("path").get<std::string>();
 }
 
+Estimate estimate_of(const Quantity& quantity, const std::vector<double>& values, std::uint64_t key) {
+  return quantity.proportion ? proportion_estimate(values) : estimate(values, key);
+}
+
 /// The values of all replicates of a sweep point, for each quantity.
 class Samples {
  public:
@@ -56,9 +60,10 @@ class Samples {
   std::pair<Estimates, Estimates> estimates(const std::string& point) const {
     std::pair<Estimates, Estimates> result{no_estimates(), no_estimates()};
     for (std::size_t i = 0; i < all_.size(); ++i) {
-      const auto seed = hash_of(point + std::string(all_quantities()[i].name));
-      result.first[i] = estimate(kept_[i], seed);
-      result.second[i] = estimate(all_[i], seed);
+      const auto& quantity = all_quantities()[i];
+      const auto seed = hash_of(point + std::string(quantity.name));
+      result.first[i] = estimate_of(quantity, kept_[i], seed);
+      result.second[i] = estimate_of(quantity, all_[i], seed);
     }
     return result;
   }
@@ -130,7 +135,7 @@ std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const s
   }
   const auto advance = advance_of(*rule, values);
   return GoalOutcome{*rule->goal, advance.finished ? std::optional(advance.wanted) : std::nullopt, advance.met,
-                     advance.half_width};
+                     advance.half_width, advance.first};
 }
 
 Row Aggregation::row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule) {
@@ -153,6 +158,9 @@ Row Aggregation::row(const PointKey& key, const Point& point, const std::optiona
     std::tie(row.series.back().estimates, row.series.back().all) = samples[k + 1].estimates(text);
   }
   row.goal = goal_outcome(point, rule);
+  // The stopping rule chose the number of replicates, unless there is only one number to choose from.
+  if (row.goal && rule->min < rule->max && row.goal->first.size() > 1)
+    use_stein(row.estimates[*quantity_index(row.goal->goal.quantity)], row.goal->first);
   return row;
 }
 

@@ -37,6 +37,7 @@ struct GoalOutcome {
   /// none of the first `min` replicates has a value.
   bool met = false;
   std::optional<double> half_width;  ///< half width of the confidence interval after the last complete batch
+  std::vector<double> first;         ///< values whose standard deviation this interval uses, see Advance
 };
 
 /// Paired differences of a row from its base row, see base.hpp. A pair consists of two replicates with the same number

@@ -5,60 +5,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
-#include "engine/arithmetic/elementary.hpp"
 #include "tasks/measure/quantity.hpp"
+#include "tasks/tables/estimate_text.hpp"
 #include "tasks/tables/lines.hpp"
 #include "tasks/tables/tables.hpp"
 
 namespace isojam {
 namespace {
-
-/// True if there is only one value, or if all values are equal within rounding errors.
-bool without_spread(const Estimate& estimate) {
-  return estimate.half_width.value_or(0) <= 1e-14 * std::abs(*estimate.mean);
-}
-
-/// True if most decimals of the value would be zeros.
-bool small(const Estimate& estimate) {
-  return *estimate.mean != 0 && std::abs(*estimate.mean) < 1e-3 && estimate.half_width.value_or(0) < 1e-2;
-}
-
-/// Text of an estimate without spread. An integer is a count and has no decimals.
-std::string text_without_spread(const Estimate& estimate, std::string_view plus_minus) {
-  const double mean = *estimate.mean;
-  if (mean == std::round(mean)) return fmt::format("{:.0f}", mean);
-  auto text = small(estimate) ? fmt::format("{:.2e}", mean) : fmt::format("{:.4f}", mean);
-  if (estimate.half_width) text += fmt::format("{}0", plus_minus);
-  return text;
-}
-
-/// Text with one power of ten for the mean and the half width.
-std::string small_text(const Estimate& estimate, std::string_view plus_minus) {
-  const double power = std::floor(nearest::log10(std::max(std::abs(*estimate.mean), *estimate.half_width)));
-  const double unit = nearest::pow(10.0, power);
-  return fmt::format("({:.2f}{}{:.2f})e{:+03.0f}", *estimate.mean / unit, plus_minus, *estimate.half_width / unit,
-                     power);
-}
-
-/// Text with as many decimals as are needed to show two significant digits of the half width.
-std::string text_with_spread(const Estimate& estimate, std::string_view plus_minus) {
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(nearest::log10(*estimate.half_width))), 0, 12);
-  return fmt::format("{:.{}f}{}{:.{}f}", *estimate.mean, decimals, plus_minus, *estimate.half_width, decimals);
-}
-
-std::string estimate_text(const Estimate& estimate, std::string_view plus_minus, int expected) {
-  if (!estimate.mean) return "-";
-  auto text = without_spread(estimate) ? text_without_spread(estimate, plus_minus)
-              : small(estimate)        ? small_text(estimate, plus_minus)
-                                       : text_with_spread(estimate, plus_minus);
-  if (estimate.n < expected) text += fmt::format(" ({})", estimate.n);
-  return text;
-}
 
 std::string residual_text(const Row& row) { return row.residual ? fmt::format("{:.1e}", *row.residual) : "-"; }
 
@@ -81,8 +38,6 @@ std::vector<ColumnGroup> groups_in(const std::vector<TableLine>& lines, View vie
   }
   return groups;
 }
-
-enum class Format : std::uint8_t { text, latex };
 
 std::string_view in_latex(const char& c) {
   switch (c) {
@@ -113,8 +68,6 @@ std::string spelt(const std::string& text, Format format) {
 std::string symbol(std::string_view text, std::string_view latex, Format format) {
   return format == Format::text ? std::string(text) : fmt::format("${}$", latex);
 }
-
-std::string_view plus_minus(Format format) { return format == Format::text ? " ± " : " $\\pm$ "; }
 
 /// True for the main table, which alone has the columns with the numbers of replicates.
 bool counts_replicates(const ColumnGroup& group, View view) {
@@ -147,8 +100,7 @@ Cells cells_of(const TableLine& line, const ColumnGroup& group, const std::vecto
     for (const int count : {row.replicates, row.failed, row.flagged, row.excluded})
       cells.push_back(once(std::to_string(count)));
   }
-  for (const auto i : group.quantities)
-    cells.push_back(estimate_text((*line.estimates)[i], plus_minus(format), line.counted()));
+  for (const auto i : group.quantities) cells.push_back(estimate_text((*line.estimates)[i], format, line.counted()));
   if (counts_replicates(group, view)) cells.push_back(once(residual_text(row)));
   return cells;
 }
@@ -197,17 +149,19 @@ std::vector<Cells> difference_lines(const Table& table, const std::vector<std::s
     auto cells = point_cells(row, parameters, format);
     cells.push_back(std::to_string(row.differences->pairs));
     for (const auto* name : compared_quantities)
-      cells.push_back(
-          estimate_text(row.differences->estimates[*quantity_index(name)], plus_minus(format), row.differences->pairs));
+      cells.push_back(estimate_text(row.differences->estimates[*quantity_index(name)], format, row.differences->pairs));
     lines.push_back(std::move(cells));
   }
   return lines;
 }
 
+constexpr std::string_view goal_title =
+    "goal (95 % confidence interval from the standard deviation of the first replicates; of a proportion: Wilson's)";
+
 /// Lines with the progress of the rows towards the goal of the stopping rule. Only the heading if there is no goal.
 std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{point_head(parameters, format)};
-  lines[0].insert(lines[0].end(), {"quantity", "half width", "goal", "replicates used", "met"});
+  lines[0].insert(lines[0].end(), {"quantity", "half width", "goal", "first", "replicates used", "met"});
   for (const auto& row : table.rows) {
     if (!row.goal) continue;
     const auto& goal = *row.goal;
@@ -215,6 +169,7 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
     cells.push_back(spelt(goal.goal.quantity, format));
     cells.push_back(goal.half_width ? fmt::format("{:.3g}", *goal.half_width) : "-");
     cells.push_back(fmt::format("{:.3g}", goal.goal.half_width));
+    cells.push_back(goal.first.empty() ? "-" : std::to_string(goal.first.size()));
     cells.push_back(goal.needed ? std::to_string(*goal.needed) : "more needed");
     cells.emplace_back(goal.met ? "yes" : "no");
     lines.push_back(std::move(cells));
@@ -231,7 +186,7 @@ struct LaidOut {
 void add_below(std::vector<LaidOut>& tables, const Table& table, const std::vector<std::string>& parameters,
                Format format) {
   auto goals = goal_lines(table, parameters, format);
-  if (goals.size() > 1) tables.push_back({"goal", std::move(goals)});
+  if (goals.size() > 1) tables.push_back({std::string(goal_title), std::move(goals)});
   auto differences = difference_lines(table, parameters, format);
   if (differences.size() > 1) tables.push_back({difference_title(table), std::move(differences)});
 }

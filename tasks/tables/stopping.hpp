@@ -1,8 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "tasks/manifest/manifest.hpp"
 
@@ -17,6 +17,9 @@ struct Advance {
   bool finished = false;
   bool met = false;                  ///< true if the goal is reached; false if there is no goal
   std::optional<double> half_width;  ///< half width of the confidence interval after the last complete batch
+  /// Values at the first check with at least two different values. Stein's interval uses their standard deviation.
+  /// Empty if the quantity is a proportion, or if there is no goal.
+  std::vector<double> first;
 };
 
 /// Number of replicates after the next batch. The size of a batch is a quarter of `replicates`, but at least two. The
@@ -25,7 +28,8 @@ int next_batch_end(int replicates, int max);
 
 /// The stopping rule of a sweep point. It is checked after the first `min` replicates and after every batch. The point
 /// is finished if the 95 % confidence interval of the mean over all replicates so far is narrow enough for the goal.
-/// The rule is not checked after each replicate, because the interval would then be narrow by chance too often.
+/// The interval is Stein's, because Student's is narrow by chance too often when it is checked repeatedly. The interval
+/// of a proportion is Wilson's. Equal values meet no goal, because their spread is unknown.
 /// `values[r]` is the value of replicate r; it is nullopt if the replicate failed, is excluded or has no value.
 /// `values` must end before the first replicate that is not recorded. The result therefore does not depend on which
 /// replicate finishes first.

@@ -23,6 +23,7 @@ Json to_json(const Estimate& estimate) {
   put("sd", estimate.sd);
   json["n"] = estimate.n;
   put_interval("bootstrap95", estimate.bootstrap95);
+  if (estimate.method != IntervalMethod::student) json["interval"] = to_string(estimate.method);
   if (estimate.n == 0) json["reason"] = "no replicate that counts has this value";
   if (estimate.n == 1) json["reason"] = "one replicate has no spread";
   return json;
@@ -73,6 +74,7 @@ Json to_json(const GoalOutcome& outcome) {
   json["reached"] = outcome.half_width ? Json(*outcome.half_width) : Json(nullptr);
   json["met"] = outcome.met;
   json["needed"] = outcome.needed ? Json(*outcome.needed) : Json(nullptr);
+  json["first"] = outcome.first.size();
   return json;
 }
 

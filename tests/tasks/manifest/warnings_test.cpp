@@ -94,5 +94,16 @@ TEST(Warnings, MinimisersMustReachTheResidual) {
   EXPECT_EQ(of_protocol({{"consolidation_evaluations", 100}, {"consolidation", "hasty"}}), Lines{});
 }
 
+TEST(Warnings, AStoppingRuleNeedsTheSpreadOfEnoughReplicates) {
+  const auto of_goal = [](int min, int max) {
+    return warned({{"replicates", {{"min", min}, {"max", max}, {"quantity", "phi_j"}, {"half_width", 0.01}}}});
+  };
+  EXPECT_EQ(of_goal(2, 40), Lines{"/replicates/min"});
+  EXPECT_EQ(of_goal(7, 40), Lines{"/replicates/min"});
+  EXPECT_EQ(of_goal(8, 40), Lines{});
+  EXPECT_EQ(of_goal(4, 4), Lines{}) << "nothing is chosen";
+  EXPECT_EQ(warned({{"replicates", 4}}), Lines{});
+}
+
 }  // namespace
 }  // namespace isojam

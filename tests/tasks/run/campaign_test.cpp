@@ -35,7 +35,7 @@ Manifest manifest_of(const Json& replicates) {
   return parse_manifest(json.dump(), "m.json");
 }
 
-Manifest with_goal() { return manifest_of({{"min", 4}, {"max", 30}, {"quantity", "phi_j"}, {"half_width", 0.006}}); }
+Manifest with_goal() { return manifest_of({{"min", 8}, {"max", 30}, {"quantity", "phi_j"}, {"half_width", 0.006}}); }
 
 /// Runs a campaign to its end and returns the names of its replicates. If `reversed`, records the outcomes of each
 /// round in reverse order.

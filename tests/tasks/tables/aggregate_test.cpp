@@ -3,6 +3,7 @@
 // - Failed replicates are counted but are in no mean. Flagged replicates are counted, and are in the means unless their
 //   flag is excluded. Excluded replicates are only in the means over all.
 // - Quantities against Δφ are interpolated in ln Δφ between the states of a replicate, and not extrapolated.
+// - If a stopping rule chose the number of replicates, its quantity has Stein's interval. Proportions have Wilson's.
 // - The residual of a row is the largest one of its replicates.
 // - Records with other settings, and two results of one replicate, are rejected.
 // - A record that lacks something the table needs is rejected with its pointer.
@@ -142,6 +143,32 @@ TEST(Aggregate, SeriesInterpolateInTheLogarithmAndNeverExtrapolate) {
   }
   const auto text = to_text(aggregate(records), View::series);
   EXPECT_NE(text.find(" 0.02 "), std::string::npos) << text;
+}
+
+TEST(Aggregate, OnlyTheQuantityOfAStoppingRuleHasSteinsInterval) {
+  RecordSummary record;
+  record.particles = 100;
+  std::vector<RecordSummary> records;
+  const std::vector<double> values{0.70, 0.66, 0.68, 0.61, 0.72, 0.65};
+  for (record.replicate = 0; record.replicate < 6; ++record.replicate) {
+    record.values[0] = values[static_cast<std::size_t>(record.replicate)];
+    record.values[*quantity_index("Z")] = 10 * *record.values[0];
+    record.values[*quantity_index("percolates")] = record.replicate % 2;
+    records.push_back(record);
+  }
+  const auto json = [&](const Replicates& rule) { return to_json(aggregate(records, rule).rows.at(0)); };
+  const auto fixed = json({6, 6, {}});
+  const auto sequential = json({4, 6, Goal{"phi_j", 0.01}});
+  EXPECT_EQ(sequential.at("phi_j").at("interval"), "stein");
+  EXPECT_EQ(sequential.at("phi_j").at("half_width"), *stein_half_width({0.70, 0.66, 0.68, 0.61}, 6));
+  EXPECT_EQ(sequential.at("phi_j").at("half_width"), sequential.at("goal").at("reached"));
+  EXPECT_EQ(sequential.at("goal").at("first"), 4);
+  EXPECT_EQ(sequential.at("Z"), fixed.at("Z"));
+  EXPECT_EQ(fixed.at("phi_j").at("half_width"), *student_half_width(values));
+  EXPECT_FALSE(fixed.at("phi_j").contains("interval"));
+  EXPECT_EQ(json({6, 6, Goal{"phi_j", 0.01}}).at("phi_j"), fixed.at("phi_j")) << "one check is no sequence";
+  EXPECT_EQ(fixed.at("percolates").at("interval"), "wilson");
+  EXPECT_EQ(json({4, 6, Goal{"percolates", 0.01}}).at("percolates"), fixed.at("percolates"));
 }
 
 TEST(Aggregate, ARowOfFailuresHasNoMean) {

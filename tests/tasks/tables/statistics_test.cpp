@@ -2,9 +2,13 @@
 // - Mean, standard deviation and half width follow from their definitions; Student's t agrees with tables in textbooks.
 // - The order of the values changes no bit.
 // - With one value or none, there is no interval.
-// - The t interval contains the true mean with the stated probability. The bootstrap interval does so for many values,
-//   and less often for few values, as expected.
-// - The bootstrap interval depends only on its key and the values.
+// - Student's interval contains the mean of a normal distribution with a probability of 95 %, for 2 and more values.
+// - The bootstrap interval does so, too. It contains the means of skewed distributions more often than Student's. There
+//   is none for fewer than eight values, or if equal values make it infinite. It depends only on its key and the
+//   values.
+// - Stein's interval is Student's if it uses all values. Otherwise it differs in the number of values only.
+// - Wilson's interval agrees with published values, and contains each proportion often enough. Student's does not: its
+//   width is 0 if all values are equal.
 
 #include "tasks/tables/statistics.hpp"
 
@@ -12,7 +16,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "engine/arithmetic/distributions.hpp"
 #include "engine/random/stream.hpp"
 
 namespace isojam {
@@ -49,7 +55,7 @@ TEST(Estimate, FollowsTheDefinition) {
 TEST(Estimate, OrderChangesNoBit) {
   RandomStream random{4};
   for (int trial = 0; trial < 20; ++trial) {
-    auto values = normal_sample(random, 3 + trial);
+    auto values = normal_sample(random, 8 + trial);
     const auto first = estimate(values, 5);
     std::shuffle(values.begin(), values.end(), std::mt19937_64(static_cast<unsigned>(trial)));
     const auto second = estimate(values, 5);
@@ -70,24 +76,119 @@ TEST(Estimate, WithoutSpreadThereIsNoInterval) {
   EXPECT_FALSE(one.sd || one.half_width || one.ci95 || one.bootstrap95);
 }
 
-TEST(Estimate, CoverageIsAsStated) {
-  struct Expected {
-    int n;
-    double bootstrap_low, bootstrap_high;
+/// Percentages of samples of n values whose intervals contain the mean of the distribution.
+struct Coverage {
+  double student = 0, bootstrap = 0;
+};
+
+constexpr int samples = 2000;
+
+Coverage coverage_of(const std::function<double(RandomStream&)>& value, double mean, int n, const char* name) {
+  RandomStream random{6, static_cast<std::uint64_t>(n)};
+  Coverage coverage;
+  for (int k = 0; k < samples; ++k) {
+    std::vector<double> values;
+    for (int i = 0; i < n; ++i) values.push_back(value(random));
+    const auto result = estimate(values, static_cast<std::uint64_t>(k));
+    const auto contains = [&](const Interval& interval) { return interval.low <= mean && mean <= interval.high; };
+    coverage.student += 100.0 / samples * contains(*result.ci95);
+    if (result.bootstrap95) coverage.bootstrap += 100.0 / samples * contains(*result.bootstrap95);
+  }
+  std::printf("%s, n = %d: Student %.1f %%, bootstrap %.1f %%\n", name, n, coverage.student, coverage.bootstrap);
+  return coverage;
+}
+
+double exponential(RandomStream& random) { return -std::log(1 - random.uniform()); }
+double lognormal(RandomStream& random) { return std::exp(random.normal()); }
+
+/// Three and a half standard errors of a simulated coverage of 95 %, in percent.
+const double uncertainty = 350 * std::sqrt(0.95 * 0.05 / samples);
+
+TEST(Estimate, IntervalsContainTheMeanAsOftenAsStated) {
+  for (const int n : {2, 3, 4, 6, 8, 16}) {
+    const auto normal = coverage_of([](RandomStream& random) { return random.normal(); }, 0, n, "normal");
+    EXPECT_NEAR(normal.student, 95, uncertainty) << n;
+    EXPECT_NEAR(normal.bootstrap, n >= least_bootstrapped ? 95 : 0, uncertainty) << n;
+  }
+}
+
+TEST(Estimate, BootstrapSuitsSkewedValues) {
+  for (const int n : {8, 16}) {
+    const auto skewed = coverage_of(exponential, 1, n, "exponential");
+    EXPECT_GT(skewed.bootstrap, skewed.student + 1) << n;
+    EXPECT_GT(skewed.bootstrap, 92) << n;
+    const auto very_skewed = coverage_of(lognormal, std::exp(0.5), n, "lognormal");
+    EXPECT_GT(very_skewed.bootstrap, very_skewed.student + 2) << n;
+  }
+}
+
+TEST(Estimate, BootstrapNeedsEnoughDifferentValues) {
+  RandomStream random{9};
+  for (const int n : {2, 4, 7, 8, 1000, 1001}) {
+    const auto values = normal_sample(random, n);
+    EXPECT_EQ(estimate(values, 1).bootstrap95.has_value(), n >= 8 && n <= 1000) << n;
+  }
+  std::vector<double> values(16, 0.5);
+  EXPECT_FALSE(estimate(values, 1).bootstrap95) << "equal values have no spread";
+  values[3] = 0.75;
+  EXPECT_FALSE(estimate(values, 1).bootstrap95) << "many resamples have no spread";
+}
+
+TEST(Estimate, SteinsIntervalUsesTheSpreadOfTheFirstValues) {
+  RandomStream random{10};
+  auto values = normal_sample(random, 24);
+  const std::vector<double> first(values.begin(), values.begin() + 8);
+  EXPECT_EQ(stein_half_width(first, 8), student_half_width(first));
+  auto result = estimate(values, 1);
+  const auto student = result;
+  use_stein(result, first);
+  EXPECT_EQ(result.method, IntervalMethod::stein);
+  EXPECT_NEAR(*result.half_width, *student_half_width(first) / std::sqrt(3), 1e-15 * *result.half_width);
+  EXPECT_NE(*result.half_width, *student.half_width);
+  EXPECT_EQ(result.ci95->high, *result.mean + *result.half_width);
+  EXPECT_EQ(*result.mean, *student.mean);
+  EXPECT_EQ(*result.sd, *student.sd);
+  EXPECT_FALSE(stein_half_width({1.0}, 8));
+}
+
+TEST(Estimate, WilsonsIntervalAgreesWithPublishedValues) {
+  struct Published {
+    int successes, n;
+    double low, high;
   };
-  constexpr int trials = 2000;
-  const double error = std::sqrt(0.95 * 0.05 / trials);
-  for (const auto& [n, low, high] : {Expected{4, 0.70, 0.90}, {40, 0.90, 0.96}}) {
-    RandomStream random{6, static_cast<std::uint64_t>(n)};
-    int by_t = 0, by_bootstrap = 0;
-    for (int trial = 0; trial < trials; ++trial) {
-      const auto result = estimate(normal_sample(random, n), static_cast<std::uint64_t>(trial));
-      by_t += result.ci95->low < 0 && 0 < result.ci95->high;
-      by_bootstrap += result.bootstrap95->low < 0 && 0 < result.bootstrap95->high;
+  // R. G. Newcombe, Stat. Med. 17, 857 (1998), Table I, method 3.
+  for (const auto& [successes, n, low, high] :
+       {Published{81, 263, 0.2553, 0.3662}, {15, 148, 0.0624, 0.1605}, {0, 20, 0, 0.1611}, {1, 29, 0.0061, 0.1718}}) {
+    std::vector<double> values(static_cast<std::size_t>(n), 0.0);
+    std::fill_n(values.begin(), successes, 1.0);
+    const auto result = proportion_estimate(values);
+    EXPECT_EQ(result.method, IntervalMethod::wilson);
+    EXPECT_NEAR(result.ci95->low, low, 5e-5);
+    EXPECT_NEAR(result.ci95->high, high, 5e-5);
+    EXPECT_EQ(*result.half_width, (result.ci95->high - result.ci95->low) / 2);
+    EXPECT_FALSE(result.bootstrap95);
+  }
+  EXPECT_FALSE(proportion_estimate({1}).ci95);
+  EXPECT_GT(*proportion_estimate({1, 1, 1, 1}).half_width, 0.2) << "four equal values do not determine a proportion";
+}
+
+TEST(Estimate, WilsonsIntervalContainsProportionsAsOftenAsStated) {
+  for (const int n : {2, 4, 8, 16, 32}) {
+    double sum = 0, least = 1;
+    for (int percent = 1; percent < 100; ++percent) {
+      const double p = percent / 100.0;
+      double covered = 0;
+      for (int k = 0; k <= n; ++k) {
+        const auto interval = wilson(double(k) / n, static_cast<std::size_t>(n));
+        const auto tails = binomial_tails(n, p, k);
+        if (interval.low <= p && p <= interval.high) covered += tails.at_most + tails.at_least - 1;
+      }
+      sum += covered;
+      least = std::min(least, covered);
     }
-    EXPECT_NEAR(by_t / double(trials), 0.95, 3.5 * error) << "n = " << n;
-    EXPECT_GT(by_bootstrap / double(trials), low) << "n = " << n;
-    EXPECT_LT(by_bootstrap / double(trials), high) << "n = " << n;
+    std::printf("Wilson, n = %d: mean %.1f %%, least %.1f %%\n", n, 100 * sum / 99, 100 * least);
+    EXPECT_NEAR(sum / 99, 0.95, 0.01) << n;
+    EXPECT_GT(least, 0.82) << n;
   }
 }
 

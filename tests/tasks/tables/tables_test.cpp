@@ -1,6 +1,8 @@
 // Properties tested here:
 // - The text table is aligned, shows two significant digits of each half width, and shows the number of replicates if
 //   fewer have a value. Without a half width, it shows none.
+// - A half width is rounded to the sixth digit of the mean, and is never rounded to 0. Values that are all equal are
+//   marked. Proportions have both ends of their interval.
 // - Integers without spread are printed as integers.
 // - Other groups of columns have their own tables if they were measured. Small numbers have a common power of ten.
 // - In CSV and LaTeX, every row has as many cells as the heading. CSV has the numbers of tables.json.
@@ -14,6 +16,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <set>
+
+#include "tasks/tables/estimate_text.hpp"
 
 namespace isojam {
 namespace {
@@ -183,14 +187,47 @@ TEST(Tables, ExactCountsAreWholeNumbersAndOneSmallNumberHasNoBrackets) {
     const auto wide = lines[1].size() - characters(lines[1]);
     return split(lines[1].substr(0, lines[0].find("phi_j") + 5 + wide), "   ").back();
   };
-  const std::vector<std::pair<std::vector<double>, std::string>> cases{
-      {{3, 3, 3}, "3"},           {{3}, "3"},         {{0, 0}, "0"},           {{-2, -2}, "-2"},
-      {{0.5, 0.5}, "0.5000 ± 0"}, {{2.25}, "2.2500"}, {{7.93e-5}, "7.93e-05"}, {{7.93e-5, 7.93e-5}, "7.93e-05 ± 0"},
-      {{-4e-7}, "-4.00e-07"}};
+  const std::vector<std::pair<std::vector<double>, std::string>> cases{{{3, 3, 3}, "3"},
+                                                                       {{3}, "3"},
+                                                                       {{0, 0}, "0"},
+                                                                       {{-2, -2}, "-2"},
+                                                                       {{0.5, 0.5}, "0.5000 (equal)"},
+                                                                       {{2.25}, "2.2500"},
+                                                                       {{7.93e-5}, "7.93e-05"},
+                                                                       {{7.93e-5, 7.93e-5}, "7.93e-05 (equal)"},
+                                                                       {{-4e-7}, "-4.00e-07"}};
   for (const auto& [values, expected] : cases) {
     const auto text = text_of(values);
     EXPECT_EQ(text.substr(std::min(text.size(), text.find_first_not_of(' '))), expected);
   }
+}
+
+TEST(Tables, HalfWidthsAreRoundedToADigitOfTheMean) {
+  const auto text_of = [](double mean, double half) {
+    Estimate estimate;
+    estimate.n = 4;
+    estimate.mean = mean;
+    estimate.half_width = half;
+    return estimate_text(estimate, Format::text, 4);
+  };
+  EXPECT_EQ(text_of(0.0399999984, 6.6e-9), "0.0400000 ± 0.0000001");
+  EXPECT_EQ(text_of(0.68123456, 4.2e-6), "0.681235 ± 0.000004");
+  EXPECT_EQ(text_of(0.68123456, 4.2e-5), "0.681235 ± 0.000042");
+  EXPECT_EQ(text_of(12345678, 0.5), "12345678 ± 1");
+  EXPECT_EQ(text_of(0, 6.6e-9), "0.0000000000 ± 0.0000000066");
+  EXPECT_EQ(text_of(8.57e-4, 1e-9), "(8.57 ± 0.01)e-04");
+}
+
+TEST(Tables, ProportionsHaveBothEndsOfWilsonsInterval) {
+  EXPECT_EQ(estimate_text(proportion_estimate({1, 0, 0, 0, 0, 0}), Format::text, 6), "0.17 [0.03, 0.56]");
+  EXPECT_EQ(estimate_text(proportion_estimate({1, 1, 1, 1}), Format::latex, 6), "1.00 [0.51, 1.00] (4)");
+  EXPECT_EQ(estimate_text(proportion_estimate({1}), Format::text, 1), "1");
+  auto measured = table();
+  measured.rows[0].estimates[*quantity_index("percolates")] = proportion_estimate({0, 0, 1, 0});
+  const auto json = to_json(measured).at("rows").at(0);
+  EXPECT_EQ(json.at("percolates").at("interval"), "wilson");
+  EXPECT_GT(json.at("percolates").at("ci95").at(0), 0);
+  EXPECT_FALSE(json.at("phi_j").contains("interval"));
 }
 
 TEST(Tables, JsonStatesWhyThereIsNoInterval) {

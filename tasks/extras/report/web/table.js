@@ -1,9 +1,23 @@
 'use strict';
 
-/// Decimals that show the half width with two digits.
-function decimalsFor(estimate) {
-  const scale = estimate.half_width || Math.abs(estimate.mean) * 1e-3 || 1e-3;
-  return Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(scale))));
+/// Decimals that show two digits of the half width, but at most six digits of the mean.
+function decimalsFor({mean, half_width: half}) {
+  const scale = half || Math.abs(mean) * 1e-3 || 1e-3;
+  const largest = 5 - Math.floor(Math.log10(Math.max(Math.abs(mean), scale)));
+  return Math.min(12, Math.max(0, Math.min(1 - Math.floor(Math.log10(scale)), largest)));
+}
+
+/// A half width is at least one unit of the last decimal.
+function halfWidthText(half, decimals) {
+  return Math.max(half, 10 ** -decimals).toFixed(decimals);
+}
+
+/// A proportion with both ends of Wilson's interval, which is not symmetric.
+function proportionCell({mean, ci95, half_width: half, n}) {
+  const decimals = Math.max(2, decimalsFor({mean, half_width: half}));
+  const [low, high] = ci95.map((end) => end.toFixed(decimals));
+  return element('td', {title: `95 % confidence interval (Wilson) over n = ${n} replicates`}, mean.toFixed(decimals),
+    element('span', {className: 'half-width'}, ` [${low}, ${high}]`));
 }
 
 /// A small mean and its half width with one power of ten for both.
@@ -13,25 +27,27 @@ function smallCell(mean, half, n) {
   const decimals = decimalsFor({mean: mean / unit, half_width: half / unit});
   return element('td', {title: `95 % confidence interval over n = ${n} replicates`},
     `(${(mean / unit).toFixed(decimals).replace('-', '−')}`,
-    element('span', {className: 'half-width'}, ` ± ${(half / unit).toFixed(decimals)}`), `)·${powerOfTen(power)}`);
+    element('span', {className: 'half-width'}, ` ± ${halfWidthText(half / unit, decimals)}`), `)·${powerOfTen(power)}`);
 }
 
 function estimateCell(estimate) {
   if (!estimate || estimate.mean === null) return element('td', {title: estimate?.reason ?? 'not measured'}, '–');
   const {mean, n} = estimate;
+  if (estimate.interval === 'wilson' && estimate.ci95) return proportionCell(estimate);
   // What rounding alone leaves of equal numbers is no spread.
   const half = estimate.half_width !== null && estimate.half_width < Math.abs(mean) * 1e-12 ? 0 : estimate.half_width;
   // A count without spread.
   if (!half && Number.isInteger(mean)) return element('td', {title: `n = ${n}`}, formatted(mean, 6));
   if (half === 0) {
-    return element('td', {title: `n = ${n}`}, formatted(mean, 3), element('span', {className: 'half-width'}, ' ± 0'));
+    return element('td', {title: `all ${n} values are equal`}, formatted(mean, 3),
+      element('span', {className: 'half-width'}, ' (equal)'));
   }
   if (mean !== 0 && Math.abs(mean) < 1e-3) return smallCell(mean, half, n);
   const decimals = decimalsFor(estimate);
   const text = mean.toFixed(decimals).replace('-', '−');
   if (half === null) return element('td', {title: `n = ${n}: no confidence interval`}, text);
   return element('td', {title: `95 % confidence interval over n = ${n} replicates`}, text,
-    element('span', {className: 'half-width'}, ` ± ${half.toFixed(decimals)}`));
+    element('span', {className: 'half-width'}, ` ± ${halfWidthText(half, decimals)}`));
 }
 
 /// A column: heading nodes, the value to sort by (number, text or null), the cell of a row.
@@ -127,7 +143,8 @@ function drawMainTable(data, place) {
   place.append(element('div', {className: 'controls'}, button('Copy as CSV', () => copy(data.csv)),
     button('Copy as LaTeX', () => copy(data.latex))));
   place.append(element('p', {className: 'note'}, 'Each entry is the mean over replicates ± the half width of its ' +
-    '95 % confidence interval (Student t), for the state nearest jamming. The copies contain all measured ' +
+    '95 % confidence interval (Student t), for the state nearest jamming. The quantity of a stopping rule has Stein’s ' +
+    'interval instead, and a proportion has both ends of Wilson’s. The copies contain all measured ' +
     'quantities; the CSV copy also contains standard deviations and bootstrap intervals.'));
 }
 
