@@ -28,6 +28,8 @@ case $verb in
     command -v debootstrap >/dev/null || { echo 'root.sh: debootstrap is missing; apt-get install debootstrap' >&2; exit 1; }
     rm -rf --one-file-system "$dir"
     debootstrap --variant=minbase "${1:?SUITE}" "$dir" >"$dir.log" 2>&1 || { tail -n 5 "$dir.log" >&2; exit 1; }
+    # Debian's installer writes this file; without it chromedriver does not find localhost.
+    printf '127.0.0.1\tlocalhost\n::1\tlocalhost\n' >"$dir/etc/hosts"
     inside apt-get -q update >/dev/null
     inside apt-get -q -y install --no-install-recommends ca-certificates make >/dev/null ;;
   clone)
