@@ -70,6 +70,18 @@ std::optional<double> ContactAnalysis::disagreement() const {
 
 namespace {
 
+/// True if the angles in a window can be distinguished from 0. A solid with faces that are nearly in one plane has a
+/// smaller window.
+bool is_resolved(double upper) { return upper > GapOptions{}.resolution; }
+
+CdfFit fit_of(std::span<const double> angles, double upper) {
+  return is_resolved(upper) ? fit_cdf(angles, upper) : CdfFit{.verdict = FitVerdict::too_few};
+}
+
+GapSplit split_of(std::span<const double> angles, double upper) {
+  return is_resolved(upper) ? split_at_gap(angles, upper) : GapSplit{.verdict = GapVerdict::too_few};
+}
+
 /// Cut-offs from the contacts of several packings together.
 ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vector<Alignment>> packings) {
   std::vector<double> face_face, edge_face;
@@ -81,10 +93,10 @@ ClassCutoffs cutoffs_of(const CriticalAngles& critical, std::span<const std::vec
   }
   ClassCutoffs cutoffs;
   cutoffs.critical = critical;
-  cutoffs.face_face = fit_cdf(face_face, critical.ff_min() / 2);
-  cutoffs.edge_face = fit_cdf(edge_face, critical.ef_min() / 2);
-  cutoffs.face_face_gap = split_at_gap(face_face, critical.ff_min() / 2);
-  cutoffs.edge_face_gap = split_at_gap(edge_face, critical.ef_min() / 2);
+  cutoffs.face_face = fit_of(face_face, critical.ff_min() / 2);
+  cutoffs.edge_face = fit_of(edge_face, critical.ef_min() / 2);
+  cutoffs.face_face_gap = split_of(face_face, critical.ff_min() / 2);
+  cutoffs.edge_face_gap = split_of(edge_face, critical.ef_min() / 2);
   return cutoffs;
 }
 

@@ -9,31 +9,13 @@
 #include <utility>
 
 #include "engine/geometry/hull.hpp"
+#include "engine/geometry/planar_faces.hpp"
 
 namespace isojam {
 
 namespace {
 
 using Loop = FaceLoop;
-
-struct Plane {
-  Quad3 normal{};
-  Quad offset = 0;
-};
-
-/// Newell's normal: exact for a planar polygon, a least-squares fit for rounded vertices.
-Plane fitted_plane(const Loop& face, const std::vector<Quad3>& points) {
-  Plane plane;
-  Quad3 centre{};
-  for (std::size_t k = 0; k < face.size(); ++k) {
-    const Quad3& p = points[face[k]];
-    plane.normal = plane.normal + cross(p, points[face[(k + 1) % face.size()]]);
-    centre = centre + p;
-  }
-  plane.normal = (1 / norm(plane.normal)) * plane.normal;
-  plane.offset = dot(plane.normal, centre) / Quad(face.size());
-  return plane;
-}
 
 struct Moments {
   Quad volume = 0;
@@ -98,67 +80,82 @@ std::vector<Edge> find_edges(const std::vector<Loop>& faces) {
   return edges;
 }
 
-double height(const Plane& plane, const Loop& face, const Quad3& vertex, int v) {
+double height(const FacePlane& plane, const Loop& face, const Quad3& vertex, int v) {
   if (std::find(face.begin(), face.end(), v) != face.end()) return 0;
   return static_cast<double>(dot(plane.normal, vertex) - plane.offset);
 }
 
-std::uint64_t bit(int feature) { return std::uint64_t{1} << feature; }
-
 void flatten_edges(const std::vector<Edge>& edges, SolidArrays& flat) {
   const auto byte = [](auto value) { return static_cast<std::uint8_t>(value); };
+  const auto place = [](int vertex) {
+    return static_cast<std::uint16_t>(SolidArrays::at(static_cast<std::uint32_t>(vertex)));
+  };
   flat.edges = static_cast<int>(edges.size());
-  for (int k = 0; k < SolidArrays::max_edges; ++k) {
-    const Edge& e = flat.edge[k] = edges[k < flat.edges ? k : 0];
-    flat.tail[k] = byte(e.tail), flat.head[k] = byte(e.head);
+  const bool in_words = flat.edges <= SolidArrays::word_edges;
+  if (in_words) flat.star.resize(static_cast<std::size_t>(flat.vertices));
+  for (std::uint32_t k = 0; k < edges.size(); ++k) {
+    const Edge& e = edges[k];
     const auto left = static_cast<std::uint32_t>(e.left), right = static_cast<std::uint32_t>(e.right);
-    flat.record[k] = {flat.tail[k],
-                      flat.head[k],
-                      byte(left),
-                      byte(right),
-                      byte(SolidArrays::at(flat.tail[k])),
-                      byte(SolidArrays::at(flat.head[k])),
-                      {left << 5 | right << 21, right | left << 16},
-                      bit(e.left) | bit(e.right)};
-    if (k >= flat.edges) continue;
-    const Parts edge{bit(e.tail) | bit(e.head), bit(k), flat.record[k].faces};
-    flat.star[e.tail] |= edge, flat.star[e.head] |= edge;
+    flat.tail.push_back(byte(e.tail)), flat.head.push_back(byte(e.head));
+    flat.record.push_back({byte(e.tail),
+                           byte(e.head),
+                           byte(left),
+                           byte(right),
+                           place(e.tail),
+                           place(e.head),
+                           {left << 5 | right << 21, right | left << 16},
+                           0});
+    if (!in_words) continue;
+    Parts<1> edge;
+    edge.vertices.insert(flat.tail[k]), edge.vertices.insert(flat.head[k]);
+    edge.edges.insert(k);
+    edge.faces.insert(left), edge.faces.insert(right);
+    flat.record[k].faces = edge.faces.word[0];
+    flat.star[flat.tail[k]] |= edge, flat.star[flat.head[k]] |= edge;
   }
+  constexpr std::size_t bytes = 16;
+  for (auto* ends : {&flat.tail, &flat.head}) ends->resize((edges.size() + bytes - 1) / bytes * bytes, ends->front());
 }
 
-SolidArrays flatten(const std::vector<Quad3>& vertices, const std::vector<Plane>& planes,
+SolidArrays flatten(const std::vector<Quad3>& vertices, const std::vector<FacePlane>& planes,
                     const std::vector<Loop>& faces, const std::vector<Edge>& edges) {
   SolidArrays flat;
   flat.vertices = static_cast<int>(vertices.size());
   flat.faces = static_cast<int>(planes.size());
-  const Plane nowhere{{}, SolidArrays::far};
-  const auto store = [](Quad value, double& high, double& low) {
-    high = narrowed(value).high;
-    low = narrowed(value).low;
+  const auto store = [](Quad value, std::vector<double>& high, std::vector<double>& low) {
+    high.push_back(narrowed(value).high);
+    low.push_back(narrowed(value).low);
   };
-  for (int k = 0; k < SolidArrays::capacity; ++k) {
+  for (int k = 0; k < (flat.vertices + 3) / 4 * 4; ++k) {
     const Quad3& v = vertices[k < flat.vertices ? k : 0];
-    const Plane& plane = k < flat.faces ? planes[k] : nowhere;
-    store(v[0], flat.x[k], flat.x_low[k]);
-    store(v[1], flat.y[k], flat.y_low[k]);
-    store(v[2], flat.z[k], flat.z_low[k]);
-    store(plane.normal[0], flat.nx[k], flat.nx_low[k]);
-    store(plane.normal[1], flat.ny[k], flat.ny_low[k]);
-    store(plane.normal[2], flat.nz[k], flat.nz_low[k]);
-    store(plane.offset, flat.offset[k], flat.offset_low[k]);
-    for (int p = 0; p < SolidArrays::capacity; ++p) {
-      const int own = p < flat.vertices ? p : 0;
-      flat.height[k][p] = height(plane, faces[k < flat.faces ? k : 0], vertices[own], own);
-    }
+    store(v[0], flat.x, flat.x_low), store(v[1], flat.y, flat.y_low), store(v[2], flat.z, flat.z_low);
+  }
+  const FacePlane nowhere{{}, SolidArrays::far};
+  for (int k = 0; k < (flat.faces + 3) / 4 * 4; ++k) {
+    const FacePlane& plane = k < flat.faces ? planes[k] : nowhere;
+    store(plane.normal[0], flat.nx, flat.nx_low);
+    store(plane.normal[1], flat.ny, flat.ny_low);
+    store(plane.normal[2], flat.nz, flat.nz_low);
+    store(plane.offset, flat.offset, flat.offset_low);
+  }
+  for (int f = 0; f < flat.faces; ++f) {
+    for (int v = 0; v < flat.vertices; ++v) flat.height.push_back(height(planes[f], faces[f], vertices[v], v));
   }
   flatten_edges(edges, flat);
   return flat;
 }
 
-std::vector<Quad3> widened(std::span<const Eigen::Vector3d> vertices) {
-  std::vector<Quad3> result;
-  for (const Eigen::Vector3d& v : vertices) result.push_back({v.x(), v.y(), v.z()});
-  return result;
+/// The points relative to their mean, if the origin is not among them: far from it, volumes of pyramids with their apex
+/// at the origin would cancel. The mean is rounded to double, so that no point in double is rounded.
+std::vector<Quad3> centred(std::span<const Quad3> vertices) {
+  std::vector<Quad3> points(vertices.begin(), vertices.end());
+  Quad3 mean = mean_of(points);
+  for (Quad& c : mean) c = static_cast<double>(c);
+  Quad size = 0;
+  for (const Quad3& point : points) size = std::max(size, norm(point - mean));
+  if (norm(mean) <= size) return points;
+  for (Quad3& point : points) point = point - mean;
+  return points;
 }
 
 }  // namespace
@@ -169,22 +166,20 @@ ConvexSolid::ConvexSolid(std::string name, std::span<const Eigen::Vector3d> vert
 }
 
 ConvexSolid::ConvexSolid(std::string name, std::span<const Quad3> vertices) : name_(std::move(name)) {
-  if (vertices.size() < 4 || vertices.size() > max_features)
-    throw NoSolid("a solid needs 4 to " + std::to_string(max_features) + " vertices instead of " +
-                  std::to_string(vertices.size()));
+  refuse_large(vertices.size(), {});
   const std::vector<Loop> loops = hull_faces(vertices);
+  refuse_large(vertices.size(), loops);
   edges_ = find_edges(loops);
-  if (loops.size() > max_features || edges_.size() > max_features)
-    throw NoSolid("a solid may have at most " + std::to_string(max_features) + " faces and edges instead of " +
-                  std::to_string(loops.size()) + " and " + std::to_string(edges_.size()));
-  if (vertices.size() + loops.size() != edges_.size() + 2) throw NoSolid("a vertex is not a corner of the convex hull");
+  if (vertices.size() + loops.size() != edges_.size() + 2)
+    throw NoSolid("a vertex is not a corner of the convex hull", NoSolid::Cause::not_a_corner);
 
-  std::vector<Quad3> points(vertices.begin(), vertices.end());
+  std::vector<Quad3> points =
+      with_planar_faces(centred(vertices), loops, largest_planar_move * rounding_tolerance(vertices)).vertices;
   const Moments raw = moments(points, loops);
   const Quad3 centroid = (1 / raw.volume) * raw.first;
   const Quad scale = 1 / cube_root(raw.volume);
   for (Quad3& point : points) point = scale * (point - centroid);
-  std::vector<Plane> planes;
+  std::vector<FacePlane> planes;
   for (const Loop& loop : loops) planes.push_back(fitted_plane(loop, points));
   for (const Quad3& point : points) {
     vertices_.push_back(rounded(point));
@@ -209,7 +204,7 @@ ConvexSolid::ConvexSolid(const ConvexSolid& unit, double scale) : ConvexSolid(un
   if (scale == 1) return;
   scale_ = scale;
   std::vector<Quad3> points;
-  std::vector<Plane> planes;
+  std::vector<FacePlane> planes;
   std::vector<Loop> loops;
   for (int v = 0; v < arrays_.vertices; ++v) points.push_back(Quad(scale) * arrays_.vertex(v));
   for (int f = 0; f < arrays_.faces; ++f) planes.push_back({arrays_.normal(f), scale * arrays_.plane_offset(f)});

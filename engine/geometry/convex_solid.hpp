@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/geometry/feature_set.hpp"
 #include "engine/geometry/quad.hpp"
 #include "engine/names/enum_names.hpp"
 
@@ -47,18 +48,19 @@ struct Edge {
 /// place of the face that the edge crosses.
 struct EdgeRecord {
   std::uint8_t tail, head, left, right;  ///< indices of the vertices and faces of the edge
-  std::uint8_t tail_at, head_at;         ///< SolidArrays::at() of the two vertices
+  std::uint16_t tail_at, head_at;        ///< SolidArrays::at() of the two vertices
   /// Numbers of the face pairs of both segments. [0], if the edge belongs to A: 32·left + 2^16·32·right. [1], if the
   /// edge belongs to B: right + 2^16·left.
   std::uint32_t pairs[2];
-  std::uint64_t faces;  ///< set of the two faces, as bits
+  std::uint64_t faces;  ///< set of the two faces, as bits; 0 if the solid has more than SolidArrays::word_edges edges
 };
 
-/// Sets of vertices, edges and faces of a solid, as bits. The sets fill four 64-bit words, so that one vector operation
-/// computes the union of two Parts.
+/// Sets of vertices, edges and faces of a solid. Four sets of one word are one vector, so that one operation computes
+/// the union of two Parts.
+template <int words>
 struct alignas(32) Parts {
-  /// Sets of vertices, edges and faces; the fourth word is always 0.
-  std::uint64_t vertices = 0, edges = 0, faces = 0, none = 0;
+  BitSet<words> vertices{}, edges{}, faces{},
+      none{};  ///< sets of vertices, edges and faces; the fourth set is always empty
 
   /// Union of both sets.
   Parts& operator|=(const Parts& other) {
@@ -67,39 +69,42 @@ struct alignas(32) Parts {
   }
 };
 
-/// A solid as arrays of numbers for the computation of overlaps. Unused elements of the arrays of vertices and edges
-/// are copies of the first element. Unused elements of the arrays of faces are planes 0·y = far; every point is on the
-/// inner side of such a plane.
+/// A solid as arrays of numbers for the computation of overlaps. The arrays of vertices and of faces are filled up to a
+/// multiple of four elements: with copies of the first vertex, and with planes 0·y = far. Every point is on the inner
+/// side of such a plane.
 struct SolidArrays {
-  static constexpr int max_edges = 64;  ///< largest number of edges, because a set of edges is a 64-bit word
+  static constexpr int max_edges = 192;  ///< largest number of edges
+  /// Largest numbers of vertices and of faces. At least three edges end at every vertex, and every face has at least
+  /// three edges.
+  static constexpr int max_vertices = 2 * max_edges / 3, max_faces = 2 * max_edges / 3;
+  static constexpr int word_edges = 64;  ///< largest number of edges for which a set of edges fits into one 64-bit word
   /// largest number of edges for which the edges of two solids fit into one word
   static constexpr int narrow_edges = 32;
-  /// Size of the arrays of vertices and of faces. At least three edges end at every vertex, and every face has at least
-  /// three edges. A solid with 64 edges therefore has at most 42 vertices and 42 faces.
-  static constexpr int capacity = 44;
   static constexpr double far = 1e300;  ///< offset of the planes in unused elements
   /// PlacedSolid stores vectors in blocks of four: x of all four vectors, then y, then z.
   static constexpr int block = 12;  ///< number of doubles in a block
   /// Index of the double that contains x of the k-th vector.
   static constexpr std::uint32_t at(std::uint32_t k) { return block * (k / 4) + k % 4; }
 
-  int vertices = 0, faces = 0, edges = 0;                    ///< numbers of vertices, faces and edges
-  alignas(32) double x[capacity], y[capacity], z[capacity];  ///< vertices
-  /// normals and offsets of the face planes
-  alignas(32) double nx[capacity], ny[capacity], nz[capacity], offset[capacity];
+  int vertices = 0, faces = 0, edges = 0;  ///< numbers of vertices, faces and edges
+  std::vector<double> x, y, z;             ///< vertices
+  std::vector<double> nx, ny, nz, offset;  ///< normals and offsets of the face planes
   /// Rounding errors of the entries above. The exact value is the entry plus its rounding error, with an error of
   /// 1e-32.
-  alignas(32) double x_low[capacity], y_low[capacity], z_low[capacity];
-  /// Rounding errors of the normals and offsets of the face planes.
-  alignas(32) double nx_low[capacity], ny_low[capacity], nz_low[capacity], offset_low[capacity];
-  Edge edge[max_edges];                                       ///< edges by index
-  EdgeRecord record[max_edges];                               ///< edges in the format for the contact loop
-  alignas(32) std::uint8_t tail[max_edges], head[max_edges];  ///< indices of the end vertices of the edges
-  Parts star[capacity];  ///< for each vertex: the vertex itself, and the edges and faces that meet in it
-  /// Height of each vertex above the plane of each face of the same solid, [face][vertex]. It is exactly 0 if the
-  /// vertex belongs to the face.
-  alignas(32) double height[capacity][capacity];
+  std::vector<double> x_low, y_low, z_low;
+  std::vector<double> nx_low, ny_low, nz_low, offset_low;  ///< rounding errors of the normals and offsets
+  std::vector<EdgeRecord> record;                          ///< edges by index, in the format for the contact loop
+  /// Indices of the end vertices of the edges, filled up to a multiple of 16 elements with copies of the first edge.
+  std::vector<std::uint8_t> tail, head;
+  /// For each vertex: the vertex itself, and the edges and faces that meet in it. Empty for a solid with more than
+  /// word_edges edges.
+  std::vector<Parts<1>> star;
+  /// Height of each vertex above the plane of each face of the same solid, in the order of faces, then of vertices. It
+  /// is exactly 0 if the vertex belongs to the face.
+  std::vector<double> height;
 
+  /// Heights of all vertices above the plane of face f.
+  const double* heights_above(int f) const { return height.data() + f * vertices; }
   /// Vertex v in quadruple precision, with its rounding error added.
   Quad3 vertex(int v) const {
     return {widened({x[v], x_low[v]}), widened({y[v], y_low[v]}), widened({z[v], z_low[v]})};
@@ -113,11 +118,13 @@ struct SolidArrays {
 };
 
 /// An immutable convex polyhedron with mass density 1, whose centroid is the origin. Its volume is 1 (V_p = 1) unless
-/// it was constructed with another scale. Lengths are in units of V_p^(1/3). The polyhedron has at most 64 edges, and
-/// therefore fewer vertices and faces. Sets of edges, vertices and faces are stored as bits of a 64-bit word.
+/// it was constructed with another scale. Lengths are in units of V_p^(1/3). The polyhedron has at most max_edges
+/// edges, and therefore at most max_vertices vertices and max_faces faces.
 class ConvexSolid {
  public:
-  static constexpr int max_features = SolidArrays::max_edges;  ///< largest number of vertices, of edges and of faces
+  static constexpr int max_edges = SolidArrays::max_edges;        ///< largest number of edges
+  static constexpr int max_vertices = SolidArrays::max_vertices;  ///< largest number of vertices
+  static constexpr int max_faces = SolidArrays::max_faces;        ///< largest number of faces
 
   /// Makes the convex hull of `vertices`, moved so that its centroid is the origin and scaled to unit volume. Every
   /// point of `vertices` must be a vertex of the hull. Throws NoSolid (hull.hpp), a std::invalid_argument, if a point

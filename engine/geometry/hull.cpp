@@ -1,13 +1,16 @@
 #include "engine/geometry/hull.hpp"
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <set>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <tuple>
 #include <utility>
+
+#include "engine/geometry/convex_solid.hpp"
 
 namespace isojam {
 
@@ -16,109 +19,243 @@ namespace {
 // To decide which vertices form a face needs less precision than the constants of a solid.
 using Vector3l = Eigen::Matrix<long double, 3, 1>;
 
-long double extent(const std::vector<Vector3l>& points) {
-  long double scale = 0;
-  for (const Vector3l& point : points) scale = std::max(scale, point.norm());
-  return scale;
+Vector3l narrowed(const Quad3& p) {
+  return {static_cast<long double>(p[0]), static_cast<long double>(p[1]), static_cast<long double>(p[2])};
 }
 
-/// Tolerance for vertices that were given in double and hence rounded.
-long double rounding(long double scale) {
-  return 64 * static_cast<long double>(std::numeric_limits<double>::epsilon()) * scale;
+/// A plane through `point`; `normal` has unit length, or is 0 if the triangles of the face have no area.
+struct PartPlane {
+  Vector3l normal = Vector3l::Zero(), point = Vector3l::Zero();
+  long double height(const Vector3l& p) const { return normal.dot(p - point); }
+};
+
+/// A face that is being joined from triangles.
+struct Part {
+  Vector3l area = Vector3l::Zero();  ///< sum of the area vectors of its triangles
+  std::vector<int> vertices;         ///< sorted
+  int changes = 0;                   ///< number of times that it was joined
+};
+
+Part part_of(const FaceLoop& face, const std::vector<Vector3l>& points) {
+  Part part{Vector3l::Zero(), face, 0};
+  const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(face[k])]; };
+  for (std::size_t k = 1; k + 1 < face.size(); ++k) part.area += (at(k) - at(0)).cross(at(k + 1) - at(0));
+  return part;
 }
 
-/// Vertices on the supporting plane through a, b, c; empty if these are collinear or the plane cuts the body.
-std::vector<int> supporting_plane(const std::vector<Vector3l>& points, int a, int b, int c, long double scale) {
-  const long double tolerance = rounding(scale);
-  Vector3l normal = (points[b] - points[a]).cross(points[c] - points[a]);
-  if (normal.norm() <= tolerance * scale) return {};
-  normal.normalize();
-  std::vector<int> on_plane;
-  bool above = false, below = false;
-  for (int k = 0; k < static_cast<int>(points.size()); ++k) {
-    const long double distance = normal.dot(points[k] - points[a]);
-    if (std::abs(distance) <= tolerance) {
-      on_plane.push_back(k);
-    } else {
-      (distance > 0 ? above : below) = true;
-    }
+PartPlane plane_of(const Part& part, const std::vector<Vector3l>& points) {
+  PartPlane plane;
+  for (const int v : part.vertices) plane.point += points[static_cast<std::size_t>(v)];
+  plane.point /= static_cast<long double>(part.vertices.size());
+  plane.normal = part.area.stableNormalized();
+  return plane;
+}
+
+long double largest_distance(const Part& part, const std::vector<Vector3l>& points) {
+  const PartPlane plane = plane_of(part, points);
+  long double largest = 0;
+  for (const int v : part.vertices) {
+    largest = std::max(largest, std::abs(plane.height(points[static_cast<std::size_t>(v)])));
   }
-  return above && below ? std::vector<int>{} : on_plane;
+  return largest;
 }
 
-/// Orders the vertices of a face counter-clockwise about its outward normal, starting with the smallest index.
-void order_counter_clockwise(FaceLoop& face, const Vector3l& normal, const std::vector<Vector3l>& points) {
-  Vector3l centre = Vector3l::Zero();
-  for (const int v : face) centre += points[v];
-  centre /= static_cast<long double>(face.size());
-  const Vector3l u = (points[face.front()] - centre).normalized();
-  const Vector3l w = normal.cross(u);
-  const auto angle = [&](int v) {
-    const Vector3l d = points[v] - centre;
-    const long double value = std::atan2(w.dot(d), u.dot(d));
-    return value < -std::numeric_limits<double>::epsilon() ? value + 2 * std::numbers::pi_v<long double> : value;
-  };
-  std::sort(face.begin(), face.end(), [&](int p, int q) { return angle(p) < angle(q); });
+Part joined(const Part& a, const Part& b) {
+  Part both{a.area + b.area, {}, 0};
+  std::set_union(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
+                 std::back_inserter(both.vertices));
+  return both;
 }
 
-std::vector<FaceLoop> supporting_faces(const std::vector<Vector3l>& points) {
-  const int n = static_cast<int>(points.size());
-  const long double scale = extent(points);
-  Vector3l inside = Vector3l::Zero();
-  for (const Vector3l& point : points) inside += point / static_cast<long double>(n);
-  std::set<std::vector<int>> seen;
-  std::vector<FaceLoop> faces;
-  for (int a = 0; a < n; ++a) {
-    for (int b = a + 1; b < n; ++b) {
-      for (int c = b + 1; c < n; ++c) {
-        std::vector<int> on_plane = supporting_plane(points, a, b, c, scale);
-        if (on_plane.empty() || !seen.insert(on_plane).second) continue;
-        Vector3l normal = (points[b] - points[a]).cross(points[c] - points[a]).normalized();
-        if (normal.dot(points[a] - inside) < 0) normal = -normal;
-        order_counter_clockwise(on_plane, normal, points);
-        faces.push_back(std::move(on_plane));
+/// Joins triangles to faces, the nearest pair first.
+class Joining {
+ public:
+  Joining(const HullPoints& points, std::span<const HullTriangle> triangles, double tolerance)
+      : triangles_(triangles), tolerance_(tolerance), root_(triangles.size()) {
+    for (int k = 0; k < points.size(); ++k) points_.push_back(narrowed(points[k]));
+    std::iota(root_.begin(), root_.end(), std::size_t{0});
+    for (const HullTriangle& t : triangles) {
+      const Vector3l &a = point(t[0]), &b = point(t[1]), &c = point(t[2]);
+      Part part{(b - a).cross(c - a), {t[0], t[1], t[2]}, 0};
+      std::sort(part.vertices.begin(), part.vertices.end());
+      parts_.push_back(std::move(part));
+    }
+    join_all();
+  }
+
+  /// Boundary edges of each face, as the vertex that follows each vertex.
+  std::vector<std::map<int, int>> outlines() const {
+    std::map<std::size_t, std::map<int, int>> of_root;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int from = triangles_[t][k], to = triangles_[t][(k + 1) % 3];
+        if (find(left_of_.at({to, from})) == find(t)) continue;
+        if (!of_root[find(t)].emplace(from, to).second) throw NoSolid("the faces do not close a convex polyhedron");
       }
     }
+    std::vector<std::map<int, int>> all;
+    for (auto& [root, outline] : of_root) all.push_back(std::move(outline));
+    return all;
   }
-  return faces;
-}
 
-void refuse_coincident_points(const std::vector<Vector3l>& points) {
-  const long double tolerance = rounding(extent(points));
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    for (std::size_t other = 0; other < k; ++other) {
-      if ((points[k] - points[other]).norm() <= tolerance)
-        throw NoSolid("vertex " + std::to_string(k) + " is equal to vertex " + std::to_string(other),
-                      static_cast<int>(k));
+ private:
+  /// A pair of faces that may be joined, with the numbers of changes at the time of the estimate.
+  struct Candidate {
+    long double distance;
+    std::size_t a, b;
+    int changes;
+    bool operator<(const Candidate& other) const {  // the smallest distance is on top of the queue
+      return std::tie(distance, a, b) > std::tie(other.distance, other.a, other.b);
+    }
+  };
+
+  const Vector3l& point(int k) const { return points_[static_cast<std::size_t>(k)]; }
+
+  std::size_t find(std::size_t t) const {
+    while (root_[t] != t) t = root_[t];
+    return t;
+  }
+
+  void consider(std::size_t a, std::size_t b) {
+    const long double distance = largest_distance(joined(parts_[a], parts_[b]), points_);
+    if (distance <= tolerance_) queue_.push({distance, a, b, parts_[a].changes + parts_[b].changes});
+  }
+
+  void join_all() {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) left_of_[{triangles_[t][k], triangles_[t][(k + 1) % 3]}] = t;
+    }
+    for (const auto& [ends, left] : left_of_) {
+      if (ends.first < ends.second) consider(left, left_of_.at({ends.second, ends.first}));
+    }
+    while (!queue_.empty()) {
+      const Candidate next = queue_.top();
+      queue_.pop();
+      const std::size_t a = find(next.a), b = find(next.b);
+      if (a == b) continue;
+      if (a != next.a || b != next.b || parts_[a].changes + parts_[b].changes != next.changes) {
+        consider(a, b);
+        continue;
+      }
+      const int changes = parts_[a].changes + parts_[b].changes + 1;
+      parts_[a] = joined(parts_[a], parts_[b]);
+      parts_[a].changes = changes;
+      root_[b] = a;
     }
   }
+
+  std::span<const HullTriangle> triangles_;
+  long double tolerance_;
+  std::vector<Vector3l> points_;
+  std::vector<std::size_t> root_;  ///< triangle that represents the face of each triangle, by find()
+  std::vector<Part> parts_;        ///< of the representatives
+  std::map<std::pair<int, int>, std::size_t> left_of_;  ///< the triangle in which an edge is directed in this way
+  std::priority_queue<Candidate> queue_;
+};
+
+/// The outline as one polygon without the points in which fewer than three faces meet. Starts with the smallest index.
+FaceLoop loop_of(const std::map<int, int>& outline, const std::vector<int>& face_count) {
+  FaceLoop loop;
+  std::size_t steps = 0;
+  for (int v = outline.begin()->first; steps == 0 || v != outline.begin()->first; v = outline.at(v)) {
+    if (face_count[static_cast<std::size_t>(v)] >= 3) loop.push_back(v);
+    if (++steps > outline.size()) break;
+  }
+  if (steps != outline.size() || loop.size() < 3) throw NoSolid("the faces do not close a convex polyhedron");
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  return loop;
 }
 
-/// Number of faces that contain a point: at least three for a vertex, two on an edge, one on a face, none inside.
-void refuse_inner_points(const std::vector<FaceLoop>& faces, std::size_t points) {
-  std::vector<int> face_count(points, 0);
-  for (const FaceLoop& face : faces) {
-    for (const int v : face) ++face_count[static_cast<std::size_t>(v)];
-  }
-  for (std::size_t k = 0; k < points; ++k) {
-    if (face_count[k] >= 3) continue;
-    const char* where = face_count[k] == 2 ? "on an edge" : face_count[k] == 1 ? "on a face" : "inside";
-    throw NoSolid("vertex " + std::to_string(k) + " is not a corner of the convex hull: it lies " + where +
-                      " of the hull of the others",
-                  static_cast<int>(k));
-  }
+FaceLoop three_smallest(const FaceLoop& face) {
+  FaceLoop sorted = face;
+  std::partial_sort(sorted.begin(), sorted.begin() + 3, sorted.end());
+  sorted.resize(3);
+  return sorted;
 }
 
 }  // namespace
 
+Quad rounding_tolerance(std::span<const Quad3> points) {
+  const Quad3 mean = mean_of(points);
+  Quad largest = 0;
+  for (const Quad3& point : points) {
+    largest = std::max(largest, norm(point - mean));
+    for (const Quad c : point) largest = std::max(largest, c < 0 ? -c : c);
+  }
+  return 64 * Quad(std::numeric_limits<double>::epsilon()) * largest;
+}
+
+std::vector<FaceLoop> joined_faces(const HullPoints& points, std::span<const HullTriangle> triangles,
+                                   double tolerance) {
+  const auto outlines = Joining(points, triangles, tolerance).outlines();
+  std::vector<int> face_count(static_cast<std::size_t>(points.size()), 0);
+  for (const auto& outline : outlines) {
+    for (const auto& [from, to] : outline) ++face_count[static_cast<std::size_t>(from)];
+  }
+  std::vector<FaceLoop> faces;
+  for (const auto& outline : outlines) faces.push_back(loop_of(outline, face_count));
+  if (faces.size() < 4) throw NoSolid("all vertices are in one plane");
+  std::sort(faces.begin(), faces.end(),
+            [](const FaceLoop& a, const FaceLoop& b) { return three_smallest(a) < three_smallest(b); });
+  return faces;
+}
+
+void refuse_equal_points(const HullPoints& points, double tolerance) {
+  for (int k = 0; k < points.size(); ++k) {
+    for (int other = 0; other < k; ++other) {
+      // Most pairs are far apart. The coordinates near() are below 1/2, so their rounding errors are below 1e-16.
+      if ((points.near(k) - points.near(other)).cwiseAbs().maxCoeff() > tolerance + 1e-15) continue;
+      if (norm(points[k] - points[other]) <= tolerance)
+        throw NoSolid("vertex " + std::to_string(k) + " is given twice: it is equal to vertex " + std::to_string(other),
+                      NoSolid::Cause::equal_points, k);
+    }
+  }
+}
+
+void refuse_other_points(const HullPoints& points, std::span<const int> use, std::span<const FaceLoop> faces,
+                         double tolerance) {
+  std::vector<Vector3l> all;
+  for (int k = 0; k < points.size(); ++k) all.push_back(narrowed(points[k]));
+  std::vector<bool> is_corner(all.size(), false);
+  for (const FaceLoop& face : faces) {
+    for (const int v : face) is_corner[static_cast<std::size_t>(v)] = true;
+  }
+  for (const int index : use) {
+    const auto k = static_cast<std::size_t>(index);
+    if (is_corner[k]) continue;
+    const auto faces_at = std::count_if(faces.begin(), faces.end(), [&](const FaceLoop& face) {
+      return plane_of(part_of(face, all), all).height(all[k]) >= -tolerance;
+    });
+    const char* where = faces_at >= 2 ? "on an edge" : faces_at == 1 ? "on a face" : "inside";
+    throw NoSolid("vertex " + std::to_string(k) + " is not a corner of the convex hull: it lies " + where +
+                      " of the hull of the others",
+                  NoSolid::Cause::not_a_corner, index);
+  }
+}
+
+void refuse_large(std::size_t vertices, std::span<const FaceLoop> faces) {
+  constexpr auto cause = NoSolid::Cause::too_large;
+  if (vertices > ConvexSolid::max_vertices)
+    throw NoSolid("a solid may have at most " + std::to_string(ConvexSolid::max_vertices) + " vertices instead of " +
+                      std::to_string(vertices),
+                  cause);
+  std::size_t sides = 0;
+  for (const FaceLoop& face : faces) sides += face.size();
+  if (sides > 2 * std::size_t{ConvexSolid::max_edges})
+    throw NoSolid("a solid may have at most " + std::to_string(ConvexSolid::max_edges) + " edges and " +
+                      std::to_string(ConvexSolid::max_faces) + " faces instead of " + std::to_string(sides / 2) +
+                      " and " + std::to_string(faces.size()),
+                  cause);
+}
+
 std::vector<FaceLoop> hull_faces(std::span<const Quad3> vertices) {
-  std::vector<Vector3l> points;
-  for (const Quad3& v : vertices)
-    points.emplace_back(static_cast<long double>(v[0]), static_cast<long double>(v[1]), static_cast<long double>(v[2]));
-  refuse_coincident_points(points);
-  std::vector<FaceLoop> faces = supporting_faces(points);
-  if (faces.size() < 4) throw NoSolid("the vertices span no volume");
-  refuse_inner_points(faces, points.size());
+  const HullPoints points(vertices);
+  const auto tolerance = static_cast<double>(rounding_tolerance(vertices) / points.unit());
+  refuse_equal_points(points, tolerance);
+  std::vector<int> use(vertices.size());
+  std::iota(use.begin(), use.end(), 0);
+  const std::vector<FaceLoop> faces = joined_faces(points, hull_triangles(points, use), tolerance);
+  refuse_other_points(points, use, faces, tolerance);
   return faces;
 }
 

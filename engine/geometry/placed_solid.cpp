@@ -12,6 +12,10 @@ struct ConstArrays {
   const double *x, *y, *z;
 };
 
+ConstArrays arrays_of(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z) {
+  return {x.data(), y.data(), z.data()};
+}
+
 /// Rotates the n vectors v and stores them in blocks.
 void rotate(const Eigen::Matrix3d& q, ConstArrays v, int n, double* rotated) {
   const double q00 = q(0, 0), q01 = q(0, 1), q02 = q(0, 2);
@@ -108,9 +112,9 @@ std::pair<const ConvexSolid*, double*> PlacedSolids::room_of(std::size_t k) {
 void PlacedSolids::place(std::size_t k, const Eigen::Matrix3d& rotation) {
   auto [solid, at] = room_of(k);
   const SolidArrays& body = solid->arrays();
-  rotate(rotation, {body.x, body.y, body.z}, body.vertices, at);
+  rotate(rotation, arrays_of(body.x, body.y, body.z), body.vertices, at);
   at += room(body.vertices);
-  rotate(rotation, {body.nx, body.ny, body.nz}, body.faces, at);
+  rotate(rotation, arrays_of(body.nx, body.ny, body.nz), body.faces, at);
   at += room(body.faces);
   Eigen::Map<Eigen::Matrix3d>{at} = rotation;
 }
@@ -120,9 +124,11 @@ void PlacedSolids::place(std::size_t k, const DoubleDoubleMatrix& rotation) {
   auto [solid, at] = room_of(k);
   const SolidArrays& body = solid->arrays();
   double* low = at + to_low_;
-  rotate(rotation, {body.x, body.y, body.z}, {body.x_low, body.y_low, body.z_low}, body.vertices, at, low);
+  rotate(rotation, arrays_of(body.x, body.y, body.z), arrays_of(body.x_low, body.y_low, body.z_low), body.vertices, at,
+         low);
   at += room(body.vertices), low += room(body.vertices);
-  rotate(rotation, {body.nx, body.ny, body.nz}, {body.nx_low, body.ny_low, body.nz_low}, body.faces, at, low);
+  rotate(rotation, arrays_of(body.nx, body.ny, body.nz), arrays_of(body.nx_low, body.ny_low, body.nz_low), body.faces,
+         at, low);
   at += room(body.faces), low += room(body.faces);
   Eigen::Map<Eigen::Matrix3d>{at} = rotation.high;
   Eigen::Map<Eigen::Matrix3d>{low} = rotation.low;

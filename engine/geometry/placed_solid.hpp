@@ -29,7 +29,7 @@ class PlacedSolid {
   const double* vertex_block(int k) const { return vertices_ + block * k; }  ///< vertices 4k … 4k + 3
   const double* normal_block(int k) const { return normals_ + block * k; }   ///< normals of faces 4k … 4k + 3
   /// distances of the face planes from the centre, in units of V_p^(1/3)
-  const double* offset() const { return solid_->arrays().offset; }
+  const double* offset() const { return solid_->arrays().offset.data(); }
   /// Pointer to the components of vertex v: x at [0], y at [4], z at [8].
   const double* vertex_at(int v) const { return vertices_ + at(v); }
   /// Pointer to the components of the normal of face f: x at [0], y at [4], z at [8].

@@ -75,7 +75,7 @@ ExitCode dry_run(const Manifest& manifest, const Plan& plan, const std::string& 
               ? fmt::format("(times estimated from {} of this directory)\n",
                             counted(static_cast<std::size_t>(survey.calibration_records), "record"))
               : "(times estimated from another machine, right within about a factor of two)\n";
-  print(text);
+  print(text + definitions_text(manifest));
   return ExitCode::done;
 }
 

@@ -21,6 +21,13 @@ void warn_about(const Manifest& manifest, const std::string& file, Console& cons
   for (const auto& warning : warnings_of(manifest)) console.warn(fmt::format("{}: {}", file, warning));
 }
 
+std::string definitions_text(const Manifest& manifest) {
+  std::string text;
+  for (const auto& [name, definition] : manifest.definitions)
+    text += fmt::format("{}: {}\n", name, definition_text(definition));
+  return text;
+}
+
 void warn_about_kernels(Console& console) {
   if (!uses_avx2())
     console.warn(

@@ -12,6 +12,9 @@ namespace isojam {
 /// Prints the warnings_of() a manifest. `file` is the name of the manifest in these warnings.
 void warn_about(const Manifest& manifest, const std::string& file, Console& console);
 
+/// A line for each solid that the manifest defines, see definition_text().
+std::string definitions_text(const Manifest& manifest);
+
 /// Prints a warning if the processor or the build has no AVX2 and FMA, because the program is then slower.
 void warn_about_kernels(Console& console);
 

@@ -19,7 +19,8 @@ ExitCode validate(const ValidateArguments& arguments, Console& console) {
   const auto each = manifest.replicates.goal ? fmt::format("{} to {}", manifest.replicates.min, manifest.replicates.max)
                                              : std::to_string(manifest.replicates.max);
   print(fmt::format("OK: {}: {}{} ({} × {})\n", manifest.name, manifest.replicates.goal ? "up to " : "",
-                    counted(plan.size(), "replicate"), counted(plan.points(), "sweep point"), each));
+                    counted(plan.size(), "replicate"), counted(plan.points(), "sweep point"), each) +
+        definitions_text(manifest));
   return ExitCode::done;
 }
 
@@ -28,7 +29,8 @@ ExitCode validate(const ValidateArguments& arguments, Console& console) {
 void add_validate(CLI::App& app, Session& session) {
   ValidateArguments* arguments = nullptr;
   auto options =
-      add_command(app, session, "validate", "Check a manifest and print its number of replicates", validate, arguments);
+      add_command(app, session, "validate", "Check a manifest, and print its solids and its number of replicates",
+                  validate, arguments);
   options.text("manifest", arguments->manifest, "Manifest of the sweep (-: standard input)", "MANIFEST",
                Options::Need::required);
 }

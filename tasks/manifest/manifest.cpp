@@ -98,15 +98,16 @@ auto read_sweep_list(const JsonPlace& place, const std::string& allowed, Read re
   return values;
 }
 
-void read_sweep(const JsonPlace& place, const SolidDefinitions& definitions, Manifest& manifest) {
+void read_sweep(const JsonPlace& place, Manifest& manifest) {
   std::vector<std::string_view> names{"solid", "particles"};
   for (const auto& field : all_fields()) names.push_back(field.name);
   refuse_renamed(place);
   place.expect_keys(names);
 
   place.read("solid", [&](const JsonPlace& list) {
-    manifest.solids = read_sweep_list(list, "the name of a solid or a mixture",
-                                      [&](const JsonPlace& entry) { return read_sweep_entry(entry, definitions); });
+    manifest.solids = read_sweep_list(list, "the name of a solid or a mixture", [&](const JsonPlace& entry) {
+      return read_sweep_entry(entry, manifest.definitions);
+    });
     std::set<std::string_view> taken;
     for (const auto& mixture : manifest.solids) {
       if (!taken.insert(to_string(mixture)).second)
@@ -243,9 +244,8 @@ void read_values(const JsonPlace& root, Manifest& manifest) {
   root.read("seed", [&](const JsonPlace& place) {
     manifest.seed = static_cast<std::uint64_t>(place.integer({0, greatest_seed}));
   });
-  SolidDefinitions definitions;
-  root.read_if_any("solids", [&](const JsonPlace& place) { definitions = read_definitions(place); });
-  root.read("sweep", [&](const JsonPlace& place) { read_sweep(place, definitions, manifest); });
+  root.read_if_any("solids", [&](const JsonPlace& place) { manifest.definitions = read_definitions(place); });
+  root.read("sweep", [&](const JsonPlace& place) { read_sweep(place, manifest); });
   for (const auto group : {Group::protocol, Group::minimiser}) {
     root.read_if_any(std::string(to_string(group)),
                      [&](const JsonPlace& place) { read_group(root, place, group, manifest); });

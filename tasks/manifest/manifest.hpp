@@ -12,6 +12,7 @@
 #include "tasks/manifest/start.hpp"
 #include "tasks/measure/flag.hpp"
 #include "tasks/measure/measure.hpp"
+#include "tasks/packings/definitions.hpp"
 
 namespace isojam {
 
@@ -55,7 +56,8 @@ struct Manifest {
   std::vector<Flag> exclude = usually_excluded();
   /// the base, see base.hpp; if it is empty, no rows are compared
   Json base = Json::object();
-  std::optional<Start> start{};  ///< user-defined initial configurations; nullopt: random ones
+  std::optional<Start> start{};    ///< user-defined initial configurations; nullopt: random ones
+  SolidDefinitions definitions{};  ///< all solids that the user defined, also those that are not swept
 };
 
 /// One combination of values of the swept parameters.

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "engine/packing/energy.hpp"
-#include "tasks/io/file.hpp"
 #include "tasks/manifest/manifest.hpp"
+#include "tasks/packings/content_error.hpp"
 
 namespace isojam {
 namespace {
@@ -18,6 +18,8 @@ constexpr std::string_view allowed_file = "the path of a packing in GSD, extende
 /// packing, and no minimiser can find the intended one.
 constexpr double deepest_overlap = 0.5;
 constexpr std::size_t most_files = 10000;
+/// Least initial density in units of a strain step. At this density the first step reduces lengths by a factor 0.69.
+constexpr double least_steps = 0.5;
 
 StartFile read_file_place(const JsonPlace& place) {
   const std::filesystem::path given = place.text(allowed_file);
@@ -49,14 +51,11 @@ void refuse_overlaps(const JsonPlace& place, const Packing& packing) {
 
 void load_file(const JsonPlace& place, StartFile& file, const Manifest& manifest) {
   const auto expected = file.digest;
+  const auto bytes = read_named_file(place, file.path, allowed_file);
   try {
-    load(file, manifest.solids.front(), manifest.particles.front());
-  } catch (const NoPackingFile& error) {
-    place.refuse(fmt::format("{}: {}", file.path, error.what()), std::string(allowed_file));
-  } catch (const FileError& error) {
-    if (error.reason() == FileError::Reason::resource_failure)
-      throw;  // a resource failure is not an error of the manifest
-    place.refuse(error.what(), std::string(allowed_file));
+    load(file, bytes, manifest.solids.front(), manifest.particles.front(), manifest.start->types);
+  } catch (const ContentError& error) {
+    refuse_content(place, file.path, error, allowed_file);
   }
   if (!expected.empty() && file.digest != expected)
     place.refuse_with_remedy(fmt::format("{}: the file has changed since the first run", file.path),
@@ -66,6 +65,13 @@ void load_file(const JsonPlace& place, StartFile& file, const Manifest& manifest
 void check_density(const JsonPlace& place, const Start& start, const Packing& packing, const Manifest& manifest) {
   const double density = start.density.value_or(packing.density());
   for (const auto& set : option_sets(manifest)) {
+    const double least = least_steps * set.options.compression.step;
+    if (density < least)
+      place.refuse_with_remedy(
+          fmt::format("the initial density {:.3g} is below {}, half of the first strain step: this step would move "
+                      "particles into each other that are far apart",
+                      density, least),
+          fmt::format("set /start/density to {:.2g} or more, or use a smaller cell", std::max(0.05, least)));
     if (density < set.options.compression.max_density) continue;
     place.refuse_with_remedy(fmt::format("the initial density {:.6g} is not below max_density {}", density,
                                          set.options.compression.max_density),
@@ -81,7 +87,7 @@ void check_density(const JsonPlace& place, const Start& start, const Packing& pa
 }  // namespace
 
 Start read_start(const JsonPlace& place) {
-  place.expect_keys(std::array<std::string_view, 5>{"packing", "frame", "density", "stage", "digests"});
+  place.expect_keys(std::array<std::string_view, 6>{"packing", "frame", "density", "stage", "types", "digests"});
   Start start;
   const auto packing = place.at("packing");
   if (packing.value().is_array()) {
@@ -99,6 +105,12 @@ Start read_start(const JsonPlace& place) {
   }
   if (place.has("density")) start.density = place.at("density").number({0, 1, true});
   if (place.has("stage")) start.stage = place.at("stage").choice<JamStage>();
+  if (place.has("types")) {
+    const auto types = place.at("types");
+    types.expect_object("an object of types and names of solids");
+    for (const auto& item : types.value().items())
+      start.types.emplace(item.key(), types.at(item.key()).text("the name of a solid"));
+  }
   return start;
 }
 
@@ -108,6 +120,7 @@ Json to_json(const Start& start) {
   json["frame"] = start.files.front().frame;
   if (start.density) json["density"] = *start.density;
   json["stage"] = to_string(start.stage);
+  if (!start.types.empty()) json["types"] = start.types;
   for (const auto& file : start.files) json["digests"].push_back(file.digest);
   return json;
 }

@@ -17,11 +17,12 @@ struct Start {
   /// density to which each packing is strained before the protocol starts; nullopt: packings are not strained
   std::optional<double> density;
   JamStage stage = JamStage::consolidation;  ///< first stage of the protocol
+  TypeNames types{};                         ///< the solids of types whose shapes are not in the files
 };
 
-/// Reads {"packing": FILE or [FILE, …], "frame": k, "density": φ, "stage": "consolidation" or "expansion"}. Paths are
-/// relative to the folder of the manifest. The canonical form of a manifest has an additional key "digests" with the
-/// digests of the files. This function does not read the files, see load_start().
+/// Reads {"packing": FILE or [FILE, …], "frame": k, "density": φ, "stage": "consolidation" or "expansion", "types":
+/// {TYPE: SOLID, …}}. Paths are relative to the folder of the manifest. The canonical form of a manifest has an
+/// additional key "digests" with the digests of the files. This function does not read the files, see load_start().
 Start read_start(const JsonPlace& place);
 Json to_json(const Start& start);
 

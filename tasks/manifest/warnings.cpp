@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/analysis/orientation_order.hpp"
 #include "engine/arithmetic/elementary.hpp"
 #include "tasks/manifest/fields.hpp"
 
@@ -52,9 +53,9 @@ class Warnings {
     lines_.push_back(fmt::format("/{}/{}: {}", group, name, text));
   }
 
-  /// Adds a warning about a key that cannot be swept.
+  /// Adds a warning about a value that is not a parameter.
   void add_at(std::string_view pointer, const std::string& text) {
-    lines_.push_back(fmt::format("{}: {}", pointer, text));
+    if (!text.empty()) lines_.push_back(fmt::format("{}: {}", pointer, text));
   }
 
   std::vector<std::string> take() { return std::move(lines_); }
@@ -169,8 +170,23 @@ void look_at_solid(const JamOptions& options, const Known& solid, Warnings& warn
   }
 }
 
-/// The number of replicates that the stopping rule requests grows with the square of Student's t for `min` values, which
-/// is 2.4 for 8 values, 3.2 for 4 values and 12.7 for 2 values.
+/// Warns if most particles of an initial packing have the same orientation. Its orientational order is then far above
+/// that of jammed packings, which is at most 0.71 if they are partly crystalline.
+void look_at_start(const StartFile& file, Warnings& warnings) {
+  constexpr double ordered = 0.75;
+  for (const auto& note : file.notes) warnings.add_at("/start/packing", fmt::format("{}: {}", file.path, note));
+  if (!file.packing) return;
+  const auto order = order_of(*file.packing, {});
+  if (!order.S || *order.S <= std::max(ordered, 2 * order.random_S)) return;
+  warnings.add_at("/start/packing",
+                  fmt::format("{}: the packing is ordered: its orientational order S is {:.2f} instead of {:.2f} for "
+                              "independent orientations; use a disordered packing, or treat the results as those of a "
+                              "crystal",
+                              file.path, *order.S, order.random_S));
+}
+
+/// The number of replicates that the stopping rule requests grows with the square of Student's t for `min` values,
+/// which is 2.4 for 8 values, 3.2 for 4 values and 12.7 for 2 values.
 constexpr int reliable_min = 8;
 
 void look_at_goal(const Replicates& replicates, Warnings& warnings) {
@@ -193,6 +209,11 @@ std::vector<std::string> warnings_of(const Manifest& manifest) {
       if (std::find(manifest.solids.begin(), manifest.solids.end(), Mixture(solid.kind)) != manifest.solids.end())
         look_at_solid(set.options, solid, warnings);
     }
+  }
+  for (const auto& [name, definition] : manifest.definitions)
+    warnings.add_at("/solids/" + name, precision_warning(definition.solid));
+  if (manifest.start) {
+    for (const auto& file : manifest.start->files) look_at_start(file, warnings);
   }
   return warnings.take();
 }

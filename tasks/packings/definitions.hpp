@@ -5,18 +5,27 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/repair.hpp"
 #include "tasks/packings/solid_json.hpp"
 
 namespace isojam {
 
 inline constexpr std::size_t longest_solid_name = 48;  ///< largest number of characters in the name of a solid
 
-/// The solids that a document defines, with their names as keys.
-using SolidDefinitions = std::map<std::string, Solid, std::less<>>;
+/// A solid that a document defines.
+struct SolidDefinition {
+  Solid solid;
+  RepairReport report{};               ///< the repairs that the document allowed
+  std::vector<std::string> omitted{};  ///< parts of the file that do not belong to the solid
+};
 
-/// Reads an object: {"brick": {"box": [1, 1.5, 2]}, "rock": {"file": "rock.off"}, "mine": {"vertices": [[…], …]}}.
-/// Paths are relative to the document. Any unit of length is allowed, because every solid is scaled to unit volume.
-/// Throws InputError if a name is invalid or already used, or if a solid is not convex.
+/// The solids that a document defines, with their names as keys.
+using SolidDefinitions = std::map<std::string, SolidDefinition, std::less<>>;
+
+/// Reads an object: {"brick": {"box": [1, 1.5, 2]}, "rock": {"file": "rock.off"}, "mine": {"vertices": [[…], …]}}. A
+/// file or a list of vertices may have the keys of RepairOptions. Paths are relative to the document. Any unit of
+/// length is allowed, because every solid is scaled to unit volume. Throws InputError if a name is invalid or already
+/// used, or if a solid is not convex.
 SolidDefinitions read_definitions(const JsonPlace& place);
 
 /// Reads the name of a solid at `place` and returns the solid. It is a built-in solid, or a solid that the document
@@ -26,6 +35,13 @@ Solid read_solid_name(const JsonPlace& place, const SolidDefinitions& definition
 /// Throws InputError if a name is invalid. The name of a solid becomes a part of file names and of the names of
 /// replicates.
 void check_solid_name(const JsonPlace& place, const std::string& name);
+
+/// A line of text with the features of a solid, the precision of its vertices, and the repairs.
+std::string definition_text(const SolidDefinition& definition);
+
+/// Warnings about a solid whose vertices were probably written with too few digits: it has faces that are almost in one
+/// plane. The text names these faces and the value of RepairOptions::merge that joins them. Empty if there are none.
+std::string precision_warning(const Solid& solid);
 
 /// Definitions of user-defined solids by their vertices, as JSON. null if there are no user-defined solids.
 Json definitions_json(const std::vector<Solid>& solids);

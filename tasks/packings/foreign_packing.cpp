@@ -6,10 +6,16 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <span>
 #include <utility>
 
 #include "engine/arithmetic/elementary.hpp"
+#include "engine/geometry/hull.hpp"
+#include "engine/geometry/repair.hpp"
 #include "tasks/packings/similarity.hpp"
+#include "tasks/packings/surface.hpp"
+#include "tasks/packings/text_lines.hpp"
 
 namespace isojam {
 namespace {
@@ -27,30 +33,96 @@ struct Match {
   Similarity place;  ///< placement of the solid in the body frame of the type
 };
 
-std::optional<Match> match_of(const ForeignPacking::Type& type, const Mixture& mixture) {
+std::optional<Match> match_by_name(const std::string& name, const Mixture& mixture) {
   for (const auto& kind : mixture.kinds()) {
-    const ConvexSolid& solid = *kind.solid;
-    if (type.vertices.empty()) {
-      if (solid.name() == type.name) return Match{&solid, {}};
-    } else if (const auto found = similarity(solid, type.vertices)) {
-      return Match{&solid, *found};
-    }
+    if (kind.solid->name() == name) return Match{&*kind.solid, {}};
   }
   return std::nullopt;
 }
 
-std::vector<Match> matches_of(const ForeignPacking& foreign, const Mixture& mixture) {
-  std::vector<Match> matches;
-  for (std::size_t t = 0; t < foreign.types.size(); ++t) {
-    const auto used = std::any_of(foreign.bodies.begin(), foreign.bodies.end(),
-                                  [&](const auto& body) { return body.type == static_cast<int>(t); });
-    const auto match = match_of(foreign.types[t], mixture);
-    if (used && !match)
-      throw NoPackingFile(
-          fmt::format("particles of type \"{}\" do not match {}", foreign.types[t].name, to_string(mixture)));
-    matches.push_back(match.value_or(Match{}));
+std::optional<Match> match_by_shape(std::span<const Vector3d> vertices, const Mixture& mixture) {
+  for (const auto& kind : mixture.kinds()) {
+    if (const auto found = similarity(*kind.solid, vertices)) return Match{&*kind.solid, *found};
   }
+  return std::nullopt;
+}
+
+/// The corners of the convex hull; empty if the points have none.
+std::vector<Vector3d> hull_corners(std::span<const Vector3d> points) {
+  try {
+    if (points.size() <= most_surface_points) return repaired(points, {.hull = true}).vertices;
+  } catch (const NoSolid&) {
+  }
+  return {};
+}
+
+/// Finds the solids of types.
+class Matching {
+ public:
+  Matching(const Mixture& mixture, const TypeNames& names, std::vector<std::string>* notes)
+      : mixture_(mixture), names_(names), notes_(notes) {}
+
+  Match match_of(const ForeignPacking::Type& type) const {
+    const auto named = names_.find(type.name);
+    if (!type.foreign_shape.empty())
+      throw ContentError(fmt::format("type {} has a shape {}", in_quotes(type.name), type.foreign_shape),
+                         "write a ConvexPolyhedron with sharp edges, or no shape, to particles/type_shapes");
+    if (!type.vertices.empty() && named != names_.end())
+      throw ContentError(fmt::format("type {} has a shape in the file", in_quotes(type.name)),
+                         "remove the type from /start/types");
+    const auto match = type.vertices.empty()
+                           ? match_by_name(named == names_.end() ? type.name : named->second, mixture_)
+                           : match_by_vertices(type);
+    if (!match) refuse(type);
+    return *match;
+  }
+
+ private:
+  std::optional<Match> match_by_vertices(const ForeignPacking::Type& type) const {
+    if (const auto match = match_by_shape(type.vertices, mixture_)) return match;
+    const auto corners = hull_corners(type.vertices);
+    const auto inner = type.vertices.size() - corners.size();
+    if (corners.empty() || inner == 0) return std::nullopt;
+    const auto match = match_by_shape(corners, mixture_);
+    if (match && notes_)
+      notes_->push_back(
+          fmt::format("the shape of type {} has {} that {} no corner of its convex hull; isojam uses the "
+                      "convex hull",
+                      in_quotes(type.name), inner == 1 ? "a vertex" : fmt::format("{} vertices", inner),
+                      inner == 1 ? "is" : "are"));
+    return match;
+  }
+
+  [[noreturn]] void refuse(const ForeignPacking::Type& type) const {
+    throw ContentError(fmt::format("particles of type {} do not match {}", in_quotes(type.name), to_string(mixture_)),
+                       type.vertices.empty()
+                           ? fmt::format("name the solid of this type in /start/types, for example {{\"{}\": \"{}\"}}",
+                                         type.name, mixture_.kinds().front().solid->name())
+                           : "use the solid of the file in /sweep/solid");
+  }
+
+  const Mixture& mixture_;
+  const TypeNames& names_;
+  std::vector<std::string>* notes_;
+};
+
+/// The solids of the types that particles have.
+std::vector<Match> matches_of(const ForeignPacking& foreign, const Matching& matching) {
+  std::vector<char> used(foreign.types.size(), 0);
+  for (const auto& body : foreign.bodies) used[static_cast<std::size_t>(body.type)] = 1;
+  std::vector<Match> matches;
+  for (std::size_t t = 0; t < foreign.types.size(); ++t)
+    matches.push_back(used[t] ? matching.match_of(foreign.types[t]) : Match{});
   return matches;
+}
+
+void refuse_other_names(const ForeignPacking& foreign, const TypeNames& names) {
+  std::set<std::string_view> known;
+  for (const auto& type : foreign.types) known.insert(type.name);
+  for (const auto& [name, solid] : names) {
+    if (!known.contains(name))
+      throw ContentError(fmt::format("it has no type {}", in_quotes(name)), "correct the name in /start/types");
+  }
 }
 
 /// The mixture's particles in the order of the file's particles. Sizes of one solid are assigned in order of size.
@@ -68,7 +140,7 @@ std::vector<Particle> assigned(const Mixture& mixture, const std::vector<Particl
   for (std::size_t k = 0; k < order.size(); ++k) {
     auto& particle = result[order[k]];
     if (particle.unit != own[k].unit || !(std::abs(particle.scale - own[k].scale) <= size_tolerance * own[k].scale))
-      throw NoPackingFile(fmt::format(
+      throw ContentError(fmt::format(
           "its {} particles do not match {}: one is a {} of size {:.6g} instead of a {} of size {:.6g}", in_file.size(),
           to_string(mixture), particle.unit->name(), particle.scale, own[k].unit->name(), own[k].scale));
     particle = own[k];
@@ -88,8 +160,10 @@ PeriodicCell cell_of(const Eigen::Matrix3d& vectors) {
 
 }  // namespace
 
-Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
-  const auto matches = matches_of(foreign, mixture);
+Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& types,
+                   std::vector<std::string>* notes) {
+  refuse_other_names(foreign, types);
+  const auto matches = matches_of(foreign, {mixture, types, notes});
   std::vector<Particle> particles;
   double volume = 0;
   for (const auto& body : foreign.bodies) {
@@ -98,7 +172,7 @@ Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
     volume += cubed(particles.back().scale);
   }
   const double unit = nearest::cbrt(volume / static_cast<double>(particles.size()));
-  if (!std::isfinite(unit) || !(unit > 0)) throw NoPackingFile("the sizes of its particles overflow or underflow");
+  if (!std::isfinite(unit) || !(unit > 0)) throw ContentError("the sizes of its particles overflow or underflow");
   for (auto& particle : particles) particle.scale /= unit;
   try {
     Packing packing{Composition(assigned(mixture, particles)), cell_of(foreign.cell / unit), {}};
@@ -108,14 +182,14 @@ Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture) {
       pose.position = (body.position + body.orientation * (body.size * place.shift)) / unit;
       pose.orientation = (body.orientation * place.rotation).normalized();
       // Written so that NaN is refused too.
-      if (!(packing.cell.fractional(pose.position).cwiseAbs().maxCoeff() <= most_cells))
-        throw NoPackingFile(
+      if (!(packing.cell.fractional(pose.position).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= most_cells))
+        throw ContentError(
             fmt::format("particle {} is more than {} cells away from the origin", packing.size(), most_cells));
       packing.poses.push_back(pose);
     }
     return packing;
   } catch (const std::invalid_argument& error) {
-    throw NoPackingFile(fmt::format("its cell is not valid: {}", error.what()));
+    throw ContentError(fmt::format("its cell is not valid: {}", error.what()));
   }
 }
 

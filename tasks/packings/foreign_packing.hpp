@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,7 @@ struct ForeignPacking {
   struct Type {
     std::string name;
     std::vector<Eigen::Vector3d> vertices;  ///< vertices in the body frame; empty if the file contains no shape
+    std::string foreign_shape;              ///< text about a shape that is not a convex polyhedron; otherwise empty
   };
   struct Body {
     int type = 0;
@@ -29,17 +32,23 @@ struct ForeignPacking {
 };
 
 /// Reads a frame of a GSD file with the schema of HOOMD-blue: box, positions, orientations, and the shapes of types if
-/// there are any. Frame −1 is the last one. Throws NoPackingFile.
+/// there are any. Frame −1 is the last one. Throws ContentError.
 ForeignPacking read_gsd_packing(const std::string& bytes, int frame);
 
 /// Reads a frame of an extended XYZ file: Lattice, species (the name of a solid), pos, orientation (x, y, z, w), and
-/// size if particles have different sizes. Frame −1 is the last one. Throws NoPackingFile.
+/// size if particles have different sizes. Frame −1 is the last one. Throws ContentError.
 ForeignPacking read_xyz_packing(std::string_view text, int frame);
 
+/// For types of a file without shapes, the names of their solids.
+using TypeNames = std::map<std::string, std::string, std::less<>>;
+
 /// Converts a packing of another program to a packing with the particles of a mixture. A type is identified with the
-/// solid that has the same shape, up to rotation and shift, or with the solid of the same name if the file contains no
-/// shape. Lengths are scaled so that the mean volume is 1. Sizes, which files contain in single precision, are replaced
-/// by the sizes of the mixture. Throws NoPackingFile if the particles are not those of the mixture.
-Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture);
+/// solid that has the same shape, up to rotation and shift. Points of a shape that are not corners of its convex hull
+/// are omitted, and `notes` states this. If the file contains no shape of the type, the solid has the name that `types`
+/// gives, or the name of the type. A type with another shape is refused. Lengths are scaled so that the mean volume is
+/// 1. Sizes, which files contain in single precision, are replaced by the sizes of the mixture. Throws ContentError if
+/// the particles are not those of the mixture.
+Packing packing_of(const ForeignPacking& foreign, const Mixture& mixture, const TypeNames& types = {},
+                   std::vector<std::string>* notes = nullptr);
 
 }  // namespace isojam

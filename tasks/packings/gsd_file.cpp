@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <concepts>
 #include <cstring>
 #include <utility>
@@ -63,28 +64,28 @@ std::vector<std::string> names_in(std::string_view region, bool packed) {
 
 GsdFile::GsdFile(std::string bytes) : bytes_(std::move(bytes)) {
   if (bytes_.size() < gsd_header_size || little_endian<std::uint64_t>(bytes_, 0) != gsd_magic)
-    throw NoPackingFile("it is not a GSD file");
+    throw ContentError("it is not a GSD file");
   const auto version = little_endian<std::uint32_t>(bytes_, 44) >> 16;
   if (version != 1 && version != 2)
-    throw NoPackingFile(fmt::format("version {} of the GSD layer is not supported", version));
+    throw ContentError(fmt::format("version {} of the GSD layer is not supported", version));
   schema_ = text_until_zero(std::string_view(bytes_).substr(48 + gsd_name_size, gsd_name_size));
   const auto names_at = little_endian<std::uint64_t>(bytes_, 24), names = little_endian<std::uint64_t>(bytes_, 32);
   if (names > most_entries || names_at > bytes_.size() || names * gsd_name_size > bytes_.size() - names_at)
-    throw NoPackingFile("its GSD list of names is truncated");
+    throw ContentError("its GSD list of names is truncated");
   read_index(little_endian<std::uint64_t>(bytes_, 8), little_endian<std::uint64_t>(bytes_, 16),
              names_in(std::string_view(bytes_).substr(names_at, names * gsd_name_size), version == 2));
 }
 
 void GsdFile::read_index(std::uint64_t location, std::uint64_t entries, const std::vector<std::string>& names) {
   if (entries > most_entries || location > bytes_.size() || entries * entry_size > bytes_.size() - location)
-    throw NoPackingFile("its GSD index is truncated");
+    throw ContentError("its GSD index is truncated");
   for (std::uint64_t k = 0; k < entries; ++k) {
     const std::size_t at = location + k * entry_size;
     const Entry entry{little_endian<std::uint64_t>(bytes_, at + 8), little_endian<std::uint64_t>(bytes_, at + 16),
                       little_endian<std::uint32_t>(bytes_, at + 24), static_cast<std::uint8_t>(bytes_[at + 30])};
     if (entry.location == 0) break;
     const auto name = little_endian<std::uint16_t>(bytes_, at + 28);
-    if (name >= names.size()) throw NoPackingFile("its GSD index contains a chunk without a name");
+    if (name >= names.size()) throw ContentError("its GSD index contains a chunk without a name");
     const auto frame = little_endian<std::uint64_t>(bytes_, at);
     frames_ = std::max(frames_, frame + 1);
     entries_[{frame, names[name]}] = entry;
@@ -103,7 +104,7 @@ std::string_view GsdFile::data(const Entry& entry, std::string_view name) const 
   const auto size = size_of(entry.type);
   if (size == 0 || entry.columns == 0 || entry.columns > most_numbers || entry.rows > most_numbers / entry.columns ||
       entry.location > bytes_.size() || entry.rows * entry.columns * size > bytes_.size() - entry.location)
-    throw NoPackingFile(fmt::format("its chunk {} is truncated or has an unknown type", name));
+    throw ContentError(fmt::format("its chunk {} is truncated or has an unknown type", name));
   return std::string_view(bytes_).substr(entry.location, entry.rows * entry.columns * size);
 }
 
@@ -113,9 +114,15 @@ std::optional<std::vector<double>> GsdFile::numbers(std::uint64_t frame, std::st
   if (!entry) return std::nullopt;
   const auto bytes = data(*entry, name);
   if (entry->columns != columns)
-    throw NoPackingFile(fmt::format("its chunk {} has {} columns instead of {}", name, entry->columns, columns));
+    throw ContentError(fmt::format("its chunk {} has {} columns instead of {}", name, entry->columns, columns));
   std::vector<double> values(entry->rows * entry->columns);
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] = number_at(bytes, entry->type, k);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[k] = number_at(bytes, entry->type, k);
+    if (!std::isfinite(values[k]))
+      throw ContentError(
+          fmt::format("row {} of its chunk {} contains a value that is not a finite number", k / columns, name),
+          "remove this particle or frame, or write the file again");
+  }
   return values;
 }
 
@@ -123,7 +130,7 @@ std::optional<std::vector<std::string>> GsdFile::texts(std::uint64_t frame, std:
   const auto* entry = find(frame, name);
   if (!entry) return std::nullopt;
   const auto bytes = data(*entry, name);
-  if (size_of(entry->type) != 1) throw NoPackingFile(fmt::format("its chunk {} is not text", name));
+  if (size_of(entry->type) != 1) throw ContentError(fmt::format("its chunk {} is not text", name));
   std::vector<std::string> rows;
   for (std::uint64_t k = 0; k < entry->rows; ++k)
     rows.push_back(text_until_zero(bytes.substr(k * entry->columns, entry->columns)));

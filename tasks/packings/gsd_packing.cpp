@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "tasks/io/json.hpp"
 #include "tasks/packings/foreign_packing.hpp"
 #include "tasks/packings/packing_json.hpp"
+#include "tasks/packings/text_lines.hpp"
 
 namespace isojam {
 namespace {
+
+/// Files may define a few types without particles.
+constexpr std::size_t most_unused_types = 1000;
 
 /// Lattice vectors (Lx, 0, 0), (xy·Ly, Ly, 0) and (xz·Lz, yz·Lz, Lz).
 Eigen::Matrix3d cell_of(const std::vector<double>& box) {
@@ -18,20 +21,31 @@ Eigen::Matrix3d cell_of(const std::vector<double>& box) {
   return cell;
 }
 
-/// Empty for a type without a polyhedron.
-std::vector<Eigen::Vector3d> vertices_of(const std::string& text) {
+/// The shape of a type. A text such as "" or "{}" describes no shape.
+void read_shape(const std::string& text, ForeignPacking::Type& type) {
+  if (text.find_first_not_of(" \t\n") == std::string::npos) return;
   const auto shape = Json::parse(text, nullptr, false);
-  std::vector<Eigen::Vector3d> vertices;
-  if (!shape.is_object() || !shape.contains("vertices") || !shape.at("vertices").is_array()) return vertices;
+  if (shape.is_null() || (shape.is_object() && shape.empty())) return;
+  if (!shape.is_object()) {
+    type.foreign_shape = "that is not a JSON object";
+    return;
+  }
+  const auto kind = shape.contains("type") && shape.at("type").is_string() ? shape.at("type").get<std::string>() : "";
+  if (kind != "ConvexPolyhedron") {
+    type.foreign_shape = kind.empty() ? "without a type" : in_quotes(kind);
+    return;
+  }
+  if (!shape.contains("vertices") || !shape.at("vertices").is_array()) {
+    type.foreign_shape = "without vertices";
+    return;
+  }
   for (const auto& vertex : shape.at("vertices")) {
     if (!vertex.is_array() || vertex.size() != 3 ||
         !std::all_of(vertex.begin(), vertex.end(), [](const Json& x) { return x.is_number(); }))
-      throw NoPackingFile("a vertex of a shape is not three numbers");
-    vertices.emplace_back(vertex[0].get<double>(), vertex[1].get<double>(), vertex[2].get<double>());
+      throw ContentError(fmt::format("a vertex of the shape of type {} is not three numbers", in_quotes(type.name)));
+    type.vertices.emplace_back(vertex[0].get<double>(), vertex[1].get<double>(), vertex[2].get<double>());
   }
-  if (shape.contains("rounding_radius") && shape.at("rounding_radius") != 0)
-    throw NoPackingFile("rounded shapes are not supported");
-  return vertices;
+  if (shape.contains("rounding_radius") && shape.at("rounding_radius") != 0) type.foreign_shape = "with rounded edges";
 }
 
 /// Values of all particles; `fallback` if the file has none.
@@ -45,10 +59,7 @@ std::vector<double> of_all(const GsdFile& file, std::uint64_t frame, const std::
     return same;
   }
   if (values->size() != count * columns)
-    throw NoPackingFile(
-        fmt::format("its chunk particles/{} does not have a row for each of {} particles", name, count));
-  if (!std::all_of(values->begin(), values->end(), [](double x) { return std::isfinite(x); }))
-    throw NoPackingFile(fmt::format("its chunk particles/{} contains a value that is not a finite number", name));
+    throw ContentError(fmt::format("its chunk particles/{} does not have a row for each of {} particles", name, count));
   return *values;
 }
 
@@ -57,34 +68,42 @@ std::vector<double> of_all(const GsdFile& file, std::uint64_t frame, const std::
 ForeignPacking read_gsd_packing(const std::string& bytes, int frame) {
   const GsdFile file(bytes);
   if (file.schema() != "hoomd")
-    throw NoPackingFile(fmt::format("its schema is \"{}\" instead of \"hoomd\"", file.schema()));
+    throw ContentError(fmt::format("its schema is \"{}\" instead of \"hoomd\"", file.schema()));
   const auto frames = static_cast<std::int64_t>(file.frames());
   const auto index = frame < 0 ? frames + frame : frame;
-  if (index < 0 || index >= frames) throw NoPackingFile(fmt::format("it has only {} frames", frames));
+  if (index < 0 || index >= frames) throw ContentError(fmt::format("it has only {} frames", frames));
   const auto which = static_cast<std::uint64_t>(index);
 
   ForeignPacking packing;
   const auto box = file.numbers(which, "configuration/box", 1);
-  if (!box || box->size() != 6) throw NoPackingFile("it has no box");
+  if (!box || box->size() != 6) throw ContentError("it has no box");
+  const auto dimensions = file.numbers(which, "configuration/dimensions", 1);
+  if ((dimensions && dimensions->size() == 1 && (*dimensions)[0] == 2) || (*box)[2] == 0)
+    throw ContentError("it is two-dimensional", "use a packing in three dimensions");
   packing.cell = cell_of(*box);
   const auto number = file.numbers(which, "particles/N", 1);
   if (!number || number->size() != 1 || !((*number)[0] >= 1 && (*number)[0] <= static_cast<double>(most_particles)))
-    throw NoPackingFile(fmt::format("it has no particles, or more than {}", most_particles));
+    throw ContentError(fmt::format("it has no particles, or more than {}", most_particles));
   const auto n = static_cast<std::size_t>((*number)[0]);
   const auto names = file.texts(which, "particles/types").value_or(std::vector<std::string>{"A"});
   const auto shapes = file.texts(which, "particles/type_shapes").value_or(std::vector<std::string>{});
-  for (std::size_t k = 0; k < names.size(); ++k)
-    packing.types.push_back({names[k], k < shapes.size() ? vertices_of(shapes[k]) : std::vector<Eigen::Vector3d>{}});
-  if (!file.numbers(which, "particles/position", 3)) throw NoPackingFile("it has no positions");
+  if (names.size() > std::max(n, most_unused_types))
+    throw ContentError(fmt::format("it has {} types for {} particles", names.size(), n), "remove the unused types");
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    auto& type = packing.types.emplace_back();
+    type.name = names[k];
+    if (k < shapes.size()) read_shape(shapes[k], type);
+  }
+  if (!file.numbers(which, "particles/position", 3)) throw ContentError("it has no positions");
   const auto positions = of_all(file, which, "position", n, {0, 0, 0});
   const auto orientations = of_all(file, which, "orientation", n, {1, 0, 0, 0});
   const auto types = of_all(file, which, "typeid", n, {0});
   for (std::size_t i = 0; i < n; ++i) {
     if (!(types[i] >= 0 && types[i] < static_cast<double>(names.size())))
-      throw NoPackingFile("a particle has an undefined type");
+      throw ContentError("a particle has an undefined type");
     const double *x = &positions[3 * i], *q = &orientations[4 * i];
     const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
-    if (!(orientation.norm() > 0.5)) throw NoPackingFile(fmt::format("particle {} has no orientation", i));
+    if (!(orientation.norm() > 0.5)) throw ContentError(fmt::format("particle {} has no orientation", i));
     packing.bodies.push_back({static_cast<int>(types[i]), 1, {x[0], x[1], x[2]}, orientation.normalized()});
   }
   return packing;

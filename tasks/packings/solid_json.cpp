@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "engine/arithmetic/elementary.hpp"
-#include "engine/geometry/hull.hpp"
 #include "engine/geometry/solids/named_solids.hpp"
 
 namespace isojam {
@@ -50,21 +49,30 @@ std::vector<Eigen::Vector3d> read_vertices(const JsonPlace& place) {
   return vertices;
 }
 
+std::string allowed_features() {
+  return fmt::format("4 to {} corners of a convex polyhedron with at most {} faces and {} edges",
+                     ConvexSolid::max_vertices, ConvexSolid::max_faces, ConvexSolid::max_edges);
+}
+
+JsonPlace place_of_error(const JsonPlace& vertices, const NoSolid& error, std::size_t points) {
+  const bool listed = error.vertex() >= 0 && vertices.value().size() == points;
+  return listed ? vertices.at(static_cast<std::size_t>(error.vertex())) : vertices;
+}
+
+Solid made_solid(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices) {
+  auto solid = Solid::made_of(name, vertices);
+  if (cubed(2 * solid->diameter()) > largest_cell)
+    place.refuse("the solid is too long or too flat for any periodic cell",
+                 fmt::format("a diameter of at most {:.0f} cube roots of its volume",
+                             std::floor(nearest::cbrt(largest_cell) / 2)));
+  return solid;
+}
+
 Solid solid_from(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices) {
   try {
-    auto solid = Solid::made_of(name, vertices);
-    if (cubed(2 * solid->diameter()) > largest_cell)
-      place.refuse("the solid is too long or too flat for any periodic cell",
-                   fmt::format("a diameter of at most {:.0f} cube roots of its volume",
-                               std::floor(nearest::cbrt(largest_cell) / 2)));
-    return solid;
+    return made_solid(place, name, vertices);
   } catch (const NoSolid& error) {
-    // Corners of a box have no entry in the document.
-    const bool listed = error.vertex() >= 0 && place.value().size() == vertices.size();
-    (listed ? place.at(static_cast<std::size_t>(error.vertex())) : place)
-        .refuse(error.what(),
-                fmt::format("4 to {0} corners of a convex polyhedron with at most {0} faces and {0} edges",
-                            ConvexSolid::max_features));
+    place_of_error(place, error, vertices.size()).refuse(error.what(), allowed_features());
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/geometry/hull.hpp"
 #include "engine/geometry/solids/solid.hpp"
 #include "tasks/io/place.hpp"
 
@@ -18,6 +19,15 @@ std::vector<Eigen::Vector3d> read_vertices(const JsonPlace& place);
 /// Makes the solid with this name and these vertices. `place` is the list of the vertices. An error that one vertex
 /// causes is reported at this vertex.
 Solid solid_from(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices);
+
+/// Makes the same solid, but lets NoSolid pass.
+Solid made_solid(const JsonPlace& place, const std::string& name, const std::vector<Eigen::Vector3d>& vertices);
+/// The vertex that causes an error, if the list of vertices has the length `points`. Otherwise the list, because the
+/// corners of a box have no entry in the document.
+JsonPlace place_of_error(const JsonPlace& vertices, const NoSolid& error, std::size_t points);
+
+/// The allowed numbers of features of a solid, as text for messages.
+std::string allowed_features();
 
 /// Names of the built-in solids, as text for messages.
 std::string allowed_solids();

@@ -7,25 +7,27 @@
 #include <tuple>
 #include <vector>
 
-#include "tasks/io/file.hpp"
 #include "tasks/io/hash.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/sealed.hpp"
-#include "tasks/packings/foreign_packing.hpp"
 #include "tasks/packings/packing_json.hpp"
 
 namespace isojam {
 namespace {
 
-Packing read_any(const std::string& bytes, const StartFile& file, const Mixture& mixture) {
+Packing read_any(const std::string& bytes, StartFile& file, const Mixture& mixture, const TypeNames& types) {
   constexpr std::string_view gsd_magic = "\xDF\x65\xDF\x65\xDF\x65\xDF\x65";
-  if (bytes.starts_with(gsd_magic)) return packing_of(read_gsd_packing(bytes, file.frame), mixture);
-  if (!bytes.starts_with('{')) return packing_of(read_xyz_packing(bytes, file.frame), mixture);
+  const auto converted = [&](const ForeignPacking& foreign) {
+    return packing_of(foreign, mixture, types, &file.notes);
+  };
+  if (bytes.starts_with(gsd_magic)) return converted(read_gsd_packing(bytes, file.frame));
+  if (!bytes.starts_with('{')) return converted(read_xyz_packing(bytes, file.frame));
+  if (!types.empty()) throw ContentError("packings of isojam contain their solids", "remove /start/types");
   try {
     const auto json = parse_sealed(bytes, file.path);
     return read_packing(JsonPlace(json, file.path));
   } catch (const InputError& error) {
-    throw NoPackingFile(error.what());
+    throw ContentError(error.what());
   }
 }
 
@@ -42,11 +44,11 @@ bool are_particles_of(const Packing& packing, const Mixture& mixture) {
   return own == expected;
 }
 
-void load(StartFile& file, const Mixture& mixture, int n) {
-  const auto bytes = read_text(file.path);
-  auto packing = read_any(bytes, file, mixture);
+void load(StartFile& file, const std::string& bytes, const Mixture& mixture, int n, const TypeNames& types) {
+  file.notes.clear();
+  auto packing = read_any(bytes, file, mixture, types);
   if (packing.size() != n || !are_particles_of(packing, mixture)) {
-    throw NoPackingFile(
+    throw ContentError(
         fmt::format("its {} particles do not match {} particles of {}", packing.size(), n, to_string(mixture)));
   }
   file.digest = hex_hash(bytes);

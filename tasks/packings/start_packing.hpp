@@ -2,10 +2,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "engine/packing/mixture/mixture.hpp"
 #include "engine/packing/packing.hpp"
-#include "tasks/packings/gsd_file.hpp"
+#include "tasks/packings/foreign_packing.hpp"
 
 namespace isojam {
 
@@ -16,12 +17,14 @@ struct StartFile {
   int frame = -1;
   std::string digest;                        ///< digest of the bytes of the file
   std::shared_ptr<const Packing> packing{};  ///< the packing; null until load() is called
+  std::vector<std::string> notes{};          ///< notes for the user about the content of the file
 };
 
-/// Loads the packing from a file, and sets `digest` and `packing`. The file must contain n particles of the mixture. It
-/// may be JSON that isojam wrote, which is read with all bits, or GSD or extended XYZ. Throws NoPackingFile if the file
-/// has another format or contains other particles, and FileError if the file cannot be read.
-void load(StartFile& file, const Mixture& mixture, int n);
+/// Makes the packing from the bytes of a file, and sets `digest`, `packing` and `notes`. The file must contain n
+/// particles of the mixture. It may be JSON that isojam wrote, which is read with all bits, or GSD or extended XYZ.
+/// `types` has the names of the solids of types without shapes. Throws ContentError if the file has another format or
+/// contains other particles.
+void load(StartFile& file, const std::string& bytes, const Mixture& mixture, int n, const TypeNames& types);
 
 /// True if the particles of the packing are those of the mixture, in any order.
 bool are_particles_of(const Packing& packing, const Mixture& mixture);

@@ -1,135 +1,174 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "tasks/packings/foreign_packing.hpp"
 #include "tasks/packings/packing_json.hpp"
+#include "tasks/packings/text_lines.hpp"
 
 namespace isojam {
 namespace {
 
-std::string_view next_line(std::string_view& text) {
-  const auto end = text.find('\n');
-  auto line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  constexpr std::string_view blanks = " \t";
-  for (auto at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
-    const auto end = std::min(line.find_first_of(blanks, at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(blanks, end);
+/// The values of the second line of a frame by their keys in small letters: key="…", key='…', key={…} or key=…. A value
+/// in quotation marks may contain any text, also text that looks like another key.
+class Header {
+ public:
+  explicit Header(const TextLines& lines) : lines_(lines) {
+    std::string_view rest = lines.text();
+    while (skip_blanks(rest)) {
+      const auto end = rest.find_first_of(" \t=");
+      const auto key = lower_case(rest.substr(0, end));
+      rest.remove_prefix(std::min(end, rest.size()));
+      if (!rest.starts_with('=')) continue;  // a flag, or a comment without quotation marks
+      rest.remove_prefix(1);
+      const auto value = take_value(rest);
+      if (!values_.emplace(key, value).second && (key == "lattice" || key == "properties"))
+        lines_.refuse(fmt::format("the key {} occurs twice", key), "remove one of them");
+    }
   }
-  return words;
-}
 
-double number(std::string_view word) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    throw NoPackingFile(fmt::format("\"{}\" is not a number", word));
-  return value;
-}
-
-/// The value of key="…" or key=… in the second line of a frame; empty if the key is missing.
-std::string_view value_of(std::string_view line, const std::string& key) {
-  for (auto at = line.find(key + "="); at != std::string_view::npos; at = line.find(key + "=", at + 1)) {
-    if (at > 0 && line[at - 1] != ' ') continue;
-    auto rest = line.substr(at + key.size() + 1);
-    if (!rest.starts_with('"')) return rest.substr(0, rest.find(' '));
-    rest.remove_prefix(1);
-    return rest.substr(0, rest.find('"'));
+  const std::string& at(std::string_view key, std::string_view example) const {
+    const auto found = values_.find(key);
+    if (found == values_.end()) lines_.refuse(fmt::format("the line has no {}", key), fmt::format("add {}", example));
+    return found->second;
   }
-  return {};
-}
+
+ private:
+  static bool skip_blanks(std::string_view& rest) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    return !rest.empty();
+  }
+
+  std::string take_value(std::string_view& rest) const {
+    constexpr std::string_view open = "\"'{[", close = "\"'}]";
+    const auto kind = rest.empty() ? std::string_view::npos : open.find(rest[0]);
+    std::string value;
+    std::size_t at = 0;
+    if (kind == std::string_view::npos) {
+      at = std::min(rest.find_first_of(" \t"), rest.size());
+      value = rest.substr(0, at);
+    } else {
+      for (at = 1; at < rest.size() && rest[at] != close[kind]; ++at) {
+        if (rest[at] == '\\' && at + 1 < rest.size()) ++at;
+        value += rest[at];
+      }
+      if (at == rest.size()) lines_.refuse("a quotation mark or a bracket is not closed", "close it on the same line");
+      ++at;
+    }
+    rest.remove_prefix(at);
+    return value;
+  }
+
+  const TextLines& lines_;
+  std::map<std::string, std::string, std::less<>> values_;
+};
 
 /// First column of each property, and the number of columns.
 struct Columns {
   std::map<std::string, std::pair<std::size_t, std::size_t>, std::less<>> of;
   std::size_t count = 0;
 
-  const std::pair<std::size_t, std::size_t>* find(std::string_view name, std::size_t width) const {
+  std::optional<std::size_t> find(const TextLines& lines, std::string_view name, std::size_t width) const {
     const auto found = of.find(name);
-    if (found == of.end()) return nullptr;
+    if (found == of.end()) return std::nullopt;
     if (found->second.second != width)
-      throw NoPackingFile(fmt::format("its property {} has the wrong number of columns", name));
-    return &found->second;
+      lines.refuse(fmt::format("the property {} has {} columns instead of {}", name, found->second.second, width));
+    return found->second.first;
+  }
+  std::size_t at(const TextLines& lines, std::string_view name, std::size_t width) const {
+    const auto found = find(lines, name, width);
+    if (!found)
+      lines.refuse(fmt::format("the Properties have no {}", name),
+                   "add the columns species:S:1:pos:R:3:orientation:R:4");
+    return *found;
   }
 };
 
-Columns columns_of(std::string_view properties) {
+Columns columns_of(const TextLines& lines, std::string_view properties) {
+  constexpr long widest = 100;
   std::vector<std::string_view> parts;
   while (!properties.empty()) {
     const auto end = properties.find(':');
     parts.push_back(properties.substr(0, end));
     properties.remove_prefix(end == std::string_view::npos ? properties.size() : end + 1);
   }
-  if (parts.size() % 3 != 0) throw NoPackingFile("its Properties do not have the form name:type:columns");
+  if (parts.size() % 3 != 0) lines.refuse("the Properties do not have the form name:type:columns");
   Columns columns;
   for (std::size_t k = 0; k < parts.size(); k += 3) {
-    const double width = number(parts[k + 2]);
-    if (!(width >= 1 && width <= 100)) throw NoPackingFile("a property has no columns, or too many");
-    columns.of[std::string(parts[k])] = {columns.count, static_cast<std::size_t>(width)};
-    columns.count += static_cast<std::size_t>(width);
+    const auto width = static_cast<std::size_t>(lines.integer(parts[k + 2], 1, widest, "number of columns"));
+    if (!columns.of.emplace(lower_case(parts[k]), std::pair(columns.count, width)).second)
+      lines.refuse(fmt::format("the Properties contain {} twice", in_quotes(parts[k])), "remove one of them");
+    columns.count += width;
   }
   return columns;
 }
 
-std::size_t particles_in(std::string_view line) {
-  const auto words = words_of(line);
-  const double count = words.size() == 1 ? number(words[0]) : 0;
-  if (!(count >= 1 && count <= static_cast<double>(most_particles)) || count != std::floor(count))
-    throw NoPackingFile("its first line is not a number of particles");
-  return static_cast<std::size_t>(count);
+/// Reads the line with the number of particles; nullopt at the end of the file.
+std::optional<std::size_t> next_count(TextLines& lines) {
+  if (!lines.next_line() || (lines.words().empty() && !lines.next())) return std::nullopt;
+  if (lines.words().size() != 1)
+    lines.refuse("this line is not the number of particles", "begin each frame of an XYZ file with a line for it");
+  return static_cast<std::size_t>(
+      lines.integer(lines.words()[0], 1, static_cast<long>(most_particles), "number of particles"));
 }
 
-/// The text from the beginning of the frame on.
-std::string_view at_frame(std::string_view text, int frame) {
-  std::vector<std::string_view> frames;
-  for (auto rest = text; !words_of(rest.substr(0, rest.find('\n'))).empty();) {
-    frames.push_back(rest);
-    const auto lines = particles_in(next_line(rest)) + 1;
-    for (std::size_t k = 0; k < lines; ++k) next_line(rest);
+/// Moves to the line with the number of particles of a frame, and returns this number.
+std::size_t go_to_frame(TextLines& lines, std::string_view text, int frame) {
+  constexpr char none = '\0';
+  std::vector<TextLines> frames;
+  TextLines rest(text, none);
+  for (auto before = rest; const auto count = next_count(rest); before = rest) {
+    frames.push_back(before);
+    for (std::size_t k = 0; k <= *count; ++k) {
+      if (!rest.next_line())
+        rest.refuse(fmt::format("frame {} ends after {} of {} lines", frames.size() - 1, k, *count + 1),
+                    "complete the frame, or correct its number of particles");
+    }
   }
-  const auto count = static_cast<int>(frames.size()), index = frame < 0 ? count + frame : frame;
-  if (index < 0 || index >= count) throw NoPackingFile(fmt::format("it has only {} frames", count));
-  return frames[static_cast<std::size_t>(index)];
+  const auto all = static_cast<int>(frames.size()), index = frame < 0 ? all + frame : frame;
+  if (index < 0 || index >= all)
+    throw ContentError(fmt::format("it has {} frames; frame {} does not exist", all, frame),
+                       fmt::format("set /start/frame to a value from 0 to {}", std::max(all - 1, 0)));
+  lines = frames[static_cast<std::size_t>(index)];
+  return *next_count(lines);
 }
 
 }  // namespace
 
 ForeignPacking read_xyz_packing(std::string_view text, int frame) {
-  auto rest = at_frame(text, frame);
-  const auto n = particles_in(next_line(rest));
-  const auto head = next_line(rest);
+  TextLines lines(text);
+  const auto n = go_to_frame(lines, text, frame);
+  lines.next_line();
+  const Header header(lines);
   ForeignPacking packing;
-  const auto lattice = words_of(value_of(head, "Lattice"));
-  if (lattice.size() != 9) throw NoPackingFile("it has no Lattice of nine numbers");
-  for (std::size_t k = 0; k < 9; ++k) packing.cell.data()[k] = number(lattice[k]);
-  const auto columns = columns_of(value_of(head, "Properties"));
-  const auto *species = columns.find("species", 1), *pos = columns.find("pos", 3),
-             *orientation = columns.find("orientation", 4), *size = columns.find("size", 1);
-  if (!species || !pos || !orientation) throw NoPackingFile("its Properties lack species, pos or orientation");
+  const auto& lattice_text = header.at("lattice", "Lattice=\"ax ay az bx by bz cx cy cz\"");
+  const auto lattice = words_of(lattice_text);
+  if (lattice.size() != 9)
+    lines.refuse(fmt::format("the Lattice has {} numbers", lattice.size()), "write three vectors of three numbers");
+  for (std::size_t k = 0; k < 9; ++k) packing.cell.data()[k] = lines.real(lattice[k]);
+  const auto columns = columns_of(lines, header.at("properties", "Properties=species:S:1:pos:R:3:orientation:R:4"));
+  const auto species = columns.at(lines, "species", 1), pos = columns.at(lines, "pos", 3),
+             orientation = columns.at(lines, "orientation", 4);
+  const auto size = columns.find(lines, "size", 1);
   std::map<std::string, int, std::less<>> types;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto words = words_of(next_line(rest));
+    lines.next_line();
+    const auto& words = lines.words();
     if (words.size() != columns.count)
-      throw NoPackingFile(fmt::format("the line of particle {} has the wrong number of columns", i));
-    const auto [type, added] = types.try_emplace(std::string(words[species->first]), static_cast<int>(types.size()));
-    if (added) packing.types.push_back({type->first, {}});
-    const auto at = [&](const auto* column, std::size_t k) { return number(words[column->first + k]); };
-    const Eigen::Quaterniond q(at(orientation, 3), at(orientation, 0), at(orientation, 1), at(orientation, 2));
-    if (!(q.norm() > 0.5)) throw NoPackingFile(fmt::format("particle {} has no orientation", i));
-    if (size && !(at(size, 0) > 0)) throw NoPackingFile(fmt::format("particle {} has no size", i));
-    packing.bodies.push_back(
-        {type->second, size ? at(size, 0) : 1, {at(pos, 0), at(pos, 1), at(pos, 2)}, q.normalized()});
+      lines.refuse(fmt::format("particle {} has {} columns instead of {}", i, words.size(), columns.count));
+    const auto [type, added] = types.try_emplace(std::string(words[species]), static_cast<int>(types.size()));
+    if (added) packing.types.push_back({type->first, {}, {}});
+    const auto at = [&](std::size_t column) { return lines.real(words[column]); };
+    const Eigen::Quaterniond q(at(orientation + 3), at(orientation), at(orientation + 1), at(orientation + 2));
+    if (!(q.norm() > 0.5))
+      lines.refuse(fmt::format("particle {} has no orientation", i), "write a unit quaternion x y z w");
+    const double scale = size ? at(*size) : 1;
+    if (!(scale > 0)) lines.refuse(fmt::format("particle {} has the size {}", i, scale), "write a size above 0");
+    packing.bodies.push_back({type->second, scale, {at(pos), at(pos + 1), at(pos + 2)}, q.normalized()});
   }
   return packing;
 }

@@ -29,7 +29,7 @@ VoroCells::VoroCells(const PairSet& set) : set_(set), cells_(std::make_unique<Ce
     const double box = 2 * solid.solid().circumradius();
     cells_->of_particle[k].init(-box, box, -box, box, -box, box);
     for (int f = 0; f < solid.faces(); ++f)
-      cut(cells_->of_particle[k], solid.normal(f), solid.offset()[f], SolidArrays::capacity + f);
+      cut(cells_->of_particle[k], solid.normal(f), solid.offset()[f], SolidArrays::max_faces + f);
   }
 }
 
@@ -49,7 +49,7 @@ double VoroCells::overlap(std::size_t k) {
   cells_->cut.face_areas(cells_->areas);
   area_.setZero();
   for (std::size_t f = 0; f < cells_->areas.size(); ++f) {
-    const int of_a = cells_->neighbours[f] - SolidArrays::capacity;
+    const int of_a = cells_->neighbours[f] - SolidArrays::max_faces;
     if (of_a >= 0) area_ += cells_->areas[f] * a.normal(of_a);
   }
   return cells_->cut.volume();

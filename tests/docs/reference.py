@@ -62,7 +62,7 @@ def own_tables(schema, parts):
     lines = []
     for path, forms in paths.items():
         for row in rows[path].values():
-            row[2] = "one of these keys is required" if len(forms) > 1 else row[2]
+            row[2] = "one of these keys is required" if len(forms) > 1 and row[2] == "required" else row[2]
         lines += [heading("Key", path), "", *table(KEY_HEAD, list(rows[path].values())), ""]
     return lines
 

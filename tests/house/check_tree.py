@@ -33,7 +33,8 @@ ONLY_IN = (  # headers, the sources that may include them, the breach
     (re.compile(r'[<"]CLI/'), {"tasks/commands/command_line.cpp"}, "CLI11 outside its source"),
     (re.compile(r'[<"]metis\.h[>"]'), {"engine/solve/factor/ordering.cpp"}, "METIS outside its source"),
 )
-LIBRARIES = re.compile(r"<(Eigen|Spectra|boost/math|tbb|oneapi)/|<(metis|quadmath|immintrin)\.h>")
+LIBRARIES = re.compile(r"<(Eigen|Spectra|boost/math|tbb|oneapi)/|<(metis|quadmath|immintrin)\.h>|"
+                       r"<boost/multiprecision/cpp_bin_float\.hpp>")
 BANNED_HEADERS = set("filesystem chrono ctime fstream iostream istream ostream sstream syncstream cstdio iomanip "
                      "execution".split())
 BANNED_NAMES = re.compile(r"std::(chrono|filesystem|cout|cerr|clog|random_device)\b"

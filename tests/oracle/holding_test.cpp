@@ -240,7 +240,7 @@ std::vector<Quad3> tilt_axes(const Packing& packing, const NeighbourPair& pair, 
     return {in_plane, cross(n, in_plane)};
   }
   const SolidArrays &of_edge = angle.edge_of_a ? a : b, &of_face = angle.edge_of_a ? b : a;
-  const Edge& edge = of_edge.edge[angle.edge];
+  const EdgeRecord& edge = of_edge.record[angle.edge];
   const Quad3 along = of_edge.vertex(edge.head) - of_edge.vertex(edge.tail);
   return {cross((angle.edge_of_a ? to_lab_a : to_lab_b) * along,
                 (angle.edge_of_a ? to_lab_b : to_lab_a) * of_face.normal(angle.face))};

@@ -1,10 +1,8 @@
 #include "engine/analysis/alignment/alignment.hpp"
 
 #include <Eigen/Geometry>
-#include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <optional>
 
@@ -29,24 +27,23 @@ struct EdgeFace {
 };
 
 template <class UnitVector>
-std::vector<Direction> directions(std::uint64_t mask, const Matrix3d& rotation, const UnitVector& unit) {
+std::vector<Direction> directions(const FeatureSet& features, const Matrix3d& rotation, const UnitVector& unit) {
   std::vector<Direction> result;
-  result.reserve(std::popcount(mask));
-  for (; mask != 0; mask &= mask - 1) {
-    const int index = std::countr_zero(mask);
-    result.push_back({index, rotation * unit(index)});
-  }
+  result.reserve(static_cast<std::size_t>(features.count()));
+  features.for_each([&](int index) { result.push_back({index, rotation * unit(static_cast<std::size_t>(index))}); });
   return result;
 }
 
-std::vector<Direction> normals(const ConvexSolid& solid, std::uint64_t mask, const Matrix3d& rotation) {
-  assert(std::bit_width(mask) <= solid.faces().size());
-  return directions(mask, rotation, [&](int i) -> Vector3d { return solid.faces()[i].normal; });
+std::vector<Direction> normals(const ConvexSolid& solid, const FeatureSet& faces, const Matrix3d& rotation) {
+  return directions(faces, rotation, [&](std::size_t i) -> Vector3d {
+    assert(i < solid.faces().size());
+    return solid.faces()[i].normal;
+  });
 }
 
-std::vector<Direction> edge_directions(const ConvexSolid& solid, std::uint64_t mask, const Matrix3d& rotation) {
-  assert(std::bit_width(mask) <= solid.edges().size());
-  return directions(mask, rotation, [&](int e) -> Vector3d {
+std::vector<Direction> edge_directions(const ConvexSolid& solid, const FeatureSet& edges, const Matrix3d& rotation) {
+  return directions(edges, rotation, [&](std::size_t e) -> Vector3d {
+    assert(e < solid.edges().size());
     const Edge& edge = solid.edges()[e];
     return (solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized();
   });

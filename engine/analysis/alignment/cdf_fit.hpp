@@ -19,7 +19,9 @@ enum class FitVerdict {
   /// to c
   collapsed,
   alpha_out_of_range,  ///< α is in the upper half of [0, upper], so no group of angles is near 0
-  too_few              ///< there are fewer angles below `upper` than the five free parameters α and a_0 to a_3
+  /// there are fewer angles below `upper` than the five free parameters α and a_0 to a_3, or `upper` is below the
+  /// accuracy of the angles
+  too_few
 };
 template <>
 inline constexpr std::array enum_names<FitVerdict>{EnumName{FitVerdict::not_called, "not_called"},

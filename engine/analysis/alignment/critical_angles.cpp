@@ -79,13 +79,24 @@ std::optional<SharedAngles> shared_angles(const ConvexSolid& solid) {
   return SharedAngles{*dihedral, *edge, *normal};
 }
 
+/// The smallest 1 − cos θ for which arccos gives θ to half of its digits.
+constexpr double flat = 0x1p-26;
+
+/// θ = arccos(cos α cos β), where `product` is cos α cos β. For small angles the product has no digits of θ left. Then
+/// sin²(θ/2) = p + q − 2pq with p = sin²(α/2) and q = sin²(β/2).
+double angle_of_product(double product, double alpha, double beta) {
+  if (1 - product > flat) return nearest::acos(product);
+  const double p = squared(nearest::sin(alpha / 2)), q = squared(nearest::sin(beta / 2));
+  return 2 * nearest::asin(std::sqrt(p + q - 2 * p * q));
+}
+
 void set_edge_angles(double half_dihedral, CriticalAngles& critical) {
-  const double sine = nearest::sin(half_dihedral);
+  const double sine = nearest::sin(half_dihedral), alpha = right_angle - half_dihedral;
   // Edge-edge: the edges cross at a right angle, and each pair of faces is symmetric about the line of contact.
-  critical.ef_edge_edge = right_angle - half_dihedral;
-  critical.ff_edge_edge = nearest::acos(sine * sine);
+  critical.ef_edge_edge = alpha;
+  critical.ff_edge_edge = angle_of_product(sine * sine, alpha, alpha);
   // Edge-face: the two faces at the edge have the same angle with the face that contains it.
-  critical.ff_edge_face = right_angle - half_dihedral;
+  critical.ff_edge_face = alpha;
 }
 
 /// The normal cone of a vertex: the outward normals of all planes that touch the solid only at this vertex. On the unit
@@ -150,9 +161,15 @@ double inscribed_radius(const NormalCone& cone) {
 /// The largest angle of a direction in the cone to the nearest corner. This direction has the same angle to three
 /// corners, or it is on a side and has the same angle to two corners.
 double farthest_from_corners(const NormalCone& cone, double tolerance) {
-  double best = 1;
+  double best = 1, narrow = 0;  // `narrow` is the same angle where arccos(best) has lost half of its digits
   const auto look = [&](const Vector3d& d) {
-    if (least_product(cone.sides, d) >= -tolerance) best = std::min(best, greatest_product(cone.corners, d));
+    if (least_product(cone.sides, d) < -tolerance) return;
+    const double product = greatest_product(cone.corners, d);
+    best = std::min(best, product);
+    if (1 - product > flat) return;
+    double angle = std::numbers::pi;
+    for (const Vector3d& corner : cone.corners) angle = std::min(angle, angle_between(corner, d));
+    narrow = std::max(narrow, angle);
   };
   for_each_centre(cone.corners, look);
   for (const Vector3d& side : cone.sides) {
@@ -165,7 +182,7 @@ double farthest_from_corners(const NormalCone& cone, double tolerance) {
       }
     }
   }
-  return nearest::acos(std::max(-1.0, best));
+  return 1 - best > flat ? nearest::acos(std::max(-1.0, best)) : narrow;
 }
 
 }  // namespace
@@ -210,7 +227,8 @@ CriticalAngles critical_angles(const ConvexSolid& a, const ConvexSolid& b) {
   return {.ef_vertex_face = std::min(of_a.ef_vertex_face, of_b.ef_vertex_face),
           .ef_edge_edge = std::min(of_a.ef_edge_edge, of_b.ef_edge_edge),
           .ff_vertex_face = std::min(of_a.ff_vertex_face, of_b.ff_vertex_face),
-          .ff_edge_edge = nearest::acos(nearest::cos(of_a.ff_edge_face) * nearest::cos(of_b.ff_edge_face)),
+          .ff_edge_edge = angle_of_product(nearest::cos(of_a.ff_edge_face) * nearest::cos(of_b.ff_edge_face),
+                                           of_a.ff_edge_face, of_b.ff_edge_face),
           .ff_edge_face = std::min(of_a.ff_edge_face, of_b.ff_edge_face)};
 }
 

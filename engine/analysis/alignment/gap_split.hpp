@@ -14,7 +14,7 @@ enum class GapVerdict {
   separated,  ///< the angles form two groups with a gap between them
   all_alike,  ///< all angles form one group, whose distance from `upper` in log θ is larger than its width
   no_gap,     ///< no division into two groups separates them better than for a uniform distribution of log θ
-  too_few     ///< there are fewer than 10 angles below `upper`
+  too_few     ///< there are fewer than 10 angles below `upper`, or `upper` is below the accuracy of the angles
 };
 template <>
 inline constexpr std::array enum_names<GapVerdict>{

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -56,9 +55,11 @@ auto greatest(const Range& range, const Value& value) {
 /// Directions of the features of a solid, which are computed once for all directions of a sample.
 class Features {
  public:
-  explicit Features(const ConvexSolid& solid) : solid_(solid) {
-    for (const Edge& edge : solid.edges())
+  explicit Features(const ConvexSolid& solid) : solid_(solid), edges_at_(solid.vertices().size()) {
+    for (const Edge& edge : solid.edges()) {
+      for (const int end : {edge.tail, edge.head}) edges_at_[static_cast<std::size_t>(end)].push_back(edges_.size());
       edges_.push_back((solid.vertices()[edge.head] - solid.vertices()[edge.tail]).normalized());
+    }
   }
 
   /// The direction that is reached from one face normal at an edge by the fraction `part` of the rotation to the other
@@ -82,15 +83,15 @@ class Features {
   double least_elevation(const Vector3d& direction) const {
     const auto outermost = greatest(solid_.vertices(), [&](const Vector3d& vertex) { return vertex.dot(direction); });
     double least = 1;
-    std::uint64_t mask = solid_.arrays().star[outermost - solid_.vertices().begin()].edges;
-    for (; mask != 0; mask &= mask - 1)
-      least = std::min(least, std::abs(edges_[std::countr_zero(mask)].dot(direction)));
+    for (const std::size_t edge : edges_at_[static_cast<std::size_t>(outermost - solid_.vertices().begin())])
+      least = std::min(least, std::abs(edges_[edge].dot(direction)));
     return nearest::asin(least);
   }
 
  private:
   const ConvexSolid& solid_;
   std::vector<Vector3d> edges_;
+  std::vector<std::vector<std::size_t>> edges_at_;  ///< edges that meet in each vertex
 };
 
 }  // namespace

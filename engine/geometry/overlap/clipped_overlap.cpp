@@ -143,19 +143,20 @@ void integrate(const QuadIntersection& solid, QuadOverlap& sum) {
   }
 }
 
-std::uint64_t edges_between(const ConvexSolid& solid, const std::vector<std::pair<int, int>>& face_pairs) {
-  std::uint64_t mask = 0;
+FeatureSet edges_between(const ConvexSolid& solid, const std::vector<std::pair<int, int>>& face_pairs) {
+  FeatureSet found{};
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
     const std::pair<int, int> faces{solid.edges()[e].left, solid.edges()[e].right};
-    if (std::find(face_pairs.begin(), face_pairs.end(), faces) != face_pairs.end()) mask |= std::uint64_t{1} << e;
+    if (std::find(face_pairs.begin(), face_pairs.end(), faces) != face_pairs.end())
+      found.insert(static_cast<std::uint32_t>(e));
   }
-  return mask;
+  return found;
 }
 
 void mark_features(const ConvexSolid& a, const ConvexSolid& b, const QuadIntersection& solid, QuadOverlap& result) {
   std::map<std::pair<int, int>, const Polygon*> face_of;
   for (const Polygon& face : solid.faces) {
-    (face.of_a ? result.faces_a : result.faces_b) |= std::uint64_t{1} << face.face;
+    (face.of_a ? result.faces_a : result.faces_b).insert(static_cast<std::uint32_t>(face.face));
     for (std::size_t k = 0; k < face.loop.size(); ++k)
       face_of[{face.loop[k], face.loop[(k + 1) % face.loop.size()]}] = &face;
   }

@@ -12,10 +12,10 @@ namespace isojam {
 
 /// An Overlap in quadruple precision. Vectors are in the body frame of A; the units are those of Overlap.
 struct QuadOverlap {
-  Quad volume = 0;                         ///< V
-  Quad3 area{}, moment{};                  ///< S_A and M_A
-  std::uint64_t faces_a = 0, faces_b = 0;  ///< sets of the faces that bound the intersection, as bits
-  std::uint64_t edges_a = 0, edges_b = 0;  ///< sets of the edges with a segment inside the other solid, as bits
+  Quad volume = 0;                  ///< V
+  Quad3 area{}, moment{};           ///< S_A and M_A
+  FeatureSet faces_a{}, faces_b{};  ///< sets of the faces that bound the intersection
+  FeatureSet edges_a{}, edges_b{};  ///< sets of the edges with a segment inside the other solid
 };
 
 /// The intersection A ∩ B in quadruple precision, a convex polyhedron in the body frame of A.

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "engine/geometry/overlap/distances.hpp"
 #include "engine/geometry/overlap/lanes.hpp"
@@ -11,8 +13,10 @@
 namespace isojam {
 
 /// Limits of the number of edges of a solid. Up to narrow_edges, the edges of both solids are bits of one 64-bit word,
-/// and one loop processes all of them. Up to wide_edges, each solid has a separate word.
-inline constexpr int narrow_edges = SolidArrays::narrow_edges, wide_edges = SolidArrays::max_edges;
+/// and one loop processes all of them. Up to wide_edges, each solid has a separate word. Up to large_edges, each solid
+/// has several words.
+inline constexpr int narrow_edges = SolidArrays::narrow_edges, wide_edges = SmallSolids::edges,
+                     large_edges = LargeSolids::edges;
 
 enum class LoopVerdict : std::uint8_t {
   separated,  ///< a face separates the solids, or no edge of one solid has a point inside the other
@@ -26,9 +30,13 @@ enum class LoopVerdict : std::uint8_t {
 /// solid, called spans, and the segments of the loop in which the two surfaces intersect. Array elements beyond `spans`
 /// and `segments` are not initialised, because this would cost as much time as finding the loop. Face i of A has the
 /// number i; face j of B has the number face_of_b + j.
+template <class Solids>
 struct ContactLoop {
-  static constexpr std::uint32_t face_of_b = 64;
-  static constexpr int max_spans = 2 * wide_edges;
+  using Index = typename Solids::Index;
+  using Set = BitSet<Solids::words>;
+  static constexpr std::uint64_t tags = Solids::tags;
+  static constexpr std::uint32_t face_of_b = std::bit_ceil(std::uint32_t{Solids::capacity});
+  static constexpr int max_spans = 2 * Solids::edges;
   static constexpr int max_corners = 2 * max_spans;
 
   /// Part of an edge, oriented from tail to head. The span with index k joins the corners 2k and 2k + 1.
@@ -38,8 +46,8 @@ struct ContactLoop {
   /// Part of the line in which face_a and face_b intersect, with face_a on its left and face_b on its right. Segments
   /// are oriented counter-clockwise, seen from outside A.
   struct Segment {
-    std::uint8_t face_b, face_a;  ///< indices j of the face of B and i of the face of A; face_of_b is not added
-    std::uint8_t from, to;        ///< indices of corners
+    Index face_b, face_a;  ///< indices j of the face of B and i of the face of A; face_of_b is not added
+    Index from, to;        ///< indices of corners
   };
 
   /// An edge with a part inside the other solid. `edge` is the index of an edge of A, or edge_of_b + the index of an
@@ -47,13 +55,13 @@ struct ContactLoop {
   /// it leaves. Bits 0 and 1 of `ends` are set if the edge enters, bits 2 and 3 if it leaves. If they are not set, the
   /// edge begins or ends inside the other solid.
   struct Crossing {
-    std::uint8_t edge, into, out_of, ends;
+    Index edge, into, out_of, ends;
 
     std::uint32_t enters() const { return ends & 1U; }
     std::uint32_t leaves() const { return ends >> 3 & 1U; }
   };
 
-  alignas(32) double tables[2 * Distances::max_size];  ///< memory of the tables of_a and of_b
+  alignas(32) double tables[2 * Distances<Solids>::max_size];  ///< memory of the tables of_a and of_b
   /// For each corner, the coordinates x, y, z relative to `origin` (lab frame), and the height above the reference
   /// plane, which is negative inside. Heights are interpolated between the distances in the tables. They are therefore
   /// exactly 0 on the plane. Near the plane they are never computed as the difference of larger numbers.
@@ -62,10 +70,10 @@ struct ContactLoop {
   SeparatingAxis axis;  ///< the face that separates the solids, if one was found
   Eigen::Vector3d up;   ///< normal of the reference plane, which is the face plane with the smallest penetration
   int spans = 0, segments = 0;
-  std::uint32_t edge_of_b;           ///< narrow_edges or wide_edges, as chosen for this loop
-  std::uint64_t faces[2], edges[2];  ///< sets of the faces and edges of A and of B in the intersection, as bits
+  std::uint32_t edge_of_b;  ///< a power of two, which depends on the limit of edges chosen for this loop
+  Set faces[2], edges[2];   ///< sets of the faces and edges of A and of B in the intersection
   /// distances of the vertices of A from the planes of B, and of the vertices of B from the planes of A
-  Distances of_a, of_b;
+  Distances<Solids> of_a, of_b;
   /// origin of the corners, relative to the centre of A; it is the midpoint of both centres, unless
   /// refine_small_corners() moved it
   Eigen::Vector3d origin;
@@ -75,13 +83,18 @@ struct ContactLoop {
   Segment segment[max_corners];
 };
 
-/// Finds the loop of A and B, where r = x_B − x_A (lab frame). `loop` is overwritten. `edges` must be narrow_edges or
-/// wide_edges, and no solid may have more edges. Both values give the same loop, bit by bit.
+/// The loop of solids with up to this number of edges.
 template <int edges>
-void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, ContactLoop& loop);
+using LoopWith = ContactLoop<std::conditional_t<(edges <= SmallSolids::edges), SmallSolids, LargeSolids>>;
+
+/// Finds the loop of A and B, where r = x_B − x_A (lab frame). `loop` is overwritten. `edges` must be narrow_edges,
+/// wide_edges or large_edges, and no solid may have more edges. Narrow and wide loops are the same, bit by bit. In a
+/// large loop, the positions of corners are the same if no two planes intersect an edge within 128 ulp.
+template <int edges>
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, LoopWith<edges>& loop);
 /// Finds the loop in the same way, but computes small distances in double-double. They are then correct to their last
 /// bits even for very flat contacts. A and B must have been placed in double-double.
 template <int edges>
-void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, ContactLoop& loop);
+void find_contact_loop(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, LoopWith<edges>& loop);
 
 }  // namespace isojam

@@ -33,21 +33,24 @@ Four plain_cross(const Four& a, const Four& b) {
 }
 
 /// Four segments of a loop; the last one is repeated if there are fewer.
+template <class Loop>
 struct Segments {
-  const ContactLoop::Segment* at[4];
+  using Segment = typename Loop::Segment;
+  using Index = typename Loop::Index;
+  const Segment* at[4];
 
-  Segments(const ContactLoop& loop, int first) {
+  Segments(const Loop& loop, int first) {
     for (int k = 0; k < 4; ++k) at[k] = &loop.segment[std::min(first + k, loop.segments - 1)];
   }
 
-  Four corners(const ContactLoop& loop, std::uint8_t ContactLoop::Segment::*end) const {
+  Four corners(const Loop& loop, Index Segment::*end) const {
     Four corner;
     transpose(loop.corner[at[0]->*end], loop.corner[at[1]->*end], loop.corner[at[2]->*end], loop.corner[at[3]->*end],
               corner.x, corner.y, corner.z);
     return corner;
   }
 
-  Four normals(const PlacedSolid& solid, std::uint8_t ContactLoop::Segment::*face, std::ptrdiff_t to_part = 0) const {
+  Four normals(const PlacedSolid& solid, Index Segment::*face, std::ptrdiff_t to_part = 0) const {
     const auto normal = [&](int k) { return solid.normal_at(static_cast<int>(at[k]->*face)) + to_part; };
     const double *p = normal(0), *q = normal(1), *s = normal(2), *t = normal(3);
     return {Lanes::of(p[0], q[0], s[0], t[0]), Lanes::of(p[4], q[4], s[4], t[4]), Lanes::of(p[8], q[8], s[8], t[8])};
@@ -55,18 +58,20 @@ struct Segments {
 };
 
 /// |n×m| in double.
-Lanes sine(const PlacedSolid&, const PlacedSolid&, const Segments&, const Four& n, const Four& m,
+template <class Loop>
+Lanes sine(const PlacedSolid&, const PlacedSolid&, const Segments<Loop>&, const Four& n, const Four& m,
            const Eigen::Vector3d&) {
   return length(plain_cross(n, m));
 }
 
 /// The same as |n×(n+m)| or |n×(n−m)|, where the short sum is exact. The result is hence correct to its last bits even
 /// for nearly parallel planes.
-Lanes sine(const PlacedSolid& a, const PlacedSolid& b, const Segments& segments, const Four& n, const Four& m,
+template <class Loop>
+Lanes sine(const PlacedSolid& a, const PlacedSolid& b, const Segments<Loop>& segments, const Four& n, const Four& m,
            const DoubleDoubleVector&) {
   const Lanes sign = where_negative(dot(n, m), Lanes::all(1), Lanes::all(-1));
-  const Four n_low = segments.normals(a, &ContactLoop::Segment::face_a, a.to_low());
-  const Four m_low = segments.normals(b, &ContactLoop::Segment::face_b, b.to_low());
+  const Four n_low = segments.normals(a, &Loop::Segment::face_a, a.to_low());
+  const Four m_low = segments.normals(b, &Loop::Segment::face_b, b.to_low());
   return length(plain_cross(n, (n + sign * m) + (n_low + sign * m_low)));
 }
 
@@ -82,10 +87,10 @@ struct Terms {
 
 void store(const Four& a, double (*rows)[4]) { a.x.store(rows[0]), a.y.store(rows[1]), a.z.store(rows[2]); }
 
-template <class Displacement>
-void terms_of(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop, int first,
+template <class Displacement, class Loop>
+void terms_of(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const Loop& loop, int first,
               Terms& terms) {
-  using Segment = ContactLoop::Segment;
+  using Segment = typename Loop::Segment;
   const Segments segments(loop, first);
   const Four v = segments.corners(loop, &Segment::from), w = segments.corners(loop, &Segment::to);
   const Four n = segments.normals(a, &Segment::face_a), m = segments.normals(b, &Segment::face_b);
@@ -128,8 +133,8 @@ struct Columns {
   }
 };
 
-template <class Displacement>
-void sum_up(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const ContactLoop& loop, Matrix6d& h) {
+template <class Displacement, class Loop>
+void sum_up(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, const Loop& loop, Matrix6d& h) {
   Columns sum;
   for (Lanes& column : sum.upper) column = Lanes::all(0);
   for (Lanes& column : sum.lower) column = Lanes::all(0);
@@ -143,14 +148,25 @@ void sum_up(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, c
 
 }  // namespace
 
-void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop,
-                       Matrix6d& h) {
+template <class Solids>
+void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r,
+                       const ContactLoop<Solids>& loop, Matrix6d& h) {
   sum_up(a, b, r, loop, h);
 }
 
-void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, const ContactLoop& loop,
-                       Matrix6d& h) {
+template <class Solids>
+void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
+                       const ContactLoop<Solids>& loop, Matrix6d& h) {
   sum_up(a, b, r, loop, h);
 }
+
+template void set_cross_hessian(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&,
+                                const ContactLoop<SmallSolids>&, Matrix6d&);
+template void set_cross_hessian(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&,
+                                const ContactLoop<LargeSolids>&, Matrix6d&);
+template void set_cross_hessian(const PlacedSolid&, const PlacedSolid&, const DoubleDoubleVector&,
+                                const ContactLoop<SmallSolids>&, Matrix6d&);
+template void set_cross_hessian(const PlacedSolid&, const PlacedSolid&, const DoubleDoubleVector&,
+                                const ContactLoop<LargeSolids>&, Matrix6d&);
 
 }  // namespace isojam

@@ -10,9 +10,11 @@ namespace isojam {
 /// u_B are linear functions on a segment. For a segment of length l and direction d, the integral is therefore l ū_A
 /// ū_Bᵀ + l/12 (0, d×n_i) (0, d×n_j)ᵀ, where ū is the value at the midpoint. Segments of two parallel planes are
 /// skipped. The type of r determines the precision with which planes count as parallel.
-void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, const ContactLoop& loop,
-                       Matrix6d& h);
-void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, const ContactLoop& loop,
-                       Matrix6d& h);
+template <class Solids>
+void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r,
+                       const ContactLoop<Solids>& loop, Matrix6d& h);
+template <class Solids>
+void set_cross_hessian(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
+                       const ContactLoop<Solids>& loop, Matrix6d& h);
 
 }  // namespace isojam

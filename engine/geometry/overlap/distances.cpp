@@ -11,87 +11,87 @@ namespace isojam {
 
 namespace {
 
-constexpr int capacity = SolidArrays::capacity;
-
-std::uint64_t first_bits(int n) { return (std::uint64_t{1} << n) - 1; }
-
 /// Vertices that reach into the circumsphere of the other solid, whose centre is at `to_other`.
-std::uint64_t within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_other, double other_radius) {
+template <int words>
+BitSet<words> within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_other, double other_radius) {
   const double distance = to_other.norm();
   // The slack is far larger than rounding, even for sizes that differ by a factor of 1e5, and far too small to cost
   // time.
   const Lanes least = Lanes::all(distance * (distance - other_radius * (1 + 1e-9)));
   const Lanes x = Lanes::all(to_other.x()), y = Lanes::all(to_other.y()), z = Lanes::all(to_other.z());
-  std::uint64_t below = 0;
+  BitSet<words> below{};
   for (int v = 0; v < body.vertices(); v += 4) {
     const double* p = body.vertex_block(v / 4);
     const Lanes along = fma(x, Lanes::load(p), fma(y, Lanes::load(p + 4), z * Lanes::load(p + 8)));
-    below |= std::uint64_t{sign_bits(along - least)} << v;
+    below.insert_bits(sign_bits(along - least), static_cast<std::uint32_t>(v));
   }
-  return ~below & first_bits(body.vertices());
+  return ~below & BitSet<words>::first(body.vertices());
 }
 
 /// Signs and extremes of the table, collected row by row.
-template <class Vectors>
+template <class Vectors, class Solids>
 class Scan {
  public:
-  explicit Scan(Vectors vectors) : vectors_(vectors) {
+  using Set = BitSet<Solids::words>;
+
+  Scan(Vectors vectors, Distances<Solids>& distances) : vectors_(vectors), distances_(distances) {
     repeat(vectors, [&](int k) { lowest_[k] = nearest_; });
   }
 
-  /// Adds vertex v, at `distance(k)` from planes 4k…; returns one bit per plane that it lies inside.
+  /// Adds vertex v, at `distance(k)` from planes 4k…; returns the set of the planes that it lies inside.
   template <class Row>
-  std::uint64_t add(const Row& distance) {
-    std::uint64_t inside = 0;
+  Set add(const Row& distance) {
+    Set inside{};
     repeat(vectors_, [&](int k) {
       const Lanes d = distance(k);
       lowest_[k] = min(lowest_[k], d);
       nearest_ = min(nearest_, absolute(d));
-      inside |= std::uint64_t{sign_bits(d)} << 4 * k;
+      inside.insert_bits(sign_bits(d), 4 * static_cast<std::uint32_t>(k));
     });
     return inside;
   }
 
-  void finish(Distances& d) const {
+  void finish() const {
+    Distances<Solids>& d = distances_;
     Lanes highest = Lanes::all(-SolidArrays::far);
-    repeat(vectors_, [&](int k) { highest = max(highest, tagged(lowest_[k], 4 * k)); });
+    repeat(vectors_, [&](int k) { highest = max(highest, tagged<Solids::tags>(lowest_[k], 4 * k)); });
     d.nearest = least(nearest_).first();
     d.least_penetration = -greatest(highest).first();
-    d.least_penetrated = static_cast<int>(tag_of(d.least_penetration));
+    d.least_penetrated = static_cast<int>(tag_of<Solids::tags>(d.least_penetration));
   }
 
  private:
   Vectors vectors_;
+  Distances<Solids>& distances_;
   Lanes nearest_ = Lanes::all(SolidArrays::far);
-  Lanes lowest_[capacity / 4];
+  Lanes lowest_[Solids::capacity / 4];
 };
 
 /// For up to 8 vertices, 8 planes and 16 edges: scans all rows, with their signs in the bytes of one register.
 template <class Counts, class Row>
-void scan_all(const Counts& counts, const SolidArrays& solid, const Row& row, Distances& d) {
-  Scan scan(counts.vectors);
+void scan_all(const Counts& counts, const SolidArrays& solid, const Row& row, Distances<SmallSolids>& d) {
+  Scan scan(counts.vectors, d);
   std::uint64_t inside = 0;
-  for (int v = 0; v < counts.vertices; ++v) inside |= scan.add([&](int k) { return row(v, k); }) << 8 * v;
-  scan.finish(d);
-  d.edges = equal_unions(inside, solid.tail, solid.head, (1U << 4 * counts.vectors) - 1) & d.candidates;
+  for (int v = 0; v < counts.vertices; ++v) inside |= scan.add([&](int k) { return row(v, k); }).word[0] << 8 * v;
+  scan.finish();
+  const std::uint32_t all = (1U << 4 * counts.vectors) - 1;
+  d.edges = BitSet<1>(equal_unions(inside, solid.tail.data(), solid.head.data(), all)) & d.candidates;
 }
 
 /// Scans only the rows in d.rows and the edges in d.candidates.
-template <class Vectors, class Row>
-void scan_rows(Vectors vectors, const SolidArrays& solid, const Row& row, Distances& d) {
-  Scan scan(vectors);
-  std::uint64_t inside[capacity];
-  for (std::uint64_t rows = d.rows; rows; rows &= rows - 1) {
-    const int v = std::countr_zero(rows);
-    inside[v] = scan.add([&](int k) { return row(v, k); });
-  }
-  scan.finish(d);
-  const std::uint64_t all = first_bits(4 * vectors);
-  d.edges = 0;
-  for (std::uint64_t candidates = d.candidates; candidates; candidates &= candidates - 1) {
-    const int e = std::countr_zero(candidates);
-    d.edges |= std::uint64_t{(inside[solid.tail[e]] | inside[solid.head[e]]) == all} << e;
-  }
+template <class Vectors, class Row, class Solids>
+void scan_rows(Vectors vectors, const SolidArrays& solid, const Row& row, Distances<Solids>& d) {
+  using Set = BitSet<Solids::words>;
+  Scan scan(vectors, d);
+  Set inside[Solids::capacity];
+  d.rows.for_each([&](int v) { inside[v] = scan.add([&](int k) { return row(v, k); }); });
+  scan.finish();
+  const Set all = Set::first(4 * vectors);
+  d.edges = {};
+  const std::uint8_t *tail = solid.tail.data(), *head = solid.head.data();
+  d.candidates.for_each([&](int e) {
+    d.edges.insert_bits(std::uint64_t{(inside[tail[e]] | inside[head[e]]) == all}, static_cast<std::uint32_t>(e));
+  });
 }
 
 template <class Counts>
@@ -104,8 +104,8 @@ constexpr bool few(const Counts<v, p, e>&) {
 }
 
 constexpr auto every_face = [] {
-  std::array<std::uint8_t, capacity> numbers{};
-  for (std::uint8_t k = 0; k < capacity; ++k) numbers[k] = k;
+  std::array<std::uint8_t, LargeSolids::capacity> numbers{};
+  for (std::uint8_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
   return numbers;
 }();
 
@@ -120,18 +120,18 @@ struct AllPlanes {
 };
 
 /// Largest number of vectors for a type of count.
-template <class Vectors>
-constexpr int room = capacity / 4;
-template <int n>
-constexpr int room<std::integral_constant<int, n>> = n;
+template <class Solids, class Vectors>
+constexpr int room = Solids::capacity / 4;
+template <class Solids, int n>
+constexpr int room<Solids, std::integral_constant<int, n>> = n;
 
 /// Selected planes of a solid, copied together.
-template <class Vectors>
+template <class Vectors, class Solids>
 class NearPlanes {
  public:
-  NearPlanes(Vectors vectors, const PlacedSolid& solid, const std::uint8_t* faces) {
+  NearPlanes(Vectors vectors, const PlacedSolid& solid, const Distances<Solids>& d) {
     repeat(vectors, [&](int k) {
-      const std::uint8_t* face = faces + 4 * k;
+      const std::uint8_t* face = d.near_face + 4 * k;
       const double *p = solid.normal_at(face[0]), *q = solid.normal_at(face[1]), *r = solid.normal_at(face[2]),
                    *s = solid.normal_at(face[3]), *offset = solid.offset();
       x_[k] = Lanes::of(p[0], q[0], r[0], s[0]), y_[k] = Lanes::of(p[4], q[4], r[4], s[4]);
@@ -146,15 +146,17 @@ class NearPlanes {
   Lanes offset(int k) const { return offset_[k]; }
 
  private:
-  Lanes x_[room<Vectors>], y_[room<Vectors>], z_[room<Vectors>], offset_[room<Vectors>];
+  static constexpr int size = room<Solids, Vectors>;
+  Lanes x_[size], y_[size], z_[size], offset_[size];
 };
 
 /// Computes and stores rows of the table.
-template <class Vectors, class Planes>
+template <class Vectors, class Planes, class Solids>
 class Rows {
  public:
-  Rows(Vectors vectors, const PlacedSolid& body, const Planes& planes, const Eigen::Vector3d& to_other, double* table)
-      : vectors_(vectors), planes_(planes), vertices_(body.vertex_block(0)), table_(table) {
+  Rows(Vectors vectors, const PlacedSolid& body, const Planes& planes, const Eigen::Vector3d& to_other,
+       const Distances<Solids>& d)
+      : vectors_(vectors), planes_(planes), vertices_(body.vertex_block(0)), table_(d.of) {
     const Lanes x = Lanes::all(-to_other.x()), y = Lanes::all(-to_other.y()), z = Lanes::all(-to_other.z());
     repeat(vectors, [&](int k) { constant_[k] = affine(k, x, y, z, Lanes::all(0) - planes_.offset(k)); });
   }
@@ -175,40 +177,58 @@ class Rows {
   const Planes& planes_;
   const double* vertices_;
   double* table_;
-  Lanes constant_[capacity / 4];
+  Lanes constant_[Solids::capacity / 4];
 };
 
 /// Vertices, edges and faces of the stars of these vertices.
-Parts parts_at(std::uint64_t vertices, const SolidArrays& solid) {
-  Parts all;
-  for (; vertices; vertices &= vertices - 1) all |= solid.star[std::countr_zero(vertices)];
+Parts<1> parts_at(const BitSet<1>& vertices, const SolidArrays& solid) {
+  Parts<1> all;
+  const Parts<1>* star = solid.star.data();
+  vertices.for_each([&](int v) { all |= star[v]; });
+  return all;
+}
+template <int words>
+Parts<words> parts_at(const BitSet<words>& vertices, const SolidArrays& solid) {
+  Parts<words> all;
+  for (std::uint32_t e = 0; e < solid.record.size(); ++e) {
+    const EdgeRecord& edge = solid.record[e];
+    if (!vertices.contains(edge.tail) && !vertices.contains(edge.head)) continue;
+    all.vertices.insert(edge.tail), all.vertices.insert(edge.head);
+    all.edges.insert(e);
+    all.faces.insert(edge.left), all.faces.insert(edge.right);
+  }
   return all;
 }
 
-void keep(const Parts& parts, Distances& d) { d.rows = parts.vertices, d.candidates = parts.edges; }
+template <class Solids>
+void keep(const Parts<Solids::words>& parts, Distances<Solids>& d) {
+  d.rows = parts.vertices, d.candidates = parts.edges;
+}
 
 /// Fills the table with all planes of the other solid.
-template <class Counts>
+template <class Counts, class Solids>
 void tabulate_all(const Counts& counts, const PlacedSolid& body, const PlacedSolid& other,
-                  const Eigen::Vector3d& to_other, Distances& d) {
+                  const Eigen::Vector3d& to_other, Distances<Solids>& d) {
   const SolidArrays& solid = body.solid().arrays();
   d.planes = 4 * counts.vectors, d.face = every_face.data();
   const AllPlanes planes{other.normal_block(0), other.offset()};
-  const Rows row(counts.vectors, body, planes, to_other, d.of);
+  const Rows row(counts.vectors, body, planes, to_other, d);
   if constexpr (few(Counts{})) {
-    d.rows = first_bits(counts.vertices), d.candidates = first_bits(counts.edges);
+    d.rows = BitSet<1>::first(counts.vertices), d.candidates = BitSet<1>::first(counts.edges);
     scan_all(counts, solid, row, d);
   } else {
-    keep(parts_at(within_reach(body, to_other, other.solid().circumradius()), solid), d);
+    keep(parts_at(within_reach<Solids::words>(body, to_other, other.solid().circumradius()), solid), d);
     scan_rows(counts.vectors, solid, row, d);
-    if (d.rows == 0) d.least_penetrated = 0;  // no vertex is in reach: every plane separates, and no row was scanned
+    if (d.rows.empty()) d.least_penetrated = 0;  // no vertex is in reach: every plane separates, and no row was scanned
   }
 }
 
 }  // namespace
 
-Slab slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
-  Lanes along_a[capacity / 4], along_b[capacity / 4];
+template <class Solids>
+Slab<Solids> slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r) {
+  using Set = BitSet<Solids::words>;
+  Lanes along_a[Solids::capacity / 4], along_b[Solids::capacity / 4];
   const Lanes x = Lanes::all(r.x()), y = Lanes::all(r.y()), z = Lanes::all(r.z());
   const auto along = [&](const PlacedSolid& body, int k, Lanes from) {
     const double* p = body.vertex_block(k);
@@ -225,25 +245,27 @@ Slab slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vecto
       Lanes::all(1e-9 * r.lpNorm<1>() * (r.lpNorm<1>() + a.solid().circumradius() + b.solid().circumradius()));
   const Lanes top = greatest(highest) + slack, bottom = least(lowest) - slack;
   if (top.first() < bottom.first()) return {};
-  std::uint64_t out_a = 0, out_b = 0;
-  for (int k = 0; k < blocks_a; ++k) out_a |= std::uint64_t{sign_bits(along_a[k] - bottom)} << 4 * k;
-  for (int k = 0; k < blocks_b; ++k) out_b |= std::uint64_t{sign_bits(top - along_b[k])} << 4 * k;
-  return {parts_at(~out_a & first_bits(a.vertices()), a.solid().arrays()),
-          parts_at(~out_b & first_bits(b.vertices()), b.solid().arrays())};
+  Set out_a{}, out_b{};
+  for (int k = 0; k < blocks_a; ++k)
+    out_a.insert_bits(sign_bits(along_a[k] - bottom), 4 * static_cast<std::uint32_t>(k));
+  for (int k = 0; k < blocks_b; ++k) out_b.insert_bits(sign_bits(top - along_b[k]), 4 * static_cast<std::uint32_t>(k));
+  return {parts_at(~out_a & Set::first(a.vertices()), a.solid().arrays()),
+          parts_at(~out_b & Set::first(b.vertices()), b.solid().arrays())};
 }
 
+template <class Solids>
 void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
-                        Distances& d) {
-  with_counts(body.solid().arrays(), other.faces(),
-              [&](const auto& counts) { tabulate_all(counts, body, other, to_other, d); });
+                        Distances<Solids>& d) {
+  with_counts<Solids>(body.solid().arrays(), other.faces(),
+                      [&](const auto& counts) { tabulate_all(counts, body, other, to_other, d); });
 }
 
+template <class Solids>
 void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
-                             const Slab& slab, Distances& d) {
-  assert(slab.of_b.faces != 0);
+                             const Slab<Solids>& slab, Distances<Solids>& d) {
+  assert(!slab.of_b.faces.empty());
   int count = 0;
-  for (std::uint64_t faces = slab.of_b.faces; faces; faces &= faces - 1)
-    d.near_face[count++] = static_cast<std::uint8_t>(std::countr_zero(faces));
+  slab.of_b.faces.for_each([&](int f) { d.near_face[count++] = static_cast<std::uint8_t>(f); });
   const int vectors = (count + 3) / 4;
   // Padding with a repeated plane changes no result.
   std::memset(d.near_face + count, d.near_face[count - 1], static_cast<std::size_t>(4 * vectors - count));
@@ -251,17 +273,31 @@ void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, 
   const SolidArrays& solid = body.solid().arrays();
   keep(slab.of_a, d);
   with_vectors(vectors, [&](auto known) {
-    const NearPlanes planes(known, other, d.near_face);
-    scan_rows(known, solid, Rows(known, body, planes, to_other, d.of), d);
+    const NearPlanes planes(known, other, d);
+    scan_rows(known, solid, Rows(known, body, planes, to_other, d), d);
   });
 }
 
-void classify(const ConvexSolid& body, Distances& d) {
+template <class Solids>
+void classify(const ConvexSolid& body, Distances<Solids>& d) {
   const SolidArrays& solid = body.arrays();
   with_vectors(d.planes / 4, [&](auto vectors) {
     const auto row = [&](int v, int k) { return Lanes::load(d.of + 4 * (vectors * v + k)); };
     scan_rows(vectors, solid, row, d);
   });
 }
+
+template Slab<SmallSolids> slab_between(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&);
+template void tabulate_distances(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&,
+                                 Distances<SmallSolids>&);
+template void tabulate_near_distances(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&,
+                                      const Slab<SmallSolids>&, Distances<SmallSolids>&);
+template void classify(const ConvexSolid&, Distances<SmallSolids>&);
+template Slab<LargeSolids> slab_between(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&);
+template void tabulate_distances(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&,
+                                 Distances<LargeSolids>&);
+template void tabulate_near_distances(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&,
+                                      const Slab<LargeSolids>&, Distances<LargeSolids>&);
+template void classify(const ConvexSolid&, Distances<LargeSolids>&);
 
 }  // namespace isojam

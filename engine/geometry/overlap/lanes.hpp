@@ -195,21 +195,29 @@ inline std::uint32_t equal_unions(std::uint64_t bytes, const std::uint8_t* tail,
 
 #endif
 
-/// Mask of the last 6 of the 52 mantissa bits of a double. tagged() stores an index in these bits, and tag_of() reads
-/// it. The minimum or maximum of tagged doubles therefore contains the index of the element where it was found.
-inline constexpr std::uint64_t tag_bits = 63;
+/// Numbers for the tags of doubles. tagged() stores an index below `range`, a power of two, in the last of the 52
+/// mantissa bits of a double, and tag_of() reads it. The minimum or maximum of tagged doubles therefore contains the
+/// index of the element where it was found.
+template <std::uint64_t range>
 struct Tags {
-  alignas(32) std::uint64_t mask[4] = {~tag_bits, ~tag_bits, ~tag_bits, ~tag_bits};
-  alignas(32) std::uint64_t number[64];
+  alignas(32) std::uint64_t mask[4] = {-range, -range, -range, -range};
+  alignas(32) std::uint64_t number[range];
   constexpr Tags() : number() {
-    for (std::uint64_t k = 0; k < 64; ++k) number[k] = k;
+    for (std::uint64_t k = 0; k < range; ++k) number[k] = k;
   }
 };
-inline constexpr Tags tags;
+template <std::uint64_t range>
+inline constexpr Tags<range> tags;
 
-/// Stores the index first + k in lane k. `first` must be at most 60.
-inline Lanes tagged(Lanes a, int first) { return (a & Lanes::load(tags.mask)) | Lanes::load(tags.number + first); }
-inline std::uint32_t tag_of(double x) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(x) & tag_bits); }
+/// Stores the index first + k in lane k. `first` must be a multiple of 4 below `range`.
+template <std::uint64_t range>
+Lanes tagged(Lanes a, int first) {
+  return (a & Lanes::load(tags<range>.mask)) | Lanes::load(tags<range>.number + first);
+}
+template <std::uint64_t range>
+std::uint32_t tag_of(double x) {
+  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(x) & (range - 1));
+}
 
 /// least(), greatest() and sum() compute the minimum, maximum or sum of all lanes. Every lane of the result contains
 /// it.

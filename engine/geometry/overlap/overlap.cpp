@@ -28,25 +28,26 @@ Eigen::Vector3d vector_of(Lanes a) {
   return {lane[0], lane[1], lane[2]};
 }
 
-void integrate(const ContactLoop& loop, Overlap& result) {
+template <class Loop>
+void integrate(const Loop& loop, Overlap& result) {
   const auto corner = [&](std::uint32_t k) { return Lanes::load(loop.corner[k]); };
   const auto hub = [&](std::uint32_t face) { return corner(loop.hub[face]); };
   Lanes twice_area = Lanes::all(0), moment = twice_area, prisms = twice_area;
   for (int k = 0; k < loop.segments; ++k) {
-    const ContactLoop::Segment& s = loop.segment[k];
+    const typename Loop::Segment& s = loop.segment[k];
     const Lanes v = corner(s.from), w = corner(s.to);
     const Lanes cross = cross_zxy(v, w), both = v + w, along = w - v;
     twice_area = twice_area + cross;
     moment = fma(along, sum(without_fourth(fma(v, both, w * w))), moment);
-    prisms = prisms + fan(cross, both, along, hub(s.face_a), hub(ContactLoop::face_of_b + s.face_b));
+    prisms = prisms + fan(cross, both, along, hub(s.face_a), hub(Loop::face_of_b + s.face_b));
   }
   for (int k = 0; k < loop.spans; ++k) {
     const Lanes v = Lanes::load(loop.corner[2 * k]), w = Lanes::load(loop.corner[2 * k + 1]);
     prisms = prisms + fan(cross_zxy(v, w), v + w, w - v, hub(loop.span[k].left), hub(loop.span[k].right));
   }
   result.path = OverlapPath::loop;
-  result.faces_a = loop.faces[0], result.faces_b = loop.faces[1];
-  result.edges_a = loop.edges[0], result.edges_b = loop.edges[1];
+  result.faces_a |= loop.faces[0], result.faces_b |= loop.faces[1];
+  result.edges_a |= loop.edges[0], result.edges_b |= loop.edges[1];
   result.volume = loop.up.dot(vector_of(yzx(prisms))) / 6;
   result.area = vector_of(yzx(twice_area)) / 2;
   result.moment = loop.origin.cross(result.area) - vector_of(moment) / 6;
@@ -67,21 +68,28 @@ const Eigen::Vector3d& rounded(const Eigen::Vector3d& r) { return r; }
 const Eigen::Vector3d& rounded(const DoubleDoubleVector& r) { return r.high; }
 
 /// Input in double does not determine corners more accurately than double.
-bool refined(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&, const Overlap&, ContactLoop&) {
+template <class Loop>
+bool refined(const PlacedSolid&, const PlacedSolid&, const Eigen::Vector3d&, const Overlap&, Loop&) {
   return false;
 }
+template <class Loop>
 bool refined(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, const Overlap& rough,
-             ContactLoop& loop) {
+             Loop& loop) {
   return refine_small_corners(a, b, r, rough.area, loop);
 }
 
 template <class Displacement>
-void find_loop(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, ContactLoop& loop) {
-  if (std::max(a.solid().arrays().edges, b.solid().arrays().edges) <= narrow_edges) {
+void find_loop(const PlacedSolid& a, const PlacedSolid& b, int edges, const Displacement& r,
+               ContactLoop<SmallSolids>& loop) {
+  if (edges <= narrow_edges) {
     find_contact_loop<narrow_edges>(a, b, r, loop);
   } else {
     find_contact_loop<wide_edges>(a, b, r, loop);
   }
+}
+template <class Displacement>
+void find_loop(const PlacedSolid& a, const PlacedSolid& b, int, const Displacement& r, ContactLoop<LargeSolids>& loop) {
+  find_contact_loop<large_edges>(a, b, r, loop);
 }
 
 void set_zero(OverlapHessian& hessian) {
@@ -90,12 +98,13 @@ void set_zero(OverlapHessian& hessian) {
   hessian.bb.setZero();
 }
 
-/// Computes in double or double-double, depending on the type of r; `hessian` may be null.
-template <class Displacement>
-Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis,
-                   OverlapHessian* hessian) {
-  ContactLoop loop;
-  find_loop(a, b, r, loop);
+/// The overlap of solids with up to `edges` edges. It is inlined, because it is short for small solids, and called
+/// once.
+template <class Solids, class Displacement>
+[[gnu::always_inline]] inline Overlap overlap_of(const PlacedSolid& a, const PlacedSolid& b, int edges,
+                                                 const Displacement& r, SeparatingAxis& axis, OverlapHessian* hessian) {
+  ContactLoop<Solids> loop;
+  find_loop(a, b, edges, r, loop);
   Overlap result;
   if (loop.verdict == LoopVerdict::separated) {
     axis = loop.axis;
@@ -117,6 +126,22 @@ Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacemen
   result.area = a.rotation() * result.area;
   result.moment = a.rotation() * result.moment;
   return result;
+}
+
+/// A separate function, so that the loop of large solids takes 300 kB of the stack only for large solids.
+template <class Displacement>
+[[gnu::noinline]] Overlap overlap_of_large(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r,
+                                           SeparatingAxis& axis, OverlapHessian* hessian) {
+  return overlap_of<LargeSolids>(a, b, large_edges, r, axis, hessian);
+}
+
+/// Computes in double or double-double, depending on the type of r; `hessian` may be null.
+template <class Displacement>
+Overlap overlap_at(const PlacedSolid& a, const PlacedSolid& b, const Displacement& r, SeparatingAxis& axis,
+                   OverlapHessian* hessian) {
+  const int edges = std::max(a.solid().arrays().edges, b.solid().arrays().edges);
+  if (edges > SmallSolids::edges) return overlap_of_large(a, b, r, axis, hessian);
+  return overlap_of<SmallSolids>(a, b, edges, r, axis, hessian);
 }
 
 }  // namespace

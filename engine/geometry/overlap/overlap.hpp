@@ -28,15 +28,14 @@ enum class OverlapPath : std::uint8_t { separated, loop, clip };
 ///   moment  M_A = ∫ r×n dS over A's part = ∂V/∂θ_A
 /// For B, S_B = −S_A, and M_B = −M_A + r×S_A about the centre of B, where r = x_B − x_A. V and M are in units of V_p, S
 /// in units of V_p^(2/3). With the contact energy E = V²/4 of the paper (Smith, Fisher, Alam 2011: E_αβ = Y V²/4V_p),
-/// the force on A is F_A = −(V/2) S_A and the torque on A is T_A = −(V/2) M_A. Bit i of faces_a is set if face i of A
-/// bounds the intersection. Bit e of edges_a is set if a segment of edge e of A is inside B.
+/// the force on A is F_A = −(V/2) S_A and the torque on A is T_A = −(V/2) M_A.
 struct Overlap {
   double volume = 0;                                 ///< volume V, in units of V_p
   Eigen::Vector3d area = Eigen::Vector3d::Zero();    ///< vector area S_A, in units of V_p^(2/3)
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< moment M_A, in units of V_p
-  std::uint64_t faces_a = 0, faces_b = 0;            ///< sets of the faces that bound the intersection, as bits
-  std::uint64_t edges_a = 0, edges_b = 0;     ///< sets of the edges with a segment inside the other solid, as bits
-  OverlapPath path = OverlapPath::separated;  ///< algorithm that computed the result
+  FeatureSet faces_a{}, faces_b{};                   ///< sets of the faces that bound the intersection
+  FeatureSet edges_a{}, edges_b{};                   ///< sets of the edges with a segment inside the other solid
+  OverlapPath path = OverlapPath::separated;         ///< algorithm that computed the result
 
   bool touching() const { return volume > 0; }  ///< true if the solids intersect
 };
@@ -57,8 +56,12 @@ struct Overlap {
 /// given. If the coordinates are doubles, their rounding moves faces by 1e-16; at a depth of 1e-13 this causes a
 /// relative error of V of 3e-3. If a face of A or B separates the solids, `axis` is set to its normal, for later use
 /// with separates(). The overload with a DoubleDoubleVector r uses A, B and r in double-double. The relative errors of
-/// V, S and M are then at most 1e-12 for all contacts, also very flat and very small ones. The median of the errors is
-/// at most 1e-13, and at most 1e-15 for contacts with V < 1e-8. The error of M is relative to |S| times the inradius.
+/// V, S and M are then at most 1e-12, also for very flat and very small contacts, unless the intersection is much
+/// longer than wide. This is the case if an edge lies in a face within a tilt as small as the depth. The coordinates
+/// along the edge then have rounding errors that are large relative to the width, and the bound is
+///   1e-12 + 16 ε √(V_s/V), ε = 2.2e-16, V_s the volume of the smaller solid.
+/// The median of the errors is at most 1e-13, and at most 1e-15 for contacts with V < 1e-8 that are no such strips. The
+/// error of M is relative to |S| times the inradius.
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const Eigen::Vector3d& r, SeparatingAxis& axis);
 Overlap overlap(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r, SeparatingAxis& axis);
 

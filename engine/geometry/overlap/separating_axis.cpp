@@ -11,17 +11,23 @@ namespace isojam {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// u·v for vertex v.
+double along(const SolidArrays& solid, const Eigen::Vector3d& u, int v) {
+  return u.x() * solid.x[v] + u.y() * solid.y[v] + u.z() * solid.z[v];
+}
+
 /// Support function max_v u·v over a solid's vertices.
 double support(const SolidArrays& solid, const Eigen::Vector3d& u) {
-  double best = -std::numeric_limits<double>::infinity();
-  for (int k = 0; k < solid.vertices; ++k)
-    best = std::max(best, u.x() * solid.x[k] + u.y() * solid.y[k] + u.z() * solid.z[k]);
+  double best = -infinity;
+  for (int v = 0; v < solid.vertices; ++v) best = std::max(best, along(solid, u, v));
   return best;
 }
 
 Eigen::Vector3d direction(const SolidArrays& solid, int edge) {
-  const Edge& e = solid.edge[edge];
-  return {solid.x[e.head] - solid.x[e.tail], solid.y[e.head] - solid.y[e.tail], solid.z[e.head] - solid.z[e.tail]};
+  const int tail = solid.tail[edge], head = solid.head[edge];
+  return {solid.x[head] - solid.x[tail], solid.y[head] - solid.y[tail], solid.z[head] - solid.z[tail]};
 }
 
 /// Extremes of u·v over the vertices of a placed solid, u = (x, y, z) in every lane.
@@ -63,9 +69,19 @@ inline const double* pick_direction(const PlacedSolid& a, const PlacedSolid& b, 
   return by_kind[static_cast<int>(axis.kind)];
 }
 
-/// Gap along the unit vector u (A's frame), which points from A to B.
-double gap_along(const SolidArrays& a, const SolidArrays& b, const RelativePose& pose, const Eigen::Vector3d& u) {
-  return u.dot(pose.displacement) - support(a, u) - support(b, -(pose.rotation.transpose() * u));
+/// Gap along the unit vector u (A's frame), which points from A to B. A gap that is at most `least` may be replaced by
+/// `least`. The first few vertices usually show this, because each vertex can only reduce the gap, also when rounded.
+double gap_along(const SolidArrays& a, const SolidArrays& b, const RelativePose& pose, const Eigen::Vector3d& u,
+                 double least) {
+  const Eigen::Vector3d back = -(pose.rotation.transpose() * u);
+  const double centres = u.dot(pose.displacement);
+  double of_a = -infinity, of_b = -infinity;
+  for (int v = 0; v < std::max(a.vertices, b.vertices); ++v) {
+    if (v < a.vertices) of_a = std::max(of_a, along(a, u, v));
+    if (v < b.vertices) of_b = std::max(of_b, along(b, back, v));
+    if (centres - of_a - of_b <= least) return least;
+  }
+  return centres - of_a - of_b;
 }
 
 double face_gap(const SolidArrays& face_of, const SolidArrays& other, int face, const Eigen::Matrix3d& other_to_face,
@@ -74,21 +90,21 @@ double face_gap(const SolidArrays& face_of, const SolidArrays& other, int face, 
   return n.dot(other_centre) - face_of.offset[face] - support(other, -(other_to_face.transpose() * n));
 }
 
-double edge_gap(const SolidArrays& a, const SolidArrays& b, const RelativePose& pose, int edge_a, int edge_b) {
+double edge_gap(const SolidArrays& a, const SolidArrays& b, const RelativePose& pose, int edge_a, int edge_b,
+                double least) {
   const Eigen::Vector3d p = direction(a, edge_a);
   const Eigen::Vector3d q = pose.rotation * direction(b, edge_b);
   Eigen::Vector3d u = p.cross(q);
   const double norm = u.norm();
   // The product of parallel edges is no axis; a face normal replaces it.
-  if (norm <= std::numeric_limits<double>::epsilon() * p.norm() * q.norm())
-    return -std::numeric_limits<double>::infinity();
+  if (norm <= std::numeric_limits<double>::epsilon() * p.norm() * q.norm()) return -infinity;
   u /= u.dot(pose.displacement) < 0 ? -norm : norm;
-  return gap_along(a, b, pose, u);
+  return gap_along(a, b, pose, u, least);
 }
 
-}  // namespace
-
-double gap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, const SeparatingAxis& axis) {
+/// The gap along the axis; a gap that is at most `least` may be replaced by `least`.
+double gap_above(double least, const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose,
+                 const SeparatingAxis& axis) {
   switch (axis.kind) {
     case SeparatingAxis::Kind::none: break;
     case SeparatingAxis::Kind::face_a:
@@ -96,17 +112,23 @@ double gap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose,
     case SeparatingAxis::Kind::face_b:
       return face_gap(b.arrays(), a.arrays(), axis.b, pose.rotation.transpose(),
                       -(pose.rotation.transpose() * pose.displacement));
-    case SeparatingAxis::Kind::edge_edge: return edge_gap(a.arrays(), b.arrays(), pose, axis.a, axis.b);
+    case SeparatingAxis::Kind::edge_edge: return edge_gap(a.arrays(), b.arrays(), pose, axis.a, axis.b, least);
   }
-  return -std::numeric_limits<double>::infinity();
+  return -infinity;
+}
+
+}  // namespace
+
+double gap(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose, const SeparatingAxis& axis) {
+  return gap_above(-infinity, a, b, pose, axis);
 }
 
 SeparatingAxis best_axis(const ConvexSolid& a, const ConvexSolid& b, const RelativePose& pose) {
   SeparatingAxis best;
-  double widest = -std::numeric_limits<double>::infinity();
+  double widest = -infinity;
   const auto consider = [&](SeparatingAxis::Kind kind, int fa, int fb) {
     const SeparatingAxis axis{kind, static_cast<std::uint8_t>(fa), static_cast<std::uint8_t>(fb)};
-    const double width = gap(a, b, pose, axis);
+    const double width = gap_above(widest, a, b, pose, axis);
     if (width > widest) widest = width, best = axis;
   };
   for (int f = 0; f < a.arrays().faces; ++f) consider(SeparatingAxis::Kind::face_a, f, 0);

@@ -50,7 +50,8 @@ struct Side {
 };
 
 /// Width of the loop, without corners inside.
-double width(const ContactLoop& loop) {
+template <class Solids>
+double width(const ContactLoop<Solids>& loop) {
   const auto corner = [&](int k) { return Lanes::load(loop.corner[loop.segment[k].from]); };
   const Lanes first = corner(0);
   Lanes widest = Lanes::all(0);
@@ -60,8 +61,9 @@ double width(const ContactLoop& loop) {
 
 }  // namespace
 
+template <class Solids>
 bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
-                          const Eigen::Vector3d& area, ContactLoop& loop) {
+                          const Eigen::Vector3d& area, ContactLoop<Solids>& loop) {
   if (area.norm() >= refined_below * fine_below(a.solid(), b.solid()) * width(loop)) return false;
   const Side sides[2] = {{&a, &b, r, {}}, {&b, &a, -r, r}};
   const DoubleDoubleVector up = loop.of_a.least_penetration < loop.of_b.least_penetration
@@ -69,7 +71,7 @@ bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const Doub
                                     : a.normal_double_double(loop.of_b.least_penetrated_face());
   DoubleDoubleVector origin;
   for (int k = 0; k < loop.spans; ++k) {
-    const ContactLoop::Crossing& crossing = loop.crossing[k];
+    const typename ContactLoop<Solids>::Crossing& crossing = loop.crossing[k];
     const Side& side = sides[crossing.edge / loop.edge_of_b];
     const EdgeRecord& edge = side.body->solid().arrays().record[crossing.edge % loop.edge_of_b];
     const DoubleDoubleVector ends[2] = {
@@ -85,5 +87,10 @@ bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const Doub
   loop.origin = origin.high;
   return true;
 }
+
+template bool refine_small_corners(const PlacedSolid&, const PlacedSolid&, const DoubleDoubleVector&,
+                                   const Eigen::Vector3d&, ContactLoop<SmallSolids>&);
+template bool refine_small_corners(const PlacedSolid&, const PlacedSolid&, const DoubleDoubleVector&,
+                                   const Eigen::Vector3d&, ContactLoop<LargeSolids>&);
 
 }  // namespace isojam

@@ -9,7 +9,8 @@ namespace isojam {
 /// whether rounding errors of the corners would change the vector area `area` by more than about 1e-13. Corners and
 /// heights are then stored relative to one of the corners, loop.origin, and are correct to their last bits. Returns
 /// true if the corners were recomputed. Both solids must have been placed in double-double.
+template <class Solids>
 bool refine_small_corners(const PlacedSolid& a, const PlacedSolid& b, const DoubleDoubleVector& r,
-                          const Eigen::Vector3d& area, ContactLoop& loop);
+                          const Eigen::Vector3d& area, ContactLoop<Solids>& loop);
 
 }  // namespace isojam

@@ -1,7 +1,6 @@
 #include "engine/geometry/overlap/small_distances.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "engine/geometry/overlap/lanes.hpp"
@@ -25,33 +24,38 @@ DoubleDouble distance_double_double(const PlacedSolid& body, int vertex, const P
 
 namespace {
 
-std::uint64_t columns_below(double near, const double* row, int columns) {
-  std::uint64_t below = 0;
+template <int words>
+BitSet<words> columns_below(double near, const double* row, int columns) {
+  BitSet<words> below{};
   for (int k = 0; k < columns; k += 4)
-    below |= std::uint64_t{sign_bits(absolute(Lanes::load(row + k)) - Lanes::all(near))} << k;
+    below.insert_bits(sign_bits(absolute(Lanes::load(row + k)) - Lanes::all(near)), static_cast<std::uint32_t>(k));
   return below;
 }
 
 }  // namespace
 
+template <class Solids>
 void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, const DoubleDoubleVector& to_other,
-                             Distances& d) {
+                             Distances<Solids>& d) {
   const double near = double_double_below(body.solid(), other.solid());
   if (d.nearest >= near) return;
   bool changed_side = false;
   d.nearest = near;
-  for (std::uint64_t rows = d.rows; rows; rows &= rows - 1) {
-    const int v = std::countr_zero(rows);
+  d.rows.for_each([&](int v) {
     double* row = d.row(v);
-    for (std::uint64_t small = columns_below(near, row, d.planes); small; small &= small - 1) {
-      const int f = std::countr_zero(small);
+    columns_below<Solids::words>(near, row, d.planes).for_each([&](int f) {
       const double distance = distance_double_double(body, v, other, d.face[f], to_other).high;
       changed_side |= std::signbit(distance) != std::signbit(row[f]);
       d.nearest = std::min(d.nearest, std::abs(distance));
       row[f] = distance;
-    }
-  }
+    });
+  });
   if (changed_side) classify(body.solid(), d);
 }
+
+template void correct_small_distances(const PlacedSolid&, const PlacedSolid&, const DoubleDoubleVector&,
+                                      Distances<SmallSolids>&);
+template void correct_small_distances(const PlacedSolid&, const PlacedSolid&, const DoubleDoubleVector&,
+                                      Distances<LargeSolids>&);
 
 }  // namespace isojam

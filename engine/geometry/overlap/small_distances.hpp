@@ -24,7 +24,8 @@ DoubleDouble distance_double_double(const PlacedSolid& body, int vertex, const P
 
 /// Recomputes the small distances in a table of tabulate_distances() in double-double, so that even the smallest ones
 /// are correct to their last bits. Both solids must have been placed in double-double.
+template <class Solids>
 void correct_small_distances(const PlacedSolid& body, const PlacedSolid& other, const DoubleDoubleVector& to_other,
-                             Distances& d);
+                             Distances<Solids>& d);
 
 }  // namespace isojam

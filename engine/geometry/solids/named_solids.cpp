@@ -179,8 +179,8 @@ struct Family {
   int left_out;  ///< n of a Platonic solid, which has another name
   std::vector<Quad3> (*vertices)(int n);
 };
-constexpr std::array families{Family{"antiprism", 4, ConvexSolid::max_features / 4, 3, antiprism},
-                              Family{"prism", 3, ConvexSolid::max_features / 3, 4, prism}};
+constexpr std::array families{Family{"antiprism", 4, ConvexSolid::max_edges / 4, 3, antiprism},
+                              Family{"prism", 3, ConvexSolid::max_edges / 3, 4, prism}};
 
 std::optional<std::vector<Quad3>> of_family(const Family& family, std::string_view digits) {
   int n = 0;

@@ -14,7 +14,7 @@ namespace isojam {
 std::span<const std::string_view> named_solids();
 
 /// Range of the names of prisms and antiprisms, for messages.
-inline constexpr std::string_view prism_names = "prism3 to prism21 and antiprism4 to antiprism16";
+inline constexpr std::string_view prism_names = "prism3 to prism64 and antiprism4 to antiprism48";
 
 /// Vertices of a built-in solid, in arbitrary units, or nullopt for an unknown name. All edges of a solid have the same
 /// length. The number in the name of a prism or antiprism is the number of sides of its base; prism6 and antiprism6

@@ -1,8 +1,8 @@
 #include "tasks/extras/export/contact_faces.hpp"
 
 #include <Eigen/Geometry>
-#include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "engine/arithmetic/elementary.hpp"
@@ -13,11 +13,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-std::uint64_t bit(int feature) { return std::uint64_t{1} << feature; }
-
-template <class Use>
-void for_each_bit(std::uint64_t mask, const Use& use) {
-  for (; mask != 0; mask &= mask - 1) use(std::countr_zero(mask));
+FeatureSet set_of(std::initializer_list<int> faces) {
+  FeatureSet set{};
+  for (const int face : faces) set.insert(static_cast<std::uint32_t>(face));
+  return set;
 }
 
 /// One of the two solids of a contact, in the body frame of A, with its part in the contact.
@@ -25,7 +24,7 @@ struct Body {
   const ConvexSolid& solid;
   Matrix3d rotation;
   Vector3d centre;
-  std::uint64_t faces, edges;
+  FeatureSet faces, edges;
 
   Vector3d normal(int face) const { return rotation * solid.faces()[face].normal; }
   /// Depth of a point below the plane of the face.
@@ -47,11 +46,11 @@ struct Least {
 
 ContactFaces aligned_faces(const Body& a, const Body& b, double cutoff) {
   Least least;
-  for_each_bit(a.faces, [&](int i) {
-    for_each_bit(b.faces, [&](int j) {
+  a.faces.for_each([&](int i) {
+    b.faces.for_each([&](int j) {
       const Vector3d n = a.normal(i), m = b.normal(j);
       if (nearest::atan2(n.cross(m).norm(), -n.dot(m)) >= cutoff) return;
-      least.offer(a.depth(i, b.centre + b.solid.faces()[j].offset * m), {bit(i), bit(j)});
+      least.offer(a.depth(i, b.centre + b.solid.faces()[j].offset * m), {set_of({i}), set_of({j})});
     });
   });
   return least.faces;
@@ -61,14 +60,14 @@ ContactFaces aligned_faces(const Body& a, const Body& b, double cutoff) {
 /// order A, B.
 template <class Named>
 void offer_edges(const Body& body, const Body& other, double cutoff, const Named& named, Least& least) {
-  for_each_bit(body.edges, [&](int e) {
+  body.edges.for_each([&](int e) {
     const Edge& edge = body.solid.edges()[e];
     const Vector3d tail = body.vertex(edge.tail), head = body.vertex(edge.head);
     const Vector3d direction = (head - tail).normalized();
-    for_each_bit(other.faces, [&](int f) {
+    other.faces.for_each([&](int f) {
       const Vector3d n = other.normal(f);
       if (nearest::atan2(std::abs(direction.dot(n)), direction.cross(n).norm()) >= cutoff) return;
-      least.offer(other.depth(f, (tail + head) / 2), named(bit(edge.left) | bit(edge.right), bit(f)));
+      least.offer(other.depth(f, (tail + head) / 2), named(set_of({edge.left, edge.right}), set_of({f})));
     });
   });
 }

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <cstdint>
-
 #include "engine/analysis/contacts.hpp"
 
 namespace isojam {
 
-/// The faces of A and of B that belong to a contact, as sets of bits.
+/// The faces of A and of B that belong to a contact.
 struct ContactFaces {
-  std::uint64_t of_a = 0, of_b = 0;
+  FeatureSet of_a{}, of_b{};
 };
 
 /// Cut-offs (radians) of the angle between two faces, and of the angle between an edge and a face.

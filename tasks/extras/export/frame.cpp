@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,14 +13,14 @@
 namespace isojam {
 namespace {
 
-void mark_faces(ExportFrame& frame, int particle, std::uint64_t faces, FaceContact strength) {
+void mark_faces(ExportFrame& frame, int particle, const FeatureSet& faces, FaceContact strength) {
   const auto first = frame.first_face[static_cast<std::size_t>(particle)];
-  for (; faces != 0; faces &= faces - 1) {
-    auto& face = frame.faces[first + static_cast<std::size_t>(std::countr_zero(faces))];
+  faces.for_each([&](int index) {
+    auto& face = frame.faces[first + static_cast<std::size_t>(index)];
     // In one frame either all contacts are classified or none. Therefore `undecided` never has to be compared with the
     // other values.
     face = strength == FaceContact::undecided ? strength : std::max(face, strength);
-  }
+  });
 }
 
 std::vector<std::int32_t> clusters_of(const Packing& packing, const ClassifiedContacts& classified) {

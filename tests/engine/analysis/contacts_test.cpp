@@ -12,7 +12,9 @@
 // 7. Fixed cut-offs give means over six classifications, and a much larger constraint number.
 // 8. The contacts of several packings are fitted together, like those of one packing. Each packing is then classified
 //    separately. A pool of one packing gives the same as the packing itself.
-// 9. The results for no contact, one contact, and perfectly aligned contacts are defined.
+// 9. If two faces are nearly in one plane, the windows are too narrow for a fit. The classes then have no cut-off, and
+//    Z and the numbers with fixed cut-offs are those of any other solid.
+// 10. The results for no contact, one contact, and perfectly aligned contacts are defined.
 
 #include "engine/analysis/contacts.hpp"
 
@@ -284,6 +286,23 @@ TEST_P(ContactsOf, APoolIsFittedOnceAndClassifiedOneByOne) {
   EXPECT_EQ(classes, one.classes);
   EXPECT_NEAR(face_face, one.Z_ff_gap.value(), 1e-12 * face_face);
   EXPECT_TRUE(analyse_pooled(solid, 50, {}).empty());
+}
+
+TEST(Contacts, OfASolidWithFacesNearlyInOnePlaneHaveNoClasses) {
+  RandomStream random{17};
+  const std::vector<Alignment> alignments = random_alignments(200, random);
+  for (const double height : {1e-4, 1e-8, 1e-12, 3e-13}) {
+    std::vector<Vector3d> bent;
+    for (int k = 0; k < 8; ++k) bent.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    bent.back().z() += height;
+    const ConvexSolid solid("bent", bent);
+    EXPECT_EQ(solid.faces().size(), 7U) << height;
+    const ContactAnalysis analysis = analyse_contacts(solid, 50, alignments);
+    EXPECT_EQ(analysis.face_face.verdict, FitVerdict::too_few) << height;
+    EXPECT_EQ(analysis.face_face_gap.verdict, GapVerdict::too_few) << height;
+    EXPECT_EQ(analysis.numbers.Z, 8) << height;
+    EXPECT_EQ(analysis.fixed_cutoffs.C, fixed_cutoff_numbers(50, alignments).C) << height;
+  }
 }
 
 TEST_P(ContactsOf, FewOrPerfectContactsHaveDefinedResults) {

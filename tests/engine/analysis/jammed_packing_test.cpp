@@ -16,7 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "engine/analysis/alignment/random_alignment.hpp"
@@ -72,8 +71,8 @@ TEST(JammedPacking, CriticalAnglesBoundItsContacts) {
   for (const Packing& state : jammed().states) {
     for (const Contact& contact : contacts_of(state)) {
       const Overlap& o = contact.overlap;
-      const int edges_a = std::popcount(o.edges_a), edges_b = std::popcount(o.edges_b);
-      const int faces_a = std::popcount(o.faces_a), faces_b = std::popcount(o.faces_b);
+      const int edges_a = o.edges_a.count(), edges_b = o.edges_b.count();
+      const int faces_a = o.faces_a.count(), faces_b = o.faces_b.count();
       const Alignment found = alignment(solid(), contact);
       if (std::max(edges_a, edges_b) == valence && std::min(edges_a, edges_b) == 0 &&
           faces_a + faces_b == valence + 1) {

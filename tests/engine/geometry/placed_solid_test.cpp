@@ -80,7 +80,7 @@ double distance(const PlacedSolid& body, int vertex, const PlacedSolid& other, i
 }
 
 /// A table of distances that owns its memory.
-struct Table : Distances {
+struct Table : Distances<SmallSolids> {
   Table(const PlacedSolid& body, const PlacedSolid& other, const Vector3d& to_other)
       : memory(static_cast<std::size_t>(size(body, other))) {
     of = memory.data();
@@ -98,7 +98,7 @@ TEST(DistancesTest, AreThoseOfTheDefinition) {
     double nearest = SolidArrays::far;
     std::vector<double> lowest(static_cast<std::size_t>(placed.b.faces()), SolidArrays::far);
     for (int v = 0; v < placed.a.vertices(); ++v) {
-      const bool has_row = table.rows >> v & 1;
+      const bool has_row = table.rows.contains(static_cast<std::uint32_t>(v));
       if (!has_row) ++missing;
       double outermost = -SolidArrays::far;
       for (int f = 0; f < placed.b.faces(); ++f) {
@@ -113,7 +113,7 @@ TEST(DistancesTest, AreThoseOfTheDefinition) {
         EXPECT_GT(outermost, 0) << "vertex " << v << " is inside: " << describe(pair);
       }
     }
-    if (table.rows == 0) return;
+    if (table.rows.empty()) return;
     EXPECT_EQ(table.nearest, nearest);
     const auto least = std::max_element(lowest.begin(), lowest.end());
     EXPECT_EQ(table.least_penetrated, least - lowest.begin()) << describe(pair);
@@ -129,9 +129,10 @@ TEST(DistancesTest, UnlistedEdgesAreOutside) {
     const Table table(placed.a, placed.b, placed.r);
     for (int e = 0; e < static_cast<int>(pair.solid_a().edges().size()); ++e) {
       const Edge& edge = pair.solid_a().edges()[e];
-      if (table.edges >> e & 1) {
+      if (table.edges.contains(static_cast<std::uint32_t>(e))) {
         ++listed;
-        EXPECT_TRUE(table.rows >> edge.tail & table.rows >> edge.head & 1) << "edge " << e << " has no rows";
+        const auto row = [&](int v) { return table.rows.contains(static_cast<std::uint32_t>(v)); };
+        EXPECT_TRUE(row(edge.tail) && row(edge.head)) << "edge " << e << " has no rows";
         continue;
       }
       ++unlisted;
@@ -154,8 +155,7 @@ TEST(DistancesTest, AChangedTableIsClassifiedAgain) {
   for_each_near_pair(4, [&](const Pair& pair) {
     const Placed placed(pair);
     Table table(placed.a, placed.b, placed.r);
-    const Distances& summary = table;
-    const Distances before = summary;
+    const Distances<SmallSolids> before = table;
     classify(pair.solid_a(), table);
     EXPECT_EQ(table.edges, before.edges) << "nothing was changed: " << describe(pair);
     EXPECT_EQ(table.nearest, before.nearest);
@@ -164,7 +164,7 @@ TEST(DistancesTest, AChangedTableIsClassifiedAgain) {
     for (double& entry : table.memory) entry = std::abs(entry) + 1;
     classify(pair.solid_a(), table);
     EXPECT_EQ(table.edges, 0U);
-    if (table.rows != 0) {
+    if (!table.rows.empty()) {
       EXPECT_LE(table.least_penetration, 0) << describe(pair);
     }
   });

@@ -137,7 +137,7 @@ TEST(ForeignPackings, OfXyzAreTheIntendedOnes) {
       const Packing again = packing_of(read_xyz_packing(text, frame), mixture);
       EXPECT_LT(farthest_corner(packing, again), 1e-12) << mixture.name();
     }
-    EXPECT_THROW(read_xyz_packing(text, 2), NoPackingFile);
+    EXPECT_THROW(read_xyz_packing(text, 2), ContentError);
     // isojam's own GSD file, in single precision.
     EXPECT_LT(farthest_corner(packing, packing_of(read_gsd_packing(gsd_file(frames), 1), mixture)), 1e-5);
   }
@@ -168,22 +168,22 @@ TEST(ForeignPackings, InvalidFilesAreRejected) {
           static_cast<char>(256 * random.uniform());
     try {
       packing_of(read_gsd_packing(bytes, -1), SolidKind::cube);
-    } catch (const NoPackingFile&) {
+    } catch (const ContentError&) {
       ++refused;
     }
   }
   EXPECT_GT(refused, 150) << "those that were cut, at least";
-  EXPECT_THROW(packing_of(read_gsd_packing(whole, -1), SolidKind::octahedron), NoPackingFile);
+  EXPECT_THROW(packing_of(read_gsd_packing(whole, -1), SolidKind::octahedron), ContentError);
   // An overflow is reported and the value is not used.
   auto far = read_gsd_packing(whole, -1), huge = far;
   far.bodies[3].position[1] = 3e38;
-  EXPECT_THROW(packing_of(far, SolidKind::cube), NoPackingFile);
+  EXPECT_THROW(packing_of(far, SolidKind::cube), ContentError);
   for (auto& vertex : huge.types[0].vertices) vertex *= 1e140;
-  EXPECT_THROW(packing_of(huge, SolidKind::cube), NoPackingFile);
-  EXPECT_THROW(read_gsd_packing(whole, 1), NoPackingFile);
-  EXPECT_THROW(read_xyz_packing("", -1), NoPackingFile);
+  EXPECT_THROW(packing_of(huge, SolidKind::cube), ContentError);
+  EXPECT_THROW(read_gsd_packing(whole, 1), ContentError);
+  EXPECT_THROW(read_xyz_packing("", -1), ContentError);
   EXPECT_THROW(read_xyz_packing("2\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=species:S:1:pos:R:3\ncube 0 0 0\n", -1),
-               NoPackingFile);
+               ContentError);
   // A mirrored solid is another solid.
   const std::vector<Vector3d> chiral{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {.9, 1.1, 1.6}};
   std::vector<Vector3d> mirrored;

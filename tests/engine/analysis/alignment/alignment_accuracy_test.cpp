@@ -29,13 +29,12 @@ double angle(Quad sine, Quad cosine) { return std::atan2(static_cast<double>(sin
 Alignment in_quad(const ConvexSolid& solid, const Packing& packing, const Contact& contact) {
   const SolidArrays& arrays = solid.arrays();
   const QuadMatrix a = quad_rotation(packing.poses[contact.pair.a]), b = quad_rotation(packing.poses[contact.pair.b]);
-  const auto edge = [&](const QuadMatrix& rotation, int e) {
-    const Quad3 along = arrays.vertex(arrays.edge[e].head) - arrays.vertex(arrays.edge[e].tail);
+  const auto direction = [&](const QuadMatrix& rotation, int e) {
+    const Edge& edge = solid.edges()[static_cast<std::size_t>(e)];
+    const Quad3 along = arrays.vertex(edge.head) - arrays.vertex(edge.tail);
     return rotation * ((1 / norm(along)) * along);
   };
-  const auto each = [](std::uint64_t mask, const auto& action) {
-    for (; mask != 0; mask &= mask - 1) action(std::countr_zero(mask));
-  };
+  const auto each = [](const FeatureSet& features, const auto& action) { features.for_each(action); };
   Alignment best;
   best.face_face = std::numbers::pi;
   best.edge_face = std::numbers::pi / 2;
@@ -47,7 +46,7 @@ Alignment in_quad(const ConvexSolid& solid, const Packing& packing, const Contac
       best.face_face = std::min(best.face_face, angle(norm(cross(n, m)), -dot(n, m)));
     });
     each(o.edges_b, [&](int e) {
-      const Quad3 along = edge(b, e);
+      const Quad3 along = direction(b, e);
       const double sine = std::abs(static_cast<double>(dot(along, n)));
       best.edge_face = std::min(best.edge_face, angle(sine, norm(cross(along, n))));
     });
@@ -55,7 +54,7 @@ Alignment in_quad(const ConvexSolid& solid, const Packing& packing, const Contac
   each(o.faces_b, [&](int j) {
     const Quad3 m = b * arrays.normal(j);
     each(o.edges_a, [&](int e) {
-      const Quad3 along = edge(a, e);
+      const Quad3 along = direction(a, e);
       const double sine = std::abs(static_cast<double>(dot(along, m)));
       best.edge_face = std::min(best.edge_face, angle(sine, norm(cross(along, m))));
     });

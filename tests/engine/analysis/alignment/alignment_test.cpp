@@ -207,7 +207,9 @@ TEST_P(AlignmentOf, RotationOfBothBodiesChangesNothing) {
 }
 
 TEST_P(AlignmentOf, AnglesAreTheSmallestOverTheMasks) {
-  const auto in = [](std::uint64_t mask, std::size_t k) { return (mask >> k & 1) != 0; };
+  const auto in = [](const FeatureSet& features, std::size_t k) {
+    return features.contains(static_cast<std::uint32_t>(k));
+  };
   for (int trial = 0; trial < 200; ++trial) {
     const Vector3d tilt = random_direction(random) * random.uniform();
     const Contact c = contact(random_site(), random_site(), 2 * pi * random.uniform(), tilt, depth);

@@ -7,6 +7,7 @@
 // 4. The angles of random contacts, as overlap() finds them, are below the critical angles of their topology.
 // 5. The method with normal cones gives the same angles for these solids. For other solids, a search over orientations
 //    finds the largest angle of each vertex; the critical angle is the smallest of these.
+// 6. Angles of faces that are nearly in one plane keep at least half of their digits, down to 1e-9.
 
 #include "engine/analysis/alignment/critical_angles.hpp"
 
@@ -17,6 +18,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -188,8 +190,8 @@ TEST_P(CriticalAnglesOf, BoundTheContactsThatTheKernelFinds) {
         relative_pose(constructed::random_orientation(random), constructed::random_orientation(random), lab);
     const Contact contact =
         constructed::overlapped(solid, {.pair = {}, .displacement = lab, .pose = pose, .overlap = {}});
-    const int edges_a = std::popcount(contact.overlap.edges_a), edges_b = std::popcount(contact.overlap.edges_b);
-    const int faces_a = std::popcount(contact.overlap.faces_a), faces_b = std::popcount(contact.overlap.faces_b);
+    const int edges_a = contact.overlap.edges_a.count(), edges_b = contact.overlap.edges_b.count();
+    const int faces_a = contact.overlap.faces_a.count(), faces_b = contact.overlap.faces_b.count();
     const Alignment found = alignment(solid, contact);
     if (std::max(edges_a, edges_b) == valence && std::min(edges_a, edges_b) == 0 && faces_a + faces_b == valence + 1) {
       ++vertex_face;
@@ -294,6 +296,34 @@ TEST(CriticalAngles, OfOtherSolidsAgreeWithASearch) {
     EXPECT_NEAR(found.ff_vertex_face, exact.ff_vertex_face, .03) << to_string(solid);
     EXPECT_NEAR(found.ef_vertex_face, exact.ef_vertex_face, .03) << to_string(solid);
   }
+}
+
+TEST(CriticalAngles, OfFacesNearlyInOnePlaneKeepHalfOfTheirDigits) {
+  double worst = 0;
+  for (double height = 1e-2; height > 5e-10; height /= 10) {
+    std::vector<Vector3d> bent, roof;
+    for (int k = 0; k < 8; ++k) bent.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    roof = bent;
+    // Its upper face is two triangles with slopes of h/2 in the directions x and y. The cosine of the angle between
+    // their normals is thus 1/(1 + h²/4).
+    bent.back().z() += height;
+    // Its upper face is a pyramid with four slopes.
+    roof.emplace_back(0, 0, 1 + height);
+    const double alpha = std::atan(height / std::sqrt(2.0) * std::sqrt(1 + height * height / 8)) / 2,
+                 p = std::pow(std::sin(alpha / 2), 2);
+    const CriticalAngles edge = critical_angles(ConvexSolid("bent", bent));
+    const double crossed = 2 * std::asin(std::sqrt(2 * p * (1 - p))), slope = std::atan(height);
+    const CriticalAngles apex = critical_angles(ConvexSolid("roof", roof));
+    const CriticalAngles both = critical_angles(ConvexSolid("bent", bent), ConvexSolid("bent", bent));
+    const double limit = 1e-12 + 1e-13 / height;
+    EXPECT_NEAR(edge.ff_edge_face / alpha, 1, limit) << height;
+    // The arccos of a product of cosines is used as long as it has half of its digits.
+    EXPECT_NEAR(edge.ff_edge_edge / crossed, 1, limit + 1e-8) << height;
+    EXPECT_NEAR(both.ff_edge_edge / crossed, 1, limit + 1e-8) << height;
+    EXPECT_NEAR(apex.ff_vertex_face / slope, 1, limit) << height;
+    worst = std::max(worst, std::abs(edge.ff_edge_edge / crossed - 1) * height);
+  }
+  std::printf("crossed edges: errors up to %.1e of a face angle\n", worst);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "engine/geometry/overlap/clipped_overlap.hpp"
@@ -54,16 +53,16 @@ TEST(Slab, KeepsWhatBoundsTheIntersection) {
   int touching = 0, empty = 0, left_out = 0;
   for_many_pairs(40, [&](const Pair& pair) {
     const Placed placed(pair);
-    const Slab slab = slab_between(placed.a, placed.b, placed.r);
+    const auto slab = slab_between<SmallSolids>(placed.a, placed.b, placed.r);
     const Overlap clipped = clipped_overlap(pair.solid_a(), pair.solid_b(), pair.relative());
     touching += clipped.touching();
-    empty += slab.of_a.faces == 0;
-    left_out += pair.solid_a().arrays().faces - std::popcount(slab.of_a.faces);
-    EXPECT_EQ(slab.of_a.faces == 0, slab.of_b.faces == 0) << describe(pair);
-    EXPECT_EQ(clipped.faces_a & ~slab.of_a.faces, 0U) << describe(pair);
-    EXPECT_EQ(clipped.faces_b & ~slab.of_b.faces, 0U) << describe(pair);
-    EXPECT_EQ(clipped.edges_a & ~slab.of_a.edges, 0U) << describe(pair);
-    EXPECT_EQ(clipped.edges_b & ~slab.of_b.edges, 0U) << describe(pair);
+    empty += slab.of_a.faces.empty();
+    left_out += pair.solid_a().arrays().faces - slab.of_a.faces.count();
+    EXPECT_EQ(slab.of_a.faces.empty(), slab.of_b.faces.empty()) << describe(pair);
+    EXPECT_EQ(clipped.faces_a & ~FeatureSet(slab.of_a.faces), 0U) << describe(pair);
+    EXPECT_EQ(clipped.faces_b & ~FeatureSet(slab.of_b.faces), 0U) << describe(pair);
+    EXPECT_EQ(clipped.edges_a & ~FeatureSet(slab.of_a.edges), 0U) << describe(pair);
+    EXPECT_EQ(clipped.edges_b & ~FeatureSet(slab.of_b.edges), 0U) << describe(pair);
   });
   EXPECT_GT(touching, 400);
   EXPECT_GT(empty, 40);
@@ -79,8 +78,8 @@ std::uint64_t beyond(const PlacedSolid& solid, const Vector3d& centre, const Vec
 }
 
 /// The faces and edges that contain one of the vertices.
-Parts parts_with(const ConvexSolid& solid, std::uint64_t vertices) {
-  Parts parts;
+Parts<1> parts_with(const ConvexSolid& solid, std::uint64_t vertices) {
+  Parts<1> parts;
   const auto has = [&](int v) { return (vertices >> v & 1) != 0; };
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
     const Edge& edge = solid.edges()[e];
@@ -95,7 +94,7 @@ Parts parts_with(const ConvexSolid& solid, std::uint64_t vertices) {
   return parts;
 }
 
-void expect_equal(const Parts& found, const Parts& expected, const Pair& pair) {
+void expect_equal(const Parts<1>& found, const Parts<1>& expected, const Pair& pair) {
   EXPECT_EQ(found.vertices, expected.vertices) << describe(pair);
   EXPECT_EQ(found.edges, expected.edges) << describe(pair);
   EXPECT_EQ(found.faces, expected.faces) << describe(pair);
@@ -109,7 +108,7 @@ TEST(Slab, IsBetweenTheSupports) {
     double top = -pair.reach(), bottom = 2 * pair.reach();
     for (int v = 0; v < a.vertices(); ++v) top = std::max(top, u.dot(a.vertex(v)));
     for (int v = 0; v < b.vertices(); ++v) bottom = std::min(bottom, u.dot(placed.r + b.vertex(v)));
-    const Slab slab = slab_between(a, b, placed.r);
+    const auto slab = slab_between<SmallSolids>(a, b, placed.r);
     const double slack = 1e-8 * pair.reach();
     if (std::abs(top - bottom) < 2 * slack) return;
     if (top < bottom) {
@@ -128,10 +127,10 @@ TEST(NearDistances, AreThoseOfTheWholeTable) {
   for_many_pairs(10, [](const Pair& pair) {
     const Placed placed(pair);
     const PlacedSolid a = placed.a, b = placed.b;
-    const Slab slab = slab_between(a, b, placed.r);
-    if (slab.of_a.faces == 0) return;
-    alignas(32) double near_table[Distances::max_size];
-    Distances near;
+    const auto slab = slab_between<SmallSolids>(a, b, placed.r);
+    if (slab.of_a.faces.empty()) return;
+    alignas(32) double near_table[Distances<SmallSolids>::max_size];
+    Distances<SmallSolids> near;
     near.of = near_table;
     tabulate_near_distances(a, b, placed.r, slab, near);
     EXPECT_EQ(near.rows, slab.of_a.vertices);
@@ -139,13 +138,12 @@ TEST(NearDistances, AreThoseOfTheWholeTable) {
     std::uint64_t faces = 0;
     for (int k = 0; k < near.planes; ++k) faces |= std::uint64_t{1} << near.face[k];
     EXPECT_EQ(faces, slab.of_b.faces) << describe(pair);
-    for (std::uint64_t rows = near.rows; rows; rows &= rows - 1) {
-      const int v = std::countr_zero(rows);
+    near.rows.for_each([&](int v) {
       for (int k = 0; k < near.planes; ++k) {
         const double distance = b.normal(near.face[k]).dot(a.vertex(v) - placed.r) - b.offset()[near.face[k]];
         EXPECT_NEAR(near.row(v)[k], distance, 16 * epsilon * pair.reach()) << describe(pair);
       }
-    }
+    });
   });
 }
 

@@ -198,7 +198,7 @@ TEST_P(DoubleDoubleOverlap, NeedsEveryLowPart) {
   if (recovered) {
     EXPECT_LE(solid, limit);
   } else {
-    EXPECT_GE(solid, 1e-8);
+    EXPECT_GE(solid, 1e-9);
   }
 }
 

@@ -92,9 +92,9 @@ Overlap found(const PosedPair& pair) {
   return found(pair, unused);
 }
 
-double error(const PosedPair& pair) {
-  const QuadOverlap right = exact(pair);
-  const Overlap got = found(pair);
+double error(const PosedPair& pair) { return error(pair, exact(pair), found(pair)); }
+
+double error(const PosedPair& pair, const QuadOverlap& right, const Overlap& got) {
   const double volume = static_cast<double>(right.volume), area = static_cast<double>(norm(right.area));
   const auto off = [](const Quad3& p, const Vector3d& q) {
     return static_cast<double>(norm(p - Quad3{q.x(), q.y(), q.z()}));
@@ -151,7 +151,22 @@ Approach edge_over_edge(const ConvexSolid& a, const ConvexSolid& b, RandomStream
   return facing(a, b, of_a.middle, of_a.outward, of_b.middle, of_b.outward, random);
 }
 
-std::optional<PosedPair> at_volume(Approach approach, double volume) {
+Approach edge_in_face(const ConvexSolid& a, const ConvexSolid& b, double tilt, RandomStream& random) {
+  const Face& face = pick(a.faces(), random);
+  const Edge& edge = pick(b.edges(), random);
+  const Ridge ridge = ridge_of(b, edge);
+  Approach result = facing(a, b, middle_of(a, face), face.normal, ridge.middle, ridge.outward, random);
+  const Vector3d along = result.pair.at_b.orientation * (vertex(b, edge.head) - vertex(b, edge.tail)).normalized();
+  const Quaterniond tilted(Eigen::AngleAxisd(tilt, result.outward.cross(along)));
+  result.pair.at_b.orientation = (tilted * result.pair.at_b.orientation).normalized();
+  result.from = result.pair.at_a.orientation * middle_of(a, face) - result.pair.at_b.orientation * ridge.middle;
+  return result;
+}
+
+double exact_volume(const PosedPair& pair) { return static_cast<double>(exact(pair).volume); }
+double found_volume(const PosedPair& pair) { return found(pair).volume; }
+
+std::optional<PosedPair> at_volume(Approach approach, double volume, double (*measure)(const PosedPair&)) {
   PosedPair& pair = approach.pair;
   // At the displacement `from`, or deeper by the size of the smaller solid, V is larger than `volume`.
   double far = pair.a.circumradius() + pair.b.circumradius();
@@ -159,11 +174,18 @@ std::optional<PosedPair> at_volume(Approach approach, double volume) {
   for (int k = 0; k < 90; ++k) {
     const double middle = (near + far) / 2;
     pair.at_b.position = approach.from + middle * approach.outward;
-    const double reached = static_cast<double>(exact(pair).volume);
+    const double reached = measure(pair);
     if (reached > volume / 2 && reached < 2 * volume) return pair;
     (reached > volume ? near : far) = middle;
   }
   return std::nullopt;
+}
+
+ConvexSolid dual(const std::string& name, const ConvexSolid& solid) {
+  std::vector<Quad3> points;
+  for (int f = 0; f < solid.arrays().faces; ++f)
+    points.push_back((1 / solid.arrays().plane_offset(f)) * solid.arrays().normal(f));
+  return ConvexSolid(name, points);
 }
 
 std::vector<Vector3d> points_on_sphere(int n, std::uint64_t seed) {

@@ -31,6 +31,7 @@ Overlap found(const PosedPair& pair);
 /// Largest relative error of found(): of V relative to V, of S relative to |S|, and of M relative to |S| times the
 /// inradius of A.
 double error(const PosedPair& pair);
+double error(const PosedPair& pair, const QuadOverlap& right, const Overlap& got);
 
 /// Largest error of a column of ∂S_A/∂x_B in H_AB, relative to the norm of this block. The reference is differences of
 /// S in quadruple precision.
@@ -52,9 +53,20 @@ Approach random_approach(const ConvexSolid& a, const ConvexSolid& b, RandomStrea
 Approach corner_over_face(const ConvexSolid& a, const ConvexSolid& b, RandomStream& random);
 /// The midpoint of an edge of B approaches the midpoint of an edge of A that crosses it.
 Approach edge_over_edge(const ConvexSolid& a, const ConvexSolid& b, RandomStream& random);
+/// An edge of B in the middle of a face of A, parallel to the face within `tilt`.
+Approach edge_in_face(const ConvexSolid& a, const ConvexSolid& b, double tilt, RandomStream& random);
+
+/// The volume from exact(), and the one from found(), which is much faster for solids with many faces.
+double exact_volume(const PosedPair& pair);
+double found_volume(const PosedPair& pair);
 
 /// The pair at the distance where V equals `volume` within a factor of 2; nullopt if V is discontinuous there.
-std::optional<PosedPair> at_volume(Approach approach, double volume);
+std::optional<PosedPair> at_volume(Approach approach, double volume,
+                                   double (*measure)(const PosedPair&) = exact_volume);
+
+/// The dual solid: its vertices are the planes of the other solid. The dual of a solid with many faces has many
+/// vertices.
+ConvexSolid dual(const std::string& name, const ConvexSolid& solid);
 
 /// n random points on a sphere. In their convex hull, all points are vertices and all faces are triangles.
 std::vector<Eigen::Vector3d> points_on_sphere(int n, std::uint64_t seed);

@@ -110,9 +110,9 @@ TEST(LanesTest, TagsStayWithTheExtreme) {
   for (int n = 0; n < cases; ++n) {
     const Four x = random_four(random);
     const int first = 4 * static_cast<int>(15.99 * random.uniform());
-    const double best = greatest(tagged(loaded(x), first)).first();
+    const double best = greatest(tagged<64>(loaded(x), first)).first();
     const auto where = std::max_element(x.begin(), x.end());
-    EXPECT_EQ(tag_of(best), static_cast<std::uint32_t>(first + (where - x.begin())));
+    EXPECT_EQ(tag_of<64>(best), static_cast<std::uint32_t>(first + (where - x.begin())));
     EXPECT_NEAR(best, *where, 64 * epsilon * std::abs(*where));
   }
 }

@@ -34,11 +34,11 @@ std::string disagreement(const Pair& pair, const Overlap& result, const Overlap&
   if (!(volume <= limit && area <= limit && moment <= limit))
     text << "V off by " << volume << ", S " << area << ", M " << moment << " where " << limit << " is allowed\n";
   if (result.faces_a != reference.faces_a || result.faces_b != reference.faces_b)
-    text << "faces " << result.faces_a << " " << result.faces_b << " instead of " << reference.faces_a << " "
-         << reference.faces_b << "\n";
+    text << "faces " << result.faces_a.word[0] << " " << result.faces_b.word[0] << " instead of "
+         << reference.faces_a.word[0] << " " << reference.faces_b.word[0] << "\n";
   if (result.edges_a != reference.edges_a || result.edges_b != reference.edges_b)
-    text << "edges " << result.edges_a << " " << result.edges_b << " instead of " << reference.edges_a << " "
-         << reference.edges_b << "\n";
+    text << "edges " << result.edges_a.word[0] << " " << result.edges_b.word[0] << " instead of "
+         << reference.edges_a.word[0] << " " << reference.edges_b.word[0] << "\n";
   if (!text.str().empty()) text << describe(pair);
   return text.str();
 }

@@ -80,7 +80,7 @@ struct Contact {
   Quaterniond orientation;
   Vector3d start;   ///< x_B at depth 0
   Vector3d normal;  ///< outward from A
-  std::uint64_t faces_a = 0, faces_b = 0, edges_a = 0, edges_b = 0;
+  FeatureSet faces_a{}, faces_b{}, edges_a{}, edges_b{};
 
   Pair at(double depth) const { return {kind, kind, {}, {start - depth * normal, orientation}}; }
   double volume(double depth) const { return overlap(at(depth)).volume; }
@@ -212,7 +212,7 @@ TEST_P(OverlapOfBuiltContacts, FeaturesAreThoseBuilt) {
       const Overlap seen = overlap(contact.at(depth));
       const Overlap clipped = clipped_overlap(platonic(GetParam()), platonic(GetParam()), contact.at(depth).relative());
       // If an end of an edge lies in a face, the faces and edges that meet there are also reported.
-      const bool ends = contact.edges_a == 0 && std::popcount(contact.edges_b) == 1;
+      const bool ends = contact.edges_a.empty() && contact.edges_b.count() == 1;
       for (const Overlap& result : {seen, clipped}) {
         EXPECT_EQ(result.faces_a & contact.faces_a, contact.faces_a) << "spin " << spin;
         EXPECT_EQ(result.faces_b & contact.faces_b, contact.faces_b) << "spin " << spin;

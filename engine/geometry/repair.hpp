@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/geometry/convex_solid.hpp"
+
+namespace isojam {
+
+/// Upper limit of RepairOptions::merge.
+inline constexpr double largest_merge = 0.01;
+/// Adjacent faces with a smaller angle between their normals, in rad, are probably one face whose corners were rounded.
+inline constexpr double suspect_angle = 1e-3;
+
+/// The repairs that a caller allows. By default none is allowed.
+struct RepairOptions {
+  /// Length within which points are welded and faces are joined, relative to the diameter of the points. Points that
+  /// are at most this far apart are welded into one. Adjacent faces are joined if all of their corners are within this
+  /// distance of one plane. A corner then moves by at most largest_planar_move (planar_faces.hpp) of these lengths.
+  double merge = 0;
+  /// Omits points that are not corners of the convex hull. If false, such a point is an error, unless it is within
+  /// `merge` of a face.
+  bool hull = false;
+  /// Removes corners until this number is left. The value 0 keeps all corners; otherwise at least 4 must be left.
+  int corners = 0;
+};
+
+/// The repairs that were made.
+struct RepairReport {
+  int welded = 0;           ///< number of points that were welded to another point
+  int dropped = 0;          ///< number of points that were not corners of the hull
+  int joined_faces = 0;     ///< number of faces of the hull that became a part of a larger face
+  int removed_corners = 0;  ///< number of corners that were removed to reach RepairOptions::corners
+  /// Upper bound for the moves of points, relative to the diameter: the largest move by welding plus the largest one by
+  /// joining.
+  double largest_move = 0;
+  double hull_volume = 0;    ///< volume of the hull of all points, in their unit of length
+  double volume_change = 0;  ///< volume of the result divided by hull_volume, minus 1
+  /// Largest distance of an omitted point from the surface of the hull, relative to the diameter.
+  double largest_depth = 0;
+};
+
+/// The corners of a repaired solid.
+struct RepairedSolid {
+  /// The corners. If nothing was repaired these are the given points. If points were only welded, omitted or removed,
+  /// they have the coordinates of given points. If faces were joined, their origin is the centre of their bounding box,
+  /// and their unit of length is that of the given points. ConvexSolid makes the same solid from them each time.
+  std::vector<Eigen::Vector3d> vertices;
+  RepairReport report;  ///< the repairs that were made
+};
+
+/// For each point, the index of the first point of its group. Two points belong to the same group if their distance is
+/// at most `distance`, or if points of the group connect them. The time is O(n²) if all points have the same x.
+std::vector<std::size_t> welded(std::span<const Eigen::Vector3d> points, double distance);
+
+/// Repairs the convex hull of up to 5000 points: welds points, joins faces, omits inner points and removes corners, in
+/// this order, as far as `options` allows it. Points that joining leaves on a face or an edge are omitted too. Throws
+/// NoSolid (hull.hpp) if the points span no volume, if a point is not a corner and options.hull is false, if joined
+/// faces cannot be made planar by moves of the order of options.merge, or if the result has too many features for
+/// ConvexSolid. NoSolid::vertex() is an index of `points`.
+RepairedSolid repaired(std::span<const Eigen::Vector3d> points, const RepairOptions& options);
+
+/// Properties of a solid that show whether its vertices were written with enough digits.
+struct SolidShape {
+  int faces = 0, edges = 0, vertices = 0;  ///< numbers of features
+  double volume = 0;                       ///< volume in the units of the given vertices
+  /// Largest distance of a given vertex from the plane through its face, relative to the diameter, before the faces are
+  /// made exactly planar.
+  double largest_distance = 0;
+  /// Distance within which vertices were taken to be in one plane, relative to the diameter. It grows with the distance
+  /// of the solid from the origin.
+  double tolerance = 0;
+  double smallest_angle = 0;  ///< smallest angle between the normals of two adjacent faces, in rad
+  /// The two adjacent faces with the smallest angle, as indices of ConvexSolid::faces().
+  std::array<int, 2> angle_faces{};
+  /// A value of RepairOptions::merge that joins all adjacent faces whose normals differ by less than suspect_angle. 0
+  /// if there are no such faces, or if no value up to largest_merge joins them.
+  double suggested_merge = 0;
+};
+
+/// Computes the properties of a solid.
+SolidShape shape_of(const ConvexSolid& solid);
+
+}  // namespace isojam

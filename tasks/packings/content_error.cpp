@@ -1,0 +1,26 @@
+#include "tasks/packings/content_error.hpp"
+
+#include <fmt/format.h>
+
+#include "tasks/io/file.hpp"
+
+namespace isojam {
+
+void refuse_content(const JsonPlace& place, const std::string& path, const ContentError& error,
+                    std::string_view allowed) {
+  const auto problem = error.line() == 0 ? fmt::format("{}: {}", path, error.what())
+                                         : fmt::format("{}:{}: {}", path, error.line(), error.what());
+  if (error.remedy().empty()) place.refuse(problem, std::string(allowed));
+  place.refuse_with_remedy(problem, error.remedy());
+}
+
+std::string read_named_file(const JsonPlace& place, const std::string& path, std::string_view allowed) {
+  try {
+    return read_file(path);
+  } catch (const FileError& error) {
+    if (error.reason() == FileError::Reason::resource_failure) throw;
+    place.refuse(error.what(), std::string(allowed));
+  }
+}
+
+}  // namespace isojam
