@@ -1,6 +1,6 @@
-# Verbs: run test build bench bench-against equilibria paper rigidity reproducibility docs test-asan fuzz test-slurm
-# test-debian12 test-debian13 package test-packages lint format packages clean. On Debian 12 and 13 each verb first installs
-# the packages that it needs and that are missing.
+# Verbs: run test build bench bench-against equilibria paper rigidity reproducibility docs test-asan fuzz polyhedra
+# test-slurm test-debian12 test-debian13 package test-packages lint format packages clean. On Debian 12 and 13 each verb
+# first installs the packages that it needs and that are missing.
 #   make lint LINT='engine/solve/jam.cpp'
 #   make run BUILD=/tmp/isojam/build OUTPUT=/tmp/isojam/results     # from a source folder that cannot be written
 BUILD ?= build
@@ -247,6 +247,17 @@ bench-against:
 	cmake -S $(BUILD)-before/tree -B $(BUILD)-before -G Ninja -DISOJAM_NATIVE=ON -DISOJAM_TESTS=ON -DISOJAM_BENCH=ON
 	cmake --build $(BUILD)-before -j $(JOBS) --target isojam_bench
 	$(PYTHON) -B tests/bench/against.py $(BUILD)-before/isojam_bench $(BUILD)/isojam_bench --filter '$(FILTER)'
+
+# The long tests of user-defined solids: 20 000 pairs against 100 digits, packings of all 145 polyhedra, and rounded
+# dodecahedra beside exact ones.
+.PHONY: polyhedra
+polyhedra:
+	$(call install,$(TEST_PACKAGES))
+	$(CONFIGURE) -DISOJAM_TESTS=ON
+	cmake --build $(BUILD) -j $(JOBS) --target isojam defined_pairs_tests
+	ISOJAM_ORACLE_PAIRS=20500 $(BUILD)/tests/oracle/defined_pairs_tests
+	$(PYTHON) -B tests/polyhedra/jam_test.py $(BUILD)/isojam --all
+	$(PYTHON) -B tests/polyhedra/dodecahedra.py $(BUILD)/isojam
 
 # The cost of following equilibria towards jamming: the tables of docs/equilibria.md.
 equilibria:
