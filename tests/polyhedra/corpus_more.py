@@ -192,7 +192,8 @@ SURFACES = [
     ("no_pit", "off", off(*pitted_cube(0.3, 0)), read((6, 12, 8), 1.0)),
     ("dents_merged", "off", off(*sphere(12, 14, 0.1)), refused(word="hull"), {"merge": 0.01}),
     ("sphere_of_3542_points", "off", off(*sphere(60, 60)), refused(word="corners")),
-    ("sphere_of_3542_points_merged", "off", off(*sphere(60, 60)), refused(word="corners"), {"merge": 1e-6}),
+    ("sphere_of_3542_points_merged", "off", off(rounded(7, numpy.array(sphere(60, 60)[0])), sphere(60, 60)[1]),
+     refused(word="corners"), {"merge": 1e-5}),
     ("centres_of_faces_outside", None,
      rounded(6, CUBE) + listed(CENTRES + 1e-6 * OUTWARDS), read((6, 12, 8), 1.0), {"merge": 1e-5}),
 ]
