@@ -24,6 +24,9 @@ constexpr long hasty_evaluations = 50;
 /// by itself.
 constexpr double followed_within = 1;
 
+/// Residual of the first state of a decompression below which Newton's method finds the equilibrium.
+constexpr double newton_below = 0.01;
+
 /// Mean contact force F at a pressure p, from 3 p V_cell = Σ r·F. Assumes 4.5 contacts per particle, with r = 1.
 double mean_force_at(double pressure, double density) { return 3 * pressure / (4.5 * density); }
 
@@ -156,7 +159,7 @@ class StrainStep {
     progress_.packing.cell = progress_.packing.cell.reduced();
     Packing next = progress_.packing;
     const bool first = result_.states.empty();
-    const JamStep& step = first ? relax(next) : strained_down(next);
+    const JamStep& step = first ? first_state(next) : strained_down(next);
     if (must_end(step)) return;
     if (first && !progress_.jammed && relaxed_below_target(step)) {
       progress_.stage = JamStage::consolidation;
@@ -184,6 +187,17 @@ class StrainStep {
     const bool bracketed = result_.states.size() > 1 || options_.decompression.control == Control::density;
     if (bracketed && distance_to_jamming(result_.path.back()) <= options_.decompression.final_distance)
       end_expansion(JamStatus::jammed);
+  }
+
+  /// The first state of a decompression. Close to an equilibrium, Newton's method converges in a few iterations. From the
+  /// end of the compression of a large packing, it needs hundreds, and the method of multipliers far fewer.
+  const JamStep& first_state(Packing& next) {
+    const Evaluation value = energy_.evaluate(next);
+    if (options_.minimise.method != Method::multipliers || value.residual < newton_below || !(value.pressure > 0))
+      return relax(next);
+    const double force = mean_force_at(value.pressure, next.density());
+    const double distance = 6 * value.energy / next.size() * next.density() * next.density() / value.pressure;
+    return append(next, relax_to_equilibrium(next, force, distance, energy_, minimiser(), stop_));
   }
 
   /// True if the last state of compression was not in equilibrium, and lost most of its energy in the minimisation.

@@ -31,6 +31,8 @@ Json to_json(const MinimiseWork& work) {
   json["envelopes"] = work.envelopes;
   json["envelope_overlaps"] = work.envelope_overlaps;
   json["local_factorisations"] = work.local_factorisations;
+  json["incomplete_factorisations"] = work.incomplete_factorisations;
+  json["krylov_vectors"] = work.krylov_vectors;
   return json;
 }
 
@@ -50,13 +52,17 @@ PairCounts read_counts(const JsonPlace& place) {
 }
 
 MinimiseWork read_work(const JsonPlace& place) {
+  // Records of versions that did not have these methods lack the counters.
+  const auto recent = [&](const std::string& key) { return place.has(key) ? read_count(place.at(key)) : 0; };
   return {read_count(place.at("double_double_evaluations")),
           read_count(place.at("hessians")),
           read_count(place.at("factorisations")),
           read_count(place.at("factor_updates")),
           read_count(place.at("envelopes")),
           read_count(place.at("envelope_overlaps")),
-          read_count(place.at("local_factorisations"))};
+          read_count(place.at("local_factorisations")),
+          recent("incomplete_factorisations"),
+          recent("krylov_vectors")};
 }
 
 Rearrangement read_rearrangement(const JsonPlace& place) {

@@ -50,11 +50,11 @@ Packing placed(SolidKind kind, int n, int seed, const JamOptions& options) {
 
 /// Costs of all steps of one kind.
 struct Costs {
-  std::vector<double> factorisations, local, envelopes, overlaps, seconds;
+  std::vector<double> hessians, local, envelopes, overlaps, seconds;
   int failed = 0;
 
   void add(const MinimiseSummary& summary, double time) {
-    factorisations.push_back(static_cast<double>(summary.work.factorisations));
+    hessians.push_back(static_cast<double>(summary.work.hessians));
     local.push_back(static_cast<double>(summary.work.local_factorisations));
     envelopes.push_back(static_cast<double>(summary.work.envelopes));
     overlaps.push_back(static_cast<double>(summary.work.envelope_overlaps));
@@ -65,16 +65,16 @@ struct Costs {
     const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
       to.insert(to.end(), from.begin(), from.end());
     };
-    append(factorisations, more.factorisations), append(local, more.local), append(envelopes, more.envelopes);
+    append(hessians, more.hessians), append(local, more.local), append(envelopes, more.envelopes);
     append(overlaps, more.overlaps), append(seconds, more.seconds);
     failed += more.failed;
   }
   void print(const char* what) const {
     double worst = 0, sum = 0;
-    for (const double count : factorisations) worst = std::max(worst, count);
+    for (const double count : hessians) worst = std::max(worst, count);
     for (const double time : seconds) sum += time;
-    std::printf("  %-28s %4zu %8.0f %8.0f %8.0f %8.0f %10.0f %9.3f %9.1f %5d\n", what, factorisations.size(),
-                median(factorisations), worst, median(local), median(envelopes), median(overlaps), median(seconds), sum,
+    std::printf("  %-28s %4zu %8.0f %8.0f %8.0f %8.0f %10.0f %9.3f %9.1f %5d\n", what, hessians.size(),
+                median(hessians), worst, median(local), median(envelopes), median(overlaps), median(seconds), sum,
                 failed);
     std::fflush(stdout);
   }
@@ -130,7 +130,7 @@ void states_of(SolidKind kind, int n, int seed, bool with_newton, Comparison& fo
 }
 
 void states(int n, int seeds, bool with_newton) {
-  std::printf("N = %d, seeds 1 … %d\n  %-28s %4s %8s %8s %8s %8s %10s %9s %9s %5s\n", n, seeds, "step", "n", "factor.",
+  std::printf("N = %d, seeds 1 … %d\n  %-28s %4s %8s %8s %8s %8s %10s %9s %9s %5s\n", n, seeds, "step", "n", "Hessians",
               "most", "local", "sweeps", "overlaps", "s", "s in all", "fail");
   Comparison all;
   for (const SolidKind kind :
@@ -161,7 +161,7 @@ double peak_gib() {
 }
 
 void law(const std::vector<int>& sizes) {
-  std::printf("%6s %10s %7s %8s %8s %10s %10s %9s  %s\n", "N", "φ_J", "states", "factor.", "local", "expand s",
+  std::printf("%6s %10s %7s %8s %8s %10s %10s %9s  %s\n", "N", "φ_J", "states", "Hessians", "local", "expand s",
               "in all s", "peak GiB", "ended");
   std::vector<double> n, seconds;
   for (const int size : sizes) {
@@ -178,8 +178,8 @@ void law(const std::vector<int>& sizes) {
     }
     const JamResult& result = progress.result;
     std::printf("%6d %10.5f %7zu %8ld %8ld %10.1f %10.1f %9.2f  %s\n", size, result.phi_j ? result.phi_j->density : 0,
-                result.states.size(), result.work.factorisations, result.work.local_factorisations, expanding,
-                now() - begin, peak_gib(), to_string(result.status).data());
+                result.states.size(), result.work.hessians, result.work.local_factorisations, expanding, now() - begin,
+                peak_gib(), to_string(result.status).data());
     std::fflush(stdout);
     if (!n.empty())
       std::printf("%6s exponent from N = %.0f: %.2f\n", "", n.back(),

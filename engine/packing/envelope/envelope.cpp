@@ -101,15 +101,22 @@ EnvelopeEvaluation EnvelopeEnergy::evaluate_pairs(const Packing& packing, const 
 }
 
 EnvelopeEvaluation EnvelopeEnergy::evaluate(const Packing& packing, std::span<const ContactMultiplier> forces,
-                                            double stiffness, std::span<const char> only) {
+                                            const EnvelopeTerms& terms, std::span<const char> only) {
   place(packing);
   const std::vector<const ContactMultiplier*> force_of = by_pair(list_.pairs(), forces);
   const std::vector<std::size_t> near = near_pairs(packing, force_of, only);
   return evaluate_pairs(packing, near, [&](std::size_t slot, const DoubleDoubleVector& r, EnvelopeContact& out) {
     Vector6d start = Vector6d::Zero();
-    if (const ContactMultiplier* force = force_of[near[slot]]) out.multiplier = force->multiplier, start = force->shift;
+    if (const ContactMultiplier* force = force_of[near[slot]]) {
+      if (force->plain) {
+        out.at = plain_contact(placed_[out.pair.a], placed_[out.pair.b], packing.poses[out.pair.b], r);
+        out.multiplier = out.at.wrench;
+        return;
+      }
+      out.multiplier = force->multiplier, start = force->shift;
+    }
     out.at = proximal_contact(placed_[out.pair.a], packing.solids[out.pair.b], packing.poses[out.pair.b], r,
-                              {out.multiplier, stiffness}, start);
+                              {out.multiplier, terms.stiffness, terms.series_below}, start);
   });
 }
 
@@ -166,8 +173,15 @@ std::vector<ContactMultiplier> forces_of(const EnvelopeEvaluation& evaluation) {
   std::vector<ContactMultiplier> forces;
   forces.reserve(evaluation.contacts.size());
   for (const EnvelopeContact& contact : evaluation.contacts)
-    forces.push_back({contact.pair, contact.multiplier, contact.at.shift});
+    forces.push_back({contact.pair, contact.multiplier, contact.at.shift, contact.at.plain});
   return forces;
+}
+
+void mark_soft(const EnvelopeEvaluation& evaluation, double limit, std::vector<ContactMultiplier>& forces) {
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const ProximalContact& at = evaluation.contacts[k].at;
+    forces[k].plain = at.touching && std::max(at.ghost.aa.norm(), at.ghost.bb.norm()) < limit;
+  }
 }
 
 }  // namespace isojam

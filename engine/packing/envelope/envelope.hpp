@@ -16,6 +16,13 @@ struct ContactMultiplier {
   NeighbourPair pair;                      ///< the particles, and the image of b
   Vector6d multiplier = Vector6d::Zero();  ///< multiplier μ, in the body frame of B
   Vector6d shift = Vector6d::Zero();       ///< estimate of the shift w, in the body frame of B
+  bool plain = false;  ///< true if the contact is much softer than ρ, so that its energy replaces its envelope
+};
+
+/// Parameters of an envelope that are the same for all contacts; see ProximalTerms.
+struct EnvelopeTerms {
+  double stiffness = 0;     ///< ρ, in units of Y·V_p^(1/3)
+  double series_below = 0;  ///< residual below which the last Newton step for w is taken by a series
 };
 
 /// A pair of particles in an envelope. A touches the ghost of B, or the multiplier of the pair is not 0.
@@ -47,12 +54,12 @@ struct EnvelopeEvaluation {
 /// Computes envelopes of packings. An object contains only caches, which never change a result.
 class EnvelopeEnergy {
  public:
-  /// Computes the envelope for ρ = `stiffness`. `forces` contains the multipliers, sorted by (a, b, shift); pairs that
+  /// Computes the envelope. `forces` contains the multipliers, sorted by (a, b, shift); pairs that
   /// are not in it have μ = 0. If `only` is not empty, it has one flag per particle, and pairs without a flagged
   /// particle are skipped. Throws std::invalid_argument if the cell is not legal for the particles (is_legal() in
   /// cell/periodic_cell.hpp).
-  EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactMultiplier> forces, double stiffness,
-                              std::span<const char> only = {});
+  EnvelopeEvaluation evaluate(const Packing& packing, std::span<const ContactMultiplier> forces,
+                              const EnvelopeTerms& terms, std::span<const char> only = {});
   /// Computes the envelope for the multipliers μ = ∇e. With these multipliers all shifts are 0 and Φ = E.
   EnvelopeEvaluation unshifted(const Packing& packing, double stiffness);
 
@@ -81,6 +88,10 @@ EnvelopeEvaluation with_part(const EnvelopeEvaluation& before, const EnvelopeEva
 
 /// Second derivatives of Φ with respect to the coordinates of the particles, with a border for the free strains.
 BlockMatrix curvature(const EnvelopeEvaluation& evaluation, int particles, CellFreedom cell = CellFreedom::fixed);
+
+/// Sets `plain` for the contacts of `evaluation` whose stiffness is below `limit`. `forces` must be forces_of() of the
+/// same evaluation.
+void mark_soft(const EnvelopeEvaluation& evaluation, double limit, std::vector<ContactMultiplier>& forces);
 
 /// The multipliers and shifts of all pairs in the evaluation.
 std::vector<ContactMultiplier> forces_of(const EnvelopeEvaluation& evaluation);

@@ -66,6 +66,7 @@ class Proximal {
         b_(b),
         r_(r),
         stiffness_(terms.stiffness),
+        series_below_(terms.series_below),
         inradius_(std::min(a.solid().inradius(), solid_b.inradius())),
         radius_(solid_b.gyration_radius()),
         multiplier_(to_lab(b, terms.multiplier)) {
@@ -79,6 +80,7 @@ class Proximal {
     bool converged = is_minimum(here, std::numeric_limits<double>::infinity());
     for (int k = 0; !converged && k < most_steps; ++k) {
       const double before = imbalance(here);
+      if (before < series_below_ && here.pair.energy > 0) return result(by_series(here), true);
       here = step(here);
       converged = is_minimum(here, before);
     }
@@ -162,6 +164,19 @@ class Proximal {
     return next;
   }
 
+  /// The ghost after a Newton step, by a Taylor series: F to third order in the step, forces and w to second order.
+  Ghost by_series(const Ghost& here) const {
+    const Vector6d local = newton(here);
+    const PairHessian& h = here.pair.hessian;
+    Ghost next = here;
+    next.shift += joined(local.head<3>(), here.rotation * local.tail<3>());
+    next.value += here.gradient.dot(local) / 2;
+    next.pair.energy += here.pair.gradient_b.dot(local) + local.dot(h.bb * local) / 2;
+    next.pair.gradient_a += h.ab * local;
+    next.pair.gradient_b += h.bb * local;
+    return next;
+  }
+
   ProximalContact result(const Ghost& ghost, bool converged) const {
     ProximalContact contact;
     const PairEnergy& pair = ghost.pair;
@@ -184,7 +199,7 @@ class Proximal {
   const PlacedSolid& a_;
   const Pose& b_;
   const DoubleDoubleVector& r_;
-  double stiffness_, inradius_, radius_;
+  double stiffness_, series_below_, inradius_, radius_;
   Vector6d multiplier_;  // lab frame
   PlacedSolids placed_;  // the ghost
   int iterations_ = 0;
@@ -206,19 +221,21 @@ PairHessian complement(const PairHessian& h, const Matrix6d& root) {
 
 }  // namespace
 
-PairHessian ProximalContact::curvature() const { return complement(ghost, root); }
+PairHessian ProximalContact::curvature() const { return plain ? ghost : complement(ghost, root); }
 
 PairHessian ProximalContact::curvature(double stiffness) const {
   return complement(ghost, factorised(ghost.bb + stiffness * Matrix6d::Identity(), stiffness).matrixL());
 }
 
 double ProximalContact::predicted(const Vector6d& a, const Vector6d& b) const {
-  const Vector6d pull = root.triangularView<Eigen::Lower>().solve(ghost.ab.transpose() * a + ghost.bb * b);
+  Vector6d pull = Vector6d::Zero();
+  if (!plain) pull = root.triangularView<Eigen::Lower>().solve(ghost.ab.transpose() * a + ghost.bb * b);
   return value + gradient_a.dot(a) + gradient_b.dot(b) +
          (a.dot(ghost.aa * a) + 2 * a.dot(ghost.ab * b) + b.dot(ghost.bb * b) - pull.squaredNorm()) / 2;
 }
 
 Vector6d ProximalContact::shift_change(const Vector6d& a, const Vector6d& b) const {
+  if (plain) return Vector6d::Zero();
   const auto lower = root.triangularView<Eigen::Lower>();
   return -lower.transpose().solve(lower.solve(ghost.ab.transpose() * a + ghost.bb * b));
 }
@@ -231,6 +248,21 @@ ProximalContact proximal_contact(const PlacedSolid& a, const ConvexSolid& solid_
 ProximalContact unshifted_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
                                   const DoubleDoubleVector& r, double stiffness) {
   return Proximal(a, solid_b, b, r, {Vector6d::Zero(), stiffness}).unshifted();
+}
+
+ProximalContact plain_contact(const PlacedSolid& a, const PlacedSolid& placed_b, const Pose& b,
+                              const DoubleDoubleVector& r) {
+  const PairEnergy pair = pair_energy(a, placed_b, r);
+  ProximalContact contact;
+  contact.value = contact.energy = pair.energy;
+  contact.touching = pair.energy > 0;
+  contact.wrench = to_body(b, pair.gradient_b);
+  contact.gradient_a = pair.gradient_a;
+  contact.gradient_b = pair.gradient_b;
+  contact.ghost = pair.hessian;
+  contact.iterations = 1;
+  contact.plain = true;
+  return contact;
 }
 
 Vector6d to_lab(const Pose& b, const Vector6d& w) {

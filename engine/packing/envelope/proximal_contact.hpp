@@ -25,6 +25,10 @@ namespace isojam {
 struct ProximalTerms {
   Vector6d multiplier = Vector6d::Zero();  ///< multiplier μ
   double stiffness = 0;                    ///< stiffness ρ > 0, in units of Y·V_p^(1/3)
+  /// If the residual |∇F| / (|∇e| + |μ|) is below this, the last Newton step for w takes the value and the gradients from
+  /// the Taylor series about the last overlap instead of from another overlap. Their relative errors are of the order of
+  /// the square of this number.
+  double series_below = 0;
 };
 
 /// The envelope of one contact in one state, and its derivatives with respect to the coordinates (x, R·θ) of both
@@ -41,6 +45,8 @@ struct ProximalContact {
   int iterations = 0;                  ///< number of overlaps with Hessian that were computed
   bool touching = false;               ///< true if A touches the ghost of B
   bool converged = true;               ///< false if Newton's method found no minimum
+  /// true for the contact itself, Φ = e, without an envelope; `root` is then not set
+  bool plain = false;
 
   /// Second derivatives of Φ: the Schur complement of H_ww + ρ·1 in the second derivatives of e. They are exact to
   /// first order in w.
@@ -63,6 +69,11 @@ ProximalContact proximal_contact(const PlacedSolid& a, const ConvexSolid& solid_
 /// The envelope of a contact with the multiplier μ = ∇e, for which the shift is 0.
 ProximalContact unshifted_contact(const PlacedSolid& a, const ConvexSolid& solid_b, const Pose& b,
                                   const DoubleDoubleVector& r, double stiffness);
+
+/// The contact itself: Φ = e, the shift is 0, and the stiffness is not limited. `b` gives the orientation of
+/// `placed_b`, and both solids must have been placed in double-double.
+ProximalContact plain_contact(const PlacedSolid& a, const PlacedSolid& placed_b, const Pose& b,
+                              const DoubleDoubleVector& r);
 
 /// Transforms a shift or a wrench from the body frame of B to the lab frame.
 Vector6d to_lab(const Pose& b, const Vector6d& w);

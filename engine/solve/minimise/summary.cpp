@@ -13,6 +13,8 @@ MinimiseWork& MinimiseWork::operator+=(const MinimiseWork& term) {
   envelopes += term.envelopes;
   envelope_overlaps += term.envelope_overlaps;
   local_factorisations += term.local_factorisations;
+  incomplete_factorisations += term.incomplete_factorisations;
+  krylov_vectors += term.krylov_vectors;
   return *this;
 }
 

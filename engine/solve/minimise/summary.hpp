@@ -49,6 +49,8 @@ struct MinimiseWork {
   long envelopes = 0;             ///< evaluations of the envelope (EnvelopeEvaluation) in the method of multipliers
   long envelope_overlaps = 0;     ///< overlaps with Hessian that the evaluations of the envelope computed
   long local_factorisations = 0;  ///< factorisations of the Hessian of a few particles only (local relaxation)
+  long incomplete_factorisations = 0;  ///< incomplete factorisations of the Hessian, including attempts that failed
+  long krylov_vectors = 0;             ///< vectors of the Krylov spaces in which steps were computed
 
   /// Adds the work of another minimisation.
   MinimiseWork& operator+=(const MinimiseWork& term);

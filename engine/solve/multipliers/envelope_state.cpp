@@ -31,7 +31,7 @@ EnvelopeState EnvelopeEvaluator::at(Packing packing, const std::vector<ContactMu
     nowhere = load_.of(std::move(nowhere), packing);
     return {std::move(packing), std::move(nowhere)};
   }
-  EnvelopeEvaluation value = energy_.evaluate(packing, forces, stiffness_, only);
+  EnvelopeEvaluation value = energy_.evaluate(packing, forces, terms_, only);
   ++work_.envelopes;
   work_.envelope_overlaps += value.overlaps;
   if (only.empty()) value = load_.of(std::move(value), packing);
@@ -39,7 +39,7 @@ EnvelopeState EnvelopeEvaluator::at(Packing packing, const std::vector<ContactMu
 }
 
 EnvelopeState EnvelopeEvaluator::unshifted(Packing packing) {
-  EnvelopeEvaluation value = load_.of(energy_.unshifted(packing, stiffness_), packing);
+  EnvelopeEvaluation value = load_.of(energy_.unshifted(packing, terms_.stiffness), packing);
   ++work_.envelopes;
   work_.envelope_overlaps += value.overlaps;
   return {std::move(packing), std::move(value)};

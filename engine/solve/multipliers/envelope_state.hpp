@@ -27,8 +27,9 @@ class EnvelopeEvaluator {
   /// state is infinite.
   bool cell_limit() const { return cell_limit_; }
 
-  double stiffness() const { return stiffness_; }
-  void set_stiffness(double value) { stiffness_ = value; }
+  void set_stiffness(double value) { terms_.stiffness = value; }
+  /// See ProximalTerms::series_below. At 0, all contacts are computed to full accuracy.
+  void set_series_below(double value) { terms_.series_below = value; }
 
   /// Evaluates the envelope with the multipliers `forces`. If `only` is not empty, only contacts of the flagged
   /// particles are included, and the load is not.
@@ -43,7 +44,7 @@ class EnvelopeEvaluator {
   Enthalpy load_;
   EnvelopeEnergy energy_;
   MinimiseWork& work_;
-  double stiffness_ = 0;
+  EnvelopeTerms terms_;
   bool cell_limit_ = false;
 };
 

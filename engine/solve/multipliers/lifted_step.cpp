@@ -10,6 +10,9 @@ namespace isojam {
 
 namespace {
 
+/// An iterative solution with this accuracy limits the factor by which one step reduces the error.
+constexpr double accuracy = 1e-3;
+
 /// Size that an eigenvalue can have due to rounding errors if its exact value is zero.
 double resolved(const BlockMatrix& matrix) {
   double largest = 0;
@@ -20,7 +23,7 @@ double resolved(const BlockMatrix& matrix) {
 }  // namespace
 
 std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stiffness, double shift, double longest,
-                                         EnvelopeEvaluator& evaluator, BlockCholesky& factor, MinimiseWork& work) {
+                                         EnvelopeEvaluator& evaluator, DefiniteSolver& solver, MinimiseWork& work) {
   std::vector<PairHessian> curvatures;
   curvatures.reserve(state.value.contacts.size());
   BlockMatrix hessian;
@@ -45,9 +48,9 @@ std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stif
   border.finish();
   evaluator.load().add_to(hessian, state.packing);
   if (hessian.strains() > 0) gradient.tail(hessian.strains()) -= border.slopes(virial);
-  ++work.factorisations;
-  if (!factor.factorise(hessian, std::max(shift, resolved(hessian)))) return std::nullopt;
-  const Eigen::VectorXd step = -factor.solve(gradient);
+  const auto solution = solver.solve(hessian, std::max(shift, resolved(hessian)), gradient, accuracy, work);
+  if (!solution) return std::nullopt;
+  const Eigen::VectorXd step = -*solution;
   if (!(largest_displacement(step) <= longest)) return std::nullopt;
   const Eigen::Matrix3d strain = strain_of(step, state.packing.size());
   std::vector<ContactMultiplier> forces;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/solve/factor/definite_solver.hpp"
 #include "engine/solve/multipliers/envelope_state.hpp"
 
 namespace isojam {
@@ -18,6 +18,6 @@ namespace isojam {
 /// after the step, with the new multipliers. Returns nullopt if Σ H_c + `shift`·1 is not positive definite within
 /// rounding errors, or if a particle would move farther than `longest`.
 std::optional<EnvelopeState> lifted_step(const EnvelopeState& state, double stiffness, double shift, double longest,
-                                         EnvelopeEvaluator& evaluator, BlockCholesky& factor, MinimiseWork& work);
+                                         EnvelopeEvaluator& evaluator, DefiniteSolver& solver, MinimiseWork& work);
 
 }  // namespace isojam

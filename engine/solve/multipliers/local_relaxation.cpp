@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/packing/pair_search.hpp"
-#include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/solve/multipliers/krylov_model.hpp"
 
 namespace isojam {
 
@@ -13,7 +13,7 @@ namespace {
 
 /// A contact is predicted wrongly if the error of its Φ is more than this fraction of the predicted decrease of the
 /// packing.
-constexpr double misprediction_tolerance = 0.05;
+constexpr double misprediction_tolerance = 0.1;
 
 constexpr int most_steps = 12;
 
@@ -99,31 +99,36 @@ bool relax_locally(const std::vector<char>& flags, double shift, double predicte
   if (part.empty()) return false;
   const double longest = longest_step * state.packing.solids.least_inradius();
   EnvelopeState here{state.packing, part_of(state.value, flags)};
-  BlockCholesky factor;
+  MinimiseWork local;
+  KrylovModels models(shift);
+  std::optional<KrylovModel> model;
   bool moved_at_all = false;
+  double more = growth;
   for (int k = 0; k < most_steps; ++k) {
-    const BlockMatrix matrix = part.of(curvature(here.value, here.packing.size()));
-    ++work.local_factorisations;
-    if (!factor.factorise(matrix, shift)) {
-      shift *= growth;
-      continue;
+    if (!model) {
+      const BlockMatrix matrix = part.of(curvature(here.value, here.packing.size()));
+      model = models.model(matrix, part.of(here.value.gradient), shift, local);
+      if (!model) break;
     }
-    const Eigen::VectorXd gradient = part.of(here.value.gradient);
-    const Eigen::VectorXd step = limited(-factor.solve(gradient), longest);
-    const double decrease = -gradient.dot(step) - step.dot(matrix * step) / 2;
-    const Eigen::VectorXd whole = part.embedded(step);
+    const ModelStep step = model->step(shift, longest);
+    const Eigen::VectorXd whole = part.embedded(step.step);
     EnvelopeState there = evaluator.at(moved(here.packing, whole), forces_after(here, whole), flags);
     const double actual = here.value.value - there.value.value;
-    if (actual > 1e-4 * decrease) {
-      shift = adapted_shift(shift, actual / decrease);
+    if (actual > 1e-4 * step.predicted_decrease) {
+      shift = adapted_shift(shift, actual / step.predicted_decrease);
       here = std::move(there);
       moved_at_all = true;
-      if (decrease < end_fraction * predicted_decrease) break;
+      model.reset();
+      more = growth;
+      if (step.predicted_decrease < end_fraction * predicted_decrease) break;
     } else {
-      shift *= growth;
-      if (decrease < end_fraction_after_failure * predicted_decrease) break;
+      shift = more * step.shift;
+      more *= 2;
+      if (step.predicted_decrease < end_fraction_after_failure * predicted_decrease) break;
     }
   }
+  work.local_factorisations += local.incomplete_factorisations;
+  work.krylov_vectors += local.krylov_vectors;
   if (!moved_at_all) return false;
   const EnvelopeEvaluation whole = with_part(state.value, here.value, flags);
   state.value = evaluator.load().of(whole, here.packing);

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "engine/arithmetic/elementary.hpp"
-#include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/solve/factor/definite_solver.hpp"
 #include "engine/solve/minimise/descent.hpp"
+#include "engine/solve/multipliers/envelope_descent.hpp"
 #include "engine/solve/multipliers/envelope_state.hpp"
 #include "engine/solve/multipliers/lifted_step.hpp"
-#include "engine/solve/multipliers/local_relaxation.hpp"
 #include "engine/solve/multipliers/tangent.hpp"
 
 // Near jamming all contact forces have similar magnitude, f ~ Δφ⁵. The depth of a contact therefore depends on its
@@ -35,9 +35,7 @@
 //   multipliers  Outer iteration: Φ is minimised until its gradient is below the error of μ, |∇Φ| < ½ max |∇e − μ|.
 //                Then μ is renewed, μ ← ∇e. At the end all shifts are 0, and Φ is the energy (Hestenes 1969, Powell
 //                1969).
-//   descent      Inner iteration: Levenberg–Marquardt steps for Φ. If contacts form or break, the model of a step is
-//                wrong for a few pairs. The particles of these pairs are relaxed separately before the step is accepted
-//                or rejected (local_relaxation.hpp). This costs little, and few steps are then rejected.
+//   descent      Inner iteration: Levenberg–Marquardt steps for Φ in Krylov spaces (envelope_descent.hpp).
 //   finish       When forces and multipliers agree to about 3 %, lifted steps (lifted_step.hpp) follow, which converge
 //                quadratically. They end when the residual of the energy itself is small enough in double-double.
 //
@@ -53,18 +51,13 @@ namespace {
 /// ρ/k₀. ρ is far above the stiffness k₀ of corners and crossed edges, and far below the stiffness 0.1 Y·V_p^(1/3) of
 /// faces.
 constexpr double stiffening = 300;
+/// A contact whose stiffness is below this fraction of ρ is not replaced by its envelope, which would hardly differ.
+constexpr double plain_below = 0.1;
 
-/// λ/k₀, where λ is the Levenberg–Marquardt shift
-constexpr double first_shift = 1, least_shift = 1e-7, most_shift = 1e12;
 constexpr double tangent_shift = 0.01;  ///< λ/k₀ for the tangent at the initial equilibrium
 
-/// growth_if_indefinite: factor of λ after a matrix that was not positive definite. above_indefinite: λ stays this many
-/// times above the λ of that matrix. forgotten: in each later step, that λ is multiplied by this factor.
-constexpr double growth_if_indefinite = 8, above_indefinite = 1.5, forgotten = 0.5;
-
-/// relaxed_below: local relaxation follows if the decrease of Φ is less than this fraction of the predicted decrease.
-/// trusted_above: after a local relaxation, λ is adapted only if the decrease is more than this fraction.
-constexpr double relaxed_below = 0.9, trusted_above = 0.8;
+/// Residual of a contact below which descent computes its shift by a series. It needs nearly half as many overlaps then.
+constexpr double series_below = 1e-3;
 
 /// μ is renewed when |∇Φ| is below this fraction of the error of μ.
 constexpr double balance_before_renewal = 0.5;
@@ -100,7 +93,11 @@ constexpr double unjammed_energy = 1e-6;
 constexpr int most_nonrigid_states = 10;
 
 /// Limits far above the need of all states except those at the end of their solution branch, which slide a long way.
-constexpr long most_factorisations = 600, most_envelopes = 3000;
+constexpr double most_steps = 600, most_envelopes = 3000;
+
+/// A larger packing has more rearrangements in a strain step, and each of them limits the steps of the whole packing. The
+/// limits of the numbers of steps and renewals are therefore proportional to N above this N.
+constexpr double limits_hold_for = 400;
 
 /// True if the packing cannot be rigid (Maxwell): even with three constraints for every contact, as for two faces,
 /// there are fewer constraints than degrees of freedom of the particles that have contacts.
@@ -122,6 +119,7 @@ class Multipliers {
         options_(options),
         stop_(std::move(stop)),
         evaluator_(Enthalpy(options.control, packing.cell), summary_.work),
+        descent_(evaluator_, summary_.work),
         here_{packing, {}} {}
 
   /// Follows the equilibrium to another density.
@@ -148,9 +146,7 @@ class Multipliers {
   /// Relaxes the present state to an equilibrium.
   MinimiseSummary relax(double force) {
     first_force_ = force;
-    k0_ = shift_ = 1;
     set_scales(force, distance_);
-    shift_ = first_shift * k0_;
     here_ = evaluator_.at(packing_, {});
     return run();
   }
@@ -171,31 +167,31 @@ class Multipliers {
   /// Sets the scales from a mean force and Δφ.
   void set_scales(double force, double distance) {
     force_ = force;
-    const double k = force / distance;
-    shift_ *= k / k0_;
-    k0_ = k;
-    evaluator_.set_stiffness(stiffening * k0_);
+    descent_.set_stiffness(force / distance);
+    evaluator_.set_stiffness(stiffening * descent_.stiffness());
   }
 
   /// Predicts the state for Δφ = `distance` from the equilibrium `packing_`. `strained` is packing_ after the strain
   /// `imposed`.
   void follow_tangent(const Packing& strained, const Eigen::Matrix3d& imposed, double distance) {
-    k0_ = 1;
-    set_scales(1, 1);
     const double ratio = distance / distance_;
     assert(ratio > 0);
     // The scales need the mean force, which does not depend on them.
+    evaluator_.set_stiffness(1);
     first_force_ = evaluator_.unshifted(packing_).value.mean_force;
     set_scales(first_force_, distance_);
     const EnvelopeState from = evaluator_.unshifted(packing_);
     const double fall = nearest::pow(ratio, 5);
-    shift_ = first_shift * k0_;
-    Tangent answer = tangent(from, imposed, tangent_shift * k0_, longest_tangent * packing_.solids.least_inradius(),
-                             evaluator_, factor_, summary_.work);
+    Tangent answer = tangent(from, imposed, tangent_shift * descent_.stiffness(),
+                             longest_tangent * packing_.solids.least_inradius(), evaluator_, solver_, summary_.work);
     for (ContactMultiplier& force : answer.forces) force.multiplier *= fall;
+    mark_soft(from.value, plain_below * stiffening * descent_.stiffness(), answer.forces);
     set_scales(fall * first_force_, distance);
     here_ = evaluator_.at(moved(strained, answer.step), answer.forces);
   }
+
+  /// Factor of the limits: N in units of limits_hold_for, at least 1.
+  double size() const { return std::max(1.0, here_.packing.size() / limits_hold_for); }
 
   std::optional<StopReason> verdict() const {
     const EnvelopeEvaluation& value = here_.value;
@@ -207,15 +203,18 @@ class Multipliers {
       return frees_volume(options_.control.cell) ? StopReason::line_search_failed : StopReason::unjammed;
     }
     if (stop_.stop_requested()) return StopReason::interrupted;
-    if (shift_ > most_shift * k0_) return StopReason::line_search_failed;
-    const long most = std::min(most_envelopes, options_.max_evaluations - summary_.evaluations);
-    if (summary_.work.envelopes >= most || summary_.work.factorisations >= most_factorisations)
+    if (descent_.failed()) return StopReason::line_search_failed;
+    const double most =
+        std::min(most_envelopes * size(), static_cast<double>(options_.max_evaluations - summary_.evaluations));
+    if (static_cast<double>(summary_.work.envelopes) >= most ||
+        static_cast<double>(summary_.work.hessians) >= most_steps * size())
       return StopReason::budget;
     return std::nullopt;
   }
 
   StopReason descend() {
     expected_force_ = force_;
+    evaluator_.set_series_below(series_below);
     double finish_at = finish_from;
     while (true) {
       if (const auto reason = verdict()) return *reason;
@@ -237,9 +236,9 @@ class Multipliers {
   /// True if the last renewals of the multipliers made no progress. Near a saddle they would otherwise never end.
   bool stalled(double wrong) {
     const double value = here_.value.value;
-    const bool lower = !std::isfinite(lowest_) || lowest_ - value > least_fall * std::abs(lowest_);
+    const bool lower = !std::isfinite(lowest_) || lowest_ - value > least_fall / size() * std::abs(lowest_);
     if (wrong < best_ / 2 || lower) best_ = wrong, lowest_ = value, renewals_ = 0;
-    return renewals_ > most_renewals;
+    return renewals_ > most_renewals * size();
   }
 
   void renew_multipliers() {
@@ -251,48 +250,15 @@ class Multipliers {
     const double part = renewals_ > damped_after ? damped_part : 1;
     for (std::size_t k = 0; k < forces.size(); ++k)
       forces[k].multiplier += part * (here_.value.contacts[k].at.wrench - forces[k].multiplier);
+    mark_soft(here_.value, plain_below * stiffening * descent_.stiffness(), forces);
     here_ = evaluator_.at(std::move(here_.packing), forces);
   }
 
-  /// Makes one step. Increases the shift until the step succeeds or there is a reason to stop.
   void advance() {
-    const BlockMatrix matrix = evaluator_.curvature(here_);
-    ++summary_.work.hessians;
-    double growth = 2;
-    while (!verdict()) {
-      while (!factorised(matrix)) {
-        if (verdict()) return;
-      }
-      const Eigen::VectorXd& gradient = here_.value.gradient;
-      const Eigen::VectorXd step = limited(-factor_.solve(gradient), longest_step * packing_.solids.least_inradius());
-      const double predicted_decrease = -gradient.dot(step) - step.dot(matrix * step) / 2;
-      EnvelopeState there = evaluator_.at(moved(here_.packing, step), forces_after(here_, step));
-      bool relaxed = false;
-      if (here_.value.value - there.value.value < relaxed_below * predicted_decrease)
-        relaxed = relax_locally(mispredicted(here_, there, step, predicted_decrease), shift_, predicted_decrease,
-                                evaluator_, there, summary_.work);
-      if (acceptable(here_.value, there.value, predicted_decrease))
-        return accept(std::move(there), predicted_decrease, relaxed);
-      shift_ *= growth;
-      growth *= 2;
-    }
-  }
-
-  bool factorised(const BlockMatrix& matrix) {
-    ++summary_.work.factorisations;
-    if (factor_.factorise(matrix, shift_)) return true;
-    indefinite_ = shift_;
-    shift_ *= growth_if_indefinite;
-    return false;
-  }
-
-  void accept(EnvelopeState there, double predicted_decrease, bool relaxed) {
-    const double ratio =
-        predicted_decrease > here_.value.noise ? (here_.value.value - there.value.value) / predicted_decrease : 1;
-    if (!relaxed || ratio > trusted_above) shift_ = adapted_shift(shift_, ratio);
-    shift_ = std::max({shift_, least_shift * k0_, above_indefinite * indefinite_});
-    indefinite_ *= forgotten;
-    here_ = std::move(there);
+    auto there =
+        descent_.step(here_, longest_step * packing_.solids.least_inradius(), [&] { return verdict().has_value(); });
+    if (!there) return;
+    here_ = std::move(*there);
     nonrigid_states_ = cannot_be_rigid(here_.value) ? nonrigid_states_ + 1 : 0;
     ++summary_.iterations;
   }
@@ -304,10 +270,11 @@ class Multipliers {
       return std::max(largest_displacement(value.gradient), value.multiplier_error);
     };
     double residual = std::numeric_limits<double>::infinity();
+    evaluator_.set_series_below(0);
     while (!verdict()) {
       ++summary_.work.hessians;
-      auto there = lifted_step(here_, lifted_stiffening * k0_, lifted_shift * k0_,
-                               longest_step * packing_.solids.least_inradius(), evaluator_, factor_, summary_.work);
+      auto there = lifted_step(here_, lifted_stiffening * descent_.stiffness(), lifted_shift * descent_.stiffness(),
+                               longest_step * packing_.solids.least_inradius(), evaluator_, solver_, summary_.work);
       if (!there) break;
       const bool better = wrong(there->value) < wrong(here_.value) / 2;
       const bool balanced = wrong(there->value) < nearly_balanced * there->value.mean_force;
@@ -323,6 +290,7 @@ class Multipliers {
       here_ = std::move(*there);
       ++summary_.iterations;
     }
+    evaluator_.set_series_below(series_below);
     return std::nullopt;
   }
 
@@ -353,7 +321,7 @@ class Multipliers {
     summary_ = sum;
   }
 
-  BlockCholesky factor_;
+  DefiniteSolver solver_;
   Packing& packing_;
   double distance_;
   PackingEnergy& energy_;
@@ -361,13 +329,12 @@ class Multipliers {
   std::stop_token stop_;
   MinimiseSummary summary_;
   EnvelopeEvaluator evaluator_;
+  EnvelopeDescent descent_;
   EnvelopeState here_;
-  double first_force_ = 0;     ///< mean force of the initial equilibrium
-  double expected_force_ = 0;  ///< mean force that is expected if there is no rearrangement
-  double force_ = 0, k0_ = 0;  ///< mean force and stiffness that set the scales
-  double shift_ = 0;           ///< λ
-  double indefinite_ = 0;      ///< largest recent λ for which the matrix was not positive definite
-  double best_ = std::numeric_limits<double>::infinity();    ///< error/mean force at the last renewal with progress
+  double first_force_ = 0;                                 ///< mean force of the initial equilibrium
+  double expected_force_ = 0;                              ///< mean force that is expected if there is no rearrangement
+  double force_ = 0;                                       ///< mean force that sets the scales
+  double best_ = std::numeric_limits<double>::infinity();  ///< error/mean force at the last renewal with progress
   double lowest_ = std::numeric_limits<double>::infinity();  ///< Φ at the last renewal with progress
   int renewals_ = 0;                                         ///< number of renewals since then
   int nonrigid_states_ = 0;                                  ///< consecutive states that cannot be rigid

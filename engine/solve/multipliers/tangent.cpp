@@ -6,6 +6,8 @@ namespace isojam {
 
 namespace {
 
+constexpr double accuracy = 0.01;  // the response is only a prediction
+
 Vector6d stretched(const EnvelopeContact& contact, const Eigen::Matrix3d& imposed) {
   return joined(imposed * contact.displacement, Eigen::Vector3d::Zero());
 }
@@ -31,7 +33,7 @@ Eigen::VectorXd change_of_gradient(const EnvelopeState& from, const Eigen::Matri
 }  // namespace
 
 Tangent tangent(const EnvelopeState& from, const Eigen::Matrix3d& imposed, double shift, double longest,
-                EnvelopeEvaluator& evaluator, BlockCholesky& factor, MinimiseWork& work) {
+                EnvelopeEvaluator& evaluator, DefiniteSolver& solver, MinimiseWork& work) {
   const CellFreedom cell = evaluator.load().control().cell;
   const Eigen::Index particles = 6 * Eigen::Index{from.packing.size()}, all = from.value.gradient.size();
   Eigen::VectorXd change = Eigen::VectorXd::Zero(all);
@@ -42,8 +44,8 @@ Tangent tangent(const EnvelopeState& from, const Eigen::Matrix3d& imposed, doubl
   }
   Tangent result{Eigen::VectorXd::Zero(all), forces_of(from.value)};
   ++work.hessians;
-  ++work.factorisations;
-  if (factor.factorise(evaluator.curvature(from), shift)) result.step = limited(-factor.solve(change), longest);
+  if (const auto response = solver.solve(evaluator.curvature(from), shift, change, accuracy, work))
+    result.step = limited(-*response, longest);
   const Eigen::Matrix3d strain = strain_of(result.step, from.packing.size());
   for (std::size_t k = 0; k < result.forces.size(); ++k) {
     const EnvelopeContact& contact = from.value.contacts[k];

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/solve/factor/definite_solver.hpp"
 #include "engine/solve/multipliers/envelope_state.hpp"
 
 namespace isojam {
@@ -20,6 +20,6 @@ struct Tangent {
 /// and `imposed` is not used. The step is shortened so that no particle moves farther than `longest`. The step is zero
 /// if M is not positive definite.
 Tangent tangent(const EnvelopeState& from, const Eigen::Matrix3d& imposed, double shift, double longest,
-                EnvelopeEvaluator& evaluator, BlockCholesky& factor, MinimiseWork& work);
+                EnvelopeEvaluator& evaluator, DefiniteSolver& solver, MinimiseWork& work);
 
 }  // namespace isojam

@@ -64,7 +64,7 @@ TEST_P(EnvelopeOf, UnshiftedIsTheEnergy) {
   EXPECT_NEAR(here.mean_force, energy.mean_force, 100 * epsilon * energy.mean_force);
   EXPECT_LT((here.gradient - energy.gradient).norm(), 1e3 * epsilon * energy.gradient.norm());
   EXPECT_EQ(here.multiplier_error, 0);
-  const EnvelopeEvaluation again = envelope.evaluate(packing_, forces_of(here), some_stiffness(here));
+  const EnvelopeEvaluation again = envelope.evaluate(packing_, forces_of(here), {some_stiffness(here)});
   EXPECT_NEAR(again.value, here.value, 1e-9 * here.value);
   EXPECT_LT((again.gradient - here.gradient).norm(), 1e-9 * here.gradient.norm());
   EXPECT_LT(again.multiplier_error, 1e-8 * here.mean_force);
@@ -77,11 +77,11 @@ TEST_P(EnvelopeOf, DerivativesAgreeWithDifferences) {
   // The stiffness is so large that shifts are small, although the contacts of a random packing overlap deeply.
   const double stiffness = 100 * some_stiffness(exact);
   const std::vector<ContactMultiplier> forces = changed(exact, random);
-  const EnvelopeEvaluation here = envelope.evaluate(packing_, forces, stiffness);
+  const EnvelopeEvaluation here = envelope.evaluate(packing_, forces, {stiffness});
   const Eigen::VectorXd along = testing_packings::random_step(random, packing_.size());
   const double h = 1e-6;
-  const EnvelopeEvaluation forth = envelope.evaluate(moved(packing_, h * along), forces, stiffness);
-  const EnvelopeEvaluation back = envelope.evaluate(moved(packing_, -h * along), forces, stiffness);
+  const EnvelopeEvaluation forth = envelope.evaluate(moved(packing_, h * along), forces, {stiffness});
+  const EnvelopeEvaluation back = envelope.evaluate(moved(packing_, -h * along), forces, {stiffness});
   const double slope = here.gradient.dot(along), difference = (forth.value - back.value) / (2 * h);
   const Eigen::VectorXd bend = curvature(here, packing_.size()) * along;
   const Eigen::VectorXd bend_difference = (forth.gradient - back.gradient) / (2 * h);
@@ -101,7 +101,7 @@ TEST_P(EnvelopeOf, LiesBelowTheEnergyAndGrowsWithTheStiffness) {
   const std::vector<ContactMultiplier> forces = changed(exact, random);
   double last = -std::numeric_limits<double>::infinity();
   for (const double factor : {1.0, 10.0, 100.0, 1e6}) {
-    const EnvelopeEvaluation here = envelope.evaluate(packing_, forces, factor * some_stiffness(exact));
+    const EnvelopeEvaluation here = envelope.evaluate(packing_, forces, {factor * some_stiffness(exact)});
     EXPECT_GE(here.value, last);
     EXPECT_LE(here.value, exact.value * (1 + 1e-12));
     last = here.value;
@@ -114,10 +114,10 @@ TEST_P(EnvelopeOf, FlaggedParticlesGiveOnlyTheirContacts) {
   EnvelopeEnergy envelope;
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
   const std::vector<ContactMultiplier> forces = changed(exact, random);
-  const EnvelopeEvaluation whole = envelope.evaluate(packing_, forces, some_stiffness(exact));
+  const EnvelopeEvaluation whole = envelope.evaluate(packing_, forces, {some_stiffness(exact)});
   std::vector<char> flags(packing_.poses.size(), 0);
   for (int k = 0; k < 5; ++k) flags[static_cast<std::size_t>(60 * random.uniform())] = 1;
-  const EnvelopeEvaluation part = envelope.evaluate(packing_, forces, some_stiffness(exact), flags);
+  const EnvelopeEvaluation part = envelope.evaluate(packing_, forces, {some_stiffness(exact)}, flags);
   std::size_t next = 0;
   for (const EnvelopeContact& contact : whole.contacts) {
     if (!flags[contact.pair.a] && !flags[contact.pair.b]) continue;
@@ -136,17 +136,17 @@ TEST_P(EnvelopeOf, CombinesMovedAndUnchangedContacts) {
   const EnvelopeEvaluation exact = envelope.unshifted(packing_, 1);
   const std::vector<ContactMultiplier> forces = changed(exact, random);
   const double stiffness = some_stiffness(exact);
-  const EnvelopeEvaluation before = envelope.evaluate(packing_, forces, stiffness);
+  const EnvelopeEvaluation before = envelope.evaluate(packing_, forces, {stiffness});
   std::vector<char> flags(static_cast<std::size_t>(packing_.size()), 0);
   Eigen::VectorXd step = Eigen::VectorXd::Zero(6 * packing_.size());
   for (const int p : {3, 17, 40, 41}) {
     flags[static_cast<std::size_t>(p)] = 1;
     for (double& entry : step.segment<6>(6 * p)) entry = 0.03 * random.normal();
   }
-  EXPECT_TRUE(same_bits(part_of(before, flags), envelope.evaluate(packing_, forces, stiffness, flags)));
+  EXPECT_TRUE(same_bits(part_of(before, flags), envelope.evaluate(packing_, forces, {stiffness}, flags)));
   const Packing there = moved(packing_, step);
-  const EnvelopeEvaluation whole = envelope.evaluate(there, forces, stiffness);
-  const EnvelopeEvaluation made_up = with_part(before, envelope.evaluate(there, forces, stiffness, flags), flags);
+  const EnvelopeEvaluation whole = envelope.evaluate(there, forces, {stiffness});
+  const EnvelopeEvaluation made_up = with_part(before, envelope.evaluate(there, forces, {stiffness}, flags), flags);
   EXPECT_TRUE(same_bits(made_up, whole)) << made_up.contacts.size() << " and " << whole.contacts.size() << " contacts";
   EXPECT_EQ(made_up.mean_force, whole.mean_force);
   EXPECT_EQ(made_up.touching, whole.touching);
@@ -158,17 +158,17 @@ TEST_P(EnvelopeOf, EarlierEvaluationsChangeNoBit) {
   const EnvelopeEvaluation exact = EnvelopeEnergy().unshifted(packing_, 1);
   const std::vector<ContactMultiplier> forces = changed(exact, random);
   const double stiffness = some_stiffness(exact);
-  const EnvelopeEvaluation fresh = EnvelopeEnergy().evaluate(packing_, forces, stiffness);
+  const EnvelopeEvaluation fresh = EnvelopeEnergy().evaluate(packing_, forces, {stiffness});
   EnvelopeEnergy used;
   Eigen::VectorXd one = Eigen::VectorXd::Zero(6 * packing_.size());
   one.head<6>().setConstant(0.01);
-  used.evaluate(moved(packing_, one), forces, stiffness);
-  used.evaluate(testing_packings::sample(GetParam(), 60, density, 316), {}, stiffness);
-  used.evaluate(moved(packing_, one), {}, stiffness);
-  EXPECT_TRUE(same_bits(fresh, used.evaluate(packing_, forces, stiffness)));
+  used.evaluate(moved(packing_, one), forces, {stiffness});
+  used.evaluate(testing_packings::sample(GetParam(), 60, density, 316), {}, {stiffness});
+  used.evaluate(moved(packing_, one), {}, {stiffness});
+  EXPECT_TRUE(same_bits(fresh, used.evaluate(packing_, forces, {stiffness})));
   for (const std::size_t threads : {1U, 2U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    EXPECT_TRUE(same_bits(fresh, EnvelopeEnergy().evaluate(packing_, forces, stiffness))) << threads << " threads";
+    EXPECT_TRUE(same_bits(fresh, EnvelopeEnergy().evaluate(packing_, forces, {stiffness}))) << threads << " threads";
   }
 }
 

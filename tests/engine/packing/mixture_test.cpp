@@ -172,7 +172,7 @@ TEST(MixtureEnvelope, IsTheEnergyAndHasItsSlopes) {
     const double size = force.multiplier.norm() / 4;
     for (double& entry : force.multiplier) entry += size * random.normal();
   }
-  const EnvelopeEvaluation here = envelope.evaluate(packing, forces, stiffness);
+  const EnvelopeEvaluation here = envelope.evaluate(packing, forces, {stiffness});
   const BlockMatrix curvature_here = curvature(here, packing.size());
   double longest = 0;
   for (const EnvelopeContact& contact : here.contacts) longest = std::max(longest, contact.at.shift.norm());
@@ -180,8 +180,8 @@ TEST(MixtureEnvelope, IsTheEnergyAndHasItsSlopes) {
   for (int k = 0; k < 4; ++k) {
     const Eigen::VectorXd u = random_step(random, packing.size()).normalized();
     const double h = 1e-6;
-    const EnvelopeEvaluation ahead = envelope.evaluate(moved(packing, h * u), forces, stiffness),
-                             behind = envelope.evaluate(moved(packing, -h * u), forces, stiffness);
+    const EnvelopeEvaluation ahead = envelope.evaluate(moved(packing, h * u), forces, {stiffness}),
+                             behind = envelope.evaluate(moved(packing, -h * u), forces, {stiffness});
     const double slope = (ahead.value - behind.value) / (2 * h);
     EXPECT_NEAR(slope, here.gradient.dot(u), 1e-6 * here.gradient.norm()) << k;
     const Eigen::VectorXd model = curvature_here * u;

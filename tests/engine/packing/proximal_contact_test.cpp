@@ -185,6 +185,49 @@ TEST_P(ProximalContactOf, DerivativesAgreeWithDifferences) {
   EXPECT_LT(worst_change, 10);
 }
 
+TEST_P(ProximalContactOf, ALastStepByASeriesIsAccurateAndSavesOverlaps) {
+  RandomStream random{306, static_cast<std::uint64_t>(GetParam())};
+  long overlaps = 0, saved = 0;
+  double worst_value = 0, worst_gradient = 0;
+  for (int k = 0; k < 60; ++k) {
+    const auto [pair, terms] = random_case(GetParam(), random);
+    const ProximalContact exact = envelope(pair, terms);
+    ProximalTerms loose = terms;
+    loose.series_below = 1e-3;
+    const ProximalContact found = envelope(pair, loose);
+    overlaps += exact.iterations, saved += exact.iterations - found.iterations;
+    EXPECT_EQ(found.touching, exact.touching);
+    const double force = exact.wrench.norm() + terms.multiplier.norm();
+    worst_gradient = std::max(worst_gradient, (found.gradient_b - exact.gradient_b).norm() / force);
+    worst_value = std::max(worst_value, std::abs(found.value - exact.value) / (force * force / terms.stiffness));
+  }
+  std::printf("%ld of %ld overlaps saved; error of the gradient %.1e, of Φ %.1e of f²/ρ\n", saved, overlaps,
+              worst_gradient, worst_value);
+  EXPECT_GT(saved, overlaps / 5);
+  EXPECT_LT(worst_gradient, 1e-4);
+  EXPECT_LT(worst_value, 1e-6);
+}
+
+TEST_P(ProximalContactOf, APlainContactIsThePairItself) {
+  RandomStream random{307, static_cast<std::uint64_t>(GetParam())};
+  for (int k = 0; k < 30; ++k) {
+    const Pair pair = random_case(GetParam(), random).pair;
+    const LonePlacedSolid placed_b(*pair.solid, rotation_matrix(pair.b));
+    const DoubleDoubleVector r = displacement(pair.a, pair.b);
+    const PairEnergy e = pair_energy(placed(pair), placed_b, r);
+    const ProximalContact plain = plain_contact(placed(pair), placed_b, pair.b, r);
+    EXPECT_EQ(plain.value, e.energy);
+    EXPECT_EQ(plain.gradient_a, e.gradient_a);
+    EXPECT_EQ(plain.gradient_b, e.gradient_b);
+    EXPECT_EQ(plain.curvature().ab, e.hessian.ab);
+    const Vector6d a = random_vector(random, 1), b = random_vector(random, 1);
+    const double second = a.dot(e.hessian.aa * a) + 2 * a.dot(e.hessian.ab * b) + b.dot(e.hessian.bb * b);
+    const double expected = e.energy + e.gradient_a.dot(a) + e.gradient_b.dot(b) + second / 2;
+    EXPECT_NEAR(plain.predicted(a, b), expected, 1e-12 * (std::abs(expected) + std::abs(second)));
+    EXPECT_EQ(plain.shift_change(a, b).norm(), 0);
+  }
+}
+
 TEST_P(ProximalContactOf, MovesWithBothBodies) {
   RandomStream random{303, static_cast<std::uint64_t>(GetParam())};
   for (int k = 0; k < 30; ++k) {

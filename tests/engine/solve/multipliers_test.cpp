@@ -1,7 +1,7 @@
 // Properties tested here, for strain steps between equilibria of every solid of the paper, Δφ from 0.1 to 0.01:
 // - follow_equilibrium() ends in an equilibrium of the energy, by forces summed independently, at the requested
 //   density. The energy is the one that Newton's method finds, unless one of the two methods left the solution branch.
-//   In total it needs fewer factorisations than Newton's method; a small step needs only a few.
+//   In total it computes fewer Hessians than Newton's method; a small step needs only a few.
 // - relax_to_equilibrium() finds an equilibrium from a strained state for which no multipliers are known.
 // - A packing strained below jamming is reported as unjammed.
 // - The method stops at the largest number of evaluations, and on request. One and two threads give the same bits.
@@ -98,15 +98,15 @@ TEST_P(Multipliers, FindTheEquilibriaThatNewtonFinds) {
       EXPECT_EQ(found.summary.residual, fresh.residual);
       EXPECT_LE(fresh.residual, 1e-6);
       EXPECT_LE(balance_of(found.packing).residual, 1e-6 + 10 * PackingEnergy().evaluate(found.packing).residual_floor);
-      by_multipliers += found.summary.work.factorisations;
-      by_newton_alone += oracle.summary.work.factorisations;
+      by_multipliers += found.summary.work.hessians;
+      by_newton_alone += oracle.summary.work.hessians;
       if (!is_equilibrium(oracle.summary)) continue;
       ++compared;
       const double difference = found.summary.energy / oracle.summary.energy - 1;
       same += std::abs(difference) < 1e-6;
-      std::printf("Δφ %.4f by %.2f: E differs by %.1e; %ld factorisations (%ld local), Newton %ld\n", from.distance,
-                  ratio, difference, found.summary.work.factorisations, found.summary.work.local_factorisations,
-                  oracle.summary.work.factorisations);
+      std::printf("Δφ %.4f by %.2f: E differs by %.1e; %ld Hessians (%ld local), Newton %ld\n", from.distance, ratio,
+                  difference, found.summary.work.hessians, found.summary.work.local_factorisations,
+                  oracle.summary.work.hessians);
     }
   }
   EXPECT_GE(compared, 6);
@@ -114,16 +114,16 @@ TEST_P(Multipliers, FindTheEquilibriaThatNewtonFinds) {
   EXPECT_LT(by_multipliers, by_newton_alone);
 }
 
-TEST_P(Multipliers, SmallStepsNeedFewFactorisations) {
+TEST_P(Multipliers, SmallStepsNeedFewHessians) {
   std::vector<long> counts;
   for (const State& from : states(GetParam())) {
     const Followed found = followed(from, 0.03);
     EXPECT_TRUE(is_equilibrium(found.summary)) << to_string(found.summary.reason);
-    counts.push_back(found.summary.work.factorisations);
+    counts.push_back(found.summary.work.hessians);
   }
   ASSERT_FALSE(counts.empty());
   std::sort(counts.begin(), counts.end());
-  std::printf("%zu states, %ld to %ld factorisations, median %ld\n", counts.size(), counts.front(), counts.back(),
+  std::printf("%zu states, %ld to %ld Hessians, median %ld\n", counts.size(), counts.front(), counts.back(),
               counts[counts.size() / 2]);
   EXPECT_LE(counts[counts.size() / 2], 20);
 }
@@ -225,13 +225,13 @@ TEST_P(Multipliers, LiftedStepsConvergeQuadratically) {
   Prepared prepared(from);
   const Eigen::VectorXd step = disturbance(from, 1e-4 * from.distance);
   EnvelopeState state = prepared.evaluator.at(moved(from.packing, step), forces_after(prepared.state, step));
-  BlockCholesky factor;
+  DefiniteSolver solver;
   const double k0 = state.value.mean_force / from.distance;
   std::vector<double> wrong;
   for (int k = 0; k < 4; ++k) {
     wrong.push_back(std::max(largest_displacement(state.value.gradient), state.value.multiplier_error) /
                     state.value.mean_force);
-    auto next = lifted_step(state, 1e8 * k0, 1e-7 * k0, 0.01, prepared.evaluator, factor, prepared.work);
+    auto next = lifted_step(state, 1e8 * k0, 1e-7 * k0, 0.01, prepared.evaluator, solver, prepared.work);
     ASSERT_TRUE(next);
     state = std::move(*next);
   }

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "engine/packing/block_matrix.hpp"
+#include "engine/solve/factor/block_cholesky.hpp"
+#include "engine/solve/factor/incomplete_cholesky.hpp"
+#include "engine/solve/minimise/summary.hpp"
+
+namespace isojam {
+
+/// Solves (H + shift·1) x = b for a positive definite matrix. The cost of a complete factorisation grows faster than the
+/// square of the number of particles. Large systems are therefore first tried with conjugate gradients, whose
+/// preconditioner is an incomplete factorisation. If they do not converge soon, the complete factorisation follows.
+class DefiniteSolver {
+ public:
+  /// Returns nullopt if the matrix is not positive definite, as far as the method notices. An iterative solution is
+  /// accurate to `tolerance`, by which √(r·P⁻¹r) has fallen; r is the residual vector and P the preconditioner.
+  std::optional<Eigen::VectorXd> solve(const BlockMatrix& matrix, double shift, const Eigen::VectorXd& b,
+                                       double tolerance, MinimiseWork& work);
+
+ private:
+  BlockCholesky complete_;
+  IncompleteCholesky incomplete_;
+};
+
+/// Outcome of conjugate gradients.
+struct IterativeSolution {
+  enum class End { converged, negative_curvature, not_converged } end = End::not_converged;
+  Eigen::VectorXd x;
+  int iterations = 0;
+};
+
+/// Conjugate gradients for (H + shift·1) x = b with the preconditioner P, an incomplete factorisation.
+IterativeSolution conjugate_gradients(const BlockMatrix& matrix, double shift, const IncompleteCholesky& preconditioner,
+                                      const Eigen::VectorXd& b, double tolerance, int most_iterations);
+
+}  // namespace isojam

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "engine/solve/multipliers/envelope_state.hpp"
+#include "engine/solve/multipliers/krylov_model.hpp"
+
+namespace isojam {
+
+/// Minimises Φ by Levenberg–Marquardt steps in Krylov spaces (KrylovModel). If contacts form or break, the model of a
+/// step is wrong for a few pairs. The particles of these pairs are relaxed separately before the step is accepted or
+/// rejected (local_relaxation.hpp). This costs little, and few steps are then rejected.
+class EnvelopeDescent {
+ public:
+  EnvelopeDescent(EnvelopeEvaluator& evaluator, MinimiseWork& work);
+
+  /// Sets the stiffness k₀ = f/Δφ of soft contacts. The shift λ keeps its ratio to k₀.
+  void set_stiffness(double k0);
+  double stiffness() const { return k0_; }  ///< k₀
+  /// True if λ has become so large that further steps would not move the particles.
+  bool failed() const;
+
+  /// Makes one step from `here`, in which no particle moves farther than `longest`. Increases the shift until Φ
+  /// decreases enough. Returns nullopt if must_stop() is true before that.
+  std::optional<EnvelopeState> step(const EnvelopeState& here, double longest, const std::function<bool()>& must_stop);
+
+ private:
+  void adapt(const EnvelopeState& from, const EnvelopeState& to, const ModelStep& step, bool relaxed, bool repeated);
+
+  EnvelopeEvaluator& evaluator_;
+  MinimiseWork& work_;
+  KrylovModels models_;
+  double k0_ = 1;  ///< stiffness of soft contacts
+  double shift_;   ///< λ
+};
+
+}  // namespace isojam
