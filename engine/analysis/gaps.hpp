@@ -9,17 +9,17 @@ namespace isojam {
 /// A pair of particles that nearly touch.
 struct Gap {
   NeighbourPair pair;  ///< the particles, and the image of b
-  /// Width of the gap (V_p^(1/3)): the largest distance between two parallel planes that separate the particles. Only
-  /// planes that are parallel to a face of one particle, or to an edge of each particle, are used. The width is at most
-  /// the distance between the particles. It can be smaller, for example if two vertices are the nearest points.
+  /// Width of the gap (V_p^(1/3)): distance of two parallel planes that separate the particles. It is the largest such
+  /// distance among planes that are parallel to a face of one particle, or to one edge of each particle. The width is
+  /// at most the distance between the particles. It can be smaller, for example if two vertices are the nearest points.
   double width = 0;
-  /// true if the planes are parallel to a face
-  bool of_faces = true;
+  /// true if two planes parallel to a face have this distance within rounding errors
+  bool of_faces = false;
 };
 
-/// Finds all pairs that do not touch and whose gap is below `widest` (V_p^(1/3)), sorted by (a, b, shift). Only the
-/// first double of each coordinate is used, so the error is about 1e-16. Throws std::invalid_argument unless 0 <
-/// widest.
-std::vector<Gap> near_gaps(const Packing& packing, double widest);
+/// Finds all pairs that do not touch and whose gap has a width below `max_width` (V_p^(1/3)), sorted by (a, b, shift).
+/// Coordinates are rounded to double, so the width has an error of a few 1e-15. Throws std::invalid_argument unless 0 <
+/// max_width.
+std::vector<Gap> near_gaps(const Packing& packing, double max_width);
 
 }  // namespace isojam

@@ -25,16 +25,16 @@ AddingTally add_measures(const Store& store, const Additions& additions, int thr
     largest = std::max(largest, cost.memory_bytes);
   }
   console.begin(static_cast<int>(count), work);
-  const NextReplicate next = [&, at = std::size_t{0}]() mutable {
-    return at < count ? std::optional(additions.measured[at++]) : std::nullopt;
+  const NextReplicate next = [&, next_index = std::size_t{0}]() mutable {
+    return next_index < count ? std::optional(additions.measured[next_index++]) : std::nullopt;
   };
   const GraphOptions options{threads, replicates_in_flight(threads, largest, memory_bytes), stop, {}};
   Adder adder(store, additions.measured);
   run_graph(next, adder.stages(), options, [&](const Outcome& outcome) {
     if (outcome.interrupted) return;
     const auto problem = adder.finish(outcome);
-    if (problem) console.warn(fmt::format("{}; its record is unchanged", *problem));
-    ++(problem ? tally.left : tally.added);
+    if (problem) console.warn(fmt::format("{}; the record of {} is unchanged", *problem, replicate_name(outcome.spec)));
+    ++(problem ? tally.unchanged : tally.added);
     console.finished(estimated_cost(outcome.spec, false).cpu_seconds, problem.has_value());
     console.tick(replicate_name(outcome.spec));
   });

@@ -9,7 +9,7 @@ namespace isojam {
 
 /// Number of records to which measures were added, and number of records that were left unchanged because of a problem.
 struct AddingTally {
-  std::size_t added = 0, left = 0;
+  std::size_t added = 0, unchanged = 0;
 };
 
 /// Adds measures to the records in `additions`, on `threads` threads. It shows the progress, and prints a warning for

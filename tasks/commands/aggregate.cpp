@@ -28,7 +28,7 @@ struct AggregateArguments {
   std::vector<std::string> directories;
   std::string output;  ///< path of tables.json to write; empty: none
   TableFormat format = TableFormat::text;
-  bool series = false;  ///< print quantities against Δφ, not those of the nearest state; JSON always has both
+  bool series = false;  ///< print the quantities of all states; otherwise those of the nearest state
   TableChoices choices;
 };
 
@@ -43,12 +43,13 @@ std::string formatted(const Table& table, TableFormat format, View view) {
   return to_text(table, view);
 }
 
-/// Parses "none" or comma-separated names of flags; returns an error text if this fails.
+/// Parses "none", or names of flags separated by commas. Returns an error text if a name is unknown.
 std::optional<std::string> read_exclude(const std::string& text, std::optional<std::vector<Flag>>& exclude) {
   std::vector<Flag> flags;
   for (std::size_t from = 0; text != "none" && from <= text.size();) {
     const auto to = std::min(text.find(',', from), text.size());
     const auto name = text.substr(from, to - from);
+    if (name == "none") return "\"none\" is not accepted in a list; expected none alone, or names of flags";
     const auto flag = from_string<Flag>(name);
     if (!flag) return unknown_name("flag", name, all_names<Flag>, "none or ");
     if (std::find(flags.begin(), flags.end(), *flag) == flags.end()) flags.push_back(*flag);
@@ -60,11 +61,11 @@ std::optional<std::string> read_exclude(const std::string& text, std::optional<s
 }
 
 /// Prints the tables. Writes no file except the one that --output names.
-ExitCode aggregate_directories(const AggregateArguments& arguments, Console& console) {
+ExitCode print_tables(const AggregateArguments& arguments, Console& console) {
   const Warn warn = [&](const std::string& message) { console.warn(message); };
   const auto table = table_of(arguments.directories, warn, arguments.choices);
-  // If a base from the command line matches no row, it is a typing error. A base from the manifest may match only rows
-  // that have not run yet.
+  // A base on the command line must match a row. A base of the manifest may belong to a row whose replicates have not
+  // run yet.
   if (const auto problem = arguments.choices.base ? misplaced_base(table) : std::nullopt) {
     console.error(*problem);
     return ExitCode::usage;
@@ -79,23 +80,25 @@ ExitCode aggregate_directories(const AggregateArguments& arguments, Console& con
 void add_aggregate(CLI::App& app, Session& session) {
   AggregateArguments* arguments = nullptr;
   auto options = add_command(app, session, "aggregate", "Print tables of the records in results directories",
-                             aggregate_directories, arguments);
+                             print_tables, arguments);
   options.texts("directories", arguments->directories, "Results directories", "DIR");
   options.text("-o,--output", arguments->output, "Also write the tables to this file, as JSON", "FILE");
-  options.choice("--format", arguments->format, "Format of the tables on stdout");
+  options.choice("--format", arguments->format, "Print the tables in this format");
   options.parsed(
       "--exclude", [arguments](const std::string& text) { return read_exclude(text, arguments->choices.exclude); },
       [] {},
-      "Exclude replicates with these flags (separated by commas) from the means, or none (default: as in the manifest)",
+      "Exclude replicates with these flags from the means. Separate flags by commas; none excludes no replicate "
+      "(default: the flags of the manifest)",
       "FLAGS");
   options.parsed(
       "--base", [arguments](const std::string& text) { return parse_base(text, arguments->choices.base.emplace()); },
       [] {},
-      "Print differences from the row with these swept values (such as step_fraction=0.35, separated by commas), or "
-      "none (default: as in the manifest)",
+      "Print differences from the row with these values of swept parameters, for example "
+      "step_fraction=0.35,method=newton; none prints no differences (default: the base of the manifest)",
       "PARAMETER=VALUE");
   options.flag("--series", arguments->series,
-               "Print the quantities against the distance above jamming (JSON contains both)");
+               "Print the quantities of all states as functions of the distance to jamming, instead of those of the "
+               "nearest state (the format json always contains both)");
 }
 
 }  // namespace isojam

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -17,16 +19,28 @@ namespace isojam {
 
 namespace {
 
-constexpr auto exit_codes =
-    "Exit codes: 0 all done; 1 some replicates failed, a resource failed (memory, threads, disk), or an output could "
-    "not be written; 2 usage error, or a path on the command line cannot be read or written; 65 bad manifest, damaged "
-    "record, or directory of another manifest; 75 interrupted, repeat the command to resume.";
+std::vector<ExitCodeDescription> exit_codes() {
+  return {{ExitCode::done, "everything was done"},
+          {ExitCode::some_failed,
+           "a replicate failed, memory, threads or disk space ran out, or an output cannot be "
+           "written"},
+          {ExitCode::usage, "error on the command line, or a path on it cannot be read or written"},
+          {ExitCode::bad_input, "error in a manifest, damaged record, or directory of another manifest"},
+          {ExitCode::interrupted, "interrupted; repeat the command to resume"}};
+}
+
+std::string exit_codes_text() {
+  std::string text = "Exit codes:\n";
+  for (const auto& [code, meaning] : exit_codes()) text += fmt::format("  {:>2}: {}\n", static_cast<int>(code), meaning);
+  return text;
+}
 
 void add_console_options(Options options, ConsoleOptions& console) {
-  options.flag("--quiet", console.quiet, "Print only errors on stderr");
-  options.flag("-v,--verbose", console.verbose, "Print a line for each replicate");
+  options.flag("--quiet", console.quiet, "Print no messages except errors (tables are still printed)");
+  options.flag("-v,--verbose", console.verbose, "Print a line for each finished replicate");
   options.choice("--color", console.colour, "Use colour on stderr");
-  options.choice("--messages", console.form, "Set the format of messages on stderr (json: one object per line)");
+  options.choice("--messages", console.form,
+                 "Set the format of messages on stderr; with json, each line is one object");
 }
 
 void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
@@ -36,11 +50,18 @@ void add_option_names(const CLI::App& app, std::vector<std::string>& names) {
   }
 }
 
-/// Error text for the first unknown command or option. Empty if all are known.
-std::string unknown_word(const CLI::App& app) {
+/// Ending of an error message that names the help of the command in which the error is.
+std::string see_help(const std::vector<CLI::App*>& given) {
+  return fmt::format("; see \"isojam{} --help\"", given.empty() ? "" : " " + given.front()->get_name());
+}
+
+/// Returns an error text for the first unknown command or option, or for the first argument that is too many. Returns
+/// an empty text if there is none.
+std::string unexpected_argument(const CLI::App& app) {
   const auto given = app.get_subcommands();
-  for (const auto& word : app.remaining(true)) {
-    const bool option = word.size() > 1 && word[0] == '-';
+  const auto remaining = app.remaining(true);
+  for (const auto& argument : remaining) {
+    const bool option = argument.size() > 1 && argument[0] == '-';
     std::vector<std::string> names;
     if (option) {
       add_option_names(app, names);
@@ -51,9 +72,23 @@ std::string unknown_word(const CLI::App& app) {
     } else {
       continue;
     }
+    const auto unknown = argument.substr(0, option ? argument.find('=') : std::string::npos);
+    // Every name of one letter is similar to every other one, so none of them is suggested.
+    std::erase_if(names, [](const std::string& name) { return name.size() == 2; });
     const std::vector<std::string_view> known(names.begin(), names.end());
-    const auto unknown = word.substr(0, option ? word.find('=') : std::string::npos);
     return unknown_name(option ? "option" : "command", unknown, known);
+  }
+  return remaining.empty() ? "" : fmt::format("unexpected argument \"{}\"{}", remaining.front(), see_help(given));
+}
+
+/// Returns an error text if the command, or a required argument of it, is missing. Otherwise returns an empty text.
+std::string missing_argument(const CLI::App& app) {
+  const auto given = app.get_subcommands();
+  if (given.empty()) return "a command is required" + see_help(given);
+  for (const auto* option : given.front()->get_options()) {
+    if (!option->get_required() || option->count() > 0) continue;
+    return fmt::format("{} is required{}", option->get_positional() ? option->get_type_name() : option->get_name(),
+                       see_help(given));
   }
   return "";
 }
@@ -69,13 +104,14 @@ std::vector<std::string> choices_of(const std::string& type) {
   return choices;
 }
 
-std::vector<OptionDescription> described_options(const CLI::App& app) {
+std::vector<OptionDescription> describe_options(const CLI::App& app) {
   std::vector<OptionDescription> list;
   for (const auto* option : app.get_options()) {
     OptionDescription described;
     for (const auto& name : option->get_snames()) described.names.push_back("-" + name);
     for (const auto& name : option->get_lnames()) described.names.push_back("--" + name);
     if (described.names.empty()) described.place = option->get_name();
+    described.repeated = option->get_items_expected_max() > 1;
     // A flag takes no value, even if it has a type name.
     if (option->get_items_expected_max() > 0) described.type = option->get_type_name();
     described.choices = choices_of(described.type);
@@ -86,17 +122,17 @@ std::vector<OptionDescription> described_options(const CLI::App& app) {
   return list;
 }
 
-ProgramDescription described_program(const CLI::App& app) {
+ProgramDescription describe_program(const CLI::App& app) {
   ProgramDescription program{.name = app.get_name(),
                              .description = app.get_description(),
                              .version = "isojam " + std::string(version()),
-                             .footer = exit_codes,
-                             .options = described_options(app),
+                             .exit_codes = exit_codes(),
+                             .options = describe_options(app),
                              .commands = {}};
   for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    auto options = described_options(*command);
+    auto options = describe_options(*command);
     std::erase_if(options, [](const OptionDescription& option) {
-      // Every command has --help, which is described once, with the program.
+      // Leave out --help, because the description of the program has it.
       return !option.names.empty() && option.names.back() == "--help";
     });
     program.commands.push_back({command->get_name(), command->get_description(), std::move(options)});
@@ -104,11 +140,38 @@ ProgramDescription described_program(const CLI::App& app) {
   return program;
 }
 
+/// Returns an error text for an option without its value, or an empty text for any other error.
+std::string missing_value(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return "";
+  const std::string text = error.what();
+  const auto name = text.substr(0, text.find(':'));
+  const auto given = app.get_subcommands();
+  std::vector<const CLI::App*> owners(given.begin(), given.end());
+  owners.push_back(&app);
+  for (const auto* owner : owners) {
+    const auto* option = owner->get_option_no_throw(name);
+    if (option == nullptr || option->get_items_expected_max() == 0) continue;
+    const auto choices = choices_of(option->get_type_name());
+    const std::vector<std::string_view> names(choices.begin(), choices.end());
+    return fmt::format("{} needs a value; expected {}", name, names.empty() ? option->get_type_name() : one_of(names));
+  }
+  return "";
+}
+
+/// Returns the error text in the terms of the program. Returns an empty text for an error whose text is already in
+/// these terms, and for a request of the help or the version.
+std::string own_text(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return "";
+  if (auto text = unexpected_argument(app); !text.empty()) return text;
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return missing_argument(app);
+  return missing_value(app, error);
+}
+
 std::string not_accepted(const std::string& text, const std::string& allowed) {
   return "\"" + text + "\" is not accepted; expected " + allowed;
 }
 
-/// Error text if the number is not positive or not finite. Empty if it is positive and finite.
+/// Returns an error text if the number is not positive or not finite, and otherwise an empty text.
 std::string not_positive(const std::string& text) {
   double value = 0;
   const bool good = CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);
@@ -138,10 +201,10 @@ void Options::positive(const std::string& name, double& value, const std::string
 
 void Options::parsed(const std::string& name, const std::function<std::optional<std::string>(const std::string&)>& read,
                      std::function<void()> absent, const std::string& description, const std::string& type) {
-  const auto* option = app_.add_option_function<std::string>(
-                               name, [read](const std::string& text) { (void)read(text); }, description)
-                           ->check([read](const std::string& text) { return read(text).value_or(""); })
-                           ->type_name(type);
+  const auto parse = [name, read](const std::string& text) {
+    if (const auto problem = read(text)) throw CLI::ValidationError(name, *problem);
+  };
+  const auto* option = app_.add_option_function<std::string>(name, parse, description)->type_name(type);
   app_.parse_complete_callback([option, absent = std::move(absent)] {
     if (option->count() == 0) absent();
   });
@@ -165,12 +228,12 @@ void Options::exclusive(const std::string& one, const std::string& other) {
 }
 
 void Options::results_directory(std::string& directory) {
-  text("directory", directory, "Results directory", "DIR", Need::required);
+  text("directory", directory, "Directory with the results of isojam run", "DIR", Need::required);
 }
 
 void Options::threads(int& threads) {
   constexpr int most_threads = 4096;
-  app_.add_option("-j,--threads", threads, "Number of threads (default: as many as the machine has)")
+  app_.add_option("-j,--threads", threads, "Number of threads (default: all that the system allows this process)")
       ->check([](const std::string& text) {
         int value = 0;
         const bool good = CLI::detail::lexical_cast(text, value) && value >= 1 && value <= most_threads;
@@ -188,22 +251,22 @@ Options add_command(CLI::App& app, Session& session, const std::string& name, co
 
 std::optional<ExitCode> parse_command_line(int argc, char** argv, std::span<const AddCommand> commands,
                                            Session& session) {
-  CLI::App app("isojam: compute and analyse jammed packings of soft frictionless convex solids", "isojam");
+  CLI::App app("isojam computes and analyses jammed packings of soft, frictionless convex polyhedra", "isojam");
   app.require_subcommand(1);
   app.fallthrough();
   app.set_version_flag("--version", version_text());
-  app.footer(exit_codes);
+  app.footer(exit_codes_text());
   add_console_options(Options(app), session.console);
   for (const AddCommand add : commands) add(app, session);
-  session.program = described_program(app);
+  session.program = describe_program(app);
   try {
     app.parse(argc, argv);
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "isojam: error: %s\n", printable(error.what()).c_str());
     return ExitCode::usage;
   } catch (const CLI::ParseError& error) {
-    if (const auto unknown = error.get_exit_code() == 0 ? std::string() : unknown_word(app); !unknown.empty()) {
-      std::fprintf(stderr, "isojam: error: %s\n", printable(unknown).c_str());
+    if (const auto text = own_text(app, error); !text.empty()) {
+      std::fprintf(stderr, "isojam: error: %s\n", printable(text).c_str());
       return ExitCode::usage;
     }
     std::ostringstream out, err;

@@ -27,12 +27,13 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text;
 }
 
-/// Puts a text in single quotes of a shell.
+/// Quotes a text for the shell, with single quotes.
 std::string quoted(const std::string& text) { return "'" + replaced(text, "'", R"('\'')") + "'"; }
 
 // ---- bash ----------------------------------------------------------------------------------------------------
 
-/// Adds branches to a case statement on the previous word: after an option, its values are completed.
+/// Adds, for each option that takes a value, the branch that completes this value. The case statement tests the
+/// previous argument.
 void add_bash_values(const std::vector<OptionDescription>& options, const std::string& indent, std::string& script) {
   for (const auto& option : options) {
     if (option.names.empty() || option.type.empty()) continue;
@@ -47,28 +48,29 @@ void add_bash_values(const std::vector<OptionDescription>& options, const std::s
   }
 }
 
-/// Script that completes the words of a command. A positional argument is completed by its choices or by file names.
+/// Script that completes the arguments of a command. For a positional argument, it offers the choices or the names of
+/// files.
 std::string bash_command(const ProgramDescription& program, const CommandDescription& command) {
-  std::string choices = names_of(command.options) + " " + names_of(program.options), files;
+  std::string choices = names_of(command.options) + " " + names_of(program.options), compgen_action;
   for (const auto& option : command.options) {
     if (!option.names.empty()) continue;
     for (const auto& choice : option.choices) choices += " " + choice;
-    if (is_path(option) && files != "f") files = is_directory(option) ? "d" : "f";
+    if (is_path(option) && compgen_action != "f") compgen_action = is_directory(option) ? "d" : "f";
   }
   std::string script = fmt::format("    {})\n      case $before in\n", command.name);
   add_bash_values(command.options, "        ", script);
   script += "      esac\n";
   script += fmt::format("      mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")\n", choices);
-  if (!files.empty()) {
+  if (!compgen_action.empty()) {
     script += fmt::format(
         "      [[ $word == -* ]] || {{ compopt -o filenames; mapfile -t -O \"${{#COMPREPLY[@]}}\" COMPREPLY "
         "< <(compgen -{} -- \"$word\"); }}\n",
-        files);
+        compgen_action);
   }
   return script + "      ;;\n";
 }
 
-std::string bash(const ProgramDescription& program) {
+std::string bash_script(const ProgramDescription& program) {
   std::string names;
   for (const auto& command : program.commands) names += (names.empty() ? "" : " ") + command.name;
   std::string script = fmt::format(
@@ -100,35 +102,40 @@ std::string zsh_text(const std::string& text) {
   return replaced(replaced(replaced(text, "[", "("), "]", ")"), ":", R"(\:)");
 }
 
-void add_zsh(const std::vector<OptionDescription>& options, std::string& script) {
+void add_zsh(const std::vector<OptionDescription>& options, const std::string& indent, std::string& script) {
   for (const auto& option : options) {
+    const auto value = zsh_value(option);
     if (option.names.empty()) {
-      script += " \\\n        " + quoted((option.required ? ":" : "::") + zsh_text(option.place) +
-                                         zsh_value(option).substr(zsh_value(option).rfind(':')));
+      const auto* position = option.repeated ? "*:" : option.required ? ":" : "::";
+      script += " \\\n" + indent + quoted(position + zsh_text(option.place) + value.substr(value.rfind(':')));
     }
     for (const auto& name : option.names)
-      script +=
-          " \\\n        " + quoted(fmt::format("{}[{}]{}", name, zsh_text(option.description), zsh_value(option)));
+      script += " \\\n" + indent + quoted(fmt::format("{}[{}]{}", name, zsh_text(option.description), value));
   }
 }
 
-std::string zsh(const ProgramDescription& program) {
+/// The first _arguments completes the options of the program, which may precede the command, and finds the command.
+/// Then `words` begins with the command.
+std::string zsh_script(const ProgramDescription& program) {
   std::string script = fmt::format(
-      "#compdef {0}\n# Completions of {0} for zsh.\n_{0}() {{\n  local -a commands\n  commands=(\n", program.name);
+      "#compdef {0}\n# Completions of {0} for zsh.\n_{0}() {{\n  local curcontext=\"$curcontext\" state line\n"
+      "  local -a commands\n  commands=(\n",
+      program.name);
   for (const auto& command : program.commands)
     script += "    " + quoted(command.name + ":" + zsh_text(command.description)) + "\n";
+  script += "  )\n  _arguments -C -A '-*'";
+  add_zsh(program.options, "    ", script);
   script +=
-      "  )\n  if (( CURRENT == 2 )) && [[ $words[2] != -* ]]; then\n    _describe command commands\n    return\n  fi\n"
-      "  local command=${words[(r)[a-z]*,-1]}\n  case $words[2] in\n";
+      " \\\n    '1:command:->command' \\\n    '*::argument:->arguments'\n"
+      "  if [[ $state == command ]]; then\n    _describe command commands\n    return\n  fi\n"
+      "  [[ $state == arguments ]] || return\n  case $words[1] in\n";
   for (const auto& command : program.commands) {
-    script += fmt::format("    {})\n      shift words; (( CURRENT-- ))\n      _arguments", command.name);
-    add_zsh(command.options, script);
-    add_zsh(program.options, script);
+    script += fmt::format("    {})\n      _arguments", command.name);
+    add_zsh(command.options, "        ", script);
+    add_zsh(program.options, "        ", script);
     script += " ;;\n";
   }
-  script += "    *)\n      _arguments";
-  add_zsh(program.options, script);
-  return script + fmt::format(" ;;\n  esac\n}}\n_{0} \"$@\"\n", program.name);
+  return script + fmt::format("  esac\n}}\n_{0} \"$@\"\n", program.name);
 }
 
 // ---- fish ----------------------------------------------------------------------------------------------------
@@ -149,7 +156,7 @@ void add_fish(const std::string& program, const std::string& condition, const st
   }
 }
 
-std::string fish(const ProgramDescription& program) {
+std::string fish_script(const ProgramDescription& program) {
   std::string script = fmt::format("# Completions of {0} for fish.\ncomplete -c {0} -f\n", program.name);
   for (const auto& command : program.commands) {
     script += fmt::format("complete -c {} -n __fish_use_subcommand -a {} -d {}\n", program.name, command.name,
@@ -165,9 +172,9 @@ std::string fish(const ProgramDescription& program) {
 
 std::string completions(const ProgramDescription& program, Shell shell) {
   switch (shell) {
-    case Shell::bash: return bash(program);
-    case Shell::zsh: return zsh(program);
-    case Shell::fish: return fish(program);
+    case Shell::bash: return bash_script(program);
+    case Shell::zsh: return zsh_script(program);
+    case Shell::fish: return fish_script(program);
   }
   return "";
 }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "tasks/io/exit_codes.hpp"
+
 namespace isojam {
 
 /// Description of an argument or option of a command or of the program.
@@ -16,6 +18,7 @@ struct OptionDescription {
   std::vector<std::string> choices;
   std::string description;
   bool required = false;
+  bool repeated = false;  ///< true if the user can give several values
 };
 
 struct CommandDescription {
@@ -23,9 +26,17 @@ struct CommandDescription {
   std::vector<OptionDescription> options;
 };
 
+struct ExitCodeDescription {
+  ExitCode code = ExitCode::done;
+  std::string meaning;
+};
+
 /// Description of the whole command line. The help, the manual page and the completion scripts are made from it.
 struct ProgramDescription {
-  std::string name, description, version, footer;
+  std::string name;
+  std::string description;  ///< the name, and what the program does, without a full stop
+  std::string version;
+  std::vector<ExitCodeDescription> exit_codes;
   std::vector<OptionDescription> options;  ///< options of the program, which are allowed with every command
   std::vector<CommandDescription> commands;
 };

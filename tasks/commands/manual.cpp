@@ -6,8 +6,8 @@
 namespace isojam {
 namespace {
 
-/// Escapes a text for troff: backslashes, hyphens (which must appear as the hyphens of options), and a first character
-/// that would make the text a request.
+/// Escapes a text for troff. Hyphens stay hyphens, so that options can be copied. A text that begins with . or ' would
+/// be an instruction to troff, so it gets a prefix.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -27,6 +27,7 @@ void add_options(const std::vector<OptionDescription>& options, std::string& pag
     const std::string name = option.names.empty() ? option.place : fmt::format("{}", fmt::join(option.names, ", "));
     page += ".TP\n" + std::string(option.names.empty() ? "\\fI" : "\\fB") + escaped(name) + "\\fR";
     if (!option.names.empty() && !option.type.empty()) page += " \\fI" + escaped(option.type) + "\\fR";
+    if (option.repeated) page += " ...";
     page += "\n" + escaped(option.description) + (option.required && !option.names.empty() ? " (required)" : "") + "\n";
     if (option.names.empty() && !option.choices.empty()) page += "One of " + escaped(option.type) + ".\n";
   }
@@ -38,6 +39,7 @@ std::string synopsis(const CommandDescription& command) {
     if (!option.names.empty()) continue;
     const std::string type = option.choices.empty() && !option.type.empty() ? option.type : option.place;
     line += option.required ? " \\fI" + escaped(type) + "\\fR" : " [\\fI" + escaped(type) + "\\fR]";
+    if (option.repeated) line += " ...";
   }
   return line;
 }
@@ -47,19 +49,22 @@ std::string synopsis(const CommandDescription& command) {
 std::string manual(const ProgramDescription& program) {
   std::string page = fmt::format(".TH {} 1 \"\" \"{}\" \"User Commands\"\n", program.name, program.version);
   page += ".SH NAME\n" + escaped(program.name) + " \\- " +
-          escaped(program.description.substr(program.description.find(": ") + 2)) + "\n.SH SYNOPSIS\n";
+          escaped(program.description.substr(program.name.size() + 1)) + "\n.SH SYNOPSIS\n";
   for (const auto& command : program.commands)
     page += fmt::format(".B {} {}\n", program.name, command.name) + synopsis(command).substr(1) + "\n.br\n";
   page += ".SH DESCRIPTION\n" + escaped(program.description) +
-          ".\nResults go to standard output, messages to standard error.\n";
+          ".\nResults go to the standard output. Messages go to the standard error.\n";
   page += ".SH COMMANDS\n";
   for (const auto& command : program.commands) {
     page += ".SS " + escaped(command.name) + "\n" + escaped(command.description) + ".\n";
     add_options(command.options, page);
   }
-  page += ".SH OPTIONS OF EVERY COMMAND\n";
+  page += ".SH GENERAL OPTIONS\n";
   add_options(program.options, page);
-  return page + ".SH EXIT STATUS\n" + escaped(program.footer) + "\n";
+  page += ".SH EXIT STATUS\n";
+  for (const auto& [code, meaning] : program.exit_codes)
+    page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", static_cast<int>(code), escaped(meaning));
+  return page;
 }
 
 }  // namespace isojam

@@ -7,7 +7,6 @@
 #include "tasks/commands/add_measures.hpp"
 #include "tasks/commands/command.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/io/directory_lock.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/input_error.hpp"
 #include "tasks/io/interrupt.hpp"
@@ -42,9 +41,9 @@ std::optional<std::string> read_measures(const std::string& text, std::vector<Me
   return std::nullopt;
 }
 
-/// Throws if the measures cannot be added to every record of the directory, because some records could then never be
-/// completed.
-void refuse_impossible(const std::vector<Additions::Impossible>& impossible, const std::string& directory) {
+/// Throws InputError if a record cannot get the measures. Otherwise the manifest would request measures that this
+/// record does not have.
+void require_possible(const std::vector<Additions::Impossible>& impossible, const std::string& directory) {
   if (impossible.empty()) return;
   const auto& [name, why] = impossible.front();
   const auto others = impossible.size() == 1 ? "" : fmt::format(" and {} more", impossible.size() - 1);
@@ -53,14 +52,14 @@ void refuse_impossible(const std::vector<Additions::Impossible>& impossible, con
 }
 
 /// Removes all replicates except `name`.
-void keep_only(Additions& additions, const std::string& name) {
+void select_replicate(Additions& additions, const std::string& name) {
   const auto is_other = [&](const ReplicateSpec& spec) { return replicate_name(spec) != name; };
   std::erase_if(additions.measured, is_other);
   std::erase_if(additions.failed, is_other);
   std::erase_if(additions.impossible, [&](const auto& each) { return each.name != name; });
 }
 
-/// Writes and prints the tables of all present records.
+/// Writes and prints the tables of all records in the directory.
 void write_table(const Store& store, Console& console) {
   const auto table = table_of(
       store.directory().string(), store.kept(), [&](const std::string& message) { console.warn(message); },
@@ -69,29 +68,22 @@ void write_table(const Store& store, Console& console) {
   print(to_text(table));
 }
 
-DirectoryLock lock_results(const std::string& directory) {
-  auto lock = DirectoryLock::take(directory, DirectoryLock::Kind::exclusive);
-  if (!lock) throw FileError(in_use(directory), FileError::Reason::resource_failure);
-  return std::move(*lock);
-}
-
-/// Adds the requested measures to the stored states. Also adds the measures that an interrupted call did not complete.
+/// Adds the requested measures to the records. It also adds the measures that an interrupted call did not add.
 ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
   const InterruptWatcher watcher;
-  // Both functions throw if the directory or the name is wrong, so that the error is reported before anything is
-  // locked.
+  // Report a wrong directory or a wrong name before the directory is locked. Both functions throw in this case.
   recorded_names(arguments.directory);
   if (!arguments.only.empty()) recorded_name(arguments.directory, arguments.only);
-  const auto lock = lock_results(arguments.directory);
+  const auto lock = lock_results(arguments.directory, DirectoryLock::Kind::exclusive);
   const auto before = own_manifest(arguments.directory);
   const auto manifest = with_measures(before, arguments.add);
   const Plan plan(manifest);
   // Find impossible measures before anything is written.
   auto found = additions(arguments.directory, plan, recorded_names(arguments.directory));
-  if (manifest.measures != before.measures) refuse_impossible(found.impossible, arguments.directory);
+  if (manifest.measures != before.measures) require_possible(found.impossible, arguments.directory);
   extend_manifest(arguments.directory, arguments.add);
   const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
-  if (!arguments.only.empty()) keep_only(found, arguments.only);
+  if (!arguments.only.empty()) select_replicate(found, arguments.only);
   for (const auto& [name, why] : found.impossible)
     console.warn(fmt::format("{}: {}; \"isojam run\" recomputes this replicate", name, why));
   warn_about_kernels(console);
@@ -100,24 +92,25 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
                            counted(found.measured.size() + found.failed.size(), "record")));
   const auto tally = add_measures(store, found, threads, available_memory(), watcher.token(), console);
   if (watcher.token().stop_requested()) {
-    console.warn("interrupted; added measures are kept; repeat the command to resume");
+    console.warn("interrupted: measures that were already added are kept; repeat the command to add the others");
     return ExitCode::interrupted;
   }
   write_table(store, console);
-  return tally.left + found.impossible.size() > 0 ? ExitCode::some_failed : ExitCode::done;
+  return tally.unchanged + found.impossible.size() > 0 ? ExitCode::some_failed : ExitCode::done;
 }
 
 }  // namespace
 
 void add_measure(CLI::App& app, Session& session) {
   MeasureArguments* arguments = nullptr;
-  auto options = add_command(app, session, "measure", "Compute additional measures for stored packings", measure_stored,
-                             arguments);
+  auto options = add_command(app, session, "measure", "Add measures to the records of a study that kept its paths",
+                             measure_stored, arguments);
   options.results_directory(arguments->directory);
   options.parsed(
       "--add", [arguments](const std::string& text) { return read_measures(text, arguments->add); }, [] {},
-      "Measures to add, separated by commas (default: those that an interrupted command left)", "MEASURES");
-  options.text("--only", arguments->only, "Process only this replicate", "REPLICATE");
+      "Measures to add, separated by commas (default: the measures that an interrupted isojam measure did not finish)",
+      "MEASURES");
+  options.text("--only", arguments->only, "Add measures only to this replicate", "REPLICATE");
   options.threads(arguments->threads);
 }
 

@@ -59,7 +59,7 @@ ExitCode redo(const RerunArguments& arguments, const Store& store, const Replica
   const auto now = store.recorded(spec);
   if (!now)
     throw FileError(
-        store.record_path(spec).string() + ": was removed or changed after it was written; repeat the command",
+        store.record_path(spec).string() + ": another process removed or changed this file; repeat the command",
         FileError::Reason::resource_failure);
   compare(before, *now, console);
   print(read_file(store.record_path(spec)));
@@ -69,6 +69,9 @@ ExitCode redo(const RerunArguments& arguments, const Store& store, const Replica
 /// Recomputes a replicate from the start, replaces its record, and reports whether the result has the same bits as the
 /// old record. Prints the new record on standard output.
 ExitCode rerun(const RerunArguments& arguments, Console& console) {
+  // Report a wrong directory before it is locked.
+  own_manifest(arguments.directory);
+  const auto lock = lock_results(arguments.directory, DirectoryLock::Kind::shared);
   auto manifest = own_manifest(arguments.directory);
   load_start(manifest);
   const Store store(arguments.directory, manifest, [&](const std::string& message) { console.warn(message); });
@@ -85,12 +88,13 @@ ExitCode rerun(const RerunArguments& arguments, Console& console) {
 
 void add_rerun(CLI::App& app, Session& session) {
   RerunArguments* arguments = nullptr;
-  auto options = add_command(app, session, "rerun",
-                             "Repeat one replicate, print every strain step, and compare the result with the record",
-                             rerun, arguments);
+  auto options =
+      add_command(app, session, "rerun",
+                  "Compute one replicate again, replace its record, and report whether the result has the same bits",
+                  rerun, arguments);
   options.results_directory(arguments->directory);
-  options.text("replicate", arguments->replicate, "Name of the replicate: its file in records/ without .json",
-               "REPLICATE", Options::Need::required);
+  options.text("replicate", arguments->replicate, "Replicate: name of its file in records/, without .json", "REPLICATE",
+               Options::Need::required);
   options.threads(arguments->threads);
 }
 

@@ -9,7 +9,6 @@
 #include "tasks/commands/dry_run.hpp"
 #include "tasks/commands/run.hpp"
 #include "tasks/commands/shared.hpp"
-#include "tasks/io/directory_lock.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/interrupt.hpp"
 #include "tasks/io/memory.hpp"
@@ -25,16 +24,9 @@ namespace {
 
 constexpr double gibibyte = 1024.0 * 1024 * 1024;
 
-/// Numbers of replicates in one round. A round contains the replicates that are started before the stopping rule is
-/// checked again.
-struct Tally {
-  std::size_t given = 0, stored = 0;
-  int failed = 0;
-};
-
 double work_of(const ReplicateSpec& spec) { return estimated_cost(spec, false).cpu_seconds; }
 
-void report(const Outcome& outcome, Console& console) {
+void report_outcome(const Outcome& outcome, Console& console) {
   const auto name = replicate_name(outcome.spec);
   console.finished(work_of(outcome.spec), outcome.failure.has_value());
   if (outcome.failure) {
@@ -46,7 +38,7 @@ void report(const Outcome& outcome, Console& console) {
   console.tick(name);
 }
 
-/// The stages of the engine, except that a replicate with a checkpoint resumes from it.
+/// Stages of the engine that resume a replicate from its checkpoint, if it has one.
 Stages resuming_stages(const Store& store) {
   auto stages = engine_stages();
   stages.begin = [&store, begin = stages.begin](const ReplicateSpec& spec) {
@@ -56,28 +48,24 @@ Stages resuming_stages(const Store& store) {
   return stages;
 }
 
-Tally run_round(Campaign& campaign, const Store& store, const Stages& stages, GraphOptions options, Console& console) {
+/// Runs a round, and returns the number of replicates that failed.
+int run_round(Campaign& campaign, const Store& store, const Stages& stages, GraphOptions options, Console& console) {
   const auto size = campaign.round_size();
   console.begin(static_cast<int>(size.replicates - size.recorded), size.work);
-  Tally tally;
+  int failed = 0;
   options.on_step = [&](const ReplicateSpec& spec, const Checkpoint& checkpoint) {
     store.write_checkpoint(spec, checkpoint);
     console.tick(step_text(spec, checkpoint.progress));
   };
-  const NextReplicate next = [&] {
-    auto spec = campaign.next();
-    tally.given += spec.has_value();
-    return spec;
-  };
-  run_graph(next, stages, options, [&](const Outcome& outcome) {
-    if (outcome.interrupted) return;
-    store.write(outcome);
-    ++tally.stored;
-    tally.failed += outcome.failure.has_value();
-    report(outcome, console);
-  });
+  run_graph([&] { return campaign.next(); }, stages, options,
+            [&](const Outcome& outcome) {
+              if (outcome.interrupted) return;
+              store.write(outcome);
+              failed += outcome.failure.has_value();
+              report_outcome(outcome, console);
+            });
   console.end();
-  return tally;
+  return failed;
 }
 
 /// Runs rounds until no replicate is left or a stop is requested.
@@ -85,13 +73,12 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
   const auto stages = resuming_stages(store);
   int failed = 0;
   for (int round = 0; campaign.open_round(); ++round) {
-    // If all replicates of a round have records from earlier runs, print no message.
+    // Print the message only if a replicate of this round will be computed.
     const auto size = campaign.round_size();
     if (round > 0 && size.replicates > size.recorded)
       console.info(fmt::format("confidence interval still too wide: running {}",
                                counted(size.replicates - size.recorded, "more replicate")));
-    const auto tally = run_round(campaign, store, stages, options, console);
-    failed += tally.failed;
+    failed += run_round(campaign, store, stages, options, console);
     if (options.stop.stop_requested()) {
       console.warn(interrupted_run);
       return ExitCode::interrupted;
@@ -100,43 +87,64 @@ ExitCode run_campaign(Campaign& campaign, const Store& store, const GraphOptions
   return failed + campaign.failed() > 0 ? ExitCode::some_failed : ExitCode::done;
 }
 
-/// True if all replicates of this run still have their files; otherwise reports an error. seen(name) is true if the
-/// files of a replicate exist.
-bool all_recorded(const Campaign& campaign, const std::function<bool(const std::string&)>& seen, Console& console) {
-  const auto missing = campaign.without(seen);
+/// If replicates have no files, reports an error and returns false. has_files(name) is true if the files of this
+/// replicate exist.
+bool all_recorded(const Campaign& campaign, const std::function<bool(const std::string&)>& has_files,
+                  Console& console) {
+  const auto missing = campaign.without(has_files);
   if (missing.empty()) return true;
   console.error(fmt::format(
-      "files of {} were removed or changed during the run, the first is {}; repeat the command to recompute "
-      "them",
-      counted(missing.size(), "replicate"), missing.front()));
+      "another process removed or changed files of {} during the run, for example of {}; repeat the command to "
+      "recompute {}",
+      counted(missing.size(), "replicate"), missing.front(), missing.size() == 1 ? "it" : "them"));
   return false;
 }
 
-ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard, ExitCode code, Console& console) {
-  const auto directory = store.directory().string();
-  std::set<std::string> whole;
-  const auto names_of = [&](const char* folder) {
+/// Checks which replicates have a packing and, if the manifest keeps paths, a path.
+class StateFiles {
+ public:
+  explicit StateFiles(const Store& store)
+      : keep_path_(store.kept().keep_path), packings_(names_of(store, "packings")), paths_(names_of(store, "paths")) {}
+
+  bool has(const std::string& name) const { return packings_.contains(name) && (!keep_path_ || paths_.contains(name)); }
+  static std::set<std::string> names_of(const Store& store, const char* folder) {
     const auto names = names_in(store.directory() / folder);
-    return std::set<std::string>(names.begin(), names.end());
-  };
-  if (!shard.whole()) {
-    whole = names_of("records");
-    if (!all_recorded(
-            campaign, [&](const auto& name) { return whole.contains(name); }, console))
-      return ExitCode::some_failed;
-    console.info(fmt::format("shard {}/{} is done; when all shards are done, run \"isojam aggregate {} -o {}\"",
-                             shard.index + 1, shard.count, directory, store.tables_path().string()));
-    return code;
+    return {names.begin(), names.end()};
   }
-  const auto packings = names_of("packings"), paths = names_of("paths");
+
+ private:
+  bool keep_path_;
+  std::set<std::string> packings_, paths_;
+};
+
+ExitCode finish_shard(const Campaign& campaign, const Store& store, const Shard& shard, ExitCode code,
+                      Console& console) {
+  const auto directory = store.directory().string();
+  const auto records = StateFiles::names_of(store, "records");
+  const StateFiles files(store);
+  const auto has_files = [&](const std::string& name) {
+    if (!records.contains(name)) return false;
+    // A failed replicate has only a record.
+    return files.has(name) || read_record(store.directory(), name).summary.failed;
+  };
+  if (!all_recorded(campaign, has_files, console)) return ExitCode::some_failed;
+  console.info(fmt::format("shard {}/{} is done; when all shards are done, run \"isojam aggregate {} -o {}\"",
+                           shard.index + 1, shard.count, directory, store.tables_path().string()));
+  return code;
+}
+
+/// Checks that no file was removed during the run, and writes and prints the tables. A shard makes no tables.
+ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard, ExitCode code, Console& console) {
+  if (!shard.whole()) return finish_shard(campaign, store, shard, code, console);
+  const StateFiles files(store);
+  std::set<std::string> complete;
   const auto table = table_of(
-      directory, store.kept(), [&](const std::string& message) { console.warn(message); },
-      [&](const RecordedReplicate& held) {
-        const bool kept = packings.contains(held.name) && (!store.kept().keep_path || paths.contains(held.name));
-        if (held.summary.failed || kept) whole.insert(held.name);
+      store.directory().string(), store.kept(), [&](const std::string& message) { console.warn(message); },
+      [&](const RecordedReplicate& record) {
+        if (record.summary.failed || files.has(record.name)) complete.insert(record.name);
       });
   if (!all_recorded(
-          campaign, [&](const auto& name) { return whole.contains(name); }, console))
+          campaign, [&](const auto& name) { return complete.contains(name); }, console))
     return ExitCode::some_failed;
   store.write_tables(to_json(table));
   print(to_text(table));
@@ -145,12 +153,12 @@ ExitCode finish(const Campaign& campaign, const Store& store, const Shard& shard
 }
 
 /// If measures were added to the manifest of the directory, new replicates get these measures too.
-void take_added_measures(const std::string& directory, Manifest& manifest, Console& console) {
+void adopt_added_measures(const std::string& directory, Manifest& manifest, Console& console) {
   const auto kept = stored_manifest(directory);
   if (!kept || kept->measures == manifest.measures || !is_same_sweep(manifest, *kept)) return;
   if (with_measures(manifest, kept->measures).measures != kept->measures) return;
   manifest.measures = kept->measures;
-  console.info(fmt::format("{}: new replicates also get the measures that were added to this directory", directory));
+  console.info(fmt::format("{}: new replicates have the measures that were added to this directory", directory));
 }
 
 /// Validates the manifest, plans, runs the missing replicates, and prints the tables on standard output. A shard prints
@@ -160,7 +168,7 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   auto manifest = read_manifest(arguments.manifest);
   load_start(manifest);
   const auto directory = arguments.directory.empty() ? "results/" + manifest.name : arguments.directory;
-  take_added_measures(directory, manifest, console);
+  adopt_added_measures(directory, manifest, console);
   const Plan plan(manifest);
   warn_about(manifest, arguments.manifest, console);
   const Warn warn = [&](const std::string& message) { console.warn(message); };
@@ -170,19 +178,20 @@ ExitCode run(const RunArguments& arguments, Console& console) {
   }
 
   warn_about_kernels(console);
+  const auto lock = lock_results(directory, DirectoryLock::Kind::shared);
   const Store store(directory, manifest, warn);
-  const auto lock = DirectoryLock::take(directory, DirectoryLock::Kind::shared);
-  if (!lock) throw FileError(in_use(directory), FileError::Reason::resource_failure);
   Campaign campaign(plan, manifest.replicates, arguments.shard, store);
   const int threads = arguments.threads > 0 ? arguments.threads : default_threads();
   const double memory = arguments.memory_gib > 0 ? arguments.memory_gib * gibibyte : available_memory();
   GraphOptions options{threads, replicates_in_flight(threads, campaign.largest_memory(), memory), watcher.token(), {}};
-  const auto begun = names_in(store.directory() / "checkpoints").size();
-  console.info(fmt::format(
-      "{}: {}{}{}, {} recorded{}, results in {}", manifest.name, manifest.replicates.goal ? "up to " : "",
-      counted(plan.size(), "replicate"),
-      arguments.shard.whole() ? "" : fmt::format(", shard {}/{}", arguments.shard.index + 1, arguments.shard.count),
-      names_in(store.directory() / "records").size(), begun > 0 ? fmt::format(", {} started", begun) : "", directory));
+  const auto checkpoints = names_in(store.directory() / "checkpoints").size();
+  const auto& shard = arguments.shard;
+  console.info(
+      fmt::format("{}: {}{}{}, {} recorded{}, results in {}", manifest.name,
+                  shard.whole() ? "" : fmt::format("shard {} of {}; whole study: ", shard.index + 1, shard.count),
+                  manifest.replicates.goal ? "up to " : "", counted(plan.size(), "replicate"),
+                  names_in(store.directory() / "records").size(),
+                  checkpoints > 0 ? fmt::format(", {} unfinished", checkpoints) : "", directory));
   try {
     const auto code = run_campaign(campaign, store, options, console);
     return code == ExitCode::interrupted ? code : finish(campaign, store, arguments.shard, code, console);
@@ -197,24 +206,26 @@ ExitCode run(const RunArguments& arguments, Console& console) {
 
 void add_run(CLI::App& app, Session& session) {
   RunArguments* arguments = nullptr;
-  auto options = add_command(app, session, "run", "Run the missing replicates of a manifest", run, arguments);
-  options.text("manifest", arguments->manifest, "Manifest of the sweep (-: standard input)", "MANIFEST",
+  auto options =
+      add_command(app, session, "run", "Run the replicates of a manifest that have no record yet", run, arguments);
+  options.text("manifest", arguments->manifest, "Manifest of the study (-: standard input)", "MANIFEST",
                Options::Need::required);
-  options.text("-o,--output", arguments->directory, "Results directory (default: results/<name>)", "DIR");
+  options.text("-o,--output", arguments->directory,
+               "Results directory (default: results/ and the name in the manifest)", "DIR");
   options.threads(arguments->threads);
   const auto read_shard = [arguments](const std::string& text) -> std::optional<std::string> {
     const auto shard = parse_shard(text);
-    if (!shard) return "\"" + text + "\" is not accepted; expected I/N with integers 1 <= I <= N <= 100000";
+    if (!shard) return "\"" + text + "\" is not accepted; expected I/N with integers I and N, where 1 ≤ I ≤ N ≤ 100000";
     arguments->shard = *shard;
     return std::nullopt;
   };
   options.parsed(
       "--shard", read_shard, [arguments] { arguments->shard = shard_of_environment(); },
-      "Run part I of N of the sweep (default in a Slurm array: the part of the task)", "I/N");
-  options.positive("--memory", arguments->memory_gib,
-                   "Limit the memory of the replicates that run at the same time (default: the available memory)",
-                   "GIB");
-  options.flag("--dry-run", arguments->dry_run, "Print the plan with its cost, and do nothing");
+      "Run part I of N of the study (default in a Slurm array: part I for task I)", "I/N");
+  options.positive(
+      "--memory", arguments->memory_gib,
+      "Run only as many replicates at the same time as fit into this memory (default: the available memory)", "GIB");
+  options.flag("--dry-run", arguments->dry_run, "Print the plan and its estimated cost, and run nothing");
 }
 
 }  // namespace isojam

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <filesystem>
+#include <system_error>
+#include <utility>
 
 #include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/io/file.hpp"
@@ -31,13 +34,18 @@ std::string definitions_text(const Manifest& manifest) {
 void warn_about_kernels(Console& console) {
   if (!uses_avx2())
     console.warn(
-        "this processor or build has no AVX2 and FMA; the program is about five times slower, with the same results");
+        "this processor, or this build of isojam, does not have both AVX2 and FMA; the program is about five times "
+        "slower, with the same results; build it on a machine with AVX2 and FMA");
 }
 
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress) {
   const auto& step = progress.result.path.back();
-  return fmt::format("{}: {} at density {:.4f}, E/N {:.1e}, residual {:.1e}", replicate_name(spec),
-                     to_string(step.stage), step.density, step.energy_per_particle, step.summary.residual);
+  return fmt::format("{}: {} at density {:.4f}, energy per particle {:.1e}, residual {:.1e}", replicate_name(spec),
+                     stage_text(to_string(step.stage)), step.density, step.energy_per_particle, step.summary.residual);
+}
+
+std::string_view stage_text(std::string_view stage) {
+  return stage == to_string(JamStage::consolidation) ? "compression" : "decompression";
 }
 
 std::vector<std::string> recorded_names(const std::string& directory) {
@@ -62,13 +70,24 @@ void throw_unknown_replicate(const std::string& directory, const std::string& na
   throw FileError(fmt::format("{}: unknown replicate \"{}\"{}", directory, name, correction));
 }
 
-std::string in_use(const std::string& directory) {
-  return directory + ": another process of isojam is using this directory; repeat the command when it has ended";
+DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kind) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    errno = error.value();
+    throw FileError::of_errno(directory, "cannot be created");
+  }
+  auto lock = DirectoryLock::take(directory, kind);
+  if (lock) return *std::move(lock);
+  throw FileError(
+      directory +
+          ": another process of isojam is using this directory; repeat this command after that process has ended",
+      FileError::Reason::resource_failure);
 }
 
 std::string version_text() {
-  return fmt::format("isojam {} ({})\nschemas: {} {} {} {}", version(), git_hash(), record_schema, packing_schema,
-                     path_schema, table_schema);
+  return fmt::format("isojam {} ({})\nfile formats written by this version: {} {} {} {}", version(), git_hash(),
+                     record_schema, packing_schema, path_schema, table_schema);
 }
 
 std::string counted(std::size_t number, std::string_view noun) {

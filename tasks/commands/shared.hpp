@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tasks/io/console.hpp"
+#include "tasks/io/directory_lock.hpp"
 #include "tasks/records/replicate.hpp"
 
 namespace isojam {
@@ -12,14 +13,17 @@ namespace isojam {
 /// Prints the warnings_of() a manifest. `file` is the name of the manifest in these warnings.
 void warn_about(const Manifest& manifest, const std::string& file, Console& console);
 
-/// A line for each solid that the manifest defines, see definition_text().
+/// One line for each user-defined solid, see definition_text().
 std::string definitions_text(const Manifest& manifest);
 
-/// Prints a warning if the processor or the build has no AVX2 and FMA, because the program is then slower.
+/// Prints a warning if the processor or the build does not have both AVX2 and FMA, because the program is then slower.
 void warn_about_kernels(Console& console);
 
 /// One line of text about the latest strain step of a replicate.
 std::string step_text(const ReplicateSpec& spec, const JamProgress& progress);
+
+/// The word of messages for a stage, which manifests and records call consolidation or expansion.
+std::string_view stage_text(std::string_view stage);
 
 /// Names of all records in a directory. Throws FileError if there are none.
 std::vector<std::string> recorded_names(const std::string& directory);
@@ -31,8 +35,9 @@ std::string recorded_name(const std::string& directory, const std::string& name)
 [[noreturn]] void throw_unknown_replicate(const std::string& directory, const std::string& name,
                                           const std::vector<std::string>& names);
 
-/// Error message for a directory that another process has locked.
-std::string in_use(const std::string& directory);
+/// Takes a lock on a results directory, which it creates if there is none. Call it before a Store is opened, because
+/// the Store writes files. Throws FileError if another process has a lock that excludes this one.
+DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kind);
 
 /// Text of the option --version: version and commit, and on a second line the schemas of the files that this version
 /// writes.
@@ -41,7 +46,7 @@ std::string version_text();
 /// A number with a noun in the singular or plural, such as "1 thread" or "2 threads".
 std::string counted(std::size_t number, std::string_view noun);
 
-/// An amount of memory, such as "3.2 GB" or "45 kB".
+/// An amount of memory with decimal units, such as "3.2 GB" or "45 kB".
 std::string bytes_text(double bytes);
 
 }  // namespace isojam

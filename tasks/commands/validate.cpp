@@ -16,10 +16,11 @@ ExitCode validate(const ValidateArguments& arguments, Console& console) {
   const auto manifest = read_manifest(arguments.manifest);
   warn_about(manifest, arguments.manifest, console);
   const Plan plan(manifest);
-  const auto each = manifest.replicates.goal ? fmt::format("{} to {}", manifest.replicates.min, manifest.replicates.max)
-                                             : std::to_string(manifest.replicates.max);
-  print(fmt::format("OK: {}: {}{} ({} × {})\n", manifest.name, manifest.replicates.goal ? "up to " : "",
-                    counted(plan.size(), "replicate"), counted(plan.points(), "sweep point"), each) +
+  const auto per_point = manifest.replicates.goal
+                             ? fmt::format("{} to {} replicates", manifest.replicates.min, manifest.replicates.max)
+                             : counted(static_cast<std::size_t>(manifest.replicates.max), "replicate");
+  print(fmt::format("OK: {}: {}{} ({} with {} each)\n", manifest.name, manifest.replicates.goal ? "up to " : "",
+                    counted(plan.size(), "replicate"), counted(plan.points(), "sweep point"), per_point) +
         definitions_text(manifest));
   return ExitCode::done;
 }
@@ -28,10 +29,10 @@ ExitCode validate(const ValidateArguments& arguments, Console& console) {
 
 void add_validate(CLI::App& app, Session& session) {
   ValidateArguments* arguments = nullptr;
-  auto options =
-      add_command(app, session, "validate", "Check a manifest, and print its solids and its number of replicates",
-                  validate, arguments);
-  options.text("manifest", arguments->manifest, "Manifest of the sweep (-: standard input)", "MANIFEST",
+  auto options = add_command(app, session, "validate",
+                             "Check a manifest, and print the number of its replicates and its user-defined solids",
+                             validate, arguments);
+  options.text("manifest", arguments->manifest, "Manifest of the study (-: standard input)", "MANIFEST",
                Options::Need::required);
 }
 

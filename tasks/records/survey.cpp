@@ -12,6 +12,7 @@
 #include "tasks/io/place.hpp"
 #include "tasks/io/sealed.hpp"
 #include "tasks/manifest/cost.hpp"
+#include "tasks/measure/quantity.hpp"
 #include "tasks/records/checkpoint.hpp"
 #include "tasks/records/recorded.hpp"
 #include "tasks/records/texts.hpp"
@@ -67,6 +68,10 @@ void survey_records(const fs::path& directory, const Plan& plan, bool with_paths
       survey.lacking += !lacks(held, plan.manifest()).empty();
       auto& point = survey.points[place->point];
       ++point.recorded;
+      if (const auto& goal = plan.manifest().replicates.goal) {
+        point.goal_values[place->replicate] =
+            has_any(summary, plan.exclude()) ? std::nullopt : summary.values[*quantity_index(goal->quantity)];
+      }
       point.failed += summary.failed;
       point.flagged += summary.flagged;
       for (const auto flag : summary.flags) ++survey.flags[flag];

@@ -28,6 +28,9 @@ struct UnderWay {
 struct Survey {
   struct Point {
     int recorded = 0, failed = 0, flagged = 0, under_way = 0;
+    /// Only with a stopping rule: its quantity for each recorded replicate, by number of the replicate. nullopt if the
+    /// replicate has no value or is excluded.
+    std::map<int, std::optional<double>> goal_values;
   };
   std::vector<Point> points;        ///< one element for each sweep point of the plan
   std::map<Flag, int> flags;        ///< number of replicates with each flag

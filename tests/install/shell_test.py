@@ -1,10 +1,10 @@
 """Tests the manual page and the shell completions. usage: shell_test.py CMAKE BUILD
 
 - groff reads the installed manual page without an error. The page has every command and option in the help, and
-  explains the exit codes.
-- bash, zsh and fish read the installed completions without a message. bash and fish complete commands, options, the
-  choices of an option, and directories for arguments that are directories. They complete nothing for arguments that are
-  numbers.
+  explains the exit codes. The synopsis shows which argument can be repeated.
+- bash, zsh and fish read the installed completions without a message. They complete commands, options, the choices of an
+  option, and directories for arguments that are directories, also if the argument is repeated or an option precedes the
+  command. They complete nothing for arguments that are numbers.
 - With `-o`, the completions and the manual page are written to a file instead of standard output.
 
 The test of a shell that is not installed is skipped, with a message.
@@ -54,8 +54,12 @@ class Shell(unittest.TestCase):
             for option in self.options_of(command) - {"-h", "--help"}:
                 self.assertIn(option, section, command)
         for option in self.options_of():
-            self.assertIn(option, text.split(".SH OPTIONS OF EVERY COMMAND")[1])
-        self.assertIn("75 interrupted", text.split(".SH EXIT STATUS")[1])
+            self.assertIn(option, text.split(".SH GENERAL OPTIONS")[1])
+        for code in (0, 1, 2, 65, 75):
+            self.assertRegex(text.split(".SH EXIT STATUS")[1], rf"\n\.TP\n\\fB{code}\\fR\n\w")
+        synopsis = text.split(".SH SYNOPSIS")[1].split(".SH")[0]
+        self.assertRegex(synopsis, r"isojam aggregate\n.*DIR\\fR \.\.\.\n")
+        self.assertRegex(synopsis, r"isojam status\n.*DIR\\fR\n")
         if not shutil.which("groff"):
             self.skipTest("no groff")
         shown = run("groff", "-man", "-Tutf8", "-ww", page)
@@ -74,6 +78,24 @@ class Shell(unittest.TestCase):
         self.assertEqual(ended.stderr, "")
         return {given.split("\t")[0].rstrip("/") for given in ended.stdout.splitlines()}
 
+    def zsh(self, *words):
+        """The words on the screen after two tabs: the list of zsh, and the command line."""
+        line = " ".join(("isojam", *words))
+        script = f"""
+            zmodload zsh/zpty; zpty z 'zsh -f -i'
+            zpty -w z 'PS1=; unsetopt beep list_ambiguous; setopt auto_list; LISTMAX=1000; stty cols 300 -echo'
+            zpty -w z 'fpath=({self.prefix}/share/zsh/site-functions $fpath); autoload -Uz compinit; compinit -u -D'
+            zpty -w z 'cd {self.work}; echo re''ady'
+            zpty -r z before $'*ready\r\n*'
+            zpty -w z 'list() {{ print -r -- "<$BUFFER>"; }}; zle -N list; bindkey "^X" list'
+            zpty -n -w z "$1"$'\t\t\x18'
+            zpty -r z shown $'*<isojam*>*'
+            print -r -- $shown; zpty -d z"""
+        shown = subprocess.run(["zsh", "-f", "-c", script, "zsh", line], cwd=self.work, capture_output=True, text=True,
+                               check=False, timeout=60).stdout
+        shown = re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", shown)
+        return set(re.findall(r"[\w.-]+", shown))
+
     def completes(self, complete):
         self.assertEqual({word for word in complete("") if not word.startswith("-")}, set(self.commands))
         self.assertEqual(complete("re"), {word for word in self.commands if word.startswith("re")})
@@ -88,6 +110,8 @@ class Shell(unittest.TestCase):
         self.assertEqual(complete("run", "-o", "r"), {"results"})
         self.assertNotIn("manifest.json", complete("run", "-j", ""))
         self.assertIn("never", complete("--color", ""))
+        self.assertIn("results", complete("aggregate", "results", ""))
+        self.assertTrue({"--shard", "--dry-run"} <= complete("--quiet", "run", "--"))
 
     def test_bash(self):
         self.completes(self.bash)
@@ -104,12 +128,21 @@ class Shell(unittest.TestCase):
         self.assertTrue(script.read_text(encoding="utf-8").startswith("#compdef isojam\n"))
         ended = run("zsh", "-f", "-n", script)
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
-        # Its own reader of what _arguments is given, by which a bracket or colon out of place is an error.
+        # A bracket or a colon in the wrong place is an error of _arguments.
         ended = run("zsh", "-f", "-c", f"autoload -U compinit && compinit -u -d {self.here}/dump && "
                     f"fpath=({script.parent} $fpath) && autoload -Uz _isojam && whence -v _isojam")
         self.assertEqual(ended.stderr, "")
-        for line in re.findall(r"^        '(.*)'(?: \\| ;;)$", script.read_text(encoding="utf-8"), re.M):
-            self.assertRegex(line, r"^(--?[a-z-]+\[[^][]*\](:[^:]*:.*)?|::?[\w ]+:.*)$")
+        for line in re.findall(r"^ +'(.*)'(?: \\| ;;)$", script.read_text(encoding="utf-8"), re.M):
+            self.assertRegex(line, r"^(--?[a-z-]+\[[^][]*\](:[^:]*:.*)?|[1*]?::?[\w ]+:.*)$")
+        for before in ((), ("--quiet",), ("--color", "never")):
+            self.assertLessEqual(set(self.commands), self.zsh(*before, ""), before)
+            self.assertIn("run", self.zsh(*before, "ru"))
+            self.assertIn("manifest.json", self.zsh(*before, "run", ""))
+            self.assertLessEqual({"--shard", "--dry-run", "--quiet"}, self.zsh(*before, "run", "--"))
+        self.assertIn("results", self.zsh("aggregate", "results", ""))
+        self.assertNotIn("manifest.json", self.zsh("aggregate", "results", ""))
+        self.assertLessEqual({"gsd", "vtp", "xyz", "contacts"}, self.zsh("export", "--format", ""))
+        self.assertNotIn("--shard", self.zsh("status", "--"))
 
     def test_into_a_file(self):
         for words in (("completions", "bash"), ("manual",)):

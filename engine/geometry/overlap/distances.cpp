@@ -11,12 +11,14 @@ namespace isojam {
 
 namespace {
 
-/// Vertices that reach into the circumsphere of the other solid, whose centre is at `to_other`.
+/// Vertices beyond the plane that is perpendicular to the line of centres and touches the circumscribed sphere of the
+/// other solid on the near side. All vertices inside this sphere are among them. The centre of the other solid is at
+/// `to_other`.
 template <int words>
 BitSet<words> within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_other, double other_radius) {
   const double distance = to_other.norm();
-  // The slack is far larger than rounding, even for sizes that differ by a factor of 1e5, and far too small to cost
-  // time.
+  // The slack is larger than the rounding errors, even for sizes that differ by a factor of 1e5. It is so small that it
+  // almost never adds a vertex.
   const Lanes least = Lanes::all(distance * (distance - other_radius * (1 + 1e-9)));
   const Lanes x = Lanes::all(to_other.x()), y = Lanes::all(to_other.y()), z = Lanes::all(to_other.z());
   BitSet<words> below{};
@@ -28,7 +30,7 @@ BitSet<words> within_reach(const PlacedSolid& body, const Eigen::Vector3d& to_ot
   return ~below & BitSet<words>::first(body.vertices());
 }
 
-/// Signs and extremes of the table, collected row by row.
+/// Collects, row by row, the signs of the distances and their extremes.
 template <class Vectors, class Solids>
 class Scan {
  public:
@@ -38,7 +40,8 @@ class Scan {
     repeat(vectors, [&](int k) { lowest_[k] = nearest_; });
   }
 
-  /// Adds vertex v, at `distance(k)` from planes 4k…; returns the set of the planes that it lies inside.
+  /// Adds the row of one vertex. distance(k) gives its distances from the four planes 4k to 4k + 3. Returns the set of
+  /// planes with a negative distance.
   template <class Row>
   Set add(const Row& distance) {
     Set inside{};
@@ -67,7 +70,8 @@ class Scan {
   Lanes lowest_[Solids::capacity / 4];
 };
 
-/// For up to 8 vertices, 8 planes and 16 edges: scans all rows, with their signs in the bytes of one register.
+/// Scans all rows. Requires at most 8 vertices, 8 planes and 16 edges, because the signs of one row are one byte of a
+/// 64-bit word.
 template <class Counts, class Row>
 void scan_all(const Counts& counts, const SolidArrays& solid, const Row& row, Distances<SmallSolids>& d) {
   Scan scan(counts.vectors, d);
@@ -95,11 +99,11 @@ void scan_rows(Vectors vectors, const SolidArrays& solid, const Row& row, Distan
 }
 
 template <class Counts>
-constexpr bool few(const Counts&) {
+constexpr bool fits_one_word(const Counts&) {
   return false;
 }
 template <int v, int p, int e>
-constexpr bool few(const Counts<v, p, e>&) {
+constexpr bool fits_one_word(const Counts<v, p, e>&) {
   return v <= 8 && p <= 2 && e <= 16;
 }
 
@@ -109,7 +113,7 @@ constexpr auto every_face = [] {
   return numbers;
 }();
 
-/// All planes of a solid, in the solid's own memory.
+/// All planes of a solid, read from where the solid stores them.
 struct AllPlanes {
   const double *normals, *offsets;
 
@@ -119,13 +123,13 @@ struct AllPlanes {
   Lanes offset(int k) const { return Lanes::load(offsets + 4 * k); }
 };
 
-/// Largest number of vectors for a type of count.
+/// Largest number of groups of four planes. If the number is a compile-time constant, it is this number.
 template <class Solids, class Vectors>
-constexpr int room = Solids::capacity / 4;
+constexpr int max_groups = Solids::capacity / 4;
 template <class Solids, int n>
-constexpr int room<Solids, std::integral_constant<int, n>> = n;
+constexpr int max_groups<Solids, std::integral_constant<int, n>> = n;
 
-/// Selected planes of a solid, copied together.
+/// Copies of selected planes of a solid, in consecutive memory.
 template <class Vectors, class Solids>
 class NearPlanes {
  public:
@@ -146,7 +150,7 @@ class NearPlanes {
   Lanes offset(int k) const { return offset_[k]; }
 
  private:
-  static constexpr int size = room<Solids, Vectors>;
+  static constexpr int size = max_groups<Solids, Vectors>;
   Lanes x_[size], y_[size], z_[size], offset_[size];
 };
 
@@ -180,7 +184,7 @@ class Rows {
   Lanes constant_[Solids::capacity / 4];
 };
 
-/// Vertices, edges and faces of the stars of these vertices.
+/// The edges and faces that meet in these vertices, and both ends of each edge.
 Parts<1> parts_at(const BitSet<1>& vertices, const SolidArrays& solid) {
   Parts<1> all;
   const Parts<1>* star = solid.star.data();
@@ -201,11 +205,11 @@ Parts<words> parts_at(const BitSet<words>& vertices, const SolidArrays& solid) {
 }
 
 template <class Solids>
-void keep(const Parts<Solids::words>& parts, Distances<Solids>& d) {
+void select(const Parts<Solids::words>& parts, Distances<Solids>& d) {
   d.rows = parts.vertices, d.candidates = parts.edges;
 }
 
-/// Fills the table with all planes of the other solid.
+/// Fills the table with the distances from all planes of the other solid.
 template <class Counts, class Solids>
 void tabulate_all(const Counts& counts, const PlacedSolid& body, const PlacedSolid& other,
                   const Eigen::Vector3d& to_other, Distances<Solids>& d) {
@@ -213,13 +217,15 @@ void tabulate_all(const Counts& counts, const PlacedSolid& body, const PlacedSol
   d.planes = 4 * counts.vectors, d.face = every_face.data();
   const AllPlanes planes{other.normal_block(0), other.offset()};
   const Rows row(counts.vectors, body, planes, to_other, d);
-  if constexpr (few(Counts{})) {
+  if constexpr (fits_one_word(Counts{})) {
     d.rows = BitSet<1>::first(counts.vertices), d.candidates = BitSet<1>::first(counts.edges);
     scan_all(counts, solid, row, d);
   } else {
-    keep(parts_at(within_reach<Solids::words>(body, to_other, other.solid().circumradius()), solid), d);
+    select(parts_at(within_reach<Solids::words>(body, to_other, other.solid().circumradius()), solid), d);
     scan_rows(counts.vectors, solid, row, d);
-    if (d.rows.empty()) d.least_penetrated = 0;  // no vertex is in reach: every plane separates, and no row was scanned
+    // If no vertex is in reach, the solids are disjoint, and no row was scanned. The choice of the plane is then
+    // arbitrary.
+    if (d.rows.empty()) d.least_penetrated = 0;
   }
 }
 
@@ -240,7 +246,7 @@ Slab<Solids> slab_between(const PlacedSolid& a, const PlacedSolid& b, const Eige
   Lanes highest = along_a[0] = along(a, 0, Lanes::all(0)), lowest = along_b[0] = along(b, 0, from_b);
   for (int k = 1; k < blocks_a; ++k) highest = max(highest, along_a[k] = along(a, k, Lanes::all(0)));
   for (int k = 1; k < blocks_b; ++k) lowest = min(lowest, along_b[k] = along(b, k, from_b));
-  // The slack is far larger than rounding, and far too small to cost time.
+  // The slack is larger than the rounding errors. It is so small that it almost never adds a vertex.
   const Lanes slack =
       Lanes::all(1e-9 * r.lpNorm<1>() * (r.lpNorm<1>() + a.solid().circumradius() + b.solid().circumradius()));
   const Lanes top = greatest(highest) + slack, bottom = least(lowest) - slack;
@@ -271,7 +277,7 @@ void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, 
   std::memset(d.near_face + count, d.near_face[count - 1], static_cast<std::size_t>(4 * vectors - count));
   d.planes = 4 * vectors, d.face = d.near_face;
   const SolidArrays& solid = body.solid().arrays();
-  keep(slab.of_a, d);
+  select(slab.of_a, d);
   with_vectors(vectors, [&](auto known) {
     const NearPlanes planes(known, other, d);
     scan_rows(known, solid, Rows(known, body, planes, to_other, d), d);

@@ -14,7 +14,8 @@ namespace isojam {
 struct SmallSolids {
   static constexpr int edges = SolidArrays::word_edges;  ///< largest number of edges
   static constexpr int words = 1;                        ///< number of 64-bit words of a set of features
-  /// Room for vertices and for faces: 64 edges join at most 42 faces, and have at most 42 ends.
+  /// largest number of vertices and of faces, as a multiple of 4: 64 edges join at most 42 faces, and have at most 42
+  /// ends.
   static constexpr int capacity = 44;
   static constexpr std::uint64_t tags = 64;  ///< range of the indices of planes in tagged numbers, see lanes.hpp
   using Index = std::uint8_t;                ///< numbers of the edges, faces and corners of both solids
@@ -78,7 +79,8 @@ template <class Solids>
 void tabulate_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
                         Distances<Solids>& d);
 
-/// Computes only the distances for features in the slab. `body` must be the solid A of the slab.
+/// Computes only the distances for features in the slab, which must not be empty. `body` must be the solid A of the
+/// slab.
 template <class Solids>
 void tabulate_near_distances(const PlacedSolid& body, const PlacedSolid& other, const Eigen::Vector3d& to_other,
                              const Slab<Solids>& slab, Distances<Solids>& d);

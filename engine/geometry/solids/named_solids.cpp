@@ -179,6 +179,7 @@ struct Family {
   int left_out;  ///< n of a Platonic solid, which has another name
   std::vector<Quad3> (*vertices)(int n);
 };
+static_assert(ConvexSolid::max_edges / 3 == 64 && ConvexSolid::max_edges / 4 == 48, "prism_names has these numbers");
 constexpr std::array families{Family{"antiprism", 4, ConvexSolid::max_edges / 4, 3, antiprism},
                               Family{"prism", 3, ConvexSolid::max_edges / 3, 4, prism}};
 

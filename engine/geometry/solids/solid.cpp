@@ -17,14 +17,15 @@ namespace {
 using Vertices = std::vector<std::array<double, 3>>;
 using Key = std::pair<std::string, Vertices>;
 
-Vertices numbers(std::span<const Eigen::Vector3d> vertices) {
+Vertices coordinates_of(std::span<const Eigen::Vector3d> vertices) {
   Vertices result;
   for (const Eigen::Vector3d& v : vertices) result.push_back({v.x(), v.y(), v.z()});
   return result;
 }
 
-/// The solids requested so far, by name and vertices. Any thread may add one.
-class Shared {
+/// All solids that were requested so far, with their names and vertices as keys. Several threads may use it at the same
+/// time.
+class SolidRegistry {
  public:
   template <class Make>
   const ConvexSolid& get(Key key, const Make& make) {
@@ -39,12 +40,13 @@ class Shared {
   std::map<Key, std::unique_ptr<const ConvexSolid>> solids_;
 };
 
-Shared& shared() {
-  static Shared solids;
+SolidRegistry& registry() {
+  static SolidRegistry solids;
   return solids;
 }
 
-/// Index of the name in named_solids(); the number of names for prisms and user-defined solids, which sort last.
+/// Index of the name in named_solids(). A name that is not in the list has the index after the last one, so that prisms
+/// come after the other built-in solids.
 std::ptrdiff_t place_of(std::string_view name) {
   const auto names = named_solids();
   return std::find(names.begin(), names.end(), name) - names.begin();
@@ -56,12 +58,12 @@ std::optional<Solid> Solid::named(std::string_view name) {
   if (const auto kind = from_string<SolidKind>(name)) return Solid(*kind);
   const auto vertices = named_vertices(name);
   if (!vertices) return std::nullopt;
-  const std::string own(name);
-  return Solid(shared().get({own, {}}, [&] { return ConvexSolid(own, *vertices); }));
+  const std::string key_name(name);
+  return Solid(registry().get({key_name, {}}, [&] { return ConvexSolid(key_name, *vertices); }));
 }
 
 Solid Solid::made_of(const std::string& name, std::span<const Eigen::Vector3d> vertices) {
-  return Solid(shared().get({name, numbers(vertices)}, [&] { return ConvexSolid(name, vertices); }));
+  return Solid(registry().get({name, coordinates_of(vertices)}, [&] { return ConvexSolid(name, vertices); }));
 }
 
 std::strong_ordering operator<=>(const Solid& a, const Solid& b) {
@@ -70,7 +72,8 @@ std::strong_ordering operator<=>(const Solid& a, const Solid& b) {
     return std::tuple(solid.is_defined(), place_of(solid->name()), solid->name());
   };
   if (const auto order = key(a) <=> key(b); std::is_neq(order)) return order;
-  return numbers(a->given()) < numbers(b->given()) ? std::strong_ordering::less : std::strong_ordering::greater;
+  return coordinates_of(a->given()) < coordinates_of(b->given()) ? std::strong_ordering::less
+                                                                 : std::strong_ordering::greater;
 }
 
 }  // namespace isojam

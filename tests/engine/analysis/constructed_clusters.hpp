@@ -24,7 +24,8 @@ std::vector<Eigen::Vector3d> row(int n, int axis);
 void add_chain(Structure& structure, int from, int to);
 
 /// A block of n[0] × n[1] × n[2] cubes with bonds between neighbours. If `closed` is true for an axis, bonds also
-/// connect the two ends of the block through the face of the cell.
+/// connect the two ends of the block through the face of the cell. If the block has only one cube along such an axis,
+/// the bonds connect each cube with its own image, although other NeighbourPairs have a < b.
 Structure block(const Eigen::Vector3i& n, const std::array<bool, 3>& closed, double side);
 
 std::vector<Cluster> clusters_of(const Structure& structure);

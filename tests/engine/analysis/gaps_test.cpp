@@ -1,5 +1,6 @@
 // Properties tested here:
 // - Gaps in packings agree with a search over all pairs and images. Pairs that touch have no gap.
+// - Gaps between two vertices are found, although their width is smaller than the gap of the circumscribed spheres.
 // - The gap is h if a vertex, an edge or a face is at a distance h from a parallel face, or if two crossed edges are at
 //   this distance. The kind of the gap is correct. A gap does not depend on the order of the particles.
 // - A largest gap that is not positive is rejected.
@@ -9,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "engine/geometry/overlap/separating_axis.hpp"
@@ -26,7 +29,8 @@ TEST(GapsTest, AgreeWithASearchOverAllPairs) {
     const Packing packing = small_packing(kind, .55, 41);
     const auto gaps = near_gaps(packing, .1);
     std::vector<Gap> expected;
-    for (const auto& pair : find_in_reach_brute_force(packing, .1)) {
+    // All pairs whose centres are closer than two diameters.
+    for (const auto& pair : find_neighbours_brute_force(packing, 2 * platonic(kind).diameter())) {
       const auto &a = packing.poses[static_cast<std::size_t>(pair.a)],
                  &b = packing.poses[static_cast<std::size_t>(pair.b)];
       const Eigen::Matrix3d to_a = a.orientation.toRotationMatrix().transpose();
@@ -44,6 +48,49 @@ TEST(GapsTest, AgreeWithASearchOverAllPairs) {
       for (const Gap& one : gaps) EXPECT_NE(canonical_key(one.pair), canonical_key(contact.pair));
     }
   }
+}
+
+TEST(GapsTest, IncludePairsWhoseSpheresAreFartherApart) {
+  constexpr double sphere_gap = 0.1;
+  const ConvexSolid& cube = platonic(SolidKind::cube);
+  Packing packing{cube, PeriodicCell(100), std::vector<Pose>(2)};
+  // Two cubes with the same orientation, with the vertices (1, 1, 1)/2 and −(1, 1, 1)/2 facing each other.
+  packing.poses[1].position = (2 * cube.circumradius() + sphere_gap) * Vector3d::Ones().normalized();
+  const double width = sphere_gap / std::sqrt(3);
+  const auto gaps = near_gaps(packing, 1.01 * width);
+  ASSERT_EQ(gaps.size(), 1U);
+  EXPECT_NEAR(gaps[0].width, width, 1e-14);
+  EXPECT_TRUE(gaps[0].of_faces);
+  EXPECT_EQ(near_gaps(packing, 0.99 * width).size(), 0U);
+}
+
+TEST(GapsTest, OfRandomPairsWithVerticesThatFaceEachOther) {
+  constexpr double max_width = 0.1;
+  RandomStream random{43};
+  int beyond = 0;
+  for (const SolidKind kind : all_solids) {
+    const ConvexSolid& solid = platonic(kind);
+    const Vector3d vertex = solid.vertices().front();
+    int found = 0;
+    for (int k = 0; k < 200; ++k) {
+      Packing packing{solid, PeriodicCell(100), std::vector<Pose>(2)};
+      const double sphere_gap = 4 * max_width * random.uniform();
+      packing.poses[1].position = (2 * solid.circumradius() + sphere_gap) * vertex.normalized();
+      const Vector3d tilt = 0.05 * Vector3d(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
+      const auto facing = Eigen::Quaterniond::FromTwoVectors(vertex, -vertex);
+      const Eigen::AngleAxisd spin(6 * random.uniform(), vertex.normalized());
+      packing.poses[1].orientation = Eigen::Quaterniond(1, tilt.x(), tilt.y(), tilt.z()).normalized() * spin * facing;
+      const auto &a = packing.poses[0], &b = packing.poses[1];
+      const RelativePose pose = relative_pose(a.orientation, b.orientation, b.position - a.position);
+      const double width = gap(solid, solid, pose, best_axis(solid, solid, pose));
+      const bool expected = width > 0 && width < max_width;
+      EXPECT_EQ(near_gaps(packing, max_width).size(), expected ? 1U : 0U) << to_string(kind) << ", width " << width;
+      found += expected;
+      beyond += expected && sphere_gap > max_width;
+    }
+    std::printf("%s: %d of 200 pairs have a width below %.1f\n", to_string(kind).data(), found, max_width);
+  }
+  EXPECT_GE(beyond, 1) << "no pair has a smaller width than the gap of its spheres: choose another seed";
 }
 
 /// Checks the gap of two bodies at a distance h, and the gap with the bodies exchanged.

@@ -1,11 +1,12 @@
 // Properties tested here, with quadruple precision as reference:
-// - moved() and scaled() keep the low parts: steps of 1e-25 are not lost, a thousand steps add up to their sum, and the
-//   high part is the nearest double.
-// - moved() rotates by exp(θ) and keeps |q| = 1 to 1e-31. A quaternion q other than 0 represents the same rotation as
-//   q/|q|.
-// - rotation_matrix() and the vertices and normals of placed solids have errors of at most 1e-31.
+// - A step of 1e-25 changes the pose by 1e-25. A thousand steps change it by their sum.
+// - moved(), scaled() and deformed() give poses in which the first double of each number is the nearest double.
+// - moved() rotates by exp(θ), and |q| is then 1 with an error of about 1e-31. rotation_matrix() and moved() do not
+//   depend on the length of q.
+// - rotation_matrix() and the vertices and normals of placed solids have errors of about 1e-31.
 // - relative_pose() with low parts gives the rotation of B relative to A, and agrees with the version in double.
-// - A solid's constants are correct to 1e-31: planes through their vertices, unit normals, unit volume, centroid 0.
+// - A solid's constants have errors of about 1e-31: planes through their vertices, unit normals, unit volume, centroid
+//   0.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +22,8 @@ namespace {
 using namespace testing_pairs;
 using Eigen::Vector3d;
 
-/// A few times the last bit of a double-double number near 1.
-constexpr double last_bits = 1e-31;
+/// About eight times the rounding error (1.2e-32) of a double-double near 1.
+constexpr double tolerance = 1e-31;
 constexpr int cases = 200;
 
 double size(Quad x) { return std::abs(static_cast<double>(x)); }
@@ -39,7 +40,7 @@ void expect_normal_form(const Pose& pose) {
   for (int c = 0; c < 3; ++c) EXPECT_EQ(pose.position[c], pose.position[c] + pose.position_low[c]);
   for (int c = 0; c < 4; ++c)
     EXPECT_EQ(pose.orientation.coeffs()[c], pose.orientation.coeffs()[c] + pose.orientation_low[c]);
-  EXPECT_LE(size(squared_length(pose) - 1), 2 * last_bits);
+  EXPECT_LE(size(squared_length(pose) - 1), 2 * tolerance);
 }
 
 Pose random_pose(RandomStream& random) {
@@ -49,8 +50,8 @@ Pose random_pose(RandomStream& random) {
   return moved(pose, 1e-17 * random_direction(random), 1e-17 * random_direction(random));
 }
 
-/// 1 + [θ]× + ½[θ]×² for a small rotation.
-QuadMatrix small_turn(const Vector3d& theta) {
+/// The series of the rotation matrix exp([θ]×) to second order, where [θ]× v = θ×v.
+QuadMatrix small_rotation(const Vector3d& theta) {
   const Quad x = theta.x(), y = theta.y(), z = theta.z();
   const QuadMatrix skew{Quad3{0, -z, y}, Quad3{z, 0, -x}, Quad3{-y, x, 0}};
   QuadMatrix result = skew * skew;
@@ -70,11 +71,11 @@ TEST(DoubleDoublePoseTest, SmallStepsAreNotLost) {
       const Pose there = moved(pose, dx, theta);
       expect_normal_form(there);
       const Quad3 shift = quad_position(there) - quad_position(pose);
-      EXPECT_LE(size(shift - Quad3{dx.x(), dx.y(), dx.z()}), last_bits) << h;
-      const QuadMatrix turned = quad_rotation(there) - quad_rotation(pose);
-      const QuadMatrix expected = small_turn(theta) * quad_rotation(pose) - quad_rotation(pose);
+      EXPECT_LE(size(shift - Quad3{dx.x(), dx.y(), dx.z()}), tolerance) << h;
+      const QuadMatrix change = quad_rotation(there) - quad_rotation(pose);
+      const QuadMatrix expected = small_rotation(theta) * quad_rotation(pose) - quad_rotation(pose);
       // The rotation has rounding errors in its last bits, and the series is exact only to third order.
-      EXPECT_LE(size(turned - expected), 16 * last_bits + 16 * epsilon * h + h * h * h) << h;
+      EXPECT_LE(size(change - expected), 16 * tolerance + 16 * epsilon * h + h * h * h) << h;
     }
   }
 }
@@ -89,17 +90,17 @@ TEST(DoubleDoublePoseTest, ManySmallStepsAddUp) {
   const int steps = 1000;
   for (int k = 0; k < steps; ++k) {
     const Vector3d dx = 1e-20 * random_direction(random);
-    const double turn = 1e-20 * random.uniform();
-    pose = moved(pose, dx, turn * axis);
+    const double step = 1e-20 * random.uniform();
+    pose = moved(pose, dx, step * axis);
     sum = sum + Quad3{dx.x(), dx.y(), dx.z()};
-    angle += turn * axis;
+    angle += step * axis;
   }
   expect_normal_form(pose);
-  EXPECT_LE(size(quad_position(pose) - quad_position(start) - sum), steps * last_bits);
-  EXPECT_LE(size(quad_rotation(pose) - small_turn(angle) * quad_rotation(start)), steps * last_bits);
+  EXPECT_LE(size(quad_position(pose) - quad_position(start) - sum), steps * tolerance);
+  EXPECT_LE(size(quad_rotation(pose) - small_rotation(angle) * quad_rotation(start)), steps * tolerance);
 }
 
-TEST(DoubleDoublePoseTest, LargeRotationsAgreeWithDoubles) {
+TEST(DoubleDoublePoseTest, LargeRotationsAgreeWithDoublePrecision) {
   RandomStream random{62, 3};
   for (int k = 0; k < cases; ++k) {
     const Pose pose = random_pose(random);
@@ -108,12 +109,12 @@ TEST(DoubleDoublePoseTest, LargeRotationsAgreeWithDoubles) {
     expect_normal_form(there);
     const Eigen::Vector4d expected = rotated(pose.orientation, theta).coeffs();
     EXPECT_LE((there.orientation.coeffs() - expected).norm(), 16 * epsilon) << theta.transpose();
-    // The same rotation, by a quaternion with another norm.
-    Pose longer = pose;
-    longer.orientation.coeffs() *= 8;
-    longer.orientation_low *= 8;
-    EXPECT_LE(size(quad_rotation(longer) - quad_rotation(pose)), last_bits);
-    expect_normal_form(moved(longer, Vector3d::Zero(), theta));
+    // A quaternion of another length represents the same rotation.
+    Pose other_length = pose;
+    other_length.orientation.coeffs() *= 8;
+    other_length.orientation_low *= 8;
+    EXPECT_LE(size(quad_rotation(other_length) - quad_rotation(pose)), tolerance);
+    expect_normal_form(moved(other_length, Vector3d::Zero(), theta));
   }
 }
 
@@ -124,7 +125,23 @@ TEST(DoubleDoublePoseTest, ScalingKeepsLowParts) {
     const DoubleDouble stretch = DoubleDouble(1 + random.uniform()) / 3.0;
     const Pose there = scaled(pose, stretch);
     expect_normal_form(there);
-    EXPECT_LE(size(quad_position(there) - widened(stretch) * quad_position(pose)), 4 * last_bits);
+    EXPECT_LE(size(quad_position(there) - widened(stretch) * quad_position(pose)), 4 * tolerance);
+    EXPECT_EQ(there.orientation.coeffs(), pose.orientation.coeffs());
+    EXPECT_EQ(there.orientation_low, pose.orientation_low);
+  }
+}
+
+TEST(DoubleDoublePoseTest, DeformationsMoveTheCentre) {
+  RandomStream random{62, 8};
+  for (int k = 0; k < cases; ++k) {
+    const Pose pose = random_pose(random);
+    DoubleDoubleMatrix f;
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) f.set(r, c, DoubleDouble(random.uniform() + (r == c)) / 3.0);
+    }
+    const Pose there = deformed(pose, f);
+    expect_normal_form(there);
+    EXPECT_LE(size(quad_position(there) - widened(f) * quad_position(pose)), 16 * tolerance);
     EXPECT_EQ(there.orientation.coeffs(), pose.orientation.coeffs());
     EXPECT_EQ(there.orientation_low, pose.orientation_low);
   }
@@ -134,13 +151,13 @@ TEST(DoubleDoublePoseTest, RotationMatricesAreAccurate) {
   RandomStream random{62, 6};
   for (int k = 0; k < cases; ++k) {
     Pose pose = random_pose(random);
-    EXPECT_LE(size(widened(rotation_matrix(pose)) - quad_rotation(pose)), 4 * last_bits);
+    EXPECT_LE(size(widened(rotation_matrix(pose)) - quad_rotation(pose)), 4 * tolerance);
     pose.orientation_low.setZero();
-    EXPECT_LE(size(widened(rotation_matrix(pose)) - quad_rotation(pose)), 4 * last_bits) << "rounded";
+    EXPECT_LE(size(widened(rotation_matrix(pose)) - quad_rotation(pose)), 4 * tolerance) << "rounded";
     for (const double length : {1e-6, 1 + 1e-9, 3.0, 1e6}) {
-      Pose longer = pose;
-      longer.orientation.coeffs() *= length;
-      EXPECT_LE(size(widened(rotation_matrix(longer)) - quad_rotation(longer)), 4 * last_bits) << length;
+      Pose other_length = pose;
+      other_length.orientation.coeffs() *= length;
+      EXPECT_LE(size(widened(rotation_matrix(other_length)) - quad_rotation(other_length)), 4 * tolerance) << length;
     }
   }
 }
@@ -150,18 +167,20 @@ TEST(DoubleDoublePoseTest, NaNStaysNaN) {
   pose.orientation.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(rotation_matrix(pose).high.hasNaN());
   EXPECT_TRUE(moved(pose, Vector3d::Zero(), Vector3d::Zero()).orientation.coeffs().hasNaN());
+  EXPECT_TRUE(std::isnan(size(quad_rotation(pose)))) << "a check of an error with EXPECT_LE must fail for NaN";
+  EXPECT_TRUE(std::isnan(size(square_root(Quad(std::numeric_limits<double>::quiet_NaN())))));
   pose.orientation.coeffs().setZero();
   EXPECT_FALSE(rotation_matrix(pose).high.allFinite());
 }
 
-TEST(DoubleDoublePoseTest, RelativePoseIsTheRotationRelativeToA) {
+TEST(DoubleDoublePoseTest, RelativePoseIsInTheFrameOfA) {
   RandomStream random{62, 5};
   for (int k = 0; k < cases; ++k) {
     const Pose a = random_pose(random), b = random_pose(random);
     const Quad3 r = quad_position(b) - quad_position(a);
     const QuadPose relative = relative_pose(a, b, r);
-    EXPECT_LE(size(quad_rotation(a) * relative.rotation - quad_rotation(b)), last_bits);
-    EXPECT_LE(size(quad_rotation(a) * relative.displacement - r), 4 * last_bits);
+    EXPECT_LE(size(quad_rotation(a) * relative.rotation - quad_rotation(b)), tolerance);
+    EXPECT_LE(size(quad_rotation(a) * relative.displacement - r), 4 * tolerance);
     const RelativePose in_double = relative_pose(a.orientation, b.orientation, rounded(r)), close = narrowed(relative);
     EXPECT_LE((close.rotation - in_double.rotation).norm(), 16 * epsilon);
     EXPECT_LE((close.displacement - in_double.displacement).norm(), 64 * epsilon);
@@ -176,7 +195,7 @@ class SolidConstants : public testing::TestWithParam<SolidKind> {};
 INSTANTIATE_TEST_SUITE_P(Solids, SolidConstants, testing::ValuesIn(all_solids),
                          [](const auto& solid) { return std::string(to_string(solid.param)); });
 
-TEST_P(SolidConstants, AreCorrectToTheirLowParts) {
+TEST_P(SolidConstants, AreAccurate) {
   const ConvexSolid& solid = platonic(GetParam());
   const SolidArrays& flat = solid.arrays();
   Quad volume = 0;
@@ -188,34 +207,36 @@ TEST_P(SolidConstants, AreCorrectToTheirLowParts) {
   for (int f = 0; f < flat.faces; ++f) {
     const Face& face = solid.faces()[f];
     EXPECT_EQ(rounded(flat.normal(f)), face.normal);
-    EXPECT_LE(size(dot(flat.normal(f), flat.normal(f)) - 1), last_bits) << "face " << f;
+    EXPECT_LE(size(dot(flat.normal(f), flat.normal(f)) - 1), tolerance) << "face " << f;
     for (const int v : face.vertices)
-      EXPECT_LE(size(dot(flat.normal(f), flat.vertex(v)) - flat.plane_offset(f)), last_bits) << v << " on " << f;
+      EXPECT_LE(size(dot(flat.normal(f), flat.vertex(v)) - flat.plane_offset(f)), tolerance) << v << " on " << f;
     for (std::size_t k = 1; k + 1 < face.vertices.size(); ++k) {
       const Quad3 p = flat.vertex(face.vertices[0]), q = flat.vertex(face.vertices[k]),
                   s = flat.vertex(face.vertices[k + 1]);
       volume += dot(p, cross(q, s)) / 6;
     }
   }
-  EXPECT_LE(size(volume - 1), 4 * last_bits);
-  EXPECT_LE(size(sum), 4 * last_bits);
+  EXPECT_LE(size(volume - 1), 4 * tolerance);
+  EXPECT_LE(size(sum), 4 * tolerance);
 }
 
-TEST_P(SolidConstants, ArePlacedInDoubleDoubles) {
+TEST_P(SolidConstants, AreAccurateInPlacedSolids) {
   RandomStream random{62, 7};
   const ConvexSolid& solid = platonic(GetParam());
   for (int k = 0; k < cases / 10; ++k) {
     const Pose pose = random_pose(random);
     const LonePlacedSolid alone(solid, rotation_matrix(pose));
     const PlacedSolid placed = alone.view();
-    const QuadMatrix turn = quad_rotation(pose);
-    EXPECT_LE(size(widened(placed.rotation_double_double()) - turn), 4 * last_bits);
+    const QuadMatrix rotation = quad_rotation(pose);
+    EXPECT_LE(size(widened(placed.rotation_double_double()) - rotation), 4 * tolerance);
     for (int v = 0; v < placed.vertices(); ++v) {
-      EXPECT_LE(size(widened(placed.vertex_double_double(v)) - turn * solid.arrays().vertex(v)), 4 * last_bits) << v;
+      EXPECT_LE(size(widened(placed.vertex_double_double(v)) - rotation * solid.arrays().vertex(v)), 4 * tolerance)
+          << v;
       EXPECT_EQ(placed.vertex(v), placed.vertex_double_double(v).high);
     }
     for (int f = 0; f < placed.faces(); ++f) {
-      EXPECT_LE(size(widened(placed.normal_double_double(f)) - turn * solid.arrays().normal(f)), 4 * last_bits) << f;
+      EXPECT_LE(size(widened(placed.normal_double_double(f)) - rotation * solid.arrays().normal(f)), 4 * tolerance)
+          << f;
       EXPECT_TRUE(widened(placed.offset_double_double(f)) == solid.arrays().plane_offset(f));
     }
   }

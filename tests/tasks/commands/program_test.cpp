@@ -3,7 +3,8 @@
 //   file. Nothing is written.
 // - If there are several errors, each has a line with the file. Warnings are printed in addition to OK.
 // - Usage errors, and paths that cannot be read or written, end with exit 2 and one error. Nothing is written.
-// - For an unknown command or option, the message suggests the most similar one.
+// - For an unknown command or option, the message suggests the most similar one. For a missing argument or value, or
+//   one that is too many, it names this argument or value.
 // - A missing or empty directory gives the same error in every command.
 // - A dry run uses the singular for one, and prints a time of zero as about 0 s.
 // - Help and version are printed on standard output with exit 0.
@@ -57,7 +58,7 @@ TEST(Program, ValidatesAGoodManifest) {
     test::write_text(directory / "m.json", mark + manifest.dump());
     const auto validate = isojam({"validate", "m.json"}, directory.path());
     EXPECT_EQ(validate.exit_code, 0) << validate.err;
-    EXPECT_EQ(validate.out, "OK: tiny: 6 replicates (3 sweep points × 2)\n");
+    EXPECT_EQ(validate.out, "OK: tiny: 6 replicates (3 sweep points with 2 replicates each)\n");
     EXPECT_EQ(validate.err, "");
   }
   EXPECT_EQ(files_below(directory.path()).size(), 1U);
@@ -89,7 +90,7 @@ TEST(Program, WarnsOfUnsuitableSettings) {
     EXPECT_NE(validate.err.find("isojam: warning: m.json: /protocol/" + key + ": "), std::string::npos) << validate.err;
 }
 
-TEST(Program, UnknownWordsGiveASuggestion) {
+TEST(Program, NamesWrongAndMissingArguments) {
   const TemporaryDirectory directory;
   struct Case {
     std::vector<std::string> arguments;
@@ -103,6 +104,12 @@ TEST(Program, UnknownWordsGiveASuggestion) {
       {{"run", "m.json", "--colour", "never"}, "unknown option \"--colour\"; did you mean \"--color\"?"},
       {{"run", "--dryrun"}, "unknown option \"--dryrun\"; did you mean \"--dry-run\"?"},
       {{"--helpp"}, "unknown option \"--helpp\"; did you mean \"--help\"?"},
+      {{"-q"}, "unknown option \"-q\"; expected one of \"--help\""},
+      {{}, "a command is required; see \"isojam --help\""},
+      {{"run"}, "MANIFEST is required; see \"isojam run --help\""},
+      {{"run", "m.json", "one", "two"}, "unexpected argument \"one\"; see \"isojam run --help\""},
+      {{"--messages"}, "--messages needs a value; expected one of \"text\", \"json\""},
+      {{"run", "m.json", "-j"}, "--threads needs a value; expected N"},
   };
   for (const auto& wrong : cases) {
     const auto run = isojam(wrong.arguments, directory.path());
@@ -110,6 +117,13 @@ TEST(Program, UnknownWordsGiveASuggestion) {
     EXPECT_EQ(run.err.rfind("isojam: error: " + wrong.says, 0), 0U) << run.err;
     EXPECT_EQ(lines_of(run.err), 1) << run.err;
   }
+}
+
+TEST(Program, ListsOfFlagsDoNotContainNone) {
+  const TemporaryDirectory directory;
+  const auto run = isojam({"aggregate", ".", "--exclude", "none,crystalline"}, directory.path());
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--exclude: \"none\" is not accepted in a list"), std::string::npos) << run.err;
 }
 
 TEST(Program, AMissingOrEmptyDirectoryHasTheSameErrorInEveryCommand) {

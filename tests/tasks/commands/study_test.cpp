@@ -106,7 +106,7 @@ TEST(Study, OfANewUser) {
   EXPECT_NE(stopped.err.find("repeat the command to resume"), std::string::npos) << stopped.err;
   const auto status = isojam({"status", "again"}, here.path());
   EXPECT_NE(status.out.find(" 0 running"), std::string::npos) << status.out;
-  EXPECT_NE(status.out.find("no process is working on it"), std::string::npos) << status.out;
+  EXPECT_NE(status.out.find("no process works in this directory"), std::string::npos) << status.out;
   EXPECT_EQ(isojam({"run", "m.json", "-o", "again"}, here.path()).exit_code, 0);
   EXPECT_EQ(test::results_below(here / "again"), test::results_below(results));
 

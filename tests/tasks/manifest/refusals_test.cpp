@@ -69,9 +69,8 @@ TEST(Refusals, AreReportedAtOnceInTheOrderOfTheDocument) {
       refusals(sphere.dump()).at(0),
       "m.json: /sweep/solid/0: unknown solid \"sphere\"; expected one of \"tetrahedron\", \"cube\", \"octahedron\", "
       "\"dodecahedron\", \"icosahedron\", \"truncated_tetrahedron\", \"cuboctahedron\", \"rhombic_dodecahedron\", "
-      "\"truncated_octahedron\", \"truncated_cube\", prism3 to prism64 and antiprism4 to antiprism48, or a name "
-      "defined "
-      "in /solids");
+      "\"truncated_octahedron\", \"truncated_cube\", prism3, prism5 to prism64, antiprism4 to antiprism48, or a name "
+      "defined in /solids");
 }
 
 TEST(Refusals, ConsequencesOfOtherErrorsAreNotReported) {

@@ -89,7 +89,7 @@ TEST(SolidDefinitions, InvalidSolidsAreRejectedAtOnce) {
                                       "/solids/wrong/sphere"}))
       << all;
   EXPECT_NE(all.find("inside of the hull of the others"), std::string::npos) << all;
-  EXPECT_NE(all.find("prism3 to prism64"), std::string::npos) << all;
+  EXPECT_NE(all.find("prism3, prism5 to prism64, "), std::string::npos) << all;
 }
 
 TEST(SolidDefinitions, TooManyFeaturesAreRejected) {

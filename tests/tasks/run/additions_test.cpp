@@ -8,8 +8,8 @@
 // - After a kill, every record is complete, either old or new. `status` counts the records that lack a measure, and the
 //   same command continues. If the path of a replicate is missing, or was written by a process that was killed before
 //   it wrote the record, `run` recomputes the replicate, and also computes measures that its manifest does not request.
-// - The command needs the directory for itself: it ends with an error beside another one or beside a run, and so does a
-//   run beside it.
+// - The command needs the directory for itself: it ends with an error beside another one or beside a run. Beside it, a
+//   run or a rerun ends with an error and changes no file.
 // - A record is opened once before anything is written, twice to add to it, and once for the table. If another process
 //   changes a record in the meantime, it stays as that process wrote it.
 // - A single replicate can be measured. A failed replicate gets null with a reason for the added measures.
@@ -170,8 +170,8 @@ TEST_F(Adding, LeavesAValidDirectory) {
   ASSERT_EQ(measure({"--add", rest}).exit_code, 0);
   const auto files = files_below(here_ / "few");
   const auto status = isojam({"status", "few"}, here_.path());
-  EXPECT_EQ(status.out.find("damaged"), std::string::npos) << status.out;
-  EXPECT_EQ(status.out.find("without measures"), std::string::npos) << status.out;
+  EXPECT_EQ(status.out.find("problem: "), std::string::npos) << status.out;
+  EXPECT_EQ(status.out.find("without the measures"), std::string::npos) << status.out;
   for (const auto* manifest : {"all.json", "few.json"}) {
     const auto run = isojam({"run", manifest, "-o", "few"}, here_.path());
     EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -203,9 +203,9 @@ TEST_F(Adding, ContinuesAfterAKill) {
   const auto all = names();
   const auto lacking = std::count_if(all.begin(), all.end(), lacks);
   const auto status = isojam({"status", "few"}, here_.path());
-  EXPECT_EQ(status.out.find("damaged"), std::string::npos) << status.out;
+  EXPECT_EQ(status.out.find("problem: "), std::string::npos) << status.out;
   if (lacking > 0) {
-    const auto line = std::to_string(lacking) + (lacking == 1 ? " record " : " records ") + "without measures";
+    const auto line = std::to_string(lacking) + (lacking == 1 ? " record " : " records ") + "without the measures";
     EXPECT_NE(status.out.find(line), std::string::npos) << status.out;
   }
   ASSERT_EQ(measure({}).exit_code, 0);
@@ -296,15 +296,25 @@ TEST_F(Adding, LeavesARecordThatAnotherProcessChanged) {
 }
 
 TEST_F(Adding, HasTheDirectoryForItself) {
+  auto more = parse_json(read_file(here_ / "few.json"), "few.json");
+  more["replicates"] = more.at("replicates").get<int>() + 1;
+  test::write_text(here_ / "more.json", more.dump());
   const auto before = files_below(here_ / "few");
   for (const auto kind : {DirectoryLock::Kind::shared, DirectoryLock::Kind::exclusive}) {
     const auto held = DirectoryLock::take(here_ / "few", kind);
     ASSERT_TRUE(held);
-    const auto refused = measure({"--add", "modes"});
-    EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_NE(refused.err.find("another process of isojam is using this directory"), std::string::npos) << refused.err;
-    const auto run = isojam({"run", "few.json", "-o", "few"}, here_.path());
-    EXPECT_EQ(run.exit_code, kind == DirectoryLock::Kind::shared ? 0 : 1) << run.err;
+    std::vector<std::vector<std::string>> refused{{"measure", "few", "--add", "modes"}};
+    if (kind == DirectoryLock::Kind::exclusive) {
+      refused.push_back({"run", "more.json", "-o", "few"});
+      refused.push_back({"rerun", "few", names().front()});
+    } else {
+      EXPECT_EQ(isojam({"run", "few.json", "-o", "few"}, here_.path()).exit_code, 0);
+    }
+    for (const auto& command : refused) {
+      const auto ended = isojam(command, here_.path());
+      EXPECT_EQ(ended.exit_code, 1) << command[0];
+      EXPECT_NE(ended.err.find("another process of isojam is using this directory"), std::string::npos) << ended.err;
+    }
   }
   EXPECT_EQ(files_below(here_ / "few"), before);
   EXPECT_EQ(measure({"--add", "rigidity"}).exit_code, 0) << "the lock went with its holder";
