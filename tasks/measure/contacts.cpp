@@ -9,6 +9,7 @@
 #include "engine/packing/energy.hpp"
 #include "tasks/measure/flag.hpp"
 #include "tasks/measure/shared_parts.hpp"
+#include "tasks/measure/trough_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -27,12 +28,14 @@ constexpr Quantity Z_ef_fixed{"Z_ef_fixed", "/contacts/fixed_cutoffs/Z_ef", cont
 constexpr Quantity Z_l_fixed{"Z_l_fixed", "/contacts/fixed_cutoffs/Z_l", contact_group, per_particle, "Z_l^{fixed}"};
 constexpr Quantity C_fixed{"C_fixed", "/contacts/fixed_cutoffs/C", contact_group, per_particle, "C^{fixed}"};
 constexpr std::string_view kind_group = "kinds of a mixture";
-constexpr Quantity Z_1{"Z_1", "/contacts/kind_1/Z", kind_group, per_particle, "Z_1"};
-constexpr Quantity Z_2{"Z_2", "/contacts/kind_2/Z", kind_group, per_particle, "Z_2"};
-constexpr Quantity Z_3{"Z_3", "/contacts/kind_3/Z", kind_group, per_particle, "Z_3"};
-constexpr Quantity Z_4{"Z_4", "/contacts/kind_4/Z", kind_group, per_particle, "Z_4"};
-constexpr std::array quantities{Z,          Z_ff,      Z_ef,    Z_l, C,   Z_ff_gap, Z_ff_fixed,
-                                Z_ef_fixed, Z_l_fixed, C_fixed, Z_1, Z_2, Z_3,      Z_4};
+constexpr Quantity Z_1 = optional_quantity({"Z_1", "/contacts/kind_1/Z", kind_group, per_particle, "Z_1"});
+constexpr Quantity Z_2 = optional_quantity({"Z_2", "/contacts/kind_2/Z", kind_group, per_particle, "Z_2"});
+constexpr Quantity Z_3 = optional_quantity({"Z_3", "/contacts/kind_3/Z", kind_group, per_particle, "Z_3"});
+constexpr Quantity Z_4 = optional_quantity({"Z_4", "/contacts/kind_4/Z", kind_group, per_particle, "Z_4"});
+constexpr std::array quantities{
+    Z,        Z_ff,         Z_ef,          Z_l,        C,          Z_ff_gap,  Z_ff_trough, Z_ef_trough, Z_l_trough,
+    C_trough, C_trough_low, C_trough_high, Z_ff_fixed, Z_ef_fixed, Z_l_fixed, C_fixed,     Z_1,         Z_2,
+    Z_3,      Z_4};
 
 Json fit_record(const CdfFit& fit) {
   Json json;
@@ -275,6 +278,7 @@ Measurement measure_contacts(const JamResult& jam, const MeasureOptions&) {
   for (std::size_t k = 0; k < jam.states.size(); ++k) {
     const auto classified = classified_contacts(jam.states[k], energy);
     measurement.states.push_back(contact_record(classified.analysis));
+    put_trough(measurement.states.back(), histogram_of(classified), jam.states[k].size());
     if (k != nearest) continue;
     measurement.flags = contact_flags(classified.analysis);
     measurement.states.back()["contacts"]["angles"] = angle_record(jam.states[k], classified);

@@ -31,11 +31,20 @@ struct Quantity {
   /// Measure that computes the quantity, set by all_quantities(). nullopt for quantities of the protocol.
   std::optional<Measure> measure = std::nullopt;
   bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
+  /// True if some records lack the object that contains the quantity: records of packings without this kind of
+  /// particles, or records of earlier builds. The quantity then has no value.
+  bool optional = false;
 };
 
 /// The same quantity, with values that are 0 or 1.
 constexpr Quantity proportion(Quantity quantity) {
   quantity.proportion = true;
+  return quantity;
+}
+
+/// The same quantity, whose object some records lack.
+constexpr Quantity optional_quantity(Quantity quantity) {
+  quantity.optional = true;
   return quantity;
 }
 

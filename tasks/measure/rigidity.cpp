@@ -1,6 +1,7 @@
 #include "engine/rigidity/rigidity.hpp"
 #include "engine/packing/energy.hpp"
 #include "tasks/measure/shared_parts.hpp"
+#include "tasks/measure/trough_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -18,7 +19,11 @@ constexpr Count normals{"normals",
 constexpr Count by_class{"classes",
                          {"self_stress_classes", "/rigidity/classes/self_stress", group, "1", "s_c"},
                          {"floppy_classes", "/rigidity/classes/floppy", group, "1", "f_c"}};
-constexpr std::array quantities{normals.self_stress, by_class.self_stress, normals.floppy, by_class.floppy};
+constexpr Count by_trough{"trough",
+                          optional_quantity({"self_stress_trough", "/rigidity/trough/self_stress", group, "1", "s_t"}),
+                          optional_quantity({"floppy_trough", "/rigidity/trough/floppy", group, "1", "f_t"})};
+constexpr std::array quantities{normals.self_stress, by_class.self_stress, by_trough.self_stress,
+                                normals.floppy,      by_class.floppy,      by_trough.floppy};
 
 void put_rigidity(Json& state, const Count& count, const RigidityMatrix& matrix) {
   const auto rigidity = analyse_rigidity(matrix);
@@ -63,6 +68,18 @@ Json scaled_cutoffs(const Packing& packing, const ClassifiedContacts& classified
   return list;
 }
 
+/// The constraints of the classes by troughs.
+void put_by_trough(Json& state, const Packing& packing, const ClassifiedContacts& classified) {
+  const TroughCutoffs cutoffs = trough_cutoffs(histogram_of(classified));
+  if (const auto why = undecided(cutoffs)) {
+    put_undecided(state, by_trough, *why);
+    return;
+  }
+  const auto classes = classify(classified.alignments, angle_bin_edge(cutoffs.face_face.cutoff),
+                                angle_bin_edge(cutoffs.edge_face.cutoff));
+  put_rigidity(state, by_trough, class_constraints(packing, classified.contacts, classified.alignments, classes));
+}
+
 Measurement measure_rigidity(const JamResult& jam, const MeasureOptions&) {
   Measurement measurement;
   PackingEnergy energy;
@@ -78,6 +95,7 @@ Measurement measure_rigidity(const JamResult& jam, const MeasureOptions&) {
                    class_constraints(packing, classified.contacts, classified.alignments, classified.analysis.classes));
       state["rigidity"]["scaled_cutoffs"] = scaled_cutoffs(packing, classified);
     }
+    put_by_trough(state, packing, classified);
     measurement.states.push_back(std::move(state));
   }
   return measurement;

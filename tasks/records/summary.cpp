@@ -8,6 +8,7 @@
 
 #include "tasks/io/place.hpp"
 #include "tasks/measure/quantity.hpp"
+#include "tasks/measure/trough_parts.hpp"
 #include "tasks/packings/mixture_json.hpp"
 #include "tasks/records/record.hpp"
 #include "tasks/records/texts.hpp"
@@ -27,7 +28,7 @@ std::optional<double> value_below(const JsonPlace& place, std::string_view point
 }
 
 /// Value of a quantity. nullopt if its measure was not requested (the first key of the pointer is missing), or if the
-/// packing does not have this kind of particles. If another key is missing, throws.
+/// quantity is optional and the object that contains it is missing. If another key is missing, throws.
 std::optional<double> quantity_value(const JsonPlace& place, const Quantity& quantity) {
   // Tables read millions of values. Only an unexpected value needs a JsonPlace, which contains texts for messages.
   const Json* value = &place.value();
@@ -35,8 +36,8 @@ std::optional<double> quantity_value(const JsonPlace& place, const Quantity& qua
     const auto end = std::min(rest.find('/', 1), rest.size());
     const auto found = value->is_object() ? value->find(rest.substr(1, end - 1)) : value->end();
     if (found == value->end()) {
-      const bool is_kind = quantity.pointer.starts_with(kinds_pointer) && rest.starts_with("/kind_");
-      if (rest.size() == quantity.pointer.size() || is_kind) return std::nullopt;
+      const bool no_object = quantity.optional && end < rest.size();
+      if (rest.size() == quantity.pointer.size() || no_object) return std::nullopt;
       return value_below(place, quantity.pointer);
     }
     value = &*found;
@@ -46,6 +47,11 @@ std::optional<double> quantity_value(const JsonPlace& place, const Quantity& qua
   return value_below(place, quantity.pointer);
 }
 
+std::optional<AngleHistogram> angles_of(const JsonPlace& state) {
+  if (!state.value().contains(Json::json_pointer(std::string(angle_bins_pointer)))) return std::nullopt;
+  return read_angle_histogram(state.at("contacts").at("angle_bins"));
+}
+
 void read_values(const JsonPlace& root, RecordSummary& summary) {
   const auto nearest = root.at("nearest");
   const auto quantities = all_quantities();
@@ -53,6 +59,7 @@ void read_values(const JsonPlace& root, RecordSummary& summary) {
     const bool of_replicate = quantities[i].of == Quantity::Of::replicate;
     summary.values[i] = quantity_value(of_replicate ? root : nearest, quantities[i]);
   }
+  summary.angles = angles_of(nearest);
   summary.residual = number_or_null(root.at("phi_j").at("residual"));
 }
 
@@ -67,6 +74,7 @@ void read_states(const JsonPlace& states, RecordSummary& summary) {
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       if (quantities[i].of == Quantity::Of::state) values.values[i] = quantity_value(state, quantities[i]);
     }
+    values.angles = angles_of(state);
     summary.states.push_back(std::move(values));
   }
   std::sort(summary.states.begin(), summary.states.end(),

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/analysis/alignment/angle_histogram.hpp"
 #include "engine/packing/mixture/mixture.hpp"
 #include "tasks/io/json.hpp"
 #include "tasks/measure/flag.hpp"
@@ -21,6 +22,7 @@ inline Values no_values() { return Values(all_quantities().size()); }
 struct StateValues {
   double delta_phi = 0;
   Values values = no_values();
+  std::optional<AngleHistogram> angles = std::nullopt;  ///< nullopt if the record lacks it
 };
 
 /// The part of a record that tables need.
@@ -44,10 +46,11 @@ struct RecordSummary {
   std::string result_digest;
   double cpu_seconds = 0;
   bool failed = false, flagged = false;
-  std::vector<Flag> flags;          ///< flags of the replicate, without those that this version of isojam does not know
-  Values values = no_values();      ///< quantities of the replicate, and quantities of its nearest state
-  std::vector<StateValues> states;  ///< states with Δφ > 0, sorted by Δφ
-  std::optional<double> residual;   ///< largest residual of the states that were used to fit φ_J
+  std::vector<Flag> flags;      ///< flags of the replicate, without those that this version of isojam does not know
+  Values values = no_values();  ///< quantities of the replicate, and quantities of its nearest state
+  std::optional<AngleHistogram> angles;  ///< of the nearest state; nullopt if the record lacks it
+  std::vector<StateValues> states;       ///< states with Δφ > 0, sorted by Δφ
+  std::optional<double> residual;        ///< largest residual of the states that were used to fit φ_J
 };
 
 /// True if the replicate has at least one of these flags.

@@ -21,19 +21,38 @@ std::string describe(const RecordSummary& record) {
                      record.replicate, record.manifest_digest);
 }
 
-/// All quantities at `distance`, interpolated linearly in ln Δφ between the two neighbouring states. A quantity is
-/// empty if `distance` is outside of all states, or if one of the two states lacks the value.
-Values interpolated(std::span<const StateValues> states, double distance) {
+/// Two neighbouring states, and the weight of the second one in a linear interpolation in ln Δφ.
+struct Neighbours {
+  const StateValues &low, &high;
+  double weight;
+};
+
+/// The states around `distance`; nullopt if `distance` is outside of all states.
+std::optional<Neighbours> neighbours(std::span<const StateValues> states, double distance) {
   const auto above =
       std::find_if(states.begin(), states.end(), [=](const StateValues& s) { return s.delta_phi >= distance; });
-  if (above == states.begin() || above == states.end()) return {};
+  if (above == states.begin() || above == states.end()) return std::nullopt;
   const StateValues &low = above[-1], &high = *above;
-  const double weight = nearest::log(distance / low.delta_phi) / nearest::log(high.delta_phi / low.delta_phi);
+  return Neighbours{low, high, nearest::log(distance / low.delta_phi) / nearest::log(high.delta_phi / low.delta_phi)};
+}
+
+/// All quantities between two states. A quantity is empty if one of the two states lacks the value.
+Values interpolated(const Neighbours& at) {
   Values values = no_values();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (low.values[i] && high.values[i]) values[i] = (1 - weight) * *low.values[i] + weight * *high.values[i];
+    if (at.low.values[i] && at.high.values[i])
+      values[i] = (1 - at.weight) * *at.low.values[i] + at.weight * *at.high.values[i];
   }
   return values;
+}
+
+/// The histogram of angles between two states; nullopt if one of the two states lacks it.
+std::optional<AngleHistogram> interpolated_angles(const Neighbours& at) {
+  if (!at.low.angles || !at.high.angles) return std::nullopt;
+  AngleHistogram histogram = *at.low.angles;
+  histogram.add(*at.low.angles, -at.weight);
+  histogram.add(*at.high.angles, at.weight);
+  return histogram;
 }
 
 /// JSON pointer of the first difference between two values; empty if they are equal.
@@ -77,7 +96,7 @@ constexpr std::size_t places = 1 + series_distances.size();
 }  // namespace
 
 Aggregation::Kept Aggregation::kept(const RecordSummary& record) const {
-  Kept kept{record.result_digest, record.failed, record.flagged, has_any(record, exclude_), record.residual, {}};
+  Kept kept{record.result_digest, record.failed, record.flagged, has_any(record, exclude_), record.residual, {}, {}};
   const auto keep = [&](const Values& values, std::size_t place) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (values[i])
@@ -85,8 +104,16 @@ Aggregation::Kept Aggregation::kept(const RecordSummary& record) const {
     }
   };
   keep(record.values, 0);
-  for (std::size_t k = 0; k < series_distances.size(); ++k)
-    keep(interpolated(record.states, series_distances[k]), k + 1);
+  const auto keep_angles = [&](const std::optional<AngleHistogram>& angles, std::size_t place) {
+    if (angles) kept.angles.emplace_back(place, PackedAngles(*angles));
+  };
+  keep_angles(record.angles, 0);
+  for (std::size_t k = 0; k < series_distances.size(); ++k) {
+    const auto at = neighbours(record.states, series_distances[k]);
+    if (!at) continue;
+    keep(interpolated(*at), k + 1);
+    keep_angles(interpolated_angles(*at), k + 1);
+  }
   kept.cells.shrink_to_fit();
   return kept;
 }
@@ -138,6 +165,18 @@ std::optional<GoalOutcome> Aggregation::goal_outcome(const Point& point, const s
                      advance.half_width, advance.first};
 }
 
+std::optional<PooledTrough> Aggregation::trough(const PointKey& key, const Point& point, std::size_t place) {
+  const auto& [solid, particles, parameters] = key;
+  std::vector<const PackedAngles*> packings;
+  for (const auto& [name, replicate] : point.replicates) {
+    if (!replicate.counts()) continue;
+    for (const auto& [where, angles] : replicate.angles) {
+      if (where == place) packings.push_back(&angles);
+    }
+  }
+  return pooled_trough(packings, particles, point_text(solid, particles, parameters));
+}
+
 Row Aggregation::row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule) {
   Row row;
   std::tie(row.solid, row.particles, row.parameters) = key;
@@ -152,10 +191,12 @@ Row Aggregation::row(const PointKey& key, const Point& point, const std::optiona
   }
   const auto text = point_text(row.solid, row.particles, row.parameters);
   std::tie(row.estimates, row.all) = samples[0].estimates(text);
+  row.trough = trough(key, point, 0);
   for (std::size_t k = 0; k < series_distances.size(); ++k) {
     if (samples[k + 1].empty()) continue;
     row.series.push_back({series_distances[k]});
     std::tie(row.series.back().estimates, row.series.back().all) = samples[k + 1].estimates(text);
+    row.series.back().trough = trough(key, point, k + 1);
   }
   row.goal = goal_outcome(point, rule);
   // The stopping rule chose the number of replicates, unless there is only one number to choose from.

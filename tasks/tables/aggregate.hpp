@@ -14,6 +14,7 @@
 #include "tasks/manifest/manifest.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/records/summary.hpp"
+#include "tasks/tables/pooled_trough.hpp"
 #include "tasks/tables/statistics.hpp"
 
 namespace isojam {
@@ -26,6 +27,7 @@ inline Estimates no_estimates() { return Estimates(all_quantities().size()); }
 struct SeriesPoint {
   double delta_phi = 0;
   Estimates estimates = no_estimates(), all = no_estimates();  ///< without and with the excluded replicates, as in Row
+  std::optional<PooledTrough> trough = std::nullopt;           ///< as in Row, of angles that are interpolated
 };
 
 /// Progress of a sweep point towards its goal.
@@ -63,6 +65,8 @@ struct Row {
   /// estimates over the replicates that neither failed nor are excluded
   Estimates estimates = no_estimates();
   Estimates all = no_estimates();  ///< estimates over the replicates that did not fail, including the excluded ones
+  /// troughs of the replicates that neither failed nor are excluded; nullopt if no record has histograms of angles
+  std::optional<PooledTrough> trough;
   /// estimates at each value of series_distances that lies between two states of at least one replicate
   std::vector<SeriesPoint> series;
   /// largest residual of the states that were used to fit φ_J, over all replicates; nullopt if all replicates failed
@@ -107,13 +111,14 @@ class Aggregation {
   struct Cell {
     std::uint16_t quantity, place;
     double value;
-    /// The part of a record that the table needs.
   };
+  /// The part of a record that the table needs.
   struct Kept {
     std::string result_digest;
     bool failed = false, flagged = false, excluded = false;
     std::optional<double> residual;
     std::vector<Cell> cells;
+    std::vector<std::pair<std::size_t, PackedAngles>> angles;  ///< by place
 
     bool counts() const { return !failed && !excluded; }
   };
@@ -128,6 +133,7 @@ class Aggregation {
 
   Kept kept(const RecordSummary& record) const;
   static Values own_values(const Kept& kept);  ///< values of the replicate and of its nearest state
+  static std::optional<PooledTrough> trough(const PointKey& key, const Point& point, std::size_t place);
   static Row row(const PointKey& key, const Point& point, const std::optional<Replicates>& rule);
   std::optional<Differences> differences(const PointKey& key, const Point& point) const;
   static std::optional<GoalOutcome> goal_outcome(const Point& point, const std::optional<Replicates>& rule);

@@ -70,6 +70,24 @@ std::vector<std::size_t> quantities_in(const std::vector<TableLine>& lines, bool
   return list;
 }
 
+/// Estimates by the troughs of all replicates together; null if the line has none.
+const Estimate* pooled_of(const TableLine& line, std::size_t i) {
+  return line.trough ? &line.trough->estimates[i] : nullptr;
+}
+
+/// Indices of these estimates that have a value in at least one line.
+std::vector<std::size_t> pooled_in(const std::vector<TableLine>& lines) {
+  std::vector<std::size_t> list;
+  for (std::size_t i = 0; i < PooledTrough::names.size(); ++i) {
+    if (std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) {
+          const Estimate* estimate = pooled_of(line, i);
+          return estimate && estimate->n > 0;
+        }))
+      list.push_back(i);
+  }
+  return list;
+}
+
 std::string line_of(Cells cells) {
   for (auto& cell : cells) cell = csv_field(cell);
   return joined(cells, ",") + '\n';
@@ -85,11 +103,19 @@ std::string to_csv(const Table& table, View view) {
   for (const auto i : quantities) {
     for (const auto part : parts) head.push_back(fmt::format("{}_{}", all_quantities()[i].name, part));
   }
+  const auto pooled = pooled_in(lines);
+  for (const auto i : pooled) {
+    for (const auto part : parts) head.push_back(fmt::format("{}_{}", PooledTrough::names[i], part));
+  }
   head.emplace_back(residual_column);
   auto text = line_of(head);
   for (const TableLine& line : lines) {
     auto cells = begin_of(line, parameters);
     for (const auto i : quantities) append(cells, cells_of((*line.estimates)[i]));
+    for (const auto i : pooled) {
+      const Estimate* estimate = pooled_of(line, i);
+      append(cells, cells_of(estimate ? *estimate : Estimate{}));
+    }
     cells.push_back(line.over == Over::difference ? "" : number(line.row->residual));
     text += line_of(cells);
   }
@@ -109,6 +135,12 @@ std::string to_long_csv(const Table& table, View view) {
       auto cells = begin_of(line, parameters);
       cells.emplace_back(all_quantities()[i].name);
       append(cells, cells_of((*line.estimates)[i]));
+      text += line_of(cells);
+    }
+    for (std::size_t i = 0; line.trough && i < PooledTrough::names.size(); ++i) {
+      auto cells = begin_of(line, parameters);
+      cells.emplace_back(PooledTrough::names[i]);
+      append(cells, cells_of(line.trough->estimates[i]));
       text += line_of(cells);
     }
   }

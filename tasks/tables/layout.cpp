@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/analysis/alignment/critical_angles.hpp"
+#include "engine/arithmetic/elementary.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/tables/estimate_text.hpp"
 #include "tasks/tables/lines.hpp"
@@ -191,6 +192,39 @@ void add_below(std::vector<LaidOut>& tables, const Table& table, const std::vect
   if (differences.size() > 1) tables.push_back({difference_title(table), std::move(differences)});
 }
 
+/// Logarithms of the lower edge of a trough, of the cut-off, and of the upper edge.
+Cells trough_cells(const Trough& trough) {
+  if (trough.verdict != TroughVerdict::found) return {"-", "undecided", "-"};
+  Cells cells;
+  for (const int bin : {trough.low, trough.cutoff, trough.high})
+    cells.push_back(fmt::format("{:.2f}", nearest::log10(angle_bin_edge(bin))));
+  return cells;
+}
+
+/// Adds the table of the troughs of all replicates together, if there are any.
+void add_pooled(std::vector<LaidOut>& tables, const std::vector<TableLine>& lines,
+                const std::vector<std::string>& parameters, Format format) {
+  std::vector<Cells> cells{point_head(parameters, format)};
+  const auto append = [](Cells& line, const Cells& more) { line.insert(line.end(), more.begin(), more.end()); };
+  const bool of_series = !lines.empty() && lines.front().delta_phi;
+  if (of_series) cells[0].push_back(symbol("delta_phi", "\\Delta\\phi", format));
+  append(cells[0], {"replicates", "low", symbol("log ff", "\\log_{10}\\theta_{ff}", format), "high", "low",
+                    symbol("log ef", "\\log_{10}\\theta_{ef}", format), "high"});
+  for (const auto name : {"Z_ff", "Z_ef", "Z_l", "C", "C_low", "C_high"}) cells[0].push_back(spelt(name, format));
+  for (const TableLine& line : lines) {
+    if (!line.trough) continue;
+    auto next = point_cells(*line.row, parameters, format);
+    if (of_series) next.push_back(fmt::format("{:g}", *line.delta_phi));
+    next.push_back(std::to_string(line.trough->replicates));
+    append(next, trough_cells(line.trough->cutoffs.face_face));
+    append(next, trough_cells(line.trough->cutoffs.edge_face));
+    for (const Estimate& estimate : line.trough->estimates)
+      next.push_back(estimate_text(estimate, format, line.trough->replicates));
+    cells.push_back(std::move(next));
+  }
+  if (cells.size() > 1) tables.push_back({"troughs in the angles of all replicates together", std::move(cells)});
+}
+
 /// All tables, one for each group of quantities, and the tables that follow them.
 std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
   const auto parameters = parameter_names(table);
@@ -201,6 +235,7 @@ std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
     for (const TableLine& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
     tables.push_back({std::string(group.name), std::move(cells)});
     if (counts_replicates(group, view)) add_below(tables, table, parameters, format);
+    if (group.name == contact_group) add_pooled(tables, lines, parameters, format);
     if (group.name == contact_group && view == View::nearest)
       tables.push_back({"critical angles, degrees", critical_angle_lines(table, format)});
   }

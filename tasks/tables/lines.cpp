@@ -57,7 +57,7 @@ TableLine difference_line(const Row& row) {
 std::vector<TableLine> lines_of(const Table& table, View view) {
   std::vector<TableLine> lines;
   const auto add = [&](const Row& row, std::optional<double> delta_phi, const auto& place) {
-    lines.push_back({&row, delta_phi, &place.estimates, Over::kept});
+    lines.push_back({&row, delta_phi, &place.estimates, Over::kept, place.trough ? &*place.trough : nullptr});
     if (row.excluded > 0) lines.push_back({&row, delta_phi, &place.all, Over::all});
   };
   for (const auto& row : table.rows) {

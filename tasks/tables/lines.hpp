@@ -52,6 +52,8 @@ struct TableLine {
   std::optional<double> delta_phi;
   const Estimates* estimates = nullptr;
   Over over = Over::kept;
+  /// troughs of all replicates of a line `kept` together; null if there are none
+  const PooledTrough* trough = nullptr;
 
   /// Number of replicates or pairs that are used for the estimates of this line.
   int counted() const {

@@ -5,6 +5,7 @@
 #include "engine/analysis/alignment/critical_angles.hpp"
 #include "tasks/io/options.hpp"
 #include "tasks/measure/quantity.hpp"
+#include "tasks/measure/trough_parts.hpp"
 
 namespace isojam {
 namespace {
@@ -46,10 +47,24 @@ void put_state_estimates(Json& json, const Estimates& estimates) {
   }
 }
 
+/// The names of the estimates are without `pooled`, which is a part of the key of this object.
+Json to_json(const PooledTrough& trough) {
+  Json json;
+  json["replicates"] = trough.replicates;
+  json["face_face"] = trough_record(trough.cutoffs.face_face, trough.particles);
+  json["edge_face"] = trough_record(trough.cutoffs.edge_face, trough.particles);
+  for (std::size_t i = 0; i < trough.names.size(); ++i) {
+    auto name = std::string(trough.names[i]);
+    json[name.erase(name.find("_pooled"), 7)] = to_json(trough.estimates[i]);
+  }
+  return json;
+}
+
 Json to_json(const SeriesPoint& point, bool with_all) {
   Json json;
   json["delta_phi"] = point.delta_phi;
   put_state_estimates(json, point.estimates);
+  if (point.trough) json["pooled_trough"] = to_json(*point.trough);
   if (with_all) {
     json["all"] = Json::object();
     put_state_estimates(json["all"], point.all);
@@ -104,6 +119,7 @@ Json to_json(const Row& row) {
   entry["excluded"] = row.excluded;
   if (row.goal) entry["goal"] = to_json(*row.goal);
   put_estimates(entry, row.estimates);
+  if (row.trough) entry["pooled_trough"] = to_json(*row.trough);
   if (row.excluded > 0) put_estimates(entry["all"], row.all);
   if (row.differences) entry["differences"] = to_json(*row.differences);
   entry["critical_angles"] = critical_angle_record(row.solid);

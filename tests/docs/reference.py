@@ -169,7 +169,8 @@ def tables_block(schema):
                                          if field.get("$ref") != "#/definitions/estimate"}))
     parts.append(("rows[].series[]", {key: field for key, field in series.items()
                                       if field.get("$ref") != "#/definitions/estimate"}))
-    parts.append(("estimate", schema.tree["definitions"]["estimate"]["properties"]))
+    own = ("pooled_trough", "trough", "estimate")  # definitions with tables of their own
+    parts += [(name, schema.tree["definitions"][name]["properties"]) for name in own]
     for path, fields in parts:
         plain_rows = []
         for key, field in fields.items():
@@ -178,6 +179,7 @@ def tables_block(schema):
             links = {f"rows[].{name}" for name in ("goal", "differences", "critical_angles")}
             what = f"object, [below](#{anchor('Table', deeper)})" if deeper in links else \
                 "object of estimates" if key == "all" else \
+                f"[{target}](#{anchor('Table', target)})" if (target := schema.definition_of(field)) in own else \
                 f"list of objects, [below](#{anchor('Table', deeper + '[]')})" if key == "series" else \
                 cell(kinds(schema, field))
             plain_rows.append([f"`{key}`", what, cell(inner.get("description", ""))])

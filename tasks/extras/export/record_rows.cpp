@@ -151,7 +151,9 @@ std::string RecordRows::reasons(const Source& source) const {
     if (value && !value->is_null()) continue;
     const auto& has = source.held.summary.measures;
     const bool measured = !quantity.measure || std::find(has.begin(), has.end(), *quantity.measure) != has.end();
-    const auto reason = measured ? reason_of(*object, quantity.pointer) : "not measured";
+    auto reason = measured ? reason_of(*object, quantity.pointer) : "not measured";
+    const bool is_newer = !value && measured && quantity.optional && !quantity.pointer.starts_with(kinds_pointer);
+    if (reason.empty() && is_newer) reason = "recorded by an earlier version";
     if (!reason.empty()) cells.push_back(std::string(quantity.name) + ": " + reason);
   }
   return joined(cells, between);

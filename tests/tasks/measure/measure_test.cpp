@@ -4,6 +4,11 @@
 // - The numbers of zero, negative and positive modes are those that a dense solver finds among all 6N eigenvalues.
 // - The constraints are Z·N/2 and C·N/2, as counted from the contact classes. Rank, states of self-stress and floppy
 //   motions are those of all singular values of the rows.
+// - The identity C = 12 − 6/N − 2m + 2S/N holds in every state, for the classes by fits and for those by troughs. Here
+//   m is the missing rank per particle, and S the number of states of self-stress.
+// - The recorded histogram is that of the alignment angles, and is read back. The numbers by troughs are those of
+//   contacts that are classified with the recorded cut-offs.
+// - In records without troughs and histograms, these quantities have no value.
 // - A second evaluation gives the same bits.
 // - States without contacts, with one contact, with one or three particles, and a crystal of cubes give records that
 //   conform to the schema. They have a reason for every null, and no NaN.
@@ -17,10 +22,13 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "engine/analysis/alignment/critical_angles.hpp"
 #include "engine/rigidity/rigidity.hpp"
 #include "engine/solve/factor/dense.hpp"
 #include "engine/vibration/dynamical_matrix.hpp"
+#include "tasks/io/input_error.hpp"
 #include "tasks/measure/recorded_measurement.hpp"
+#include "tasks/measure/trough_parts.hpp"
 #include "tasks/records/record.hpp"
 #include "tests/tasks/support/schema.hpp"
 #include "tests/tasks/support/support.hpp"
@@ -151,6 +159,97 @@ TEST(Measure, CountsConstraintsByContactsAndSingularValues) {
                    constraints, numbers.at("C"));
   }
   EXPECT_GT(decided, 0) << "no state has classes";
+}
+
+/// Difference between C and 12 − 6/N − 2m + 2S/N for the counted rows of a rigidity matrix.
+double violation_of_identity(const Json& counted, double C, int particles) {
+  const double n = particles;
+  const double missing = (counted.at("floppy").get<double>() - 3) / n;
+  const double redundant = counted.at("self_stress").get<double>() / n;
+  return C - (12 - 6 / n - 2 * missing + 2 * redundant);
+}
+
+TEST(Measure, ConstraintNumberIsThatOfMissingAndRedundantConstraints) {
+  const auto record = test::record_on_disk(measured_outcome(jammed()));
+  int by_fit = 0, by_trough = 0;
+  AngleHistogram pooled;
+  pooled.face_face_window = pooled.edge_face_window = angle_bins;
+  for (std::size_t k = 0; k < jammed().states.size(); ++k) {
+    const auto& state = record.at("states").at(k);
+    const auto &contacts = state.at("contacts"), &rigidity = state.at("rigidity");
+    const int particles = jammed().states[k].size();
+    if (!contacts.at("C").is_null()) {
+      ++by_fit;
+      EXPECT_NEAR(violation_of_identity(rigidity.at("classes"), contacts.at("C"), particles), 0, 1e-12);
+    }
+    if (!contacts.at("trough").at("C").is_null()) {
+      ++by_trough;
+      EXPECT_NEAR(violation_of_identity(rigidity.at("trough"), contacts.at("trough").at("C"), particles), 0, 1e-12);
+    }
+    pooled.add(read_angle_histogram({contacts.at("angle_bins"), "record"}));
+  }
+  std::printf("%zu states: %d with classes by fits, %d by troughs\n", jammed().states.size(), by_fit, by_trough);
+  EXPECT_GT(by_fit, 0);
+  EXPECT_GT(by_trough, 0);
+  // Troughs of all states together also give a classification of each state.
+  const TroughCutoffs cutoffs = trough_cutoffs(pooled);
+  ASSERT_TRUE(cutoffs.has_all());
+  for (const Packing& packing : jammed().states) {
+    const auto contacts = PackingEnergy().contacts(packing);
+    const auto angles = alignments(packing.solids.only(), contacts);
+    const auto classes =
+        classify(angles, angle_bin_edge(cutoffs.face_face.cutoff), angle_bin_edge(cutoffs.edge_face.cutoff));
+    const auto rigidity = analyse_rigidity(class_constraints(packing, contacts, angles, classes));
+    const Json counted{{"floppy", rigidity.floppy}, {"self_stress", rigidity.self_stress}};
+    const double C = contact_numbers(packing.size(), classes).C;
+    EXPECT_NEAR(violation_of_identity(counted, C, packing.size()), 0, 1e-12);
+  }
+}
+
+TEST(Measure, RecordsTheHistogramOfAnglesAndItsTroughs) {
+  const auto record = test::record_on_disk(measured_outcome(jammed()));
+  const auto critical = critical_angles(platonic(SolidKind::octahedron));
+  for (std::size_t k = 0; k < jammed().states.size(); ++k) {
+    SCOPED_TRACE("state " + std::to_string(k));
+    const Packing& packing = jammed().states[k];
+    const auto& contacts = record.at("states").at(k).at("contacts");
+    const auto angles = alignments(packing.solids.only(), PackingEnergy().contacts(packing));
+    const auto expected = angle_histogram(angles, critical.ff_min() / 2, critical.ef_min() / 2);
+    const auto histogram = read_angle_histogram({contacts.at("angle_bins"), "record"});
+    EXPECT_EQ(histogram.face_face, expected.face_face);
+    EXPECT_EQ(histogram.edge_face_of_others(0), expected.edge_face_of_others(0));
+    EXPECT_EQ(histogram.face_face_window, expected.face_face_window);
+    EXPECT_EQ(histogram.edge_face_window, expected.edge_face_window);
+    EXPECT_EQ(histogram.edge_face_of_others(histogram.face_face_window),
+              expected.edge_face_of_others(expected.face_face_window));
+    const auto& trough = contacts.at("trough");
+    if (trough.at("C").is_null()) continue;
+    const auto C_with = [&](const char* key) {
+      const double ff = trough.at("face_face").at(key).get<double>(), ef = trough.at("edge_face").at(key).get<double>();
+      return contact_numbers(packing.size(), classify(angles, ff, ef)).C;
+    };
+    EXPECT_DOUBLE_EQ(trough.at("C").get<double>(), C_with("cutoff"));
+    EXPECT_DOUBLE_EQ(trough.at("C_low").get<double>(), C_with("low"));
+    EXPECT_DOUBLE_EQ(trough.at("C_high").get<double>(), C_with("high"));
+  }
+}
+
+TEST(Measure, RecordsWithoutTroughsAreRead) {
+  auto record = test::record_on_disk(measured_outcome(jammed()));
+  const auto strip = [](Json& state) {
+    state.at("contacts").erase("trough");
+    state.at("contacts").erase("angle_bins");
+    state.at("rigidity").erase("trough");
+  };
+  strip(record.at("nearest"));
+  for (Json& state : record.at("states")) strip(state);
+  EXPECT_EQ(violations("replicate", record), "");
+  const auto summary = summarise_record(record, "record");
+  for (const auto* name : {"Z_ff_trough", "C_trough", "self_stress_trough"})
+    EXPECT_FALSE(summary.values[*quantity_index(name)]) << name;
+  EXPECT_TRUE(summary.values[*quantity_index("Z")]);
+  record.at("nearest").at("contacts").erase("Z");
+  EXPECT_THROW(summarise_record(record, "record"), InputError);
 }
 
 TEST(Measure, GivesTheSameBitsTwice) {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/analysis/trough_classes.hpp"
+#include "tasks/io/json.hpp"
+#include "tasks/tables/statistics.hpp"
+
+namespace isojam {
+
+/// The histogram of a state in little memory.
+class PackedAngles {
+ public:
+  explicit PackedAngles(const AngleHistogram& histogram);
+  AngleHistogram unpacked() const;
+
+ private:
+  /// A number of contacts by one angle or by both. The bin of the other angle is then `any`.
+  struct Entry {
+    std::uint8_t face_face, edge_face;
+    float contacts;
+  };
+  static constexpr std::uint8_t any = 255;
+  static_assert(angle_bins < any);
+  std::vector<Entry> entries_;
+  std::uint8_t face_face_window_, edge_face_window_;
+};
+
+/// Troughs in the angles of all replicates of a row together, and contact numbers with the cut-offs of these troughs.
+/// Single packings often have too few contacts for a trough.
+struct PooledTrough {
+  int replicates = 0;    ///< number of replicates whose angles are combined
+  double particles = 0;  ///< number of particles in all of them together
+  TroughCutoffs cutoffs = {};
+  /// Names of the estimates in tables, and means over the replicates. They have no values if there is no trough.
+  static constexpr std::array<std::string_view, 6> names{"Z_ff_pooled", "Z_ef_pooled",  "Z_l_pooled",
+                                                         "C_pooled",    "C_pooled_low", "C_pooled_high"};
+  std::array<Estimate, 6> estimates = {};
+};
+
+/// Finds the troughs of `packings`, which have the same number of particles. nullopt if there are none. `key` is the
+/// text from which the random numbers of the bootstrap are derived.
+std::optional<PooledTrough> pooled_trough(const std::vector<const PackedAngles*>& packings, int particles,
+                                          const std::string& key);
+
+}  // namespace isojam
