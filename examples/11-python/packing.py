@@ -16,8 +16,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
-SOLIDS = {"tetrahedron": "#d55e00", "octahedron": "#0072b2", "icosahedron": "#e69f00", "dodecahedron": "#009e73"}
-CLUSTERS = ("#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#f0e442", "#0072b2")
+CLUSTERS = isojam.palette.series
 
 
 def clusters(count, pairs):
@@ -60,7 +59,8 @@ def draw_packing(axes, packing, label):
 
 # %% Energies: (E/N)^(1/6) of each state vanishes at φ_J
 def draw_energies(axes, study):
-    for solid, colour in SOLIDS.items():
+    for solid, style in isojam.palette.styles(numpy.unique(study.states["solid"])).items():
+        colour = style["color"]
         states = study.states[study.states["solid"] == solid]
         for name in numpy.unique(states["replicate"]):
             of = states["replicate"] == name

@@ -3,7 +3,7 @@
 Draws results of 04-contact-topology: the distribution of contact forces, the joint distribution of alignment angles,
 and the constraint number C against Δφ. Reads the results directory DIR with the module isojam, and writes forces.png,
 angles.png and constraints.png. If the exported tables are given, it also draws the same figures from the tables,
-without the module: forces-csv.png, angles-csv.png and constraints-csv.png. Needs Debian's
+which it reads without the module: forces-csv.png, angles-csv.png and constraints-csv.png. Needs Debian's
 python3-matplotlib. The module isojam is in build/python."""
 
 # %% Forces: distribution of f divided by the mean f of its packing
@@ -12,6 +12,8 @@ import sys
 
 import matplotlib
 import numpy
+
+import isojam
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
@@ -25,7 +27,8 @@ def draw_forces(file, solid, replicate, force):
     for name in numpy.unique(solid):
         density, edges = numpy.histogram(size[solid == name], bins=30, range=(0, 9), density=True)
         middle = (edges[1:] + edges[:-1]) / 2
-        axes.plot(middle[density > 0], density[density > 0], "o-", markersize=3, label=name)
+        axes.plot(middle[density > 0], density[density > 0], markersize=3, label=name,
+                  **isojam.palette.styles([name])[name])
     axes.set(xlabel=r"$f/\langle f\rangle$", ylabel=r"$P$", yscale="log")
     axes.legend()
     figure.savefig(file, metadata={"Software": None})
@@ -36,9 +39,10 @@ def draw_angles(file, solid, contact_class, theta_ef, theta_ff):
     names = numpy.unique(solid)
     figure, panels = pyplot.subplots(2, 2, sharex=True, sharey=True, figsize=(9, 8), layout="constrained")
     for axes, name in zip(panels.flat, names):
-        for what in ("lower_order", "edge_face", "face_face"):
+        for what, colour in zip(("lower_order", "edge_face", "face_face"), isojam.palette.series):
             mask = (solid == name) & (contact_class == what)
-            axes.loglog(numpy.degrees(theta_ef[mask]), numpy.degrees(theta_ff[mask]), ".", markersize=2, label=what)
+            axes.loglog(numpy.degrees(theta_ef[mask]), numpy.degrees(theta_ff[mask]), ".", markersize=2, label=what,
+                        color=colour)
         axes.set(title=name)
     panels[0, 0].legend(markerscale=5)
     figure.supxlabel(r"$\theta_{ef}$ (degrees)")
@@ -52,11 +56,12 @@ def draw_constraints(file, solid, delta_phi, constraints):
     known = ~numpy.isnan(constraints)
     for name in numpy.unique(solid):
         x, y = delta_phi[known & (solid == name)], constraints[known & (solid == name)]
-        points, = axes.semilogx(x, y, ".", markersize=4, alpha=0.5)
+        colour = isojam.palette.styles([name])[name]["color"]
+        axes.semilogx(x, y, ".", markersize=4, alpha=0.5, color=colour)
         ends = numpy.geomspace(x.min(), x.max() * (1 + 1e-9), 7)
         bins = numpy.digitize(x, ends)
         means = [(numpy.exp(numpy.log(x[bins == k]).mean()), y[bins == k].mean()) for k in numpy.unique(bins)]
-        axes.plot(*numpy.transpose(means), color=points.get_color(), label=name)
+        axes.plot(*numpy.transpose(means), color=colour, label=name)
     axes.axhline(12, color="black", linewidth=0.8, label="isostatic")
     axes.set(xlabel=r"$\Delta\phi$", ylabel=r"$C$")
     axes.legend()
@@ -64,8 +69,6 @@ def draw_constraints(file, solid, delta_phi, constraints):
 
 
 # %% From the results directory
-import isojam  # noqa: E402
-
 study = isojam.load(sys.argv[1])
 states = study.states[~study.states["excluded"]]
 contacts = study.contacts()

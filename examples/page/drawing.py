@@ -1,6 +1,8 @@
 """Shared parts of the figures: colours and symbols of solids, means against Δφ, and writing of reproducible files."""
 
+import json
 import math
+from pathlib import Path
 
 import matplotlib
 
@@ -11,8 +13,10 @@ from estimates import estimate_of  # noqa: E402
 from scaling import at  # noqa: E402
 
 SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "dodecahedron")
-COLOURS = dict(zip(SOLIDS, ("#b2182b", "#2166ac", "#1b7837", "#e08214")))
-MARKERS = dict(zip(SOLIDS, ("^", "D", "o", "p")))
+# The palette of the report. The pages are made without a build, and therefore without the module isojam.
+PALETTE = json.loads((Path(__file__).resolve().parents[2] / "tasks/extras/page/palette.json").read_text())
+COLOURS = {solid: PALETTE["colours"][PALETTE["solids"][solid]["colour"]] for solid in SOLIDS}
+MARKERS = {solid: PALETTE["solids"][solid]["marker"] for solid in SOLIDS}
 GRID = [0.16 * 2 ** (-i / 2) for i in range(19)]
 SETTINGS = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
             "legend.frameon": False, "axes.titlesize": 9}

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,15 +25,19 @@ inline constexpr std::array enum_names<TableFormat>{
 
 namespace {
 
+constexpr std::size_t most_columns = 100'000;
+
 struct AggregateArguments {
   std::vector<std::string> directories;
   std::string output;  ///< path of tables.json to write; empty: none
   TableFormat format = TableFormat::text;
-  bool series = false;  ///< print the quantities of all states; otherwise those of the nearest state
+  bool series = false;                 ///< print the quantities of all states; otherwise those of the nearest state
+  bool all = false;                    ///< print all tables
+  std::optional<std::size_t> columns;  ///< --columns; nullopt: the width of the terminal
   TableChoices choices;
 };
 
-std::string formatted(const Table& table, TableFormat format, View view) {
+std::string formatted(const Table& table, TableFormat format, View view, const TextOptions& text) {
   switch (format) {
     case TableFormat::json: return sealed(to_json(table));
     case TableFormat::csv: return to_csv(table, view);
@@ -40,7 +45,7 @@ std::string formatted(const Table& table, TableFormat format, View view) {
     case TableFormat::latex: return to_latex(table, view);
     case TableFormat::text: break;
   }
-  return to_text(table, view);
+  return to_text(table, view, text);
 }
 
 /// Parses "none", or names of flags separated by commas. Returns an error text if a name is unknown.
@@ -60,6 +65,16 @@ std::optional<std::string> read_exclude(const std::string& text, std::optional<s
   return std::nullopt;
 }
 
+/// Parses a number of columns; returns an error text if this fails.
+std::optional<std::string> read_columns(const std::string& text, std::optional<std::size_t>& columns) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value > most_columns)
+    return fmt::format("\"{}\" is not accepted; expected an integer from 0 to {}", text, most_columns);
+  columns = value;
+  return std::nullopt;
+}
+
 /// Prints the tables. Writes no file except the one that --output names.
 ExitCode print_tables(const AggregateArguments& arguments, Console& console) {
   const Warn warn = [&](const std::string& message) { console.warn(message); };
@@ -71,7 +86,8 @@ ExitCode print_tables(const AggregateArguments& arguments, Console& console) {
     return ExitCode::usage;
   }
   if (!arguments.output.empty()) write_output(arguments.output, sealed(to_json(table)));
-  print(formatted(table, arguments.format, arguments.series ? View::series : View::nearest));
+  const TextOptions text{arguments.all, arguments.columns.value_or(output_columns()), "The option --all", {}};
+  print(formatted(table, arguments.format, arguments.series ? View::series : View::nearest, text));
   return ExitCode::done;
 }
 
@@ -84,6 +100,10 @@ void add_aggregate(CLI::App& app, Session& session) {
   options.texts("directories", arguments->directories, "Results directories", "DIR");
   options.text("-o,--output", arguments->output, "Also write the tables to this file, as JSON", "FILE");
   options.choice("--format", arguments->format, "Print the tables in this format");
+  options.flag("--all", arguments->all, "Print all tables as text, not only the first one");
+  options.parsed(
+      "--columns", [arguments](const std::string& text) { return read_columns(text, arguments->columns); }, [] {},
+      "Width of the tables as text (default: the width of the terminal; 0: no limit)", "N");
   options.parsed(
       "--exclude", [arguments](const std::string& text) { return read_exclude(text, arguments->choices.exclude); },
       [] {},

@@ -59,13 +59,13 @@ void select_replicate(Additions& additions, const std::string& name) {
   std::erase_if(additions.impossible, [&](const auto& each) { return each.name != name; });
 }
 
-/// Writes and prints the tables of all records in the directory.
-void write_table(const Store& store, Console& console) {
+/// Writes the tables of all records in the directory, and prints the first one and those of the added measures.
+void write_table(const Store& store, const std::vector<Measure>& added, Console& console) {
   const auto table = table_of(
       store.directory().string(), store.kept(), [&](const std::string& message) { console.warn(message); },
       [](const RecordedReplicate&) {});
   store.write_tables(to_json(table));
-  print(to_text(table));
+  print_tables(table, store.directory().string(), added);
 }
 
 /// Adds the requested measures to the records. It also adds the measures that an interrupted call did not add.
@@ -95,7 +95,7 @@ ExitCode measure_stored(const MeasureArguments& arguments, Console& console) {
     console.warn("interrupted: measures that were already added are kept; repeat the command to add the others");
     return ExitCode::interrupted;
   }
-  write_table(store, console);
+  write_table(store, arguments.add, console);
   return tally.unchanged + found.impossible.size() > 0 ? ExitCode::some_failed : ExitCode::done;
 }
 

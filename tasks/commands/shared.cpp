@@ -12,6 +12,7 @@
 #include "engine/geometry/overlap/overlap.hpp"
 #include "tasks/io/file.hpp"
 #include "tasks/io/place.hpp"
+#include "tasks/io/standard_streams.hpp"
 #include "tasks/io/version.hpp"
 #include "tasks/manifest/warnings.hpp"
 #include "tasks/records/record.hpp"
@@ -83,6 +84,11 @@ DirectoryLock lock_results(const std::string& directory, DirectoryLock::Kind kin
       directory +
           ": another process of isojam is using this directory; repeat this command after that process has ended",
       FileError::Reason::resource_failure);
+}
+
+void print_tables(const Table& table, const std::string& directory, const std::vector<Measure>& measures) {
+  const auto how = fmt::format("\"isojam aggregate {} --all\"", directory);
+  print(to_text(table, View::nearest, {false, output_columns(), how, measures}));
 }
 
 std::string version_text() {

@@ -7,6 +7,7 @@
 #include "tasks/io/console.hpp"
 #include "tasks/io/directory_lock.hpp"
 #include "tasks/records/replicate.hpp"
+#include "tasks/tables/aggregate.hpp"
 
 namespace isojam {
 
@@ -34,6 +35,10 @@ std::string recorded_name(const std::string& directory, const std::string& name)
 /// Throws a FileError that no record has this name. It suggests the most similar name in `names`.
 [[noreturn]] void throw_unknown_replicate(const std::string& directory, const std::string& name,
                                           const std::vector<std::string>& names);
+
+/// Prints the first table of a directory, the tables that its manifest requests, and the tables of `measures`. They are
+/// at most as wide as the terminal.
+void print_tables(const Table& table, const std::string& directory, const std::vector<Measure>& measures = {});
 
 /// Takes a lock on a results directory, which it creates if there is none. Call it before a Store is opened, because
 /// the Store writes files. Throws FileError if another process has a lock that excludes this one.

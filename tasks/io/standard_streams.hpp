@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,10 @@ void open_standard_streams();
 /// Writes a text to standard output and flushes it. If standard output is a terminal, it writes printable(text). Throws
 /// FileError.
 void print(std::string_view text);
+
+/// Width of the terminal to which standard output is connected, in characters. 0 if it is no terminal, or if the width
+/// is unknown.
+std::size_t output_columns();
 
 /// Flushes what other functions wrote to standard output. Throws FileError if a part of it was lost.
 void flush_output();

@@ -5,7 +5,7 @@
 namespace isojam {
 namespace {
 
-constexpr std::string_view group = "clusters";
+constexpr QuantityGroup group{"clusters", "Clusters of particles that are connected by face-face contacts."};
 constexpr Quantity mean_size{"S", "/clusters/S", group, "particles", "S"};
 constexpr Quantity extent{"l_max", "/clusters/l_max", group, "L", "l_{max}/L"};
 constexpr Quantity dimension_of_longest{"D_max", "/clusters/D", group, "1", "D_{max}"};

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <string>
@@ -27,15 +29,37 @@ constexpr Quantity Z_ef_fixed{"Z_ef_fixed", "/contacts/fixed_cutoffs/Z_ef", cont
                               "Z_{ef}^{fixed}"};
 constexpr Quantity Z_l_fixed{"Z_l_fixed", "/contacts/fixed_cutoffs/Z_l", contact_group, per_particle, "Z_l^{fixed}"};
 constexpr Quantity C_fixed{"C_fixed", "/contacts/fixed_cutoffs/C", contact_group, per_particle, "C^{fixed}"};
-constexpr std::string_view kind_group = "kinds of a mixture";
-constexpr Quantity Z_1 = optional_quantity({"Z_1", "/contacts/kind_1/Z", kind_group, per_particle, "Z_1"});
-constexpr Quantity Z_2 = optional_quantity({"Z_2", "/contacts/kind_2/Z", kind_group, per_particle, "Z_2"});
-constexpr Quantity Z_3 = optional_quantity({"Z_3", "/contacts/kind_3/Z", kind_group, per_particle, "Z_3"});
-constexpr Quantity Z_4 = optional_quantity({"Z_4", "/contacts/kind_4/Z", kind_group, per_particle, "Z_4"});
+constexpr QuantityGroup kind_group{"kinds of a mixture", "Contact numbers of the particles of each kind."};
+constexpr Quantity Z_1 = of_mixture({"Z_1", "/contacts/kind_1/Z", kind_group, per_particle, "Z_1"}, 2);
+constexpr Quantity Z_2 = of_mixture({"Z_2", "/contacts/kind_2/Z", kind_group, per_particle, "Z_2"}, 2);
+constexpr Quantity Z_3 = of_mixture({"Z_3", "/contacts/kind_3/Z", kind_group, per_particle, "Z_3"}, 3);
+constexpr Quantity Z_4 = of_mixture({"Z_4", "/contacts/kind_4/Z", kind_group, per_particle, "Z_4"}, 4);
+constexpr Quantity partial(std::string_view name, std::string_view pointer, std::string_view latex, int kinds) {
+  return of_mixture({name, pointer, kind_group, per_particle, latex}, kinds);
+}
+constexpr Quantity Z_11 = partial("Z_11", "/contacts/partial/Z_1_1", "Z_{11}", 2);
+constexpr Quantity Z_12 = partial("Z_12", "/contacts/partial/Z_1_2", "Z_{12}", 2);
+constexpr Quantity Z_13 = partial("Z_13", "/contacts/partial/Z_1_3", "Z_{13}", 3);
+constexpr Quantity Z_14 = partial("Z_14", "/contacts/partial/Z_1_4", "Z_{14}", 4);
+constexpr Quantity Z_21 = partial("Z_21", "/contacts/partial/Z_2_1", "Z_{21}", 2);
+constexpr Quantity Z_22 = partial("Z_22", "/contacts/partial/Z_2_2", "Z_{22}", 2);
+constexpr Quantity Z_23 = partial("Z_23", "/contacts/partial/Z_2_3", "Z_{23}", 3);
+constexpr Quantity Z_24 = partial("Z_24", "/contacts/partial/Z_2_4", "Z_{24}", 4);
+constexpr Quantity Z_31 = partial("Z_31", "/contacts/partial/Z_3_1", "Z_{31}", 3);
+constexpr Quantity Z_32 = partial("Z_32", "/contacts/partial/Z_3_2", "Z_{32}", 3);
+constexpr Quantity Z_33 = partial("Z_33", "/contacts/partial/Z_3_3", "Z_{33}", 3);
+constexpr Quantity Z_34 = partial("Z_34", "/contacts/partial/Z_3_4", "Z_{34}", 4);
+constexpr Quantity Z_41 = partial("Z_41", "/contacts/partial/Z_4_1", "Z_{41}", 4);
+constexpr Quantity Z_42 = partial("Z_42", "/contacts/partial/Z_4_2", "Z_{42}", 4);
+constexpr Quantity Z_43 = partial("Z_43", "/contacts/partial/Z_4_3", "Z_{43}", 4);
+constexpr Quantity Z_44 = partial("Z_44", "/contacts/partial/Z_4_4", "Z_{44}", 4);
+constexpr Quantity mixing = of_mixture({"mixing", "/contacts/mixing", kind_group, "1", "M"}, 2);
 constexpr std::array quantities{
-    Z,        Z_ff,         Z_ef,          Z_l,        C,          Z_ff_gap,  Z_ff_trough, Z_ef_trough, Z_l_trough,
-    C_trough, C_trough_low, C_trough_high, Z_ff_fixed, Z_ef_fixed, Z_l_fixed, C_fixed,     Z_1,         Z_2,
-    Z_3,      Z_4};
+    Z,          Z_ff,     Z_ef,         Z_l,           C,          Z_ff_gap,   Z_ff_trough, Z_ef_trough,
+    Z_l_trough, C_trough, C_trough_low, C_trough_high, Z_ff_fixed, Z_ef_fixed, Z_l_fixed,   C_fixed,
+    Z_1,        Z_2,      Z_3,          Z_4,           Z_11,       Z_12,       Z_13,        Z_14,
+    Z_21,       Z_22,     Z_23,         Z_24,          Z_31,       Z_32,       Z_33,        Z_34,
+    Z_41,       Z_42,     Z_43,         Z_44,          mixing};
 
 Json fit_record(const CdfFit& fit) {
   Json json;
@@ -235,6 +259,53 @@ class IsotropicContacts {
   std::map<std::pair<Shape, Shape>, double> edges_;
 };
 
+/// For a mixture: the mean number Z_ij of contacts of a particle of kind i with particles of kind j, and the mixing M.
+/// M is the share of contacts between particles of two kinds, divided by this share if the ends of all contacts were
+/// combined at random.
+void put_partial(Json& contacts, const Packing& packing, std::span<const Contact> all) {
+  const auto kinds = static_cast<std::size_t>(packing.solids.kinds());
+  if (kinds < 2) return;
+  const auto kind = [&](int i) { return static_cast<std::size_t>(packing.solids.kind(static_cast<std::size_t>(i))); };
+  std::vector<long> particles(kinds, 0), ends(kinds * kinds, 0);
+  for (int i = 0; i < packing.size(); ++i) ++particles[kind(i)];
+  for (const Contact& contact : all) {
+    const auto a = kind(contact.pair.a), b = kind(contact.pair.b);
+    ++ends[a * kinds + b];
+    ++ends[b * kinds + a];
+  }
+  double like = 0, random_like = 0;
+  for (std::size_t i = 0; i < kinds; ++i) {
+    long own = 0;
+    for (std::size_t j = 0; j < kinds; ++j) {
+      const auto count = ends[i * kinds + j];
+      put_number(contacts["partial"], fmt::format("Z_{}_{}", i + 1, j + 1),
+                 static_cast<double>(count) / static_cast<double>(std::max(particles[i], 1L)));
+      own += count;
+    }
+    like += static_cast<double>(ends[i * kinds + i]);
+    random_like += static_cast<double>(own) * static_cast<double>(own);
+  }
+  const double total = 2 * static_cast<double>(all.size());
+  const double unlike = total - like, random_unlike = total > 0 ? total - random_like / total : 0;
+  put_optional(contacts, "mixing", random_unlike > 0 ? std::optional(unlike / random_unlike) : std::nullopt,
+               "all contacts are between particles of one kind");
+}
+
+/// Histograms of the alignment angles (radians) from 1e-4 to the largest possible angle, which is below 10^0.2.
+Json angle_histogram(std::span<const Alignment> alignments) {
+  constexpr int least = -4 * Histogram::per_decade, bins = 4 * Histogram::per_decade + 1;
+  Histogram face_face(least, bins), edge_face(least, bins);
+  for (const auto& alignment : alignments) {
+    face_face.add(alignment.face_face);
+    edge_face.add(alignment.edge_face);
+  }
+  Json json;
+  json["log10_angle"] = face_face.edges();
+  json["face_face"] = face_face.record();
+  json["edge_face"] = edge_face.record();
+  return json;
+}
+
 /// The alignment angles of a state in ascending order, for plots of their distributions. Also states whether there are
 /// more small angles than for random contacts. Two kinds of random contacts are compared: only vertices in faces, and
 /// vertices in faces together with pairs of edges.
@@ -279,9 +350,12 @@ Measurement measure_contacts(const JamResult& jam, const MeasureOptions&) {
     const auto classified = classified_contacts(jam.states[k], energy);
     measurement.states.push_back(contact_record(classified.analysis));
     put_trough(measurement.states.back(), histogram_of(classified), jam.states[k].size());
+    Json& contacts = measurement.states.back()["contacts"];
+    put_partial(contacts, jam.states[k], classified.contacts);
+    contacts["angle_histogram"] = angle_histogram(classified.alignments);
     if (k != nearest) continue;
     measurement.flags = contact_flags(classified.analysis);
-    measurement.states.back()["contacts"]["angles"] = angle_record(jam.states[k], classified);
+    contacts["angles"] = angle_record(jam.states[k], classified);
   }
   return measurement;
 }

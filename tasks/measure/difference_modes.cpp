@@ -12,7 +12,8 @@ namespace {
 // measure uses the states that the minimiser found, without relaxation along negative modes. If another measure relaxes
 // them, this measure uses the relaxed states too.
 
-constexpr std::string_view group = "modes by central differences";
+constexpr QuantityGroup group{"modes by central differences",
+                              "Share of negative modes, with exact derivatives and with difference quotients."};
 constexpr Quantity exact{"unstable_exact", "/difference_modes/exact/share", group, "1", "n_-/6N"};
 
 /// A step of the differences, in V_p^(1/3), and the quantity for the share of negative modes with this step.

@@ -12,7 +12,7 @@
 namespace isojam {
 namespace {
 
-constexpr std::string_view group = "prestress";
+constexpr QuantityGroup group{"prestress", "Constraints and vibrations, with and without the forces of the contacts."};
 constexpr std::string_view per_particle = "per particle";
 constexpr Quantity C_s{"C_s", "/prestress/C_s", group, per_particle, "C_s"};
 constexpr Quantity missing_s{"missing_s", "/prestress/missing", group, per_particle, "m_s"};

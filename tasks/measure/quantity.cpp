@@ -22,9 +22,9 @@ std::vector<Quantity> in_order_of_tables() {
   }
   for (const Quantity& quantity : rearrangement_quantities()) list.push_back(quantity);
   std::map<std::string_view, std::size_t> last;
-  for (std::size_t k = 0; k < list.size(); ++k) last[list[k].group] = k;
+  for (std::size_t k = 0; k < list.size(); ++k) last[list[k].group.name] = k;
   std::stable_sort(list.begin(), list.end(),
-                   [&](const Quantity& a, const Quantity& b) { return last.at(a.group) < last.at(b.group); });
+                   [&](const Quantity& a, const Quantity& b) { return last.at(a.group.name) < last.at(b.group.name); });
   return list;
 }
 

@@ -11,6 +11,14 @@
 
 namespace isojam {
 
+/// Quantities with a common table.
+struct QuantityGroup {
+  std::string_view name;     ///< title of the table
+  std::string_view meaning;  ///< one sentence about the quantities, printed below the title
+
+  friend constexpr bool operator==(const QuantityGroup& a, const QuantityGroup& b) { return a.name == b.name; }
+};
+
 /// Definition of a quantity: its place in a record, its name in tables, its unit, and how it is averaged. The source
 /// file of a measure defines the quantities of the measure.
 struct Quantity {
@@ -22,18 +30,19 @@ struct Quantity {
   };
   std::string_view name;     ///< name in tables: the symbol of the paper, if there is one
   std::string_view pointer;  ///< JSON pointer to the value in the record of a replicate, or in the object of a state
-  /// title of the table that contains the quantity; the table of main_group is the first one and has no title
-  std::string_view group;
-  std::string_view unit;  ///< "1" for a pure number
+  QuantityGroup group;       ///< the table of main_group is the first one
+  std::string_view unit;     ///< "1" for a pure number
   /// symbol in LaTeX
   std::string_view latex;
   Of of = Of::state;
   /// Measure that computes the quantity, set by all_quantities(). nullopt for quantities of the protocol.
   std::optional<Measure> measure = std::nullopt;
   bool proportion = false;  ///< true if each value is 0 or 1, so that the mean is a proportion
-  /// True if some records lack the object that contains the quantity: records of packings without this kind of
-  /// particles, or records of earlier builds. The quantity then has no value.
+  /// True if some records lack the object that contains the quantity, because they are of earlier builds. The quantity
+  /// then has no value.
   bool optional = false;
+  /// smallest number of kinds of particles for which a packing has the quantity
+  int kinds = 1;
 };
 
 /// The same quantity, with values that are 0 or 1.
@@ -48,13 +57,19 @@ constexpr Quantity optional_quantity(Quantity quantity) {
   return quantity;
 }
 
-/// Groups that are used in several source files.
-inline constexpr std::string_view main_group = "jamming", contact_group = "other cut-offs", mode_group = "modes",
-                                  exponent_group = "exponents";
+/// The same quantity, for mixtures of at least `kinds` kinds of particles.
+constexpr Quantity of_mixture(Quantity quantity, int kinds) {
+  quantity.kinds = kinds;
+  return quantity;
+}
 
-/// Beginning of the pointers to the quantities of one kind of particles; the number of the kind follows, from 1. Only
-/// states of mixtures have these quantities.
-inline constexpr std::string_view kinds_pointer = "/contacts/kind_";
+/// Groups that are used in several source files.
+inline constexpr QuantityGroup main_group{
+    "jamming", "Density and contacts of the state nearest jamming, with cut-offs that are fitted to the angles."};
+inline constexpr QuantityGroup contact_group{
+    "other cut-offs", "The same contacts with other cut-offs: a gap in the angles, and fixed angles from 5° to 55°."};
+inline constexpr QuantityGroup mode_group{"modes", "Vibrational modes at both ends of the spectrum."};
+inline constexpr QuantityGroup exponent_group{"exponents", "Exponents of power laws in the distance above jamming."};
 
 /// All quantities, in the order of tables: φ_J, then the quantities of each measure, then those of rearrangements. All
 /// quantities of a group are together. If several measures have quantities in a group, the group is at the position of

@@ -7,7 +7,7 @@
 namespace isojam {
 namespace {
 
-constexpr std::string_view group = "rearrangements";
+constexpr QuantityGroup group{"rearrangements", "Rearrangements between the states of the decompression."};
 constexpr auto of = Quantity::Of::replicate;
 constexpr Quantity rearrangement_count{"rearrangements", "/rearrangements/count", group, "1", "n_r", of};
 constexpr Quantity expansion_steps{"expansion_steps", "/rearrangements/steps", group, "1", "n_s", of};

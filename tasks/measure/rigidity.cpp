@@ -6,7 +6,8 @@
 namespace isojam {
 namespace {
 
-constexpr std::string_view group = "rigidity";
+constexpr QuantityGroup group{
+    "rigidity", "Independent constraints, zero modes and states of self-stress, by the rank of the rigidity matrix."};
 
 /// One set of constraints, and the quantities that are computed from it.
 struct Count {

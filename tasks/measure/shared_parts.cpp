@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/analysis/order.hpp"
 #include "engine/analysis/power_law.hpp"
+#include "engine/arithmetic/elementary.hpp"
 #include "tasks/measure/shared_parts.hpp"
 
 namespace isojam {
@@ -19,6 +23,29 @@ std::optional<std::string_view> undecided(const ContactAnalysis& analysis) {
   if (!analysis.face_face.has_cutoff()) return "no face-face cut-off";
   if (!analysis.edge_face.has_cutoff()) return "no edge-face cut-off";
   return std::nullopt;
+}
+
+void Histogram::add(double value) {
+  const double bin = value > 0 ? std::floor(nearest::log10(value) * per_decade) - least_ : -1;
+  if (bin < 0) {
+    ++below_;
+  } else {
+    ++counts_[std::min(static_cast<std::size_t>(bin), counts_.size() - 1)];
+  }
+}
+
+Json Histogram::record() const {
+  Json json;
+  json["below"] = below_;
+  json["counts"] = counts_;
+  return json;
+}
+
+Json Histogram::edges() const {
+  Json list = Json::array();
+  for (std::size_t k = 0; k <= counts_.size(); ++k)
+    list.push_back(static_cast<double>(least_ + static_cast<int>(k)) / per_decade);
+  return list;
 }
 
 double to_digits(double x, int digits) { return parsed(fmt::format("{:.{}e}", x, digits - 1)).get<double>(); }

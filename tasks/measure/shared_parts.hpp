@@ -34,6 +34,25 @@ std::vector<std::string> contact_flags(const ContactAnalysis& nearest);
 /// The finite number x, rounded to this number of significant digits. It keeps long lists short.
 double to_digits(double x, int digits);
 
+/// Numbers of positive values in logarithmic bins, five per decade. The same bins are used for all states.
+class Histogram {
+ public:
+  static constexpr int per_decade = 5;
+  /// `bins` bins that begin at 10^(least/per_decade).
+  Histogram(int least, int bins) : least_(least), counts_(static_cast<std::size_t>(bins), 0) {}
+  /// Values above the last bin are counted in the last bin. Smaller values, and 0, are counted separately.
+  void add(double value);
+  /// JSON with the counts.
+  Json record() const;
+  /// Base-10 logarithms of the lower edges of all bins and of the upper edge of the last bin.
+  Json edges() const;
+
+ private:
+  int least_;
+  long below_ = 0;
+  std::vector<long> counts_;
+};
+
 /// The reason why a state cannot be relaxed in a variable cell or sheared: its pressure is not positive, or its
 /// residual is above 1e-3. nullopt if it can.
 std::optional<std::string_view> not_jammed(const Packing& packing, PackingEnergy& energy);

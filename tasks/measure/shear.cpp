@@ -12,7 +12,8 @@ namespace {
 // Quasi-static shear of the nearest state, as /shear in the manifest requests it: stress and energy as functions of the
 // strain, rearrangements, and the residual strain after unloading.
 
-constexpr std::string_view group = "shear";
+constexpr QuantityGroup group{"shear",
+                              "Quasi-static shear of the state nearest jamming: stiffness, stress drops and yield."};
 constexpr auto of_replicate = Quantity::Of::replicate;
 constexpr Quantity modulus{"G_shear", "/shear/modulus", group, "Y", "G_{shear}", of_replicate};
 constexpr Quantity drops{"shear_drops", "/shear/drops", group, "1", "n_{drops}", of_replicate};

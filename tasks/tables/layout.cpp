@@ -12,6 +12,7 @@
 #include "engine/arithmetic/elementary.hpp"
 #include "tasks/measure/quantity.hpp"
 #include "tasks/tables/estimate_text.hpp"
+#include "tasks/tables/fitted.hpp"
 #include "tasks/tables/lines.hpp"
 #include "tasks/tables/tables.hpp"
 
@@ -22,7 +23,7 @@ std::string residual_text(const Row& row) { return row.residual ? fmt::format("{
 
 /// The quantities of one table, as indices in all_quantities().
 struct ColumnGroup {
-  std::string_view name;
+  QuantityGroup is;
   std::vector<std::size_t> quantities;
 };
 
@@ -34,7 +35,7 @@ std::vector<ColumnGroup> groups_in(const std::vector<TableLine>& lines, View vie
     const bool any =
         std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) { return (*line.estimates)[i].n > 0; });
     if (!any && all[i].group != main_group) continue;
-    if (groups.empty() || groups.back().name != all[i].group) groups.push_back({all[i].group, {}});
+    if (groups.empty() || groups.back().is != all[i].group) groups.push_back({all[i].group, {}});
     groups.back().quantities.push_back(i);
   }
   return groups;
@@ -71,9 +72,7 @@ std::string symbol(std::string_view text, std::string_view latex, Format format)
 }
 
 /// True for the main table, which alone has the columns with the numbers of replicates.
-bool counts_replicates(const ColumnGroup& group, View view) {
-  return group.name == main_group && view == View::nearest;
-}
+bool counts_replicates(const ColumnGroup& group, View view) { return group.is == main_group && view == View::nearest; }
 
 Cells head_of(const ColumnGroup& group, const std::vector<std::string>& parameters, View view, Format format) {
   Cells head{"solid", symbol("N", "N", format)};
@@ -156,9 +155,6 @@ std::vector<Cells> difference_lines(const Table& table, const std::vector<std::s
   return lines;
 }
 
-constexpr std::string_view goal_title =
-    "goal (95 % confidence interval from the standard deviation of the first replicates; of a proportion: Wilson's)";
-
 /// Lines with the progress of the rows towards the goal of the stopping rule. Only the heading if there is no goal.
 std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>& parameters, Format format) {
   std::vector<Cells> lines{point_head(parameters, format)};
@@ -178,19 +174,22 @@ std::vector<Cells> goal_lines(const Table& table, const std::vector<std::string>
   return lines;
 }
 
-struct LaidOut {
-  std::string title;
-  std::vector<Cells> lines;  ///< the first line is the heading
-};
+constexpr std::string_view goal_meaning =
+    "Half width of the 95 % confidence interval at the last check, from the standard deviation of the first "
+    "replicates. "
+    "The interval of a proportion is Wilson's.";
+constexpr std::string_view difference_meaning =
+    "Mean differences between replicates with the same initial configuration ± 95 % confidence interval.";
+constexpr std::string_view trough_meaning =
+    "Logarithms of the cut-offs in radians between the edges of their troughs, and contacts with these cut-offs.";
+constexpr std::string_view angle_meaning = "Largest angles that the shapes allow for each kind of contact.";
 
-/// Adds the tables for the goal and for the differences, if they are not empty.
-void add_below(std::vector<LaidOut>& tables, const Table& table, const std::vector<std::string>& parameters,
-               Format format) {
-  auto goals = goal_lines(table, parameters, format);
-  if (goals.size() > 1) tables.push_back({std::string(goal_title), std::move(goals)});
-  auto differences = difference_lines(table, parameters, format);
-  if (differences.size() > 1) tables.push_back({difference_title(table), std::move(differences)});
-}
+struct LaidOut {
+  std::string_view name, meaning;
+  std::vector<Cells> lines;  ///< the first line is the heading
+  std::size_t keys;          ///< number of columns that identify a line
+  bool requested = false;    ///< true for the tables that the manifest or the command line requests
+};
 
 /// Logarithms of the lower edge of a trough, of the cut-off, and of the upper edge.
 Cells trough_cells(const Trough& trough) {
@@ -201,9 +200,9 @@ Cells trough_cells(const Trough& trough) {
   return cells;
 }
 
-/// Adds the table of the troughs of all replicates together, if there are any.
-void add_pooled(std::vector<LaidOut>& tables, const std::vector<TableLine>& lines,
-                const std::vector<std::string>& parameters, Format format) {
+/// The table of the troughs of all replicates together; the heading alone if there are none.
+std::vector<Cells> pooled_lines(const std::vector<TableLine>& lines, const std::vector<std::string>& parameters,
+                                Format format) {
   std::vector<Cells> cells{point_head(parameters, format)};
   const auto append = [](Cells& line, const Cells& more) { line.insert(line.end(), more.begin(), more.end()); };
   const bool of_series = !lines.empty() && lines.front().delta_phi;
@@ -222,66 +221,80 @@ void add_pooled(std::vector<LaidOut>& tables, const std::vector<TableLine>& line
       next.push_back(estimate_text(estimate, format, line.trough->replicates));
     cells.push_back(std::move(next));
   }
-  if (cells.size() > 1) tables.push_back({"troughs in the angles of all replicates together", std::move(cells)});
+  return cells;
 }
 
 /// All tables, one for each group of quantities, and the tables that follow them.
 std::vector<LaidOut> laid_out(const Table& table, View view, Format format) {
   const auto parameters = parameter_names(table);
   const auto lines = lines_of(table, view);
+  const std::size_t keys = 2 + parameters.size();
   std::vector<LaidOut> tables;
+  const auto add = [&](std::string_view name, std::string_view meaning, std::vector<Cells> cells, std::size_t by,
+                       bool requested) {
+    if (cells.size() > 1 || tables.empty()) tables.push_back({name, meaning, std::move(cells), by, requested});
+  };
   for (const ColumnGroup& group : groups_in(lines, view)) {
     std::vector<Cells> cells{head_of(group, parameters, view, format)};
     for (const TableLine& line : lines) cells.push_back(cells_of(line, group, parameters, view, format));
-    tables.push_back({std::string(group.name), std::move(cells)});
-    if (counts_replicates(group, view)) add_below(tables, table, parameters, format);
-    if (group.name == contact_group) add_pooled(tables, lines, parameters, format);
-    if (group.name == contact_group && view == View::nearest)
-      tables.push_back({"critical angles, degrees", critical_angle_lines(table, format)});
+    add(group.is.name, group.is.meaning, std::move(cells), keys + (view == View::series), tables.empty());
+    if (counts_replicates(group, view)) {
+      add("goal", goal_meaning, goal_lines(table, parameters, format), keys, true);
+      add("differences", difference_meaning, difference_lines(table, parameters, format), keys, true);
+    }
+    if (group.is == contact_group)
+      add("troughs in the angles of all replicates together", trough_meaning, pooled_lines(lines, parameters, format),
+          keys + (view == View::series), false);
+    if (group.is == contact_group && view == View::nearest)
+      add("critical angles", angle_meaning, critical_angle_lines(table, format), 1, false);
   }
   return tables;
 }
 
-/// Number of characters of a UTF-8 text.
-std::size_t width(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+/// True if a measure in `measures` has a quantity in the group.
+bool is_of(std::string_view group, const std::vector<Measure>& measures) {
+  const auto all = all_quantities();
+  return std::any_of(all.begin(), all.end(), [&](const Quantity& quantity) {
+    return quantity.group.name == group && quantity.measure &&
+           std::find(measures.begin(), measures.end(), *quantity.measure) != measures.end();
+  });
 }
 
-std::string aligned(const std::vector<Cells>& lines) {
-  std::vector<std::size_t> widths(lines.front().size());
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], width(line[i]));
-  }
-  std::string text;
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const std::string padding(widths[i] - width(line[i]), ' ');
-      // The first column is left-aligned, the other columns are right-aligned.
-      text += i == 0 ? fmt::format("{}{}", line[i], padding) : fmt::format("   {}{}", padding, line[i]);
-    }
-    text += '\n';
-  }
-  return text;
+/// Title and meaning of a table in one line.
+std::string line_about(const LaidOut& laid, const Table& table) {
+  const auto title = laid.name == "differences" ? difference_title(table) : std::string(laid.name);
+  return fmt::format("{}: {}", title, laid.meaning);
 }
 
 }  // namespace
 
-std::string to_text(const Table& table, View view) {
+std::string to_text(const Table& table, View view, const TextOptions& options) {
   std::string text = exclusion_text(table);
-  if (!text.empty()) text += '\n';
+  if (!text.empty()) text = wrapped(text, options.columns) + '\n';
+  Cells others;
   bool first = true;
-  for (const auto& [title, lines] : laid_out(table, view, Format::text)) {
-    if (!std::exchange(first, false)) text += '\n' + title + '\n';
-    text += aligned(lines);
+  for (const auto& laid : laid_out(table, view, Format::text)) {
+    if (!options.all && !laid.requested && !is_of(laid.name, options.measures)) {
+      others.emplace_back(laid.name);
+      continue;
+    }
+    if (!std::exchange(first, false)) text += '\n' + wrapped(line_about(laid, table), options.columns) + '\n';
+    text += fitted(laid.lines, laid.keys, options.columns);
   }
+  if (!others.empty() && !options.how_to_see_all.empty())
+    text += '\n' +
+            wrapped(fmt::format("{} prints more tables: {}", options.how_to_see_all, joined(others, ", ")),
+                    options.columns) +
+            '\n';
   return text;
 }
 
 std::string to_latex(const Table& table, View view) {
   std::string text = exclusion_text(table);
   if (!text.empty()) text = "% " + text + '\n';
-  for (const auto& [title, lines] : laid_out(table, view, Format::latex)) {
-    text += fmt::format("% {}\n\\begin{{tabular}}{{l{}}}\n\\hline\n{} \\\\\n\\hline\n", title,
+  for (const auto& laid : laid_out(table, view, Format::latex)) {
+    const auto& lines = laid.lines;
+    text += fmt::format("% {}\n\\begin{{tabular}}{{l{}}}\n\\hline\n{} \\\\\n\\hline\n", line_about(laid, table),
                         std::string(lines.front().size() - 1, 'r'), joined(lines.front(), " & "));
     for (std::size_t k = 1; k < lines.size(); ++k) text += joined(lines[k], " & ") + " \\\\\n";
     text += "\\hline\n\\end{tabular}\n";

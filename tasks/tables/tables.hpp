@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "tasks/tables/aggregate.hpp"
 
@@ -18,12 +20,21 @@ Json to_json(const Row& row);
 /// series_distances, interpolated between the states of a replicate.
 enum class View : std::uint8_t { nearest, series };
 
+/// Choices for the tables as text.
+struct TextOptions {
+  bool all = true;          ///< print all tables; otherwise the first one, the goal, the differences and `measures`
+  std::size_t columns = 0;  ///< largest width in characters; 0: no limit
+  /// command that prints all tables, for the line that names the tables which are not printed; empty: no such line
+  std::string how_to_see_all = {};
+  std::vector<Measure> measures = {};  ///< measures whose tables are printed even if `all` is false
+};
+
 /// The tables as aligned text, with one table for each group of quantities that have values. If the table excludes
 /// flags, the first line states how many replicates have each of these flags. An entry of a table is the mean ± half
 /// the width of its 95 % confidence interval. The number n follows in parentheses if only n of the replicates of the
 /// line have the value. After the first table there are two more if they have rows: the progress towards the goal, and
-/// the paired differences.
-std::string to_text(const Table& table, View view = View::nearest);
+/// the paired differences. A line above each table except the first one states what it contains.
+std::string to_text(const Table& table, View view = View::nearest, const TextOptions& options = {});
 
 /// The tables as CSV. Each row, or each point of a series, has one to three lines; the column `over` distinguishes
 /// them. The line `kept` is for the replicates that are not excluded. The line `all` includes the excluded replicates;

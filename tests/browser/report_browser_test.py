@@ -16,6 +16,8 @@
 - With 400 replicates, no replicate hides another one. Boxes and swarms of points are drawn. Crystalline replicates
   extend an axis only if the reader chooses this. Flagged replicates are listed by flag. The page states which packings
   it contains.
+- Mixtures have contact numbers between their kinds, and the view colours particles by kind. Curves, kinds and strokes of
+  a shear differ in the legends. The table states the goal of the stopping rule and each number of replicates.
 - Contact forces are drawn. The view can be saved as PNG.
 - Pages are complete for failed replicates, for one replicate, without modes, with swept parameters, and for cubes. If
   parts are missing, they name the measure that would give these parts.
@@ -31,6 +33,7 @@ import report_pages
 from report_case import CHARTS, COUNT, DRAWN, REST, TURNS, Case
 from report_chart_tests import ChartTests
 from report_many_tests import ManyTests
+from report_mixture_tests import MixtureTests
 
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
@@ -38,7 +41,7 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
 
-class Report(ChartTests, ManyTests, Case):
+class Report(ChartTests, ManyTests, MixtureTests, Case):
     # ---- Packings ---------------------------------------------------------------------------------------------
 
     def test_the_view_draws_and_turns(self):
@@ -169,11 +172,12 @@ class Report(ChartTests, ManyTests, Case):
 
     def test_what_was_not_measured_is_left_out_with_its_reason(self):
         self.open(self.pages.report(self.swept()))
-        self.assertEqual(self.charts(), [name for name in CHARTS if name not in ("spectrum", "scaling", "moduli", "shear")])
+        self.assertEqual(self.charts(), [name for name in CHARTS if name not in ("forces", "pairs", "spectrum", "scaling",
+                                                                            "moduli", "shear")])
         self.assertIn('add "modes" to "measure" in the manifest', self.find(".absent").text)
         nothing = self.pages.run("bare", measure=[], replicates=1)
         self.open(self.pages.report(nothing))
-        self.assertEqual(self.charts(), ["density", "extrapolation", "evaluations", "time", "stops"])
+        self.assertEqual(self.charts(), ["density", "extrapolation", "stops", "evaluations", "time"])
         self.assertIn('add "contacts" to "measure" in the manifest', self.find(".absent").text)
 
     def test_cubes(self):

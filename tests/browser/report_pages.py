@@ -10,7 +10,7 @@ import re
 import shutil
 import subprocess
 
-MEASURES = ["contacts", "order", "clusters", "modes", "moduli", "strict", "shear", "rigidity", "backbone", "difference_modes"]
+MEASURES = ["contacts", "order", "clusters", "modes", "moduli", "strict", "shear", "rigidity", "backbone", "difference_modes", "gaps"]
 HOSTILE = "<script>alert(1)</script>"
 
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "tasks/extras/chart/point.hpp"
 
@@ -21,9 +21,10 @@ struct Standing {
 /// then by time. A setting may reach this residual even if it failed to reach the residual that it requested.
 std::vector<Standing> standings(std::span<const ChartPoint> points, double residual);
 
-/// Makes three lines of text: a comparison of methods for the residual 1e-6, the same for the residual 1e-9, and a list
-/// of the methods that miss each requested residual. The last line also states the residuals with the paper's stopping
-/// rule. `bias` contains the points of the family `bias`.
-std::array<std::string, 3> conclusion(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias);
+/// Makes lines of text, with whole sentences. For each residual that was requested, largest first, a line states which
+/// methods of the family `equilibrium` reach it in all cases, which one is the fastest, and which ones miss it. The
+/// last line states the residuals and the errors of φ_J with the paper's stopping rule, if it was measured. `bias`
+/// contains the points of the family `bias`.
+std::vector<std::string> conclusion(std::span<const ChartPoint> equilibrium, std::span<const ChartPoint> bias);
 
 }  // namespace isojam

@@ -57,6 +57,11 @@ struct EndState {
   bool reached() const { return is_equilibrium(summary) || summary.reason == StopReason::energy_change; }
 };
 
+/// If a minimisation was stopped from outside, the reason is `point_seconds`. After a signal there is no point.
+std::string stopped_text(StopReason reason) {
+  return std::string(reason == StopReason::interrupted ? "interrupted by the time limit" : to_string(reason));
+}
+
 void describe(const Packing& packing, EndState& state) {
   PackingEnergy energy;
   const Evaluation value = energy.evaluate(packing, Precision::double_double);
@@ -106,7 +111,7 @@ ChartPoint point_of(const Variant& variant, SolidKind solid, double distance, co
     seconds.insert(seconds.end(), state.seconds.begin(), state.seconds.end());
     residuals.push_back(state.summary.residual);
     evaluations.push_back(static_cast<double>(state.summary.evaluations + state.summary.work.envelopes));
-    ++reasons[std::string(to_string(state.summary.reason))];
+    ++reasons[stopped_text(state.summary.reason)];
     point.failed |= !state.reached();
     z.push_back(state.numbers.Z);
     if (state.classes_known) c.push_back(state.numbers.C);
@@ -142,7 +147,7 @@ ChartPoint bias_of(const Variant& variant, SolidKind solid, const EndStates& sta
   std::map<std::string, int> reasons;
   for (const auto& [key, state] : states) {
     seconds[key.first] += spread(state.seconds)->median;
-    ++reasons[std::string(to_string(state.summary.reason))];
+    ++reasons[stopped_text(state.summary.reason)];
     point.failed |= !state.reached();
   }
   std::vector<double> totals, errors, differences, values;

@@ -53,7 +53,7 @@ class Growth {
 
  private:
   void measure(SolidKind solid, int particles, int number) {
-    measuring_.progress(fmt::format("growth, {} {}s, replicate {}", particles, to_string(solid), number + 1));
+    measuring_.progress(fmt::format("growth, {}, N = {}, replicate {}", to_string(solid), particles, number + 1));
     const JamOptions options;
     RandomStream random{measuring_.config.seed, static_cast<std::uint64_t>(solid),
                         static_cast<std::uint64_t>(particles), static_cast<std::uint64_t>(number)};

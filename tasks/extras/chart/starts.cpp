@@ -17,7 +17,7 @@ std::vector<JammedSolid> jam_all(const Measuring& measuring) {
   std::vector<JammedSolid> all;
   for (const SolidKind solid : config.solids) {
     for (int k = 0; k < config.packings && !measuring.over(); ++k) {
-      measuring.progress(fmt::format("jamming {} {}s", config.particles, to_string(solid)));
+      measuring.progress(fmt::format("jamming {}, N = {}", to_string(solid), config.particles));
       RandomStream random{config.seed, static_cast<std::uint64_t>(solid), static_cast<std::uint64_t>(k)};
       Packing placed = random_packing(platonic(solid), config.particles, options.compression.initial_density, random);
       JamResult result = jam(std::move(placed), options, measuring.stop);

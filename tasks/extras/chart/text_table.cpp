@@ -54,8 +54,8 @@ std::string aligned(const std::vector<Row>& rows) {
 std::string ended_text(FamilyEnd end) {
   switch (end) {
     case FamilyEnd::complete: return "";
-    case FamilyEnd::cut: return " (CUT: time limit reached)";
-    case FamilyEnd::interrupted: return " (CUT: interrupted)";
+    case FamilyEnd::cut: return " (interrupted by the time limit)";
+    case FamilyEnd::interrupted: return " (interrupted by a signal)";
   }
   return "";
 }

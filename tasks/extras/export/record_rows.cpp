@@ -61,13 +61,6 @@ std::size_t kinds_of(const std::optional<Manifest>& manifest, const RecordedRepl
   return most;
 }
 
-/// True for a quantity of one kind of particles if no packing has this kind, or if every packing has only one kind.
-bool is_of_no_kind(std::string_view pointer, std::size_t kinds) {
-  if (!pointer.starts_with(kinds_pointer)) return false;
-  const auto kind = static_cast<std::size_t>(pointer[kinds_pointer.size()] - '0');
-  return kinds < 2 || kind > kinds;
-}
-
 std::vector<Measure> measures_of(const std::optional<Manifest>& manifest, const RecordedReplicate& first) {
   return manifest ? manifest->measures : first.summary.measures;
 }
@@ -132,7 +125,8 @@ void RecordRows::add_quantities(const std::vector<Measure>& measures, std::size_
     const bool measured =
         !quantity.measure || std::find(measures.begin(), measures.end(), *quantity.measure) != measures.end();
     const bool of_replicate = quantity.of == Quantity::Of::replicate;
-    if (!measured || (of_replicate && of_ == RowOf::state) || is_of_no_kind(quantity.pointer, kinds)) continue;
+    if (!measured || (of_replicate && of_ == RowOf::state) || static_cast<std::size_t>(quantity.kinds) > kinds)
+      continue;
     quantities_.push_back(k);
     add(std::string(quantity.name), [of_replicate, pointer = quantity.pointer](const Source& s) {
       if (of_replicate) return copy_of(value_at(s.held.record, pointer));

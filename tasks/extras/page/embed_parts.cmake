@@ -28,6 +28,7 @@ function(embed_parts list_variable name)
   endforeach()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   configure_file(${embed_parts_template} ${source} @ONLY)
-  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}")
+  # In a batch of sources, the dependence on the files would be lost.
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}" SKIP_UNITY_BUILD_INCLUSION ON)
   set(${list_variable} ${${list_variable}} ${source} PARENT_SCOPE)
 endfunction()

@@ -34,8 +34,9 @@ std::string modules(const Parts& parts) {
 std::string scripts(const Parts& parts) {
   std::string text;
   for (const auto& part : parts) {
-    if (part.kind != Kind::script) continue;
+    if (part.kind != Kind::script && part.kind != Kind::constant) continue;
     text += "<script>\n";
+    if (part.kind == Kind::constant) text += fmt::format("const {} =\n", part.name);
     text += part.text;
     text += "\n</script>\n";
   }

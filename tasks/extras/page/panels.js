@@ -2,33 +2,32 @@
 
 // Small multiples as complete Vega specifications: one group mark per panel, all with the same scales.
 
-/// Okabe and Ito's colours, which can be distinguished with any colour vision, and shapes for prints in black.
-const solidColours = {
-  tetrahedron: '#d55e00', cube: '#cc79a7', octahedron: '#0072b2', dodecahedron: '#009e73', icosahedron: '#e69f00',
-};
-const solidShapes = {
-  tetrahedron: 'triangle-up', cube: 'square', octahedron: 'diamond', dodecahedron: 'circle',
-  icosahedron: 'triangle-down',
-};
-// Colours of other solids, in order of appearance.
-const otherColours = ['#56b4e9', '#8c6d31', '#7f7f7f', '#000000', '#b2182b', '#5e4fa2'];
-const otherShapes = ['cross', 'triangle-left', 'triangle-right', 'stroke'];
+/// Okabe and Ito's colours, which can be distinguished with any colour vision, and symbols for prints in black. The
+/// palette is that of all pages and of the Python module.
+const hues = palette.colours, seriesColours = palette.series.map((name) => hues[name]);
+const solidColours = {}, solidShapes = {};
 
-/// Assigns a colour and a shape to solids of other names, as long as there are any left.
+/// Assigns a colour and a symbol to these solids; other solids than those of the palette get them in this order.
 function nameSolids(names) {
-  const others = names.filter((name) => !(name in solidColours));
-  others.forEach((name, index) => {
-    solidColours[name] = otherColours[index % otherColours.length];
-    solidShapes[name] = otherShapes[index % otherShapes.length];
-  });
+  const others = names.filter((name) => !(name in palette.solids));
+  for (const name of names) {
+    const {colour, symbol} = palette.solids[name] ?? palette.others[others.indexOf(name) % palette.others.length];
+    [solidColours[name], solidShapes[name]] = [hues[colour], symbol];
+  }
 }
+
+/// On dark paper, dark colours are lighter.
+document.head.append(Object.assign(document.createElement('style'), {textContent: `@media screen and (prefers-color-scheme: dark) {
+${Object.entries(palette.dark).map(([name, colour]) => `.chart [fill="${hues[name]}"] { fill: ${colour}; }
+  .chart [stroke="${hues[name]}"] { stroke: ${colour}; }`).join('\n')}}`}));
+
 const ink = '#222222', faint = '#d9d8d2';
 
 const chartConfig = {
   background: null,
   font: 'system-ui, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif',
   axis: {
-    domainColor: '#777777', tickColor: '#777777', gridColor: faint, gridOpacity: 0.6, labelColor: ink, titleColor: ink,
+    domainColor: hues.grey, tickColor: hues.grey, gridColor: faint, gridOpacity: 0.6, labelColor: ink, titleColor: ink,
     labelFontSize: 11, titleFontSize: 12, titleFontWeight: 'normal', titlePadding: 6, tickSize: 4,
     labelSeparation: 3, labelFlush: 5,
   },
@@ -127,9 +126,10 @@ const entryWidth = (text) => 30 + 6.6 * text.length;
 /// Legends above the chart with entries `texts`: side by side if they fit, otherwise one below the other.
 function placedLegends(legends, scales, width) {
   const widths = [];
-  const placed = legends.map(({texts, ...legend}) => {
-    const {domain} = scales.find(({name}) => name === (legend.fill ?? legend.stroke ?? legend.shape));
-    const entries = domain.map((value) => entryWidth(texts?.[value] ?? String(value)));
+  const placed = legends.map(({texts, longSymbol = false, ...legend}) => {
+    const scale = legend.fill ?? legend.stroke ?? legend.shape ?? legend.strokeDash;
+    const {domain} = scales.find(({name}) => name === scale);
+    const entries = domain.map((value) => entryWidth(texts?.[value] ?? String(value)) + (longSymbol ? 32 : 0));
     const sum = entries.reduce((total, one) => total + one, legend.title ? 20 : 0);
     widths.push(sum);
     const columns = sum <= width ? 0 : Math.max(1, Math.floor(width / Math.max(...entries)));
@@ -152,7 +152,8 @@ function panelSpec({description, width, count, height = 190, datasets, legends =
   const marks = [];
   for (let index = 0; index < count; index += 1) {
     marks.push(panelAt(index, {
-      width: panelWidth, height, showY: index % columns === 0, showX: index + columns >= count,
+      width: panelWidth, height, showY: index % columns === 0, // Below each other, the labels of the last panel would be screens away from the first.
+      showX: columns === 1 || index + columns >= count,
     }));
   }
   const {legends: placed, beside} = placedLegends(legends, scales, width - 84);

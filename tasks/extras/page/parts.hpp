@@ -13,8 +13,9 @@ struct PagePart {
     notice,  ///< licences of the libraries
     /// CSS
     style,
-    module,  ///< a CommonJS module of Vega; other modules refer to it by `name`
-    script   ///< a script; scripts run unchanged, in the order of the parts
+    constant,  ///< JSON that is the value of the constant `name` in scripts
+    module,    ///< a CommonJS module of Vega; other modules refer to it by `name`
+    script     ///< a script; scripts run unchanged, in the order of the parts
   };
   Kind kind;
   std::string_view name;

@@ -30,7 +30,7 @@ isojam::Json facts(const std::string& program) {
     entry["pointer"] = quantity.pointer;
     entry["of"] = quantity.of == isojam::Quantity::Of::replicate ? "replicate" : "state";
     entry["unit"] = quantity.unit;
-    entry["group"] = quantity.group;
+    entry["group"] = quantity.group.name;
     json["quantities"].push_back(entry);
   }
   return json;

@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "engine/analysis/power_law.hpp"
 #include "engine/arithmetic/elementary.hpp"
 #include "engine/solve/straight_line.hpp"
 #include "tasks/extras/report/angle_curves.hpp"
+#include "tasks/extras/report/distributions.hpp"
 #include "tasks/io/options.hpp"
 #include "tasks/manifest/plan.hpp"
 #include "tasks/measure/quantity.hpp"
@@ -135,16 +137,25 @@ std::vector<Flag> exclude_of(const Json& manifest) {
   return flags;
 }
 
-/// Points (strain, stress divided by pressure) of a shear. Empty if the replicate was not sheared.
+/// Points (strain, stress divided by pressure) of a shear. Empty if the replicate was not sheared. The load first
+/// increases in every step, and then decreases.
 Json shear_points(const Json& record) {
   Json points = Json::array();
+  double before = -std::numeric_limits<double>::infinity();
+  bool unloading = false;
   for (const auto& state : list_at(record, "/shear/path")) {
+    const auto load = number_at(state, "/load");
+    if (!load.is_null()) {
+      unloading |= load.get<double>() < before;
+      before = load.get<double>();
+    }
     const auto stress = number_at(state, "/stress"), pressure = number_at(state, "/pressure");
     const bool known = !stress.is_null() && !pressure.is_null() && pressure.get<double>() > 0;
     Json point;
     point["strain"] = number_at(state, "/strain");
     point["stress"] = known ? Json(stress.get<double>() / pressure.get<double>()) : Json(nullptr);
     point["dropped"] = value_at(state, "/dropped") == Json(true);
+    point["unloading"] = unloading;
     points.push_back(std::move(point));
   }
   return points;
@@ -180,6 +191,21 @@ Json replicate_entry(const RecordedReplicate& replicate, int row, const std::vec
   json["highest"] = numbers_at(record, "/nearest/modes/highest/omega");
   json["shear"] = shear_points(record);
   return json;
+}
+
+/// The stopping rule of the manifest; nullopt if it has none.
+std::optional<Replicates> rule_of(const Json& manifest) {
+  const auto min = number_at(manifest, "/replicates/min"), max = number_at(manifest, "/replicates/max");
+  const auto aim = number_at(manifest, "/replicates/half_width"), name = text_at(manifest, "/replicates/quantity");
+  if (!min.is_number_integer() || !max.is_number_integer() || aim.is_null() || name.is_null()) return std::nullopt;
+  if (!quantity_index(name.get<std::string>())) return std::nullopt;
+  return Replicates{min.get<int>(), max.get<int>(), Goal{name.get<std::string>(), aim.get<double>()}};
+}
+
+/// The base of the manifest, see base.hpp; empty if it has none.
+Json base_of(const Json& manifest) {
+  auto base = value_at(manifest, "/base");
+  return base.is_object() ? base : Json(Json::object());
 }
 
 /// The replicates that neither failed nor are excluded.
@@ -251,6 +277,9 @@ Json row_entry(const Row& row, const Members& chosen) {
   if (paper) json["paper"] = {{"phi_j", paper->phi_j}, {"half_width", paper->half_width}};
   json["scaling"] = {{"omega_l", pooled_scaling(chosen, "omega_l")}, {"omega_h", pooled_scaling(chosen, "omega_h")}};
   json["angles"] = pooled_angles(chosen);
+  std::vector<Json> nearest;
+  for (const auto* member : chosen) nearest.push_back(state_with_angles(member->record));
+  json["distributions"] = pooled_distributions(nearest);
   return json;
 }
 
@@ -287,7 +316,7 @@ Json column_list() {
   Json columns = Json::array();
   for (const auto& quantity : all_quantities()) {
     columns.push_back(
-        {{"name", quantity.name}, {"group", quantity.group}, {"unit", quantity.unit}, {"latex", quantity.latex}});
+        {{"name", quantity.name}, {"group", quantity.group.name}, {"unit", quantity.unit}, {"latex", quantity.latex}});
   }
   return columns;
 }
@@ -301,7 +330,10 @@ Json solid_list(const Results& results) {
     solids[name] = mixture.is_one_solid() ? solid_shape(*mixture.solid()) : Json::object();
     solids[name].update(angle_references(mixture));
     if (mixture.is_one_solid()) continue;
-    for (const auto& kind : mixture.kinds()) solids[name]["shapes"].push_back(solid_shape(*kind.solid));
+    for (const auto& kind : mixture.kinds()) {
+      solids[name]["shapes"].push_back(solid_shape(*kind.solid));
+      solids[name]["shapes"].back()["name"] = kind.solid->name();
+    }
   }
   return solids;
 }
@@ -316,7 +348,7 @@ Json report_data(const Results& results, const std::map<std::size_t, Json>& view
     points[point_of(replicate.summary)].push_back(&replicate);
   }
   const auto exclude = exclude_of(results.manifest);
-  const auto table = aggregate(summaries, std::nullopt, exclude);
+  const auto table = aggregate(summaries, rule_of(results.manifest), exclude, base_of(results.manifest));
 
   Json data;
   data["manifest"] = {{"name", text_at(results.manifest, "/name")}, {"seed", text_at(results.manifest, "/seed")}};
@@ -334,6 +366,7 @@ Json report_data(const Results& results, const std::map<std::size_t, Json>& view
     place.emplace(point, static_cast<int>(place.size()));
     data["rows"].push_back(row_entry(row, counting(points.at(point), exclude)));
   }
+  data["base"] = difference_title(table);
   data["csv"] = to_csv(table);
   data["latex"] = to_latex(table);
   data["replicates"] = data["views"] = Json::array();

@@ -97,7 +97,7 @@ TEST(Measure, FillsTheRecordOfAJammedPacking) {
   ASSERT_EQ(summary.states.size(), jammed().states.size());
   for (std::size_t i = 0; i < all_quantities().size(); ++i) {
     const auto& quantity = all_quantities()[i];
-    if (quantity.group == "kinds of a mixture") continue;  // this packing is not a mixture
+    if (quantity.group.name == "kinds of a mixture") continue;  // this packing is not a mixture
     const auto& place = quantity.of == Quantity::Of::state ? record.at("nearest") : record;
     const Json::json_pointer pointer{std::string(quantity.pointer)};
     ASSERT_TRUE(place.contains(pointer)) << quantity.name;

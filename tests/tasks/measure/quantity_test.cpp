@@ -24,7 +24,8 @@ TEST(Quantities, AreListedOnce) {
     EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name << " is the name of two";
     EXPECT_TRUE(places.insert({quantity.of, quantity.pointer}).second) << quantity.pointer << " is the place of two";
     EXPECT_NO_THROW(Json::json_pointer(std::string(quantity.pointer))) << quantity.name;
-    for (const auto text : {quantity.name, quantity.pointer, quantity.group, quantity.unit, quantity.latex})
+    for (const auto text :
+         {quantity.name, quantity.pointer, quantity.group.name, quantity.group.meaning, quantity.unit, quantity.latex})
       EXPECT_FALSE(text.empty()) << quantity.name;
   }
 }
@@ -48,9 +49,9 @@ TEST(Quantities, BelongToTheirMeasures) {
 TEST(Quantities, GroupsAreContiguous) {
   std::vector<std::string_view> groups;
   for (const auto& quantity : all_quantities()) {
-    if (groups.empty() || groups.back() != quantity.group) groups.push_back(quantity.group);
+    if (groups.empty() || groups.back() != quantity.group.name) groups.push_back(quantity.group.name);
   }
-  EXPECT_EQ(groups.front(), main_group);
+  EXPECT_EQ(groups.front(), main_group.name);
   EXPECT_EQ(std::set(groups.begin(), groups.end()).size(), groups.size()) << ::testing::PrintToString(groups);
 }
 

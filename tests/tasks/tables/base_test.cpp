@@ -205,7 +205,7 @@ TEST(Base, RowsWithoutABaseHaveNoPairs) {
     EXPECT_EQ(row.differences ? row.differences->pairs : 0, row.particles == 100 && row.differences ? 3 : 0);
   }
   const auto text = to_text(table);
-  EXPECT_NE(text.find("\ndifferences from step_fraction = 0.35\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\ndifferences from step_fraction = 0.35: "), std::string::npos) << text;
 }
 
 TEST(Base, ManifestsPairWithinEach) {
@@ -300,13 +300,15 @@ TEST_F(BaseTest, EveryFormatHasTheDifferences) {
   const auto json = table({"r"});
   const auto text = aggregated({"r"});
   const std::string told = "differences from step_fraction = 0.35";
-  EXPECT_NE(text.find("\n" + told + "\nsolid"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n" + told + ": Mean differences"), std::string::npos) << text;
   const auto below = text.substr(text.find(told));
   EXPECT_NE(below.find("step_fraction   pairs "), std::string::npos) << below;
   EXPECT_NE(below.find(" 0.2       3 "), std::string::npos) << below;
   EXPECT_EQ(below.substr(0, below.find("\n\n")).find(" 0.35 "), std::string::npos) << below;
   const auto latex = aggregated({"r", "--format", "latex"});
-  EXPECT_NE(latex.find("% " + told + "\n\\begin{tabular}{lrrrrrrr}"), std::string::npos) << latex;
+  const auto told_at = latex.find("% " + told + ": Mean differences");
+  ASSERT_NE(told_at, std::string::npos) << latex;
+  EXPECT_EQ(latex.find("\n\\begin{tabular}{lrrrrrrr}", told_at), latex.find('\n', told_at)) << latex;
   EXPECT_EQ(aggregated({"r", "--series"}).find("differences"), std::string::npos);
   const auto csv = aggregated({"r", "--format", "csv"});
   const auto mean = json.at("rows").at(0).at("differences").at("phi_j").at("mean").dump();

@@ -5,12 +5,15 @@
 //   marked. Proportions have both ends of their interval.
 // - Integers without spread are printed as integers.
 // - Other groups of columns have their own tables if they were measured. Small numbers have a common power of ten.
+// - A table that is wider than requested is divided or transposed. No entry is lost or divided, and no line is wider.
+// - Tables after the first one are printed on request. Each has a line that states what it contains.
 // - In CSV and LaTeX, every row has as many cells as the heading. CSV has the numbers of tables.json.
 // - No two columns have the same name, whatever was swept.
 // - Characters with a special meaning in CSV, in LaTeX or on a terminal are escaped, whatever texts a record contains.
 
 #include "tasks/tables/tables.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +21,7 @@
 #include <set>
 
 #include "tasks/tables/estimate_text.hpp"
+#include "tasks/tables/fitted.hpp"
 
 namespace isojam {
 namespace {
@@ -168,7 +172,7 @@ TEST(Tables, OtherGroupsFollowIfTheyWereMeasured) {
   EXPECT_EQ(to_text(measured).find("Q6"), std::string::npos);
   measured.rows[1].estimates[q6] = estimate({2.5e-7, 3.5e-7}, 1);
   const auto text = to_text(measured);
-  EXPECT_NE(text.find("\norder\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\norder: "), std::string::npos) << text;
   // Mean 3e-7, sd 7.07e-8, t 12.71 and n 2 give the half width 6.35e-7.
   EXPECT_NE(text.find("(3.00 ± 6.35)e-07"), std::string::npos) << text;
   EXPECT_EQ(text.find("clusters"), std::string::npos) << text;
@@ -237,6 +241,94 @@ TEST(Tables, JsonStatesWhyThereIsNoInterval) {
   EXPECT_EQ(rows.at(1).at("phi_j").at("reason"), "one replicate has no spread");
   EXPECT_TRUE(rows.at(2).at("phi_j").at("mean").is_null());
   EXPECT_EQ(rows.at(2).at("phi_j").at("reason"), "no replicate that counts has this value");
+}
+
+/// A table of `rows` rows whose quantities all have values.
+Table wide_table(int rows) {
+  Table wide;
+  for (int k = 0; k < rows; ++k) {
+    wide.rows.push_back(row(SolidKind::octahedron, 64 + k, {0.6812, 0.6844, 0.6789, 0.6803 + k * 1e-3}));
+    for (std::size_t i = 0; i < all_quantities().size(); ++i)
+      wide.rows.back().estimates[i] = wide.rows.back().estimates[0];
+  }
+  return wide;
+}
+
+std::size_t widest(const std::string& text) {
+  std::size_t most = 0;
+  for (const auto& line : split(text, "\n")) most = std::max(most, characters(line));
+  return most;
+}
+
+std::size_t count(const std::string& text, const std::string& part) { return split(text, part).size() - 1; }
+
+TEST(Tables, FitTheRequestedWidth) {
+  for (const int rows : {1, 2, 5, 12}) {
+    const auto wide = wide_table(rows);
+    const auto whole = to_text(wide);
+    ASSERT_GT(widest(whole), 120U);
+    for (const std::size_t columns : {60U, 80U, 120U}) {
+      const auto text = to_text(wide, View::nearest, {true, columns, {}, {}});
+      EXPECT_LE(widest(text), columns) << text;
+      EXPECT_EQ(count(text, "0.6812 ± 0.0037"), count(whole, "0.6812 ± 0.0037")) << "no number is divided or lost";
+      for (const auto& quantity : all_quantities()) {
+        EXPECT_NE(text.find(quantity.name), std::string::npos) << quantity.name << " at " << columns << '\n' << text;
+      }
+    }
+  }
+  EXPECT_EQ(to_text(table(), View::nearest, {true, 1000, {}, {}}), to_text(table()))
+      << "narrow tables stay as they are";
+}
+
+TEST(Tables, AreTransposedIfTheRowsAreFew) {
+  const auto one = to_text(wide_table(1), View::nearest, {false, 80, {}, {}});
+  EXPECT_EQ(one.rfind("solid", 0), 0U);
+  EXPECT_NE(one.find("\nphi_j           0.6812 ± 0.0037\n"), std::string::npos) << one;
+  const auto many = to_text(wide_table(30), View::nearest, {false, 80, {}, {}});
+  EXPECT_EQ(many.rfind("solid         N   target_energy", 0), 0U) << "divided, because this needs fewer lines\n"
+                                                                  << many;
+  EXPECT_NE(many.find("\n\nsolid         N   target_energy"), std::string::npos) << many;
+}
+
+TEST(Tables, DividedColumnsRepeatTheirKeys) {
+  const std::vector<Cells> lines{{"key", "first", "second"}, {"a", "1", "2"}, {"b", "3", "4"}, {"c", "5", "6"}};
+  EXPECT_EQ(fitted(lines, 1, 12),
+            "key   first\na         1\nb         3\nc         5\n\n"
+            "key   second\na          2\nb          4\nc          6\n");
+  EXPECT_EQ(fitted(lines, 1, 0), fitted(lines, 1, 23));
+  // Nothing fits into 3 characters, so the narrower form is used.
+  EXPECT_EQ(fitted(lines, 1, 3).rfind("key      a\nfirst    1\nsecond   2\n\nkey      b\n", 0), 0U)
+      << fitted(lines, 1, 3);
+}
+
+TEST(Tables, TextsAreWrappedBetweenWords) {
+  EXPECT_EQ(wrapped("one two three", 7), "one two\nthree");
+  EXPECT_EQ(wrapped("one two three", 0), "one two three");
+  EXPECT_EQ(wrapped("extraordinary one", 5), "extraordinary\none");
+  EXPECT_EQ(wrapped("", 5), "");
+}
+
+TEST(Tables, FurtherTablesArePrintedOnRequest) {
+  const auto wide = wide_table(1);
+  const auto first = to_text(wide, View::nearest, {false, 0, "The option --all", {}});
+  EXPECT_EQ(first.find("Q6"), std::string::npos) << first;
+  EXPECT_NE(first.find("\nThe option --all prints more tables: other cut-offs, critical angles, "), std::string::npos)
+      << first;
+  EXPECT_EQ(to_text(table(), View::nearest, {false, 0, "The option --all", {}}), to_text(table()))
+      << "there are no others";
+  const auto all = to_text(wide, View::nearest, {true, 0, "The option --all", {}});
+  EXPECT_EQ(all.find("The option --all"), std::string::npos);
+  const auto added = to_text(wide, View::nearest, {false, 0, "", {Measure::order}});
+  EXPECT_NE(added.find("\n\norder: "), std::string::npos) << added;
+  EXPECT_EQ(added.find("\n\nmodes: "), std::string::npos) << added;
+  std::set<std::string_view> names;
+  for (const auto& quantity : all_quantities()) {
+    if (quantity.group == main_group || !names.insert(quantity.group.name).second) continue;
+    const auto line = fmt::format("\n\n{}: {}\nsolid ", quantity.group.name, quantity.group.meaning);
+    EXPECT_NE(all.find(line), std::string::npos) << line << all;
+    EXPECT_EQ(quantity.group.meaning.back(), '.') << "a sentence";
+  }
+  EXPECT_GT(names.size(), 8U);
 }
 
 }  // namespace

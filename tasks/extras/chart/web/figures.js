@@ -1,11 +1,10 @@
 'use strict';
 
-/// Okabe and Ito's colours, in the order in which methods come.
-const methodColours = ['#0072b2', '#d55e00', '#009e73', '#e69f00', '#cc79a7', '#56b4e9', '#777777'];
+/// Symbols in the order in which methods come, like the colours of the palette.
 const methodShapes = ['circle', 'square', 'triangle-up', 'diamond', 'triangle-down', 'triangle-right', 'stroke'];
 
-const endings = {complete: '', cut: ' The time limit was reached before everything was measured.',
-  interrupted: ' Interrupted.'};
+const endings = {complete: '', cut: ' Interrupted by the time limit before everything was measured.',
+  interrupted: ' Interrupted by a signal before everything was measured.'};
 
 const unique = (values) => [...new Set(values)];
 
@@ -64,7 +63,7 @@ function reasonText(failed, width) {
 
 function edgeLine(width) {
   return {type: 'rule', encode: {enter: {
-    x: {value: 0}, x2: {value: width}, y: {value: edgeHeight}, stroke: {value: '#777777'}, strokeDash: {value: [3, 3]},
+    x: {value: 0}, x2: {value: width}, y: {value: edgeHeight}, stroke: {value: hues.grey}, strokeDash: {value: [3, 3]},
     strokeWidth: {value: 0.8},
   }}};
 }
@@ -138,13 +137,11 @@ function familyFigure(family) {
     {type: 'log', margin: 0.06})};
   const y = {type: 'log', title: family.error_is, domain: errorDomain(rows, height)};
   const edged = roomAbove(rows) > textHeight, grid = {least: 240, most: panelsPerRow(tasks)};
-  // Below each other, the axis of the last panel would be screens away from the first.
-  const single = (width) => panelGrid(width, tasks.length, grid).columns === 1;
-  const panelAt = (width) => (index, place) => {
+  const panelAt = (index, place) => {
     const here = `datum.task === ${JSON.stringify(tasks[index])}`;
     const names = ['good', 'failed', 'front'].map((name) => `${name}_${index}`);
     return panel({
-      ...place, title: tasks[index], x, y, showX: place.showX || single(width),
+      ...place, title: tasks[index], x, y,
       data: [
         filtered(names[0], 'points', `${here} && !datum.failed && isValid(datum.y)`),
         filtered(names[1], 'points', `${here} && (datum.failed || !isValid(datum.y))`),
@@ -161,10 +158,10 @@ function familyFigure(family) {
     id, title, note, datasets: {points: rows},
     spec: (width) => panelSpec({
       description: `${title}: error against time on logarithmic scales, a panel for each case.`, width,
-      count: tasks.length, height, datasets: {points: rows}, panelAt: panelAt(width), grid,
+      count: tasks.length, height, datasets: {points: rows}, panelAt, grid,
       legends: [{fill: 'colour', shape: 'shape'}],
       scales: [
-        {name: 'colour', type: 'ordinal', domain: methods, range: methodColours},
+        {name: 'colour', type: 'ordinal', domain: methods, range: seriesColours},
         {name: 'shape', type: 'ordinal', domain: methods, range: methodShapes},
       ],
     }),

@@ -86,7 +86,7 @@ function growthFigure(family) {
       grid: {least: 240, most: tasks.length === 1 ? 2 : Math.min(4, tasks.length)},
       legends: [{fill: 'colour', shape: 'shape'}],
       scales: [
-        {name: 'colour', type: 'ordinal', domain: methods, range: methodColours},
+        {name: 'colour', type: 'ordinal', domain: methods, range: seriesColours},
         {name: 'shape', type: 'ordinal', domain: methods, range: methodShapes},
       ],
     }),

@@ -37,7 +37,7 @@ const protocolTooltip = {
 };
 
 const settingY = {scale: 'y', field: 'setting', band: 0.5};
-const plainInk = {value: '#0072b2'};
+const plainInk = {value: hues.blue};
 
 function settingRule(name, low, high, width) {
   return {
@@ -79,7 +79,7 @@ const failedMarks = () => [
 
 const zeroLine = (height) => ({
   type: 'rule', encode: {enter: {
-    x: {scale: 'x', value: 0}, y: {value: 0}, y2: {value: height}, stroke: {value: '#777777'},
+    x: {scale: 'x', value: 0}, y: {value: 0}, y2: {value: height}, stroke: {value: hues.grey},
     strokeDash: {value: [3, 3]},
   }},
 });

@@ -11,6 +11,7 @@
 
 docs/python.md describes the module."""
 
+from . import palette
 from .commands import aggregate, measure, run
 from .errors import InputError, ManifestError, ProgramError
 from .facts import quantities
@@ -22,4 +23,4 @@ from .study import Study, load
 from .table import read_table
 
 __all__ = ["InputError", "ManifestError", "Packing", "ProgramError", "Rows", "Solid", "Study", "__version__", "aggregate",
-           "load", "measure", "quantities", "read_table", "run"]
+           "load", "measure", "palette", "quantities", "read_table", "run"]

@@ -5,14 +5,19 @@ const allFigures = (data, choices) => [
   topologyFigure(data, choices),
   angleFigure(data, choices, 'edge_face', {id: 'edge-face', title: 'Edge-face alignment', symbol: 'θ_{ef}'}),
   angleFigure(data, choices, 'face_face', {id: 'face-face', title: 'Face-face alignment', symbol: 'θ_{ff}'}),
+  angleHistogram(data, choices, 'edge_face', {id: 'edge-face-histogram', title: 'Edge-face angles', symbol: 'θ_{ef}'}),
+  angleHistogram(data, choices, 'face_face', {id: 'face-face-histogram', title: 'Face-face angles', symbol: 'θ_{ff}'}),
+  kindsFigure(data),
+  forceFigure(data, choices),
+  pairFigure(data, choices),
   extrapolationFigure(data, choices),
   spectrumFigure(data, choices),
   scalingFigure(data, choices),
   moduliFigure(data, choices),
   shearFigure(data, choices),
+  stopFigure(data),
   costFigure(data, 'evaluations', 'evaluations'),
   costFigure(data, 'cpu_seconds', 'time'),
-  stopFigure(data),
 ];
 
 /// The two choices a reader has for all charts, where there is something to choose.
@@ -32,7 +37,8 @@ function choiceBar(data, changed) {
 }
 
 function drawCharts(data, place) {
-  nameSolids(Object.keys(data.solids));
+  nameSolids(unique([...Object.keys(data.solids),
+    ...Object.values(data.solids).flatMap(({shapes}) => (shapes ?? []).map(({name}) => name))]));
   const figures = allFigures(data, {together: false, everything: false});
   const drawn = new Map();
   place.append(choiceBar(data, (choices) => {

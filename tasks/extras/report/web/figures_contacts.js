@@ -1,9 +1,9 @@
 'use strict';
 
 const contactSeries = {
-  C: {colour: '#d55e00', label: 'constraints $C$', shape: 'circle'},
-  Z: {colour: '#0072b2', label: 'contacts $Z$', shape: 'square'},
-  Z_ff: {colour: '#009e73', label: 'face-face contacts $Z_{ff}$', shape: 'diamond'},
+  C: {colour: hues.vermilion, label: 'constraints $C$', shape: 'circle'},
+  Z: {colour: hues.blue, label: 'contacts $Z$', shape: 'square'},
+  Z_ff: {colour: hues.green, label: 'face-face contacts $Z_{ff}$', shape: 'diamond'},
 };
 
 const labelsOf = (series) => Object.fromEntries(Object.entries(series).map(([key, {label}]) => [key, label]));

@@ -36,10 +36,10 @@ function costFigure(data, key, id) {
   };
 }
 
-/// Okabe and Ito again; equilibria in blue and green, what is not one in warm colours.
+/// Equilibria in blue and green, what is not one in warm colours.
 const reasonColours = {
-  residual_reached: '#0072b2', precision_floor: '#56b4e9', unjammed: '#009e73', energy_change: '#f0e442',
-  budget: '#e69f00', line_search_failed: '#d55e00', not_finite: '#cc79a7', interrupted: '#777777',
+  residual_reached: hues.blue, precision_floor: hues.sky, unjammed: hues.green, energy_change: hues.yellow,
+  budget: hues.orange, line_search_failed: hues.vermilion, not_finite: hues.purple, interrupted: hues.grey,
   not_called: '#aaaaaa',
 };
 
@@ -96,7 +96,7 @@ function stopFigure(data) {
       labels: data.rows.map((row) => row.label).filter((label) => sums.has(label)), datasets: () => ({stops: rows}),
       x: {domain: [0, most], title: 'minimisations'}, marks: [bar, number], bandHeight: width < 560 ? 66 : 44,
       scales: [{name: 'reason', type: 'ordinal', domain: domainOfReasons,
-        range: domainOfReasons.map((reason) => reasonColours[reason] ?? '#777777')}],
+        range: domainOfReasons.map((reason) => reasonColours[reason] ?? hues.grey)}],
       legends: [{fill: 'reason', symbolType: 'square'}],
     }),
   };

@@ -75,10 +75,10 @@ function densityMarks(tall) {
       angle: {value: 90}, fill: {value: 'transparent'}, stroke: {value: ink},
       strokeWidth: {value: 2.5}, tooltip: tooltipOf({'': 'label', mean: 'phi_j', from: 'low', to: 'high', n: 'n'}),
     }, 'ink'),
-    laneMark('rule', 'paper', lanes.paper, {x: x('low'), x2: x('high'), stroke: {value: '#777777'},
+    laneMark('rule', 'paper', lanes.paper, {x: x('low'), x2: x('high'), stroke: {value: hues.grey},
       strokeWidth: {value: 2}}),
     laneMark('symbol', 'paper', lanes.paper, {
-      x: x('phi_j'), size: {value: 45}, shape: {value: 'diamond'}, fill: {value: '#777777'},
+      x: x('phi_j'), size: {value: 45}, shape: {value: 'diamond'}, fill: {value: hues.grey},
       tooltip: tooltipOf({'': 'label', paper: 'phi_j', from: 'low', to: 'high'}),
     }),
     beyondMark('beyond', lanes.replicates - 0.2),

@@ -1,8 +1,8 @@
 'use strict';
 
 const modulusSeries = {
-  K: {colour: '#0072b2', label: 'bulk modulus $K$', shape: 'circle'},
-  G: {colour: '#d55e00', label: 'mean shear modulus $G$', shape: 'triangle-up'},
+  K: {colour: hues.blue, label: 'bulk modulus $K$', shape: 'circle'},
+  G: {colour: hues.vermilion, label: 'mean shear modulus $G$', shape: 'triangle-up'},
 };
 
 function moduliPanel(placement, index, place, {x, y}) {

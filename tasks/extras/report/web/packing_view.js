@@ -49,7 +49,7 @@ function keyOf(colouring, kind) {
   };
   const names = {
     clusters: 'Clusters of face-face contacts:', contacts: 'Contacts of the particle:',
-    local_Q6: '$Q_6$ of the particle’s contacts:',
+    local_Q6: '$Q_6$ of the particle’s contacts:', kind: 'Kind:',
   };
   key.append(element('span', {}, element('span', {}, ...rich(names[kind]))));
   for (const {colour, text} of colouring?.key ?? []) key.append(element('span', {}, swatch(colour), text));
@@ -72,7 +72,7 @@ function viewControls(data, views) {
     replicate: element('select', {id: 'view-replicate'},
       ...views.map((view, index) => option(String(index), replicateText(view)))),
     colour: element('select', {id: 'view-colour'}, option('clusters', 'face-face cluster'),
-      option('contacts', 'contact number'), option('local_Q6', 'Q₆, local')),
+      option('contacts', 'contact number'), option('local_Q6', 'Q₆, local'), option('kind', 'kind of particle')),
     alone: element('input', {type: 'checkbox', id: 'view-alone'}),
     forces: element('input', {type: 'checkbox', id: 'view-forces'}),
     mode: element('select', {id: 'view-mode'}),
@@ -129,7 +129,7 @@ function connect(data, views, controls, scene, {key, status}) {
   };
   const rebuild = (keepCamera) => {
     const view = current();
-    colouring = colouringOf(view, controls.colour.value);
+    colouring = colouringOf(view, controls.colour.value, data.solids[view.solid]);
     key.replaceChildren(keyOf(colouring, controls.colour.value));
     const solid = data.solids[view.solid];
     const forces = controls.forces.checked ? forceHalves(view) : [];

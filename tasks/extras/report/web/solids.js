@@ -62,7 +62,7 @@ function viridis(share) {
   return new THREE.Color(viridisStops[k]).lerp(new THREE.Color(viridisStops[k + 1]), at - k);
 }
 
-const clusterColours = ['#d55e00', '#0072b2', '#009e73', '#e69f00', '#cc79a7', '#56b4e9'];
+const clusterColours = seriesColours.slice(0, 6);
 const smallClusters = '#8d99a6', loneParticles = '#e2e0d8', unknownColour = '#b5b4ad';
 
 /// Colours by cluster: the six largest in colours of their own, then the smaller ones, then lone particles.
@@ -95,7 +95,20 @@ function numberColouring(values, digits) {
   };
 }
 
-function colouringOf(view, kind) {
+/// Colours by kind: those of the solids, or different ones if several kinds have the same solid.
+function kindColouring(view, solid) {
+  const names = (solid.shapes ?? [{name: view.solid}]).map(({name}, k) => name ?? `kind ${k + 1}`);
+  const distinct = unique(names).length === names.length && names.every((name) => name in solidColours);
+  const colours = names.map((name, k) => (distinct ? solidColours[name] : seriesColours[k % seriesColours.length]));
+  const count = (k) => view.positions.filter((_, index) => (view.kind?.[index] ?? 0) === k).length;
+  return {
+    colours: view.positions.map((_, index) => new THREE.Color(colours[view.kind?.[index] ?? 0])),
+    key: names.map((name, k) => ({colour: colours[k], text: `${k + 1}: ${name}, ${count(k)} particles`})),
+  };
+}
+
+function colouringOf(view, kind, solid) {
+  if (kind === 'kind') return kindColouring(view, solid);
   if (kind === 'clusters') return clusterColouring(view.clusters);
   if (kind === 'contacts') return numberColouring(view.contacts, 0);
   return numberColouring(view.local_Q6, 2);

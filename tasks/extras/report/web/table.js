@@ -12,42 +12,47 @@ function halfWidthText(half, decimals) {
   return Math.max(half, 10 ** -decimals).toFixed(decimals);
 }
 
+/// The number of replicates behind an estimate.
+const countText = (n) => element('span', {className: 'half-width'}, ` (${n})`);
+
+/// A cell with a mean, the rest of its text, and the number of replicates.
+function meanCell(estimate, title, ...texts) {
+  const [mean, ...others] = texts;
+  return element('td', {title: `${title} over n = ${estimate.n} replicates`}, mean, ...others, countText(estimate.n));
+}
+
+const quietText = (text) => element('span', {className: 'half-width'}, text);
+
 /// A proportion with both ends of Wilson's interval, which is not symmetric.
-function proportionCell({mean, ci95, half_width: half, n}) {
-  const decimals = Math.max(2, decimalsFor({mean, half_width: half}));
-  const [low, high] = ci95.map((end) => end.toFixed(decimals));
-  return element('td', {title: `95 % confidence interval (Wilson) over n = ${n} replicates`}, mean.toFixed(decimals),
-    element('span', {className: 'half-width'}, ` [${low}, ${high}]`));
+function proportionCell(estimate) {
+  const decimals = Math.max(2, decimalsFor(estimate));
+  const [low, high] = estimate.ci95.map((end) => end.toFixed(decimals));
+  return meanCell(estimate, '95 % confidence interval (Wilson)', estimate.mean.toFixed(decimals), quietText(` [${low}, ${high}]`));
 }
 
 /// A small mean and its half width with one power of ten for both.
-function smallCell(mean, half, n) {
-  if (half === null) return element('td', {title: `n = ${n}: no confidence interval`}, formatted(mean, 3));
+function smallCell(estimate, half) {
+  const {mean} = estimate;
+  if (half === null) return meanCell(estimate, 'no confidence interval', formatted(mean, 3));
   const power = Math.floor(Math.log10(Math.abs(mean))), unit = 10 ** power;
   const decimals = decimalsFor({mean: mean / unit, half_width: half / unit});
-  return element('td', {title: `95 % confidence interval over n = ${n} replicates`},
-    `(${(mean / unit).toFixed(decimals).replace('-', '−')}`,
-    element('span', {className: 'half-width'}, ` ± ${halfWidthText(half / unit, decimals)}`), `)·${powerOfTen(power)}`);
+  return meanCell(estimate, '95 % confidence interval', `(${(mean / unit).toFixed(decimals).replace('-', '−')}`,
+    quietText(` ± ${halfWidthText(half / unit, decimals)}`), `)·${powerOfTen(power)}`);
 }
 
 function estimateCell(estimate) {
   if (!estimate || estimate.mean === null) return element('td', {title: estimate?.reason ?? 'not measured'}, '–');
-  const {mean, n} = estimate;
+  const {mean} = estimate;
   if (estimate.interval === 'wilson' && estimate.ci95) return proportionCell(estimate);
   // What rounding alone leaves of equal numbers is no spread.
   const half = estimate.half_width !== null && estimate.half_width < Math.abs(mean) * 1e-12 ? 0 : estimate.half_width;
   // A count without spread.
-  if (!half && Number.isInteger(mean)) return element('td', {title: `n = ${n}`}, formatted(mean, 6));
-  if (half === 0) {
-    return element('td', {title: `all ${n} values are equal`}, formatted(mean, 3),
-      element('span', {className: 'half-width'}, ' (equal)'));
-  }
-  if (mean !== 0 && Math.abs(mean) < 1e-3) return smallCell(mean, half, n);
-  const decimals = decimalsFor(estimate);
-  const text = mean.toFixed(decimals).replace('-', '−');
-  if (half === null) return element('td', {title: `n = ${n}: no confidence interval`}, text);
-  return element('td', {title: `95 % confidence interval over n = ${n} replicates`}, text,
-    element('span', {className: 'half-width'}, ` ± ${halfWidthText(half, decimals)}`));
+  if (!half && Number.isInteger(mean)) return meanCell(estimate, 'equal values', formatted(mean, 6));
+  if (half === 0) return meanCell(estimate, 'equal values', formatted(mean, 3), quietText(' equal'));
+  if (mean !== 0 && Math.abs(mean) < 1e-3) return smallCell(estimate, half);
+  const decimals = decimalsFor(estimate), text = mean.toFixed(decimals).replace('-', '−');
+  if (half === null) return meanCell(estimate, 'no confidence interval', text);
+  return meanCell(estimate, '95 % confidence interval', text, quietText(` ± ${halfWidthText(half, decimals)}`));
 }
 
 /// A column: heading nodes, the value to sort by (number, text or null), the cell of a row.
@@ -121,6 +126,38 @@ function sortableTable(data, columns, caption) {
     merged: mergedColumn(data), caption, rowBody});
 }
 
+/// A further table of the rows that have `part`, such as the goal. Its columns read this part of a row.
+function partTable(data, part, columns, caption) {
+  const rows = data.rows.filter((row) => row[part]);
+  const leading = leadingColumns(data);
+  return fittedTable({rows, columns: [...leading, ...columns], leading: leading.length, merged: mergedColumn(data), caption,
+    rowBody: (row, shown) => element('tbody', {}, element('tr', {}, ...shown.map((column) => column.cell(row))))});
+}
+
+const textColumn = (heading, value) => ({heading: [heading], value, cell: (row) => element('td', {}, formatted(value(row), 3))});
+
+/// The goal of the stopping rule, and how far each sweep point reached it.
+function drawGoal(data, place) {
+  if (!data.rows.some(({goal}) => goal)) return;
+  const ended = ({goal}) => (goal.met ? 'reached' : goal.needed === null ? 'more replicates needed' : 'not reached');
+  place.append(element('h3', {}, 'Goal of the stopping rule'), partTable(data, 'goal', [
+    textColumn('quantity', ({goal}) => goal.quantity), textColumn('goal, half width', ({goal}) => goal.aim),
+    textColumn('half width', ({goal}) => goal.reached),
+    textColumn('half width / goal', ({goal}) => (goal.reached === null ? null : goal.reached / goal.aim)),
+    textColumn('replicates used', ({goal}) => goal.needed), textColumn('goal is', ended),
+  ], 'Goal of the stopping rule'));
+}
+
+/// Paired differences from the base row, of the quantities that the first table has too.
+function drawDifferences(data, place) {
+  if (!data.base || !data.rows.some(({differences}) => differences)) return;
+  const shown = ['phi_j', 'Z', 'Z_ff', 'C'].map((name) => data.columns.find((column) => column.name === name))
+    .map((column) => ({...estimateColumn(column), value: (row) => row.differences[column.name]?.mean ?? null,
+      cell: (row) => estimateCell(row.differences[column.name])}));
+  place.append(element('h3', {}, data.base.replace(/^d/, 'D')),
+    partTable(data, 'differences', [textColumn('pairs', ({differences}) => differences.pairs), ...shown], data.base));
+}
+
 /// Columns of a group that some row has a value for.
 function columnsOf(data, group) {
   const shown = (column) => data.rows.some((row) => (row.all ?? row)[column.name]?.n > 0);
@@ -143,9 +180,11 @@ function drawMainTable(data, place) {
   place.append(element('div', {className: 'controls'}, button('Copy as CSV', () => copy(data.csv)),
     button('Copy as LaTeX', () => copy(data.latex))));
   place.append(element('p', {className: 'note'}, 'Each entry is the mean over replicates ± the half width of its ' +
-    '95 % confidence interval (Student t), for the state nearest jamming. The quantity of a stopping rule has Stein’s ' +
+    '95 % confidence interval (Student t), and in parentheses the number of replicates, for the state nearest jamming. The quantity of a stopping rule has Stein’s ' +
     'interval instead, and a proportion has both ends of Wilson’s. The copies contain all measured ' +
     'quantities; the CSV copy also contains standard deviations and bootstrap intervals.'));
+  drawGoal(data, place);
+  drawDifferences(data, place);
 }
 
 /// The other groups of quantities, if any were measured.

@@ -1,0 +1,116 @@
+#include "tasks/extras/report/distributions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "engine/arithmetic/elementary.hpp"
+#include "tasks/measure/shared_parts.hpp"
+
+namespace isojam {
+namespace {
+
+using Numbers = std::vector<double>;
+
+/// The list at a JSON pointer; empty if it is missing or is not a list of numbers.
+Numbers bins_at(const Json& json, const std::string& pointer) {
+  const Json::json_pointer place(pointer);
+  if (!json.contains(place) || !json.at(place).is_array()) return {};
+  const auto& list = json.at(place);
+  const bool all = std::all_of(list.begin(), list.end(), [](const Json& value) { return value.is_number(); });
+  return all ? list.get<Numbers>() : Numbers{};
+}
+
+/// Sum of a list over the states. `edges` are the edges of the bins, which are the same in all states.
+struct Summed {
+  Numbers edges, sums;
+  int states = 0;
+};
+
+Summed summed(std::span<const Json> states, const std::string& edges, const std::string& values) {
+  Summed total;
+  for (const Json& state : states) {
+    auto ends = bins_at(state, edges), list = bins_at(state, values);
+    if (list.empty() || ends.size() != list.size() + 1) continue;
+    if (total.states == 0) {
+      total.edges = ends;
+      total.sums.assign(list.size(), 0);
+    }
+    total.sums.resize(std::min(total.sums.size(), list.size()));
+    for (std::size_t k = 0; k < total.sums.size(); ++k) total.sums[k] += list[k];
+    ++total.states;
+  }
+  return total;
+}
+
+/// The curve [[x, y], ...] of a sum over logarithmic bins, between the first and the last bin with values. `y` is
+/// called with the sum and the edges of a bin.
+Json curve_of(const Summed& total, double unit, const std::function<double(double, double, double)>& y) {
+  Json curve = Json::array();
+  const auto used = [](double value) { return value > 0; };
+  const auto first = std::find_if(total.sums.begin(), total.sums.end(), used) - total.sums.begin();
+  const auto last = total.sums.rend() - std::find_if(total.sums.rbegin(), total.sums.rend(), used);
+  for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
+    const double low = nearest::pow(10, total.edges[k]), high = nearest::pow(10, total.edges[k + 1]);
+    curve.push_back({to_digits(unit * std::sqrt(low * high), 5), to_digits(y(total.sums[k], low, high), 5)});
+  }
+  return curve;
+}
+
+Json forces_of(std::span<const Json> states) {
+  Json json;
+  double all = 0;
+  std::array<Summed, 3> classes;
+  constexpr std::array names{"face_face", "edge_face", "lower_order"};
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const std::string place = std::string("/gaps/") + names[c];
+    classes[c] = summed(states, "/gaps/log10_force", place + "/counts");
+    all += std::accumulate(classes[c].sums.begin(), classes[c].sums.end(), 0.0);
+  }
+  if (!(all > 0)) return nullptr;
+  auto total = classes[0];
+  for (std::size_t c = 1; c < names.size(); ++c) {
+    for (std::size_t k = 0; k < std::min(total.sums.size(), classes[c].sums.size()); ++k)
+      total.sums[k] += classes[c].sums[k];
+  }
+  const auto density = [&](double count, double low, double high) { return count / (all * (high - low)); };
+  json["curves"]["all"] = curve_of(total, 1, density);
+  for (std::size_t c = 0; c < names.size(); ++c) json["curves"][names[c]] = curve_of(classes[c], 1, density);
+  json["states"] = total.states;
+  return json;
+}
+
+Json angles_of(std::span<const Json> states, const std::string& kind) {
+  const auto total =
+      summed(states, "/contacts/angle_histogram/log10_angle", "/contacts/angle_histogram/" + kind + "/counts");
+  const double all = std::accumulate(total.sums.begin(), total.sums.end(), 0.0);
+  if (!(all > 0)) return nullptr;
+  const auto per_decade = [&](double count, double, double) { return count / all * Histogram::per_decade; };
+  return {{"curves", {{"all", curve_of(total, 180 / std::numbers::pi, per_decade)}}}, {"states", total.states}};
+}
+
+Json pairs_of(std::span<const Json> states) {
+  const auto total = summed(states, "/gaps/r", "/gaps/g");
+  if (total.sums.empty()) return nullptr;
+  Json curve = Json::array();
+  for (std::size_t k = 0; k < total.sums.size(); ++k)
+    curve.push_back(
+        {to_digits((total.edges[k] + total.edges[k + 1]) / 2, 5), to_digits(total.sums[k] / total.states, 5)});
+  return {{"curves", {{"all", std::move(curve)}}}, {"states", total.states}};
+}
+
+}  // namespace
+
+Json pooled_distributions(std::span<const Json> states) {
+  return {{"forces", forces_of(states)},
+          {"pairs", pairs_of(states)},
+          {"face_face", angles_of(states, "face_face")},
+          {"edge_face", angles_of(states, "edge_face")}};
+}
+
+}  // namespace isojam

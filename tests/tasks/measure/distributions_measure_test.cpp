@@ -1,0 +1,134 @@
+// Properties tested here:
+// - Partial contact numbers are those of a count over all contacts. Their sum over the other kind is the contact number
+//   of a kind. A packing of one kind has none.
+// - The mixing is 0 if kinds are apart, and 1 on average if they are distributed at random.
+// - The histogram of angles has the angles of the record. Angles of zero are below the first bin.
+// - g(r) in the record is that of the engine, with one more edge than values.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/analysis/pair_distribution.hpp"
+#include "tasks/measure/measure.hpp"
+#include "tasks/measure/shared_parts.hpp"
+
+namespace isojam {
+namespace {
+
+JamResult result_of(const Packing& packing) {
+  const Evaluation here = PackingEnergy().evaluate(packing);
+  JamResult result;
+  JamStep step;
+  step.density = packing.density();
+  step.energy_per_particle = here.energy / packing.size();
+  result.path = {step};
+  result.states = {packing};
+  result.state_steps = {0};
+  return result;
+}
+
+/// A random packing of octahedra whose kinds are those of `kinds`.
+Packing packing_of(const std::vector<int>& kinds, std::uint64_t seed = 7) {
+  std::vector<Particle> particles;
+  for (const int kind : kinds) particles.push_back({&platonic(SolidKind::octahedron), 1, kind});
+  RandomStream random{seed};
+  return random_packing(particles, 0.6, random);
+}
+
+Json contacts_of(const Packing& packing) {
+  return measure(Measure::contacts, result_of(packing)).states.at(0).at("contacts");
+}
+
+std::vector<int> thirds(int n) {
+  std::vector<int> kinds;
+  for (int i = 0; i < n; ++i) kinds.push_back(i % 3 == 0 ? 1 : 0);
+  return kinds;
+}
+
+TEST(DistributionsMeasure, PartialContactNumbersAreCounts) {
+  const auto packing = packing_of(thirds(60));
+  const auto json = contacts_of(packing);
+  double counts[2][2] = {};
+  for (const auto& contact : PackingEnergy().contacts(packing)) {
+    const int a = packing.solids.kind(static_cast<std::size_t>(contact.pair.a)),
+              b = packing.solids.kind(static_cast<std::size_t>(contact.pair.b));
+    ++counts[a][b];
+    ++counts[b][a];
+  }
+  const double particles[2] = {40, 20};
+  double unlike = 0, total = 0;
+  for (int i = 0; i < 2; ++i) {
+    double sum = 0;
+    for (int j = 0; j < 2; ++j) {
+      const double z = json.at("partial").at(fmt::format("Z_{}_{}", i + 1, j + 1)).get<double>();
+      EXPECT_NEAR(z, counts[i][j] / particles[i], 1e-12);
+      sum += z;
+      total += counts[i][j];
+      if (i != j) unlike += counts[i][j];
+    }
+    EXPECT_NEAR(sum, json.at(fmt::format("kind_{}", i + 1)).at("Z").get<double>(), 1e-12);
+  }
+  const double first = (counts[0][0] + counts[0][1]) / total;
+  EXPECT_NEAR(json.at("mixing").get<double>(), unlike / total / (2 * first * (1 - first)), 1e-12);
+  EXPECT_FALSE(contacts_of(packing_of(std::vector<int>(60, 0))).contains("partial"));
+}
+
+TEST(DistributionsMeasure, MixingDistinguishesRandomAndSeparatedKinds) {
+  double mean = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed)
+    mean += contacts_of(packing_of(thirds(90), seed)).at("mixing").get<double>() / 8;
+  EXPECT_NEAR(mean, 1, 0.08);
+  // The two halves of the cell have different kinds, so that only contacts at their boundaries are unlike.
+  auto apart = packing_of(thirds(120));
+  std::vector<Particle> halves;
+  for (const auto& pose : apart.poses) {
+    const double x = pose.position.x() / apart.cell.side();
+    halves.push_back({&platonic(SolidKind::octahedron), 1, x - std::floor(x) < 0.5 ? 0 : 1});
+  }
+  apart.solids = Composition(halves);
+  EXPECT_LT(contacts_of(apart).at("mixing").get<double>(), 0.8);
+}
+
+TEST(DistributionsMeasure, HistogramHasTheAnglesOfTheRecord) {
+  const auto json = contacts_of(packing_of(std::vector<int>(60, 0)));
+  const auto& histogram = json.at("angle_histogram");
+  const auto edges = histogram.at("log10_angle").get<std::vector<double>>();
+  for (const std::string kind : {"face_face", "edge_face"}) {
+    const auto angles = json.at("angles").at(kind).get<std::vector<double>>();
+    const auto counts = histogram.at(kind).at("counts").get<std::vector<long>>();
+    ASSERT_EQ(edges.size(), counts.size() + 1);
+    long all = histogram.at(kind).at("below").get<long>();
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      EXPECT_EQ(counts[k], std::count_if(angles.begin(), angles.end(), [&](double angle) {
+                  return std::log10(angle) >= edges[k] && std::log10(angle) < edges[k + 1];
+                }));
+      all += counts[k];
+    }
+    EXPECT_EQ(all, static_cast<long>(angles.size()));
+    EXPECT_GT(all, 50);
+  }
+  Histogram zeros(-20, 21);
+  for (const double angle : {0.0, 1e-5, 1.0, 5.0}) zeros.add(angle);
+  EXPECT_EQ(zeros.record().at("below"), 2);
+  EXPECT_EQ(zeros.record().at("counts").back(), 2);
+}
+
+TEST(DistributionsMeasure, PairDistributionIsThatOfTheEngine) {
+  const auto packing = packing_of(std::vector<int>(60, 0));
+  const auto json = measure(Measure::gaps, result_of(packing)).states.at(0).at("gaps");
+  const auto r = json.at("r").get<std::vector<double>>(), g = json.at("g").get<std::vector<double>>();
+  const auto expected = pair_distribution(packing, 0.1, 5);
+  ASSERT_EQ(g.size(), expected.size());
+  ASSERT_EQ(r.size(), g.size() + 1);
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    EXPECT_NEAR(r[k], 0.1 * static_cast<double>(k), 1e-12);
+    EXPECT_NEAR(g[k], expected[k], 1e-5 * expected[k]);
+  }
+}
+
+}  // namespace
+}  // namespace isojam
